@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "tables/iso286/fit.hpp"
 #include "tables/iso286/limits_of_size.hpp"
 #include "tables/iso286/table_data.hpp"
 

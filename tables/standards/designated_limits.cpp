@@ -1,11 +1,85 @@
 #include "tables/standards/designated_limits.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
+
 #include "base/text.hpp"
-#include "tables/standards/general_tolerance.hpp"
 #include "tables/standards/thread.hpp"
 
 namespace fitgauge::standards {
 namespace {
+
+inline constexpr std::string_view kGeneralTolerance = "ISO 2768";
+
+/// Every class there is, as records name it.
+constexpr std::array<std::string_view, 12> kClasses = {
+    "ISO 2768-f",   "ISO 2768-m",   "ISO 2768-c",   "ISO 2768-v",   "R ISO 2768-f", "R ISO 2768-m",
+    "R ISO 2768-c", "R ISO 2768-v", "C ISO 2768-f", "C ISO 2768-m", "C ISO 2768-c", "C ISO 2768-v"};
+
+Error not_a_general_tolerance(std::string_view text) {
+  return {ErrorCode::DesignationMalformed,
+          fmt::format("'{}' is not a general tolerance such as 25 ISO 2768-m, R2 ISO 2768-m or C2 "
+                      "ISO 2768-m",
+                      first_characters(text, 40))};
+}
+
+Error unknown_class(std::string_view text) {
+  constexpr std::string_view kGeometry = "HKL";
+  const bool geometry = text.size() > kGeneralTolerance.size() + 2 &&
+                        kGeometry.find(text.back()) != std::string_view::npos;
+  return {
+      ErrorCode::ClassUnknown,
+      fmt::format(
+          "'{}' is no class of ISO 2768-1, which has f, m, c and v{}", first_characters(text, 40),
+          geometry ? fmt::format("; {} is of ISO 2768-2, for geometry: leave it out", text.back())
+                   : std::string())};
+}
+
+/// ISO 2768-1 as limits_of() says. An outside dimension, unless the caller knows better.
+Result<DesignatedLimits> general_tolerance(Length nominal, std::string_view tolerance_class) {
+  const auto* const known = std::find(kClasses.begin(), kClasses.end(), tolerance_class);
+  if (known == kClasses.end()) return unknown_class(tolerance_class);
+  static const Standard& standard = *find("iso2768-1");
+  const bool is_edge = known->front() != 'I';
+  const Table& table = standard.table(is_edge ? "broken_edges" : "linear");
+  const std::string_view letter = known->substr(known->size() - 1);
+  for (const Row& row : table.rows) {
+    // Its first range begins with 0.5 mm itself.
+    const bool first = &row == &table.rows.front() && nominal == row.over;
+    if (!first && !row.holds(nominal)) continue;
+    const auto upper = row.length(letter, Member::Upper);
+    const auto lower = row.length(letter, Member::Lower);
+    if (!upper || !lower) break;
+    DesignatedLimits limits{.standard = &standard,
+                            .tolerance_class = *known,
+                            .feature_is_open = true,
+                            .nominal = nominal,
+                            .deviations = {.upper = *upper, .lower = *lower},
+                            .size_range = {}};
+    if (row.up_to) limits.size_range = iso286::NominalSizeRange{*row.over, *row.up_to};
+    if (limits.lower_limit() <= Length()) break;
+    return limits;
+  }
+  return Error{ErrorCode::ClassUndefinedForSize,
+               fmt::format("ISO 2768-1 has no class {} for {} mm", letter, format_mm(nominal))};
+}
+
+Result<DesignatedLimits> general_tolerance(std::string_view designation) {
+  std::string_view rest = designation;
+  const bool is_edge = rest.starts_with('R') || rest.starts_with('C');
+  if (is_edge) rest.remove_prefix(1);
+  const std::size_t at = rest.find(kGeneralTolerance);
+  if (at == std::string_view::npos || trim(designation) != designation) {
+    return not_a_general_tolerance(designation);
+  }
+  const auto size = parse_length_mm(trim(rest.substr(0, at)), {.decimal_comma = true});
+  if (!size && size.error().code == ErrorCode::LengthTooFine) return size.error();
+  if (!size || *size <= Length()) return not_a_general_tolerance(designation);
+  const std::string name = is_edge ? fmt::format("{} {}", designation.front(), rest.substr(at))
+                                   : std::string(rest.substr(at));
+  return general_tolerance(*size, name);
+}
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 

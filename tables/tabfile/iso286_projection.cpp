@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "tables/iso286/range_deviations.hpp"
+#include "tables/iso286/limit_deviations.hpp"
 #include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::tabfile {

@@ -103,4 +103,7 @@ class TabTable {
   std::map<std::int64_t, std::size_t> rows_by_number_;
 };
 
+/// The file of a table in the form its header names; read_tab gives the same table back.
+std::string write_tab(const TabTable& table);
+
 }  // namespace fitgauge::tabfile

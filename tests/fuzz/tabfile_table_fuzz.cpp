@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "tables/tabfile/tab_reader.hpp"
-#include "tables/tabfile/tab_writer.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::tabfile;

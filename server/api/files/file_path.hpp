@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "base/result.hpp"
-#include "nc/program/control_path.hpp"
+#include "nc/program/control_disk.hpp"
 
 namespace fitgauge::api {
 

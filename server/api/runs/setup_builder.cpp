@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "base/json/schema.hpp"
-#include "nc/program/cycle_names.hpp"
-#include "nc/program/known_m_functions.hpp"
+#include "nc/program/cycles.hpp"
+#include "nc/program/diagnose.hpp"
 
 namespace fitgauge::api {
 namespace {

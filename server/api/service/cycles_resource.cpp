@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/json/json_writer.hpp"
-#include "nc/probing/cycle_registry.hpp"
+#include "nc/probing/cycles.hpp"
 #include "nc/program/machining_cycles.hpp"
 
 namespace fitgauge::api {

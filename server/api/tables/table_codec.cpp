@@ -6,7 +6,7 @@
 #include <array>
 
 #include "base/json/json_writer.hpp"
-#include "tables/iso286/range_deviations.hpp"
+#include "tables/iso286/limit_deviations.hpp"
 
 namespace fitgauge::api {
 namespace {

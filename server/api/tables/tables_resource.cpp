@@ -10,7 +10,7 @@
 #include "service/tables/custom_column.hpp"
 #include "tables/iso286/tolerance_class.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
-#include "tables/tabfile/tab_writer.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::api {
 namespace {

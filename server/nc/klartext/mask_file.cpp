@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "nc/klartext/diagnostic_list.hpp"
+#include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/lexer.hpp"
 #include "nc/klartext/mask_format.hpp"
 #include "nc/klartext/source_text.hpp"

@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 #include "nc/klartext/block_reader.hpp"
-#include "nc/klartext/diagnostic_list.hpp"
+#include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/source_text.hpp"
 

@@ -2,11 +2,12 @@
 #include <iterator>
 
 #include "base/text.hpp"
+#include "nc/klartext/operator_names.hpp"
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/parser_words.hpp"
-#include "nc/klartext/statement_names.hpp"
 
 namespace fitgauge::klartext {
+
 namespace {
 
 constexpr LetterSet kM(Letter::M);
@@ -99,6 +100,79 @@ Statement parse_second_word(BlockReader& in, std::string_view first) {
   return Empty{};
 }
 
+constexpr std::uint32_t kMostElements = 99;
+constexpr LetterSet kPoint(Letter::X, Letter::Y, Letter::Z);
+constexpr LetterSet kGrid = kPoint | LetterSet(Letter::Dx, Letter::Dy, Letter::NumX, Letter::NumY,
+                                               Letter::Rot, Letter::RotX, Letter::RotY);
+
+/// The words of each element, in the order of PatternElement.
+constexpr LetterSet kElementWords[] = {
+    kPoint,
+    kPoint | LetterSet(Letter::D, Letter::Num, Letter::Rot),
+    kGrid,
+    kGrid,
+    kPoint | LetterSet(Letter::D, Letter::Start, Letter::Num),
+    kPoint | LetterSet(Letter::D, Letter::Start, Letter::Step, Letter::Num),
+};
+static_assert(std::size(kElementWords) == std::size(kPatternElements));
+
+void parse_element(BlockReader& in) {
+  const std::string_view name = in.letters();
+  std::size_t kind = 0;
+  while (kind < std::size(kPatternElements) && !ascii_iequals(kPatternElements[kind], name)) ++kind;
+  if (kind == std::size(kPatternElements)) {
+    in.fail_expected("POS, ROW, PAT, FRAME, CIRC or PITCHCIRC");
+    return;
+  }
+  in.move_to(in.at() + name.size());
+  const std::uint32_t number = in.digits(kMostElements, "the number of the element");
+  in.add_word({.value = static_cast<double>(kind), .letter = Letter::Element});
+  in.add_word({.value = static_cast<double>(number), .letter = Letter::Value});
+  in.skip_blanks();
+  in.expect('(');
+  WordReader words(in, kElementWords[kind]);
+  while (!in.at_end() && in.peek() != ')') words.read();
+  in.expect(')');
+}
+
+constexpr LetterSet kToolWords = kFeeds | LetterSet(Letter::S, Letter::Dl, Letter::Dr, Letter::Dr2);
+constexpr LetterSet kDefinitionWords(Letter::L, Letter::R);
+
+/// `5`, `5.1`, `Q5`, `"NAME"`, `QS1`; Absent when none of them is next.
+Expr parse_tool_name(BlockReader& in) {
+  in.skip_blanks();
+  if (in.peek() == '"') return in.quoted_text(kLongestString, "the name of the tool");
+  if (in.at_number()) return in.number();
+  if (in.at_parameter()) return in.parameter();
+  return Absent{};
+}
+
+/// A letter of an axis and nothing behind it but a blank or the end.
+std::optional<Axis> parse_axis_alone(BlockReader& in) {
+  const std::string_view name = in.letters();
+  if (name.size() != 1) return std::nullopt;
+  const std::optional<Letter> letter = find_letter(name);
+  if (!letter || !is_axis(*letter)) return std::nullopt;
+  in.move_to(in.at() + 1);
+  return axis_of(*letter);
+}
+
+Statement parse_tool_call(BlockReader& in) {
+  ToolCall call;
+  call.tool = parse_tool_name(in);
+  call.axis = parse_axis_alone(in);
+  call.words = parse_words(in, kToolWords);
+  return call;
+}
+
+Statement parse_tool_definition(BlockReader& in) {
+  ToolDefinition definition;
+  definition.tool = parse_tool_name(in);
+  if (is_absent(definition.tool)) in.fail_expected("the number or name of a tool");
+  definition.words = parse_words(in, kDefinitionWords);
+  return definition;
+}
+
 }  // namespace
 
 Statement parse_motion(BlockReader& in, Path path) {
@@ -131,6 +205,22 @@ Statement parse_departure(BlockReader& in) { return parse_second_word(in, "DEP")
 Statement parse_m_functions(BlockReader& in) {
   in.move_to(in.at() - 1);  // the M that was read as the first word
   return MFunctions{parse_words(in, kM)};
+}
+
+Statement parse_pattern(BlockReader& in) {
+  in.expect_word("DEF");
+  const std::uint32_t first = in.word_count();
+  while (!in.at_end()) parse_element(in);
+  PatternDefinition pattern{in.words_since(first)};
+  if (pattern.words.count == 0) in.fail_expected("POS, ROW, PAT, FRAME, CIRC or PITCHCIRC");
+  return pattern;
+}
+
+Statement parse_tool(BlockReader& in) {
+  if (in.accept_joined("CALL")) return parse_tool_call(in);
+  if (in.accept_joined("DEF")) return parse_tool_definition(in);
+  in.fail_expected("CALL or DEF");
+  return Empty{};
 }
 
 }  // namespace fitgauge::klartext

@@ -63,14 +63,12 @@ bool at_cycle_parameter(const char* at, const char* end);
 bool at_cycle_part(BlockReader& in);
 Statement parse_cycle_part(BlockReader& in, CycleFamily family, std::uint16_t number);
 
-// parser_pattern.cpp
-Statement parse_pattern(BlockReader& in);
-
 // parser_motion.cpp
 Statement parse_motion(BlockReader& in, Path path);
 Statement parse_approach(BlockReader& in);
 Statement parse_departure(BlockReader& in);
 Statement parse_m_functions(BlockReader& in);
+Statement parse_pattern(BlockReader& in);
 Statement parse_tool(BlockReader& in);
 
 // parser_transformation.cpp

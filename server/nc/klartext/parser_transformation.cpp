@@ -3,7 +3,7 @@
 
 #include "base/text.hpp"
 #include "nc/klartext/forms.hpp"
-#include "nc/klartext/statement_names.hpp"
+#include "nc/klartext/operator_names.hpp"
 
 namespace fitgauge::klartext {
 namespace {

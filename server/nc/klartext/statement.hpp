@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "nc/klartext/expression.hpp"
-#include "nc/klartext/word.hpp"
+#include "nc/klartext/word_names.hpp"
 
 /// What a block says, one small struct per kind of block. All are trivially copyable: texts, words
 /// and lists lie in the Program's pools.

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "nc/klartext/statement_names.hpp"
+#include "nc/klartext/operator_names.hpp"
 
 /// Blocks other than cycles and functions: frame, tools, motion, flow, transformations.
 namespace fitgauge::klartext {

@@ -11,7 +11,7 @@
 #include "base/source_range.hpp"
 #include "nc/klartext/expression.hpp"
 #include "nc/klartext/statement.hpp"
-#include "nc/klartext/word.hpp"
+#include "nc/klartext/word_names.hpp"
 
 namespace fitgauge::klartext {
 

@@ -5,7 +5,6 @@
 
 #include "base/allowance.hpp"
 #include "nc/machine/fault.hpp"
-#include "nc/machine/feed.hpp"
 #include "nc/machine/path.hpp"
 
 namespace fitgauge::machine {

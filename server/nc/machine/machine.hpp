@@ -5,8 +5,8 @@
 
 #include "nc/machine/axis.hpp"
 #include "nc/machine/fault.hpp"
-#include "nc/machine/feed.hpp"
 #include "nc/machine/machine_state.hpp"
+#include "nc/machine/path.hpp"
 
 namespace fitgauge::machine {
 

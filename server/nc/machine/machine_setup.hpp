@@ -12,10 +12,7 @@
 #include "nc/machine/axis.hpp"
 #include "nc/machine/kinematics.hpp"
 #include "nc/machine/machine_state.hpp"
-#include "nc/machine/preset_table.hpp"
-#include "nc/machine/probe_table.hpp"
-#include "nc/machine/tool_table.hpp"
-#include "nc/machine/tool_touch_probe.hpp"
+#include "nc/machine/tables.hpp"
 
 namespace fitgauge::machine {
 

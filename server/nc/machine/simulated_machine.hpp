@@ -1,9 +1,62 @@
 #pragma once
 
+#include "nc/machine/axes.hpp"
 #include "nc/machine/control.hpp"
-#include "nc/machine/simulated_axes.hpp"
+#include "nc/machine/machine_setup.hpp"
+#include "nc/machine/random.hpp"
+#include "nc/machine/workpiece.hpp"
 
 namespace fitgauge::machine {
+
+/// Axes that exist in a setup alone: they, their tools and their probe may differ from what the
+/// control's tables say, and a workpiece stands on their table. The ball of the touch probe is what
+/// touches; stylus and holder are not modelled, and cutters pass through material.
+/// The same setup and the same commands give the same run. Not thread-safe.
+class SimulatedAxes final : public Axes {
+ public:
+  /// @pre validate(setup) succeeds.
+  explicit SimulatedAxes(const Setup& setup);
+
+  Position nose() const override { return nose_; }
+  MachineResult<double> follow(const Path& path, const Motion& motion) override;
+  MachineResult<Position> probe(const Vec3& direction, double distance,
+                                const Motion& motion) override;
+  std::optional<Vec3> contact_normal() const override;
+  MachineResult<void> dwell(double, Allowance&) override { return {}; }
+  void stop(std::string_view) override {}
+  void message(std::string_view) override {}
+
+ private:
+  /// The tool in the spindle as it really is.
+  struct RealTool {
+    Axis axis;
+    double length;
+    double radius;
+    Vec3 offset;              ///< of the ball centre from the spindle axis
+    const ProbeSetup* probe;  ///< null: a cutter, or a probe that the setup does not describe
+  };
+
+  void turn(const Vec3& rotary);
+  double free_part(const Path& path, const RealTool& tool, Allowance& allowance) const;
+  RealTool real_tool(const SpindleTool& known) const;
+  Transform real_table(const Vec3& rotary) const;
+  Vec3 real_tool_point(const Position& nose, const RealTool& tool, double length) const;
+  Vec3 ball_on_table(const Position& nose, const RealTool& tool) const;
+  MachineResult<double> probe_contact(const Vec3& direction, double distance, const RealTool& tool,
+                                      Allowance& allowance);
+  MachineResult<double> plate_contact(const Vec3& direction, double distance, const RealTool& tool,
+                                      Allowance& allowance);
+
+  MachineSetup setup_;
+  Workpiece workpiece_;
+  Kinematics kinematics_;  ///< as built, with the errors of centre and direction
+  Position nose_;
+  Vec3 slack_deg_;      ///< what backlash adds to the positions of A, B, C at present
+  Displacements rest_;  ///< what the scatter of the axes adds at present
+  Random random_;
+  std::optional<Vec3> touching_;  ///< centre of the ball at the last contact, on the table
+  Transform table_at_contact_;
+};
 
 /// A control over axes that exist in a setup alone. Not thread-safe.
 class SimulatedMachine final : public Control {

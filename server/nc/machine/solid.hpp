@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "nc/machine/ball_path.hpp"
 #include "nc/machine/box_tree.hpp"
+#include "nc/machine/geometry.hpp"
 #include "nc/machine/machine_setup.hpp"
 
 namespace fitgauge::machine {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "nc/machine/solid.hpp"
@@ -29,6 +30,24 @@ class SurfaceSolid final : public Solid {
 
   TriangleTree top_;
   std::vector<Vec3> hull_;  ///< counter-clockwise, closed: the first point is also the last
+};
+
+/// The inside of a closed mesh whose triangles run counter-clockwise seen from outside.
+class MeshSolid final : public Solid {
+ public:
+  /// @pre the mesh has its body.
+  explicit MeshSolid(const Mesh& mesh);
+  Field field(const Vec3& at) const override;
+  std::optional<double> contact(const BallPath& ball) const override;
+  Box box() const override { return box_; }
+
+ private:
+  bool is_inside(const Vec3& in_body, const Vec3& nearest) const;
+
+  std::shared_ptr<const TriangleTree> body_;
+  Transform place_;
+  Transform to_body_;
+  Box box_;
 };
 
 }  // namespace fitgauge::machine

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "nc/machine/ball_path.hpp"
 #include "nc/machine/box_tree.hpp"
 #include "nc/machine/geometry.hpp"
+#include "nc/machine/solid.hpp"
 
 namespace fitgauge::machine {
 

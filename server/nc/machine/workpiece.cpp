@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "nc/machine/bore_void.hpp"
-#include "nc/machine/mesh_solid.hpp"
 #include "nc/machine/solid.hpp"
 #include "nc/machine/sphere_tracing.hpp"
 #include "nc/machine/surface_solid.hpp"

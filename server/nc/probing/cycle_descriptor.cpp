@@ -4,6 +4,14 @@
 #include <array>
 
 namespace fitgauge::probing {
+namespace {
+
+bool is_limited(const ValueRange& range) {
+  const ValueRange any;
+  return range.min != any.min || range.max != any.max;
+}
+
+}  // namespace
 
 std::string_view word(CycleKind kind) {
   switch (kind) {
@@ -55,6 +63,18 @@ std::string name(const CycleParameter& parameter) {
 const CycleParameter* CycleDescriptor::find(ParameterId id) const {
   const auto found = std::ranges::find(parameters, id, &CycleParameter::id);
   return found == parameters.end() ? nullptr : &*found;
+}
+
+std::set<int> errors_of(const CycleDescriptor& cycle) {
+  std::set<int> errors;
+  for (const CycleParameter& parameter : cycle.parameters) {
+    if (is_limited(parameter.range)) errors.insert(1004);
+    if (parameter.kind == ValueKind::Whole && !cycle.dotted) errors.insert(1011);
+  }
+  for (int number = ErrorSet::kFirst; number <= ErrorSet::kLast; ++number) {
+    if (cycle.errors.contains(number)) errors.insert(number);
+  }
+  return errors;
 }
 
 }  // namespace fitgauge::probing

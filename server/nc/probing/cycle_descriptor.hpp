@@ -1,15 +1,49 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "nc/probing/error_set.hpp"
-
 namespace fitgauge::probing {
+
+/// A set of the control's error numbers, 1000 to 1127.
+class ErrorSet {
+ public:
+  static constexpr int kFirst = 1000;
+  static constexpr int kLast = 1127;
+
+  constexpr ErrorSet() = default;
+  constexpr ErrorSet(std::initializer_list<int> numbers) {
+    for (const int number : numbers) words_.at(word(number)) |= bit(number);
+  }
+
+  constexpr bool contains(int number) const {
+    if (number < kFirst || number > kLast) return false;
+    return (words_.at(word(number)) & bit(number)) != 0;
+  }
+
+  friend constexpr ErrorSet operator|(ErrorSet a, const ErrorSet& b) {
+    for (std::size_t k = 0; k < a.words_.size(); ++k) a.words_.at(k) |= b.words_.at(k);
+    return a;
+  }
+
+ private:
+  static constexpr std::size_t word(int number) {
+    return static_cast<std::size_t>(number - kFirst) / 64;
+  }
+  static constexpr std::uint64_t bit(int number) {
+    return std::uint64_t{1} << (static_cast<unsigned>(number - kFirst) % 64);
+  }
+
+  std::array<std::uint64_t, 2> words_{};
+};
 
 /// How the block that defines the cycle begins. The same number may mean two cycles: TCH PROBE 3
 /// measures, CYCL DEF 3 mills.
@@ -114,5 +148,9 @@ struct CycleDescriptor {
 
   const CycleParameter* find(ParameterId id) const;
 };
+
+/// The numbered errors that a cycle may end with: those of its values, of the state it needs, of
+/// what it touches, of Q309. `run_cycle` asserts that there are no others.
+std::set<int> errors_of(const CycleDescriptor& cycle);
 
 }  // namespace fitgauge::probing

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "nc/probing/touch_probe_cycle.hpp"
 
 namespace fitgauge::probing {
@@ -11,5 +13,11 @@ namespace fitgauge::probing {
   }
 #include "nc/probing/cycles.inc"
 #undef FITGAUGE_CYCLE
+
+/// Every cycle of this library, by family and number: TCH PROBE first, then CYCL DEF.
+std::span<const TouchProbeCycle* const> cycles();
+
+/// The cycle, or null when there is none: the program then names one that is not available.
+const TouchProbeCycle* find_cycle(CycleFamily family, int number);
 
 }  // namespace fitgauge::probing

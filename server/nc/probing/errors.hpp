@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nc/probing/error_set.hpp"
+#include "nc/probing/cycle_descriptor.hpp"
 
 /// The errors that cycles share, for their descriptors; those of single values (1004, 1011) follow
 /// from the parameters.

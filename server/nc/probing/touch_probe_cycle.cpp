@@ -3,7 +3,7 @@
 #include <cassert>
 #include <utility>
 
-#include "nc/probing/cycle_errors.hpp"
+#include "nc/probing/cycle_descriptor.hpp"
 
 namespace fitgauge::probing {
 

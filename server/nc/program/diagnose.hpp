@@ -20,4 +20,12 @@ klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::
                               klartext::Slice<char> place, klartext::Severity severity,
                               klartext::DiagnosticCode code, std::string message);
 
+/// The member of the setup that makes an M function or a cycle of the machine builder known, as a
+/// hint in the messages of checks and runs.
+std::string m_function_hint(int number);
+std::string cycle_hint(bool is_probing, int number);
+
+/// Whether the M function is one of the control's; what a machine builder adds is not available.
+bool is_m_function(int number);
+
 }  // namespace fitgauge::interpreter

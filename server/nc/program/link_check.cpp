@@ -6,13 +6,8 @@
 
 #include "base/spelling_hint.hpp"
 #include "nc/klartext/parser.hpp"
-#include "nc/program/bound_cycle.hpp"
-#include "nc/program/builder_hint.hpp"
-#include "nc/program/cycle_arguments.hpp"
-#include "nc/program/cycle_names.hpp"
+#include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
-#include "nc/program/global_definitions.hpp"
-#include "nc/program/known_m_functions.hpp"
 #include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "nc/klartext/syntax.hpp"
-#include "nc/program/bound_cycle.hpp"
 #include "nc/program/code.hpp"
-#include "nc/program/control_path.hpp"
+#include "nc/program/control_disk.hpp"
+#include "nc/program/cycles.hpp"
 
 namespace fitgauge::interpreter {
 

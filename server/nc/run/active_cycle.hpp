@@ -9,7 +9,7 @@
 
 #include "nc/klartext/statement.hpp"
 #include "nc/machine/axis.hpp"
-#include "nc/program/control_path.hpp"
+#include "nc/program/control_disk.hpp"
 #include "nc/program/machining_cycles.hpp"
 
 namespace fitgauge::interpreter {

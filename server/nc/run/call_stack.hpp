@@ -7,7 +7,7 @@
 
 #include "nc/program/linked_program.hpp"
 #include "nc/run/nc_error.hpp"
-#include "nc/run/run_limits.hpp"
+#include "nc/run/run_budget.hpp"
 
 namespace fitgauge::interpreter {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "nc/program/cycle_arguments.hpp"
+#include "nc/program/cycles.hpp"
 #include "nc/run/kinematics_records.hpp"
 
 namespace fitgauge::interpreter {

@@ -5,8 +5,7 @@
 
 #include "nc/klartext/statement.hpp"
 #include "nc/run/cutter_path.hpp"
-#include "nc/run/element.hpp"
-#include "nc/run/sl_drawing.hpp"
+#include "nc/run/sl_contour.hpp"
 
 namespace fitgauge::interpreter {
 

@@ -1,12 +1,45 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
-#include "nc/run/element.hpp"
+#include "nc/machine/machine.hpp"
+#include "nc/machine/tolerance.hpp"
 #include "nc/run/nc_error.hpp"
+#include "nc/run/plane_geometry.hpp"
+#include "nc/run/run_budget.hpp"
 
 namespace fitgauge::interpreter {
+
+/// One positioning block as geometry: its curve in a plane and the axes it names, absolute, in mm
+/// and degrees.
+struct Element {
+  WorkingPlane plane;
+  Curve curve;
+  machine::Vec3 from;  ///< where the block before ends
+  machine::AxisWords target;
+  machine::Feed feed;
+  machine::CoordinateSystem system = machine::CoordinateSystem::Input;
+  int side = 0;  ///< of the contour that the tool is on: 1 left (RL), -1 right (RR), 0 on it
+  machine::Vec3 shift{};  ///< of the tool from the programmed path (LN with DR), without RL and RR
+
+  bool moves_in_plane() const {
+    return curve.is_arc() || norm(curve.end - curve.start) > tolerance::kSamePoint;
+  }
+};
+
+/// A radius of the tool as the working plane of the input system shows it: scaling (11, 26) does
+/// not scale the tool.
+inline double radius_in_plane(const machine::MachineState& state, double radius) {
+  const WorkingPlane plane = WorkingPlane::across(state.tool_axis());
+  return radius / std::abs(state.frames.scaling().factor[plane.first]);
+}
+
+inline void set_plane_target(Element& element, Vec2 point) {
+  element.target.values[element.plane.first] = point.x;
+  element.target.values[element.plane.second] = point.y;
+}
 
 /// Leads the centre of the cutter along a contour: on it, or with RL and RR at the tool's radius
 /// (R + DR) and an allowance beside it. The path begins and ends square to the first and last point
@@ -52,5 +85,20 @@ class CutterPath {
   std::optional<Vec2> begun_;   ///< there it begins the next element
   std::vector<Element> aside_;  ///< moves outside of the plane, between `last_` and the next one
 };
+
+/// The rotary axes at a part of a block's way, from 0 to 1, in machine coordinates.
+struct VectorStop {
+  double part;
+  machine::Vec3 rotary;
+};
+
+/// PATHCTRL VECTOR: the tool, seen from the workpiece, turns evenly in the plane of its first and
+/// its last direction. Between two stops the rotary axes move evenly; there it leaves the plane by
+/// less than a thousandth of a degree, except next to a position where an axis turns without
+/// turning the tool. The last stop is `to`. @errors 1013 an axis does not reach a direction
+/// between.
+NcResult<std::vector<VectorStop>> vector_stops(const machine::MachineState& state,
+                                               const machine::Vec3& from, const machine::Vec3& to,
+                                               RunBudget& budget);
 
 }  // namespace fitgauge::interpreter

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "nc/program/cycle_arguments.hpp"
+#include "nc/program/cycles.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "nc/program/cycle_names.hpp"
+#include "nc/program/cycles.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/channel_cycle_host.hpp"
 #include "nc/run/dotted_arguments.hpp"

@@ -4,7 +4,7 @@
 
 #include "base/text.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/mask_line.hpp"
+#include "nc/run/formatted_printer.hpp"
 #include "nc/run/statements.hpp"
 #include "nc/run/string_functions.hpp"
 #include "nc/run/values.hpp"

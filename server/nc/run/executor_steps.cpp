@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "nc/program/arithmetic.hpp"
-#include "nc/run/preassigned.hpp"
 #include "nc/run/statements.hpp"
+#include "nc/run/tool_values.hpp"
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {

@@ -3,7 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "nc/run/channel.hpp"
+#include "nc/run/control_time.hpp"
+#include "nc/run/string_functions.hpp"
+#include "nc/run/values.hpp"
+#include "tables/tabfile/characters.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -15,6 +22,121 @@ std::string joined(const std::vector<std::string>& lines) {
     text += '\n';
   }
   return text;
+}
+
+using klartext::MaskConversion;
+using klartext::MaskKeyword;
+using klartext::MaskPlaceholder;
+using klartext::QRef;
+
+using Value = std::variant<double, std::string>;
+
+Value keyword_value(const Channel& channel, MaskKeyword keyword) {
+  const CivilTime time = civil_time(channel.now());
+  switch (keyword) {
+    case MaskKeyword::CallPath: return channel.linked().path().text();
+    case MaskKeyword::Hour: return double(time.hour);
+    case MaskKeyword::Minute: return double(time.minute);
+    case MaskKeyword::Second: return double(time.second);
+    case MaskKeyword::Day: return double(time.day);
+    case MaskKeyword::Month: return double(time.month);
+    case MaskKeyword::MonthName: return std::string(month_name(time.month));
+    case MaskKeyword::Year2: return double(time.year % 100);
+    case MaskKeyword::Year4: return double(time.year);
+  }
+  return 0.0;
+}
+
+/// Puts digits into the width: `0` fills behind the sign.
+std::string padded(std::string text, const MaskPlaceholder& placeholder, bool is_number) {
+  const auto width = static_cast<std::size_t>(placeholder.width);
+  const std::size_t size = tabfile::count_characters(text);
+  if (size >= width) return text;
+  const std::size_t fill = width - size;
+  if (placeholder.left) return text + std::string(fill, ' ');
+  if (placeholder.zero && is_number) {
+    const std::size_t sign = text.starts_with('-') ? 1 : 0;
+    return text.insert(sign, fill, '0');
+  }
+  return std::string(fill, ' ') + text;
+}
+
+/// Decimals of `%F` without a number of them, as in C.
+constexpr int kDefaultDecimals = 6;
+
+std::string float_text(double value, const MaskPlaceholder& placeholder) {
+  const int decimals = placeholder.decimals < 0 ? kDefaultDecimals : placeholder.decimals;
+  return padded(to_char(value, decimals), placeholder, true);
+}
+
+/// Truncates (decision 22); a precision is the least number of digits: `%02.2d`.
+std::string integer_text(double value, const MaskPlaceholder& placeholder) {
+  std::string digits = fmt::format("{:.0f}", std::abs(std::trunc(value)));
+  const auto least = static_cast<std::size_t>(std::max(placeholder.decimals, 0));
+  if (digits.size() < least) digits.insert(0, least - digits.size(), '0');
+  if (value <= -1) digits.insert(0, 1, '-');
+  return padded(std::move(digits), placeholder, true);
+}
+
+NcResult<std::string> character_text(double value, const MaskPlaceholder& placeholder) {
+  // Codes beyond Latin-1 are not in the code page of a control.
+  if (value < 1 || value > 255) {
+    return nc_error(fmt::format("%C: {} is not a character code", value));
+  }
+  const auto code = static_cast<unsigned>(value);
+  std::string text;
+  if (code < 0x80) {
+    text += static_cast<char>(code);
+  } else {
+    text += static_cast<char>(0xC0 | (code >> 6));
+    text += static_cast<char>(0x80 | (code & 0x3F));
+  }
+  return padded(std::move(text), placeholder, false);
+}
+
+std::string string_text(std::string text, const MaskPlaceholder& placeholder) {
+  if (placeholder.decimals >= 0) {
+    text.resize(tabfile::skip_characters(text, 0, static_cast<std::size_t>(placeholder.decimals)));
+  }
+  return padded(std::move(text), placeholder, false);
+}
+
+NcResult<std::string> formatted(const Value& value, const MaskPlaceholder& placeholder) {
+  const auto* number = std::get_if<double>(&value);
+  if (number == nullptr) return string_text(std::get<std::string>(value), placeholder);
+  switch (placeholder.conversion) {
+    case MaskConversion::Float: return float_text(*number, placeholder);
+    case MaskConversion::Integer: return integer_text(*number, placeholder);
+    case MaskConversion::Character: return character_text(*number, placeholder);
+    default: return string_text(to_char(*number, -1), placeholder);
+  }
+}
+
+bool is_empty(const Channel& channel, QRef parameter) {
+  if (!parameter.is_string()) return false;
+  const std::string* text = channel.parameters.string(parameter.number);
+  return text == nullptr || text->empty();
+}
+
+/// The value of a placeholder; nothing where its line is left out.
+NcResult<std::optional<Value>> value_of(Channel& channel, const MaskPlaceholder& placeholder,
+                                        EmptyLines empty) {
+  if (const auto* keyword = std::get_if<MaskKeyword>(&placeholder.value)) {
+    return std::optional(keyword_value(channel, *keyword));
+  }
+  const QRef parameter = std::get<QRef>(placeholder.value);
+  if (empty != EmptyLines::Unspecified && is_empty(channel, parameter)) {
+    if (empty == EmptyLines::Hide) return std::optional<Value>();
+    return std::optional<Value>(std::string());
+  }
+  if (parameter.is_string()) {
+    auto string = text(channel, parameter);
+    if (!string) return string.error();
+    return std::optional<Value>(*std::move(string));
+  }
+  const auto value = number(channel, parameter);
+  if (!value) return value.error();
+  return std::optional<Value>(*value);
 }
 
 }  // namespace
@@ -72,6 +194,26 @@ NcResult<void> FormattedPrinter::close() {
     if (auto done = write(output); !done) return done;
   }
   return {};
+}
+
+NcResult<std::optional<std::string>> format_line(Channel& channel,
+                                                 const klartext::MaskFormat& format,
+                                                 EmptyLines empty) {
+  std::string line;
+  for (const klartext::MaskPiece& piece : format.pieces) {
+    if (const auto* literal = std::get_if<std::string>(&piece)) {
+      line += *literal;
+      continue;
+    }
+    const auto& placeholder = std::get<MaskPlaceholder>(piece);
+    const auto value = value_of(channel, placeholder, empty);
+    if (!value) return value.error();
+    if (!*value) return std::optional<std::string>();
+    const auto text = formatted(**value, placeholder);
+    if (!text) return text.error();
+    line += *text;
+  }
+  return std::optional(std::move(line));
 }
 
 }  // namespace fitgauge::interpreter

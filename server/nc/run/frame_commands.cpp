@@ -9,8 +9,8 @@
 #include "nc/run/channel.hpp"
 #include "nc/run/m_functions.hpp"
 #include "nc/run/plane_geometry.hpp"
-#include "nc/run/preassigned.hpp"
 #include "nc/run/tool_orientation.hpp"
+#include "nc/run/tool_values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

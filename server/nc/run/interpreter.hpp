@@ -13,8 +13,8 @@
 #include "nc/program/control_disk.hpp"
 #include "nc/program/parameter.hpp"
 #include "nc/program/program_cache.hpp"
-#include "nc/run/machine_builder.hpp"
-#include "nc/run/run_limits.hpp"
+#include "nc/run/nc_error.hpp"
+#include "nc/run/run_budget.hpp"
 #include "nc/run/run_observer.hpp"
 #include "nc/run/run_result.hpp"
 

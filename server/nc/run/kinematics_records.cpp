@@ -6,7 +6,7 @@
 #include <array>
 
 #include "tables/tabfile/tab_reader.hpp"
-#include "tables/tabfile/tab_writer.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/preassigned.hpp"
+#include "nc/run/tool_values.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

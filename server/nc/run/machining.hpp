@@ -2,7 +2,7 @@
 
 #include "nc/machine/machine.hpp"
 #include "nc/run/active_cycle.hpp"
-#include "nc/run/element.hpp"
+#include "nc/run/cutter_path.hpp"
 #include "nc/run/nc_error.hpp"
 #include "nc/run/plane_geometry.hpp"
 #include "nc/run/run_budget.hpp"

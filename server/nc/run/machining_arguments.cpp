@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "nc/program/cycle_arguments.hpp"
-#include "nc/program/global_definitions.hpp"
+#include "nc/program/cycles.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/values.hpp"
 

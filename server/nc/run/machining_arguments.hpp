@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "nc/program/bound_cycle.hpp"
+#include "nc/program/cycles.hpp"
 #include "nc/run/active_cycle.hpp"
 #include "nc/run/nc_error.hpp"
 

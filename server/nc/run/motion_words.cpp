@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "nc/program/known_m_functions.hpp"
+#include "nc/program/diagnose.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/m_functions.hpp"
 #include "nc/run/values.hpp"

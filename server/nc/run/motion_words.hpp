@@ -6,7 +6,7 @@
 
 #include "nc/klartext/syntax.hpp"
 #include "nc/machine/machine.hpp"
-#include "nc/program/control_path.hpp"
+#include "nc/program/control_disk.hpp"
 #include "nc/run/nc_error.hpp"
 
 namespace fitgauge::interpreter {

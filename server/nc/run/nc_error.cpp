@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "nc/program/diagnose.hpp"
+
 namespace fitgauge::interpreter {
 
 NcError nc_error(std::string text) { return {NcErrorKind::Error, 0, std::move(text)}; }
@@ -27,6 +29,12 @@ NcError from_error(const Error& error) {
 
 void throw_bad_nc_result(const NcError& error) {
   throw std::logic_error("value of a failed NC result was read: " + error.text);
+}
+
+NcError unknown_m_function(int number) { return nc_error(m_function_hint(number)); }
+
+NcError unknown_cycle(bool is_probing, int number) {
+  return nc_error(cycle_hint(is_probing, number));
 }
 
 }  // namespace fitgauge::interpreter

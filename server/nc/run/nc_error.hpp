@@ -1,13 +1,17 @@
 #pragma once
 
 #include <boost/system/result.hpp>
+
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "base/error.hpp"
 #include "nc/machine/fault.hpp"
 #include "nc/probing/cycle_fault.hpp"
+#include "nc/program/control_disk.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -52,5 +56,30 @@ inline NcResult<void> checked(const machine::MachineResult<void>& result) {
   if (result.has_error()) return from_machine(result.error());
   return {};
 }
+
+/// What stands for an M function or cycle of the machine builder: a program, or nothing at all.
+struct BuilderAction {
+  std::optional<ControlPath> program;
+};
+
+/// The M functions and cycles that only the builder of a machine knows, as its setup gives them
+/// (decision 28). Those of the control itself cannot be replaced.
+struct MachineBuilder {
+  std::map<int, BuilderAction> m_functions;
+  std::map<int, BuilderAction> cycles;
+
+  const BuilderAction* m_function(int number) const { return find(m_functions, number); }
+  const BuilderAction* cycle(int number) const { return find(cycles, number); }
+
+ private:
+  static const BuilderAction* find(const std::map<int, BuilderAction>& actions, int number) {
+    const auto it = actions.find(number);
+    return it == actions.end() ? nullptr : &it->second;
+  }
+};
+
+/// The error of a block that needs an entry in that table, which names the setting.
+NcError unknown_m_function(int number);
+NcError unknown_cycle(bool is_probing, int number);
 
 }  // namespace fitgauge::interpreter

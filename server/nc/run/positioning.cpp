@@ -6,9 +6,9 @@
 #include <array>
 
 #include "nc/machine/tolerance.hpp"
+#include "nc/run/cutter_path.hpp"
 #include "nc/run/tool_orientation.hpp"
 #include "nc/run/values.hpp"
-#include "nc/run/vector_path.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

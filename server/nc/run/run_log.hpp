@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nc/run/nc_error.hpp"
-#include "nc/run/run_limits.hpp"
+#include "nc/run/run_budget.hpp"
 #include "nc/run/run_observer.hpp"
 #include "nc/run/run_result.hpp"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nc/machine/preset_table.hpp"
+#include "nc/machine/tables.hpp"
 #include "nc/probing/measuring_record.hpp"
 #include "nc/program/control_disk.hpp"
 #include "nc/program/parameter.hpp"

@@ -33,11 +33,15 @@ NcResult<void> execute(Channel& channel, const klartext::SelectProgram& select);
 /// Goes on in a program. @errors it does not exist or has errors.
 NcResult<Next> call_program(Channel& channel, const ControlPath& path);
 
-// exec_parameters.cpp
+// exec_data.cpp
 NcResult<void> execute(Channel& channel, const klartext::Assignment& assignment);
 NcResult<void> execute(Channel& channel, const klartext::SetUndefined& undefine);
 NcResult<void> execute(Channel& channel, const klartext::CircleData& circle);
 NcResult<void> execute(Channel& channel, const klartext::SystemWrite& write);
+NcResult<void> execute(Channel& channel, const klartext::TableOpen& open);
+NcResult<void> execute(Channel& channel, const klartext::TableWrite& write);
+NcResult<void> execute(Channel& channel, const klartext::TableRead& read);
+NcResult<void> execute(Channel& channel, const klartext::SelectTable& select);
 
 // exec_output.cpp
 NcResult<void> execute(Channel& channel, const klartext::ErrorStop& stop);
@@ -46,17 +50,9 @@ NcResult<void> execute(Channel& channel, const klartext::FormattedPrint& print);
 NcResult<void> execute(Channel& channel, const klartext::ExternalFunction& function);
 NcResult<void> execute(Channel& channel, const klartext::WaitFor& wait);
 
-// exec_tables.cpp
-NcResult<void> execute(Channel& channel, const klartext::TableOpen& open);
-NcResult<void> execute(Channel& channel, const klartext::TableWrite& write);
-NcResult<void> execute(Channel& channel, const klartext::TableRead& read);
-NcResult<void> execute(Channel& channel, const klartext::SelectTable& select);
-
-// exec_tools.cpp
+// exec_machine.cpp
 NcResult<void> execute(Channel& channel, const klartext::ToolCall& call);
 NcResult<void> execute(Channel& channel, const klartext::ToolDefinition& definition);
-
-// exec_motion.cpp
 NcResult<Next> execute(Channel& channel, const klartext::Motion& motion);
 NcResult<Next> execute(Channel& channel, const klartext::MFunctions& functions);
 NcResult<Next> execute(Channel& channel, const klartext::Stop& stop);

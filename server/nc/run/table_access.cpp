@@ -6,9 +6,9 @@
 #include <array>
 
 #include "base/text.hpp"
-#include "nc/program/cycle_arguments.hpp"
+#include "nc/program/cycles.hpp"
 #include "tables/tabfile/tab_reader.hpp"
-#include "tables/tabfile/tab_writer.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {
 namespace {

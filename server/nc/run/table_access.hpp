@@ -9,7 +9,7 @@
 #include "base/allowance.hpp"
 #include "nc/klartext/expression.hpp"
 #include "nc/machine/axis.hpp"
-#include "nc/program/control_path.hpp"
+#include "nc/program/control_disk.hpp"
 #include "nc/run/nc_error.hpp"
 #include "nc/run/q_parameters.hpp"
 #include "nc/run/run_files.hpp"

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "nc/machine/tool_table.hpp"
+#include "nc/machine/geometry.hpp"
+#include "nc/machine/tables.hpp"
+#include "nc/program/code.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -15,5 +17,20 @@ enum class ToolWrite : std::uint8_t {
   OutOfRange  ///< the column takes whole numbers, and not this one
 };
 ToolWrite set_tool_value(machine::Tool& tool, std::int64_t nr, double value);
+
+class Channel;
+
+/// Whether a cell is one of Q108 to Q111, Q113, Q114, which the control gives a value. They are
+/// undefined until a program reads them or calls a tool.
+constexpr bool is_preassigned(std::uint32_t cell) {
+  return cell >= kFirstQ + 108 && cell <= kFirstQ + 114 && cell != kFirstQ + 112;
+}
+
+/// Gives them the values of the active tool, spindle, coolant and unit. To be called after what
+/// changes these.
+void update_preassigned(Channel& channel);
+
+/// Q120 to Q122: the rotary positions that PLANE or cycle 19 has computed, in degrees.
+void set_plane_angles(Channel& channel, const machine::Vec3& rotary);
 
 }  // namespace fitgauge::interpreter

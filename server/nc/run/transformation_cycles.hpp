@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "nc/klartext/word.hpp"
+#include "nc/klartext/word_names.hpp"
 #include "nc/run/frame_commands.hpp"
 #include "nc/run/nc_error.hpp"
 

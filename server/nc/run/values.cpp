@@ -7,9 +7,9 @@
 
 #include "nc/program/arithmetic.hpp"
 #include "nc/run/channel.hpp"
-#include "nc/run/preassigned.hpp"
 #include "nc/run/string_functions.hpp"
 #include "nc/run/system_data.hpp"
+#include "nc/run/tool_values.hpp"
 
 namespace fitgauge::interpreter {
 

@@ -6,7 +6,7 @@
 #include <future>
 #include <optional>
 
-#include "nc/program/control_path.hpp"
+#include "nc/program/control_disk.hpp"
 #include "plant/lsv2/collected_log.hpp"
 #include "service/files/file_service.hpp"
 #include "service/measurements/measurement_service.hpp"

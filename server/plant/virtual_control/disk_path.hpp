@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "nc/program/control_path.hpp"
+#include "nc/program/control_disk.hpp"
 #include "plant/lsv2/link/control_error.hpp"
 
 namespace fitgauge::virtual_control {

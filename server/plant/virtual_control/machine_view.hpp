@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "nc/machine/machine_setup.hpp"
-#include "nc/program/control_path.hpp"
+#include "nc/program/control_disk.hpp"
 #include "plant/lsv2/link/answers.hpp"
 #include "service/runs/run_service.hpp"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nc/program/control_path.hpp"
+#include "nc/program/control_disk.hpp"
 #include "plant/lsv2/link/control_error.hpp"
 #include "service/files/file_service.hpp"
 #include "service/runs/run_service.hpp"

@@ -9,7 +9,7 @@
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
-#include "nc/program/control_path.hpp"
+#include "nc/program/control_disk.hpp"
 
 namespace fitgauge::store {
 class Database;

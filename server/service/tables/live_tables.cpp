@@ -2,7 +2,7 @@
 
 #include "service/tables/table_catalog.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
-#include "tables/tabfile/tab_writer.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::app {
 namespace {

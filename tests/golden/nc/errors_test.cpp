@@ -11,8 +11,8 @@
 #include "base/text.hpp"
 #include "golden_setup.hpp"
 #include "nc/machine/simulated_machine.hpp"
-#include "nc/probing/cycle_errors.hpp"
-#include "nc/probing/cycle_registry.hpp"
+#include "nc/probing/cycle_descriptor.hpp"
+#include "nc/probing/cycles.hpp"
 
 /// The errors of each cycle, as errors.txt says how to come by them.
 namespace fitgauge::interpreter::golden {

@@ -13,7 +13,7 @@
 #include "nc/machine/tracing_machine.hpp"
 #include "nc/program/check.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
-#include "tables/tabfile/tab_writer.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter::golden {
 namespace {

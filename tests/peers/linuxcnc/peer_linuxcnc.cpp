@@ -11,7 +11,7 @@
 #include "nc/machine/control.hpp"
 #include "nc/run/interpreter.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
-#include "tables/tabfile/tab_writer.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::interpreter;

@@ -1,7 +1,7 @@
 #include <array>
 #include <cmath>
 
-#include "nc/probing/alignment/basic_rotation.hpp"
+#include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"

@@ -1,11 +1,10 @@
 #include <array>
 
-#include "nc/probing/alignment/basic_rotation.hpp"
-#include "nc/probing/alignment/rotary_alignment.hpp"
+#include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/hole_pattern.hpp"
+#include "nc/probing/touch/circle_probing.hpp"
 
 namespace fitgauge::probing::cycle_401_402 {
 

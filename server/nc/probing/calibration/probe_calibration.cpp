@@ -4,9 +4,8 @@
 
 #include "base/length.hpp"
 #include "log_templates.hpp"
-#include "nc/machine/probe_table.hpp"
+#include "nc/machine/tables.hpp"
 #include "nc/machine/tolerance.hpp"
-#include "nc/probing/log/html_log.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 #include "nc/probing/measured_value.hpp"
 

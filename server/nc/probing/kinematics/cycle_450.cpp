@@ -6,7 +6,6 @@
 #include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
-#include "nc/probing/log/html_log.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/parameters.hpp"

@@ -5,7 +5,6 @@
 #include "nc/probing/kinematics/correction.hpp"
 #include "nc/probing/kinematics/log.hpp"
 #include "nc/probing/kinematics/parameters.hpp"
-#include "nc/probing/kinematics/preset.hpp"
 
 namespace fitgauge::probing::cycle_451 {
 

@@ -6,7 +6,6 @@
 #include "nc/probing/kinematics/correction.hpp"
 #include "nc/probing/kinematics/log.hpp"
 #include "nc/probing/kinematics/parameters.hpp"
-#include "nc/probing/kinematics/preset.hpp"
 #include "nc/probing/measured_value.hpp"
 
 namespace fitgauge::probing::cycle_453 {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "log_templates.hpp"
-#include "nc/probing/log/html_log.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 #include "nc/probing/measured_value.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "nc/probing/touch/sphere_fit.hpp"
+#include "nc/probing/touch/fits.hpp"
 
 namespace fitgauge::probing {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
-#include "nc/probing/measuring/feature_values.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"

@@ -4,7 +4,7 @@
 #include "nc/probing/errors.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/single_touch.hpp"
+#include "nc/probing/touch/line_probing.hpp"
 
 namespace fitgauge::probing::cycle_427 {
 

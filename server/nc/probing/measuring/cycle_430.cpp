@@ -2,10 +2,9 @@
 
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
-#include "nc/probing/measuring/feature_values.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/hole_pattern.hpp"
+#include "nc/probing/touch/circle_probing.hpp"
 
 namespace fitgauge::probing::cycle_430 {
 

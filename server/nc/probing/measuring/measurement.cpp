@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nc/probing/alignment/basic_rotation.hpp"
+#include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 
 namespace fitgauge::probing {
@@ -154,6 +154,29 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
   const int error = decisive.error();
   if (context.arguments.whole(309) != 0 && error != 0) return tolerance_stop(error);
   return {};
+}
+
+std::array<MeasuredValue, 2> centre_values(const Arguments& arguments, Point2 centre) {
+  const Length main = to_length(arguments.number(273));
+  const Length secondary = to_length(arguments.number(274));
+  return {MeasuredValue{.characteristic = "Centre, main axis",
+                        .role = ValueRole::Position,
+                        .nominal = main,
+                        .measured = to_length(centre.x),
+                        .limits = position_limits(main, to_length(arguments.number(279))),
+                        .result_q = 151,
+                        .deviation_q = 161,
+                        .error_too_large = 1044,
+                        .error_too_small = 1044},
+          MeasuredValue{.characteristic = "Centre, secondary axis",
+                        .role = ValueRole::Position,
+                        .nominal = secondary,
+                        .measured = to_length(centre.y),
+                        .limits = position_limits(secondary, to_length(arguments.number(280))),
+                        .result_q = 152,
+                        .deviation_q = 162,
+                        .error_too_large = 1045,
+                        .error_too_small = 1045}};
 }
 
 }  // namespace fitgauge::probing

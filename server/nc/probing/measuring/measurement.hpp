@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "nc/probing/measured_value.hpp"
+#include "nc/probing/touch/circle_probing.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 #include "nc/probing/touch_probe_cycle.hpp"
 
@@ -51,5 +53,12 @@ CycleResult<ProbingMotion> begin_measurement(const CycleContext& context);
 /// stop of Q309 (decision 6).
 /// @errors 1092 and 1065 of the tool; a tolerance stop with the error of the worst value.
 CycleResult<void> finish_measurement(const CycleContext& context, const Measurement& measurement);
+
+constexpr ValueRole size_role(Side side) {
+  return side == Side::Inside ? ValueRole::HoleSize : ValueRole::ShaftSize;
+}
+
+/// The centre of a measured feature against Q273 ± Q279 and Q274 ± Q280: Q151, Q152, Q161, Q162.
+std::array<MeasuredValue, 2> centre_values(const Arguments& arguments, Point2 centre);
 
 }  // namespace fitgauge::probing

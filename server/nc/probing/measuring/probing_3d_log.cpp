@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "log_templates.hpp"
-#include "nc/probing/log/html_log.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 #include "nc/probing/measured_value.hpp"
 

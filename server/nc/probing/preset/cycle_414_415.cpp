@@ -1,11 +1,11 @@
 #include <array>
 
-#include "nc/probing/alignment/basic_rotation.hpp"
+#include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/preset/preset_cycle.hpp"
-#include "nc/probing/touch/corner_probing.hpp"
+#include "nc/probing/touch/line_probing.hpp"
 
 namespace fitgauge::probing::cycle_414_415 {
 

@@ -4,8 +4,8 @@
 #include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/preset/preset_cycle.hpp"
-#include "nc/probing/touch/corner_probing.hpp"
-#include "nc/probing/touch/hole_pattern.hpp"
+#include "nc/probing/touch/circle_probing.hpp"
+#include "nc/probing/touch/line_probing.hpp"
 
 namespace fitgauge::probing::cycle_416_418 {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "nc/probing/alignment/basic_rotation.hpp"
+#include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/measured_value.hpp"
-#include "nc/probing/touch/single_touch.hpp"
+#include "nc/probing/touch/line_probing.hpp"
 
 namespace fitgauge::probing {
 namespace {

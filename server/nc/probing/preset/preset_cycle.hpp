@@ -5,8 +5,8 @@
 #include <span>
 
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/circle_fit.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
+#include "nc/probing/touch/fits.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing {

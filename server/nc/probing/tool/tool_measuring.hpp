@@ -1,6 +1,6 @@
 #pragma once
 
-#include "nc/probing/touch/circle_fit.hpp"
+#include "nc/probing/touch/fits.hpp"
 #include "nc/probing/touch_probe_cycle.hpp"
 
 namespace fitgauge::probing {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "nc/probing/measuring_record.hpp"
-#include "nc/probing/touch/circle_fit.hpp"
+#include "nc/probing/touch/fits.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing {
@@ -50,5 +50,17 @@ struct ProbedCircle {
 /// @errors 1066, 1067 for a step angle of less than 5 degrees; 1081.
 CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
                                        Side side, Point2 centre);
+
+/// The centres of holes near the given points: each is touched four times from there, along the
+/// axes of the plane at measuring height; between the holes the probe goes over the clearance
+/// height.
+/// @errors 1014 a hole is wider than DIST reaches, 1081.
+CycleResult<std::vector<Point2>> probe_hole_centres(ProbingMotion& motion,
+                                                    std::span<const Point2> nominal, double height,
+                                                    double clearance_height);
+
+/// The circle through three holes around Q273 and Q274, of the parameters Q262, Q291, Q292, Q293,
+/// Q261, Q260.
+CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, ProbingMotion& motion);
 
 }  // namespace fitgauge::probing

@@ -1,10 +1,40 @@
 #include "nc/probing/touch/line_probing.hpp"
 
+#include <array>
 #include <cmath>
 
-#include "nc/probing/touch/single_touch.hpp"
+#include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::probing {
+namespace {
+
+CycleResult<Vec3> touch(ProbingMotion& motion, const Vec3& nominal, const Vec3& direction,
+                        double q320, double clearance_height) {
+  const std::array touches{
+      Touch{.start = nominal - direction * motion.start_distance(q320), .direction = direction}};
+  const auto contacts = motion.touch_all(touches, clearance_height);
+  if (!contacts) return contacts.error();
+  return contacts->front().surface;
+}
+
+struct Edge {
+  Point2 first;
+  Point2 second;
+};
+
+/// The edge beside the line through two ball centres, on the side that was touched.
+Edge edge_of(const Contact& first, const Contact& second, const Vec3& touched, double radius) {
+  const Vec3 along = second.ball_centre - first.ball_centre;
+  Vec3 normal{-along.y, along.x, 0};
+  const double length = norm(normal);
+  if (length == 0) return {};
+  normal = normal * ((dot(normal, touched) > 0 ? radius : -radius) / length);
+  const Vec3 a = first.ball_centre + normal;
+  const Vec3 b = second.ball_centre + normal;
+  return {{a.x, a.y}, {b.x, b.y}};
+}
+
+}  // namespace
 
 double ProbedLine::angle_deg() const {
   const Vec3 along = direction();
@@ -44,6 +74,55 @@ CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& m
     line.coordinates[k] = {nominal[k][line.axis], (*contacts)[k].surface[line.axis]};
   }
   return line;
+}
+
+CycleResult<int> probing_direction(const Arguments& arguments) {
+  const int direction = arguments.whole(267);
+  if (direction == 0) return nc_error(1042, "Q267 must be -1 or +1");
+  return direction;
+}
+
+CycleResult<TouchedCoordinate> touch_coordinate(const CycleContext& context,
+                                                ProbingMotion& motion) {
+  const Arguments& arguments = context.arguments;
+  const auto direction = probing_direction(arguments);
+  if (!direction) return direction.error();
+  TouchedCoordinate touched{
+      .axis = static_cast<std::size_t>(arguments.whole(272) - 1),
+      .nominal = {arguments.number(263), arguments.number(264), arguments.number(261)},
+      .surface = {}};
+  Vec3 along;
+  along[touched.axis] = *direction;
+  const auto surface =
+      touch(motion, touched.nominal, along, arguments.number(320), arguments.number(260));
+  if (!surface) return surface.error();
+  touched.surface = *surface;
+  return touched;
+}
+
+CycleResult<Vec3> touch_down(ProbingMotion& motion, const Vec3& nominal, double q320,
+                             double clearance_height) {
+  return touch(motion, nominal, {0, 0, -1}, q320, clearance_height);
+}
+
+CycleResult<Point2> intersection(Point2 a1, Point2 a2, Point2 b1, Point2 b2) {
+  const Point2 a{a2.x - a1.x, a2.y - a1.y};
+  const Point2 b{b2.x - b1.x, b2.y - b1.y};
+  const double across = a.x * b.y - a.y * b.x;
+  if (std::abs(across) <= tolerance::kParallelEdges * std::hypot(a.x, a.y) * std::hypot(b.x, b.y)) {
+    return nc_error(1081, "the measured lines do not meet");
+  }
+  const double part = ((b1.x - a1.x) * b.y - (b1.y - a1.y) * b.x) / across;
+  return Point2{a1.x + part * a.x, a1.y + part * a.y};
+}
+
+CycleResult<Corner> corner_of(std::span<const Contact> contacts, std::span<const Touch> touches,
+                              double ball_radius) {
+  const Edge main = edge_of(contacts[0], contacts[1], touches[0].direction, ball_radius);
+  const Edge secondary = edge_of(contacts[2], contacts[3], touches[2].direction, ball_radius);
+  const auto point = intersection(main.first, main.second, secondary.first, secondary.second);
+  if (!point) return point.error();
+  return Corner{*point, contacts[1].ball_centre - contacts[0].ball_centre};
 }
 
 }  // namespace fitgauge::probing

@@ -1,4 +1,4 @@
-#include "nc/probing/touch/circle_fit.hpp"
+#include "nc/probing/touch/fits.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "kinematics_bench.hpp"
-#include "nc/probing/kinematics/positions.hpp"
+#include "nc/probing/kinematics/measurement.hpp"
 #include "support/deep.hpp"
 
 /// Cycle 451 on machines of which every axis scatters. What is to be expected follows from the

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "kinematics_bench.hpp"
-#include "nc/probing/kinematics/positions.hpp"
+#include "nc/probing/kinematics/measurement.hpp"
 #include "nc/probing/measured_value.hpp"
 
 namespace fitgauge::probing {

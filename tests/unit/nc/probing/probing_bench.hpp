@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "nc/machine/simulated_machine.hpp"
-#include "nc/probing/cycle_registry.hpp"
+#include "nc/probing/cycles.hpp"
 #include "recording_host.hpp"
 
 namespace fitgauge::probing {

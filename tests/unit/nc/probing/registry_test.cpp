@@ -3,7 +3,7 @@
 #include <set>
 #include <utility>
 
-#include "nc/probing/cycle_registry.hpp"
+#include "nc/probing/cycles.hpp"
 
 namespace fitgauge::probing {
 

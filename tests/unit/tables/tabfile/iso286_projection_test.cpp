@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "tables/tabfile/tab_reader.hpp"
-#include "tables/tabfile/tab_writer.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::tabfile;

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "tables/tabfile/tab_writer.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::tabfile;

@@ -1,0 +1,217 @@
+#include "nc/machine/simulated_machine.hpp"
+
+#include <algorithm>
+
+#include "nc/machine/sphere_tracing.hpp"
+#include "nc/machine/tolerance.hpp"
+
+namespace fitgauge::machine {
+namespace {
+
+constexpr double kMillimetresPerMicrometre = 1e-3;
+
+Kinematics as_built(const MachineSetup& setup) {
+  std::vector<RotaryAxis> axes;
+  for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
+    const auto& known = setup.axes[index(axis)];
+    if (known) axes.push_back(known->built(axis));
+  }
+  return Kinematics(std::move(axes));
+}
+
+/// What stands on the table: the workpiece and the calibration standards. Only the ring has a hole,
+/// so it comes first.
+std::vector<Feature> on_table(const Setup& setup) {
+  std::vector<Feature> features;
+  if (const auto& ring = setup.machine.calibration_ring) {
+    features.emplace_back(Boss{ring->centre, ring->top, ring->height, ring->outside()});
+    Bore hole;
+    hole.centre = ring->centre;
+    hole.top = ring->top;
+    hole.depth = ring->height;
+    hole.diameter = ring->diameter;
+    features.emplace_back(hole);
+  }
+  features.insert(features.end(), setup.features.begin(), setup.features.end());
+  if (setup.machine.calibration_stud) features.emplace_back(*setup.machine.calibration_stud);
+  if (const auto& sphere = setup.machine.calibration_sphere) {
+    features.emplace_back(Sphere{sphere->centre, 2 * sphere->radius});
+  }
+  return features;
+}
+
+/// A cutter against the tool touch probe is a cylinder against a contact plate: the centre of its
+/// tip against the plate grown by the cylinder's radius, and down, since the flank touches it with
+/// the tip below.
+std::vector<Feature> around_plate(const ToolTouchProbeSetup& tt, double tool_radius) {
+  const Vec3 top = tt.actual_centre.value_or(tt.known.centre);
+  const double half = tt.actual_radius.value_or(tt.known.radius);
+  const double grown = half + tool_radius;
+  constexpr double kDown = 1e4;  // mm
+  if (tt.shape == ContactPlate::Disc) return {Boss{{top.x, top.y}, top.z, kDown, 2 * grown}};
+  const auto block = [&](double x, double y) {
+    return Block{{top.x - x, top.y - y, top.z - kDown}, {top.x + x, top.y + y, top.z}};
+  };
+  std::vector<Feature> features{block(grown, half), block(half, grown)};
+  if (tool_radius == 0) return features;
+  for (const double x : {top.x - half, top.x + half}) {
+    for (const double y : {top.y - half, top.y + half}) {
+      features.emplace_back(Boss{{x, y}, top.z, kDown, 2 * tool_radius});
+    }
+  }
+  return features;
+}
+
+}  // namespace
+
+SimulatedAxes::SimulatedAxes(const Setup& setup)
+    : setup_(setup.machine),
+      workpiece_(on_table(setup)),
+      kinematics_(as_built(setup.machine)),
+      nose_(setup.machine.start_position()),
+      rest_{},
+      random_(setup.seed) {}
+
+void SimulatedAxes::turn(const Vec3& rotary) {
+  const Vec3 turn = rotary - nose_.rotary;
+  for (std::size_t letter = 0; letter < 3; ++letter) {
+    const auto& axis = setup_.axes[letter + 3];
+    if (!axis || turn[letter] == 0) continue;
+    slack_deg_[letter] = turn[letter] > 0 ? 0 : axis->backlash_deg;
+    if (axis->scatter_um == 0) continue;
+    const double scatter = axis->scatter_um * kMillimetresPerMicrometre;
+    for (std::size_t k = 0; k < 3; ++k) rest_[letter][k] = scatter * random_.normal();
+  }
+}
+
+SimulatedAxes::RealTool SimulatedAxes::real_tool(const SpindleTool& known) const {
+  RealTool real{known.axis, known.length, known.radius, {}, nullptr};
+  const int number = known.number;
+  const auto tool = std::find_if(setup_.tools.begin(), setup_.tools.end(),
+                                 [=](const ToolSetup& t) { return t.row.number == number; });
+  if (tool == setup_.tools.end()) return real;
+  real.length = tool->actual_length.value_or(tool->row.l + tool->row.dl);
+  real.radius = tool->actual_radius.value_or(tool->row.r + tool->row.dr);
+  const int row = tool->row.probe;
+  const auto probe = std::find_if(setup_.probes.begin(), setup_.probes.end(),
+                                  [=](const ProbeSetup& p) { return p.row.number == row; });
+  if (probe == setup_.probes.end()) return real;
+  real.probe = &*probe;
+  real.offset = turned_offset(probe->centre_offset, known.axis, known.spindle_deg);
+  return real;
+}
+
+Transform SimulatedAxes::real_table(const Vec3& rotary) const {
+  return kinematics_.table(rotary + slack_deg_, rest_);
+}
+
+Vec3 SimulatedAxes::real_tool_point(const Position& nose, const RealTool& tool,
+                                    double length) const {
+  return nose.linear + kinematics_.tool_vector(nose.rotary + slack_deg_, tool.axis, length, rest_);
+}
+
+Vec3 SimulatedAxes::ball_on_table(const Position& nose, const RealTool& tool) const {
+  const Vec3 centre = real_tool_point(nose, tool, tool.length - tool.radius) + tool.offset;
+  return real_table(nose.rotary).inverse().point(centre);
+}
+
+MachineResult<double> SimulatedAxes::follow(const Path& path, const Motion& motion) {
+  if (path.end.rotary != path.start.rotary) turn(path.end.rotary);
+  const bool can_touch = motion.tool.is_probe && !motion.is_retract && !workpiece_.is_empty();
+  const double part = can_touch ? free_part(path, real_tool(motion.tool), motion.allowance) : 1;
+  if (motion.allowance.found() != Allowance::Spent::Nothing) {
+    return make_fault(FaultKind::Interrupted);
+  }
+  nose_ = part < 1 ? path.nose(part) : path.end;
+  return part;
+}
+
+/// The part of the path, 0 to 1, that the ball can go without touching.
+double SimulatedAxes::free_part(const Path& path, const RealTool& tool,
+                                Allowance& allowance) const {
+  const double radius = tool.radius - tolerance::kNanometre;
+
+  if (path.is_straight) {
+    const Vec3 start = ball_on_table(path.start, tool);
+    const Vec3 way = ball_on_table(path.end, tool) - start;
+    const double length = norm(way);
+    if (length == 0) return 1;
+    const auto touched = workpiece_.contact(start, way * (1 / length), radius, length, allowance);
+    return touched ? std::min(*touched / length, 1 - 1e-15) : 1;
+  }
+  double lever = norm(path.start.linear) + path.nose_speed + tool.length + norm(tool.offset);
+  for (const RotaryAxis& axis : kinematics_.axes()) lever += norm(axis.centre);
+  const Vec3 turn = path.end.rotary - path.start.rotary;
+  const double speed =
+      path.nose_speed + radians(std::abs(turn.x) + std::abs(turn.y) + std::abs(turn.z)) * lever;
+  if (speed == 0) return 1;
+  const auto touched = first_zero(
+      [&](double way) {
+        return workpiece_.clearance(ball_on_table(path.nose(way / speed), tool), radius);
+      },
+      speed, least_step(radius), allowance);
+  return touched ? std::min(*touched / speed, 1 - 1e-15) : 1;
+}
+
+MachineResult<Position> SimulatedAxes::probe(const Vec3& direction, double distance,
+                                             const Motion& motion) {
+  const RealTool tool = real_tool(motion.tool);
+  touching_.reset();
+  const auto way = motion.tool.is_probe
+                       ? probe_contact(direction, distance, tool, motion.allowance)
+                       : plate_contact(direction, distance, tool, motion.allowance);
+  if (motion.allowance.found() != Allowance::Spent::Nothing) {
+    return make_fault(FaultKind::Interrupted);
+  }
+  const bool is_missed = !way && way.error().kind == FaultKind::NoContact;
+  if (way || is_missed) nose_.linear = nose_.linear + direction * (way ? *way : distance);
+  if (!way) return way.error();
+  return nose_;
+}
+
+MachineResult<double> SimulatedAxes::probe_contact(const Vec3& direction, double distance,
+                                                   const RealTool& tool, Allowance& allowance) {
+  const Vec3 start = ball_on_table(nose_, tool);
+  if (workpiece_.clearance(start, tool.radius) < -tolerance::kNanometre) {
+    return make_fault(FaultKind::StylusDeflected);
+  }
+  const Vec3 on_table = real_table(nose_.rotary).inverse().direction(direction);
+  const auto touched = workpiece_.contact(start, on_table, tool.radius, distance, allowance);
+  if (!touched) return make_fault(FaultKind::NoContact);
+  touching_ = start + on_table * *touched;
+  table_at_contact_ = real_table(nose_.rotary);
+  double way = *touched;
+  if (tool.probe != nullptr) {
+    way += tool.probe->pretravel_um * kMillimetresPerMicrometre;
+    if (tool.probe->repeatability_um != 0) {
+      way += tool.probe->repeatability_um * kMillimetresPerMicrometre * random_.normal();
+    }
+  }
+  if (way > distance) return make_fault(FaultKind::NoContact);
+  return std::max(way, 0.0);
+}
+
+std::optional<Vec3> SimulatedAxes::contact_normal() const {
+  if (!touching_) return std::nullopt;
+  const auto normal = workpiece_.normal(*touching_);
+  if (!normal) return std::nullopt;
+  return unit(table_at_contact_.direction(*normal));
+}
+
+MachineResult<double> SimulatedAxes::plate_contact(const Vec3& direction, double distance,
+                                                   const RealTool& tool, Allowance& allowance) {
+  const Workpiece plate(around_plate(setup_.tt, tool.radius));
+  const Vec3 tip = real_tool_point(nose_, tool, tool.length);
+  if (plate.clearance(tip, 0) < -tolerance::kNanometre)
+    return make_fault(FaultKind::StylusDeflected);
+  const auto touched = plate.contact(tip, direction, 0, distance, allowance);
+  if (!touched) return make_fault(FaultKind::NoContact);
+  double way = *touched;
+  if (setup_.tt.repeatability_um != 0) {
+    way += setup_.tt.repeatability_um * kMillimetresPerMicrometre * random_.normal();
+  }
+  if (way > distance) return make_fault(FaultKind::NoContact);
+  return std::max(way, 0.0);
+}
+
+}  // namespace fitgauge::machine

@@ -1,0 +1,50 @@
+#include "nc/machine/tables.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+
+namespace fitgauge::machine {
+
+const Tool* ToolTable::find(int number) const {
+  const auto row = rows_.find(number);
+  return row == rows_.end() ? nullptr : &row->second;
+}
+
+const Tool* ToolTable::find(std::string_view name) const {
+  const auto row = std::find_if(rows_.begin(), rows_.end(), [name](const auto& entry) {
+    return ascii_iequals(entry.second.name, name);
+  });
+  return row == rows_.end() ? nullptr : &row->second;
+}
+
+void ToolTable::write(const Tool& tool) { rows_.insert_or_assign(tool.number, tool); }
+
+PresetTable::PresetTable() { rows_.emplace(0, Preset{}); }
+
+const Preset* PresetTable::find(int number) const {
+  const auto row = rows_.find(number);
+  return row == rows_.end() ? nullptr : &row->second;
+}
+
+void PresetTable::write(const Preset& preset) { rows_.insert_or_assign(preset.number, preset); }
+
+const ProbeRow* ProbeTable::find(int number) const {
+  const auto row = rows_.find(number);
+  return row == rows_.end() ? nullptr : &row->second;
+}
+
+void ProbeTable::write(const ProbeRow& row) { rows_.insert_or_assign(row.number, row); }
+
+Vec3 turned_offset(const std::array<double, 2>& offset, Axis tool_axis, double spindle_deg) {
+  Vec3 straight;
+  straight[(index(tool_axis) + 1) % 3] = offset[0];
+  straight[(index(tool_axis) + 2) % 3] = offset[1];
+  return Matrix3::rotation(unit_vector(tool_axis), spindle_deg) * straight;
+}
+
+Vec3 ProbeSystem::centre_offset(Axis tool_axis, double spindle_deg) const {
+  return turned_offset({data.cal_of1, data.cal_of2}, tool_axis, spindle_deg - data.cal_ang);
+}
+
+}  // namespace fitgauge::machine

@@ -1,0 +1,104 @@
+#include "nc/probing/alignment/rotation.hpp"
+
+#include <cmath>
+
+#include "nc/probing/measured_value.hpp"
+
+namespace fitgauge::probing {
+
+using machine::CoordinateSystem;
+using machine::Frames;
+using machine::Matrix3;
+
+Matrix3 tilt_of(const Frames& frames) {
+  return frames.plane() ? Matrix3::spatial(frames.plane()->spatial_deg) : Matrix3{};
+}
+
+double workpiece_angle(const Frames& frames, const WorkingPlane& plane, const Vec3& direction) {
+  const Vec3 machine = frames.direction_to_machine(plane.to_input(direction));
+  const Vec3 workpiece = frames.direction_from_machine(machine, CoordinateSystem::Workpiece);
+  const Vec3 along = plane.from_input(tilt_of(frames).transposed() * workpiece);
+  const double angle = machine::degrees(std::atan2(along.y, along.x));
+  if (angle > 90) return angle - 180;
+  return angle <= -90 ? angle + 180 : angle;
+}
+
+Vec3 turned_rotation(const Frames& frames, machine::Axis probe, double angle_deg) {
+  const Matrix3 tilt = tilt_of(frames);
+  const Matrix3 turn = Matrix3::rotation(unit_vector(probe), angle_deg);
+  const Vec3 angles = machine::spatial_angles(Matrix3::spatial(frames.preset().basic_rotation_deg) *
+                                              tilt * turn * tilt.transposed());
+  return {to_angle(angles.x), to_angle(angles.y), to_angle(angles.z)};
+}
+
+CycleResult<void> reset_basic_rotation(machine::Machine& machine) {
+  Frames frames = machine.state().frames;
+  machine::PresetFrame preset = frames.preset();
+  if (preset.basic_rotation_deg == Vec3{}) return {};
+  preset.basic_rotation_deg = {};
+  frames.set_preset(preset);
+  return lift(machine.set_frames(frames));
+}
+
+CycleResult<ProbingMotion> begin_alignment(const CycleContext& context) {
+  if (auto allowed = refuse_mirror_and_scaling(context.machine.state().frames); !allowed) {
+    return allowed.error();
+  }
+  auto motion = ProbingMotion::begin(context);
+  if (!motion) return motion;
+  if (auto reset = reset_basic_rotation(context.machine); !reset) return reset.error();
+  return motion;
+}
+
+CycleResult<void> set_basic_rotation(const CycleContext& context, const Vec3& rotation_deg,
+                                     int row) {
+  const machine::MachineState& state = context.machine.state();
+  Frames frames = state.frames;
+  machine::PresetFrame active = frames.preset();
+  active.basic_rotation_deg = rotation_deg;
+  if (row != 0) {
+    const int number = row < 0 ? state.active_preset : row;
+    machine::Preset preset{.number = number, .comment = {}, .frame = active};
+    if (const machine::Preset* existing = state.presets.find(number)) preset = *existing;
+    preset.frame.basic_rotation_deg = active.basic_rotation_deg;
+    if (auto written = lift(context.machine.write_preset(preset)); !written) return written;
+  }
+  if (row > 0) return {};
+  frames.set_preset(active);
+  return lift(context.machine.set_frames(frames));
+}
+
+using machine::Axis;
+
+CycleResult<void> align_rotary_axis(const CycleContext& context, Axis rotary, double angle_deg) {
+  using machine::FaultKind;
+  const machine::MachineState& state = context.machine.state();
+  const machine::RotaryAxis* axis = state.kinematics.find(rotary);
+  if (axis == nullptr) return from_machine(make_fault(FaultKind::AxisMissing, name(rotary)));
+  if (axis->mount == machine::AxisMount::Head) {
+    return nc_error(1100, "the rotary axis does not turn the workpiece");
+  }
+  // A positive angle turns the tool right-handed around the axis, seen from the workpiece.
+  const double sense = dot(axis->direction, unit_vector(rotary)) < 0 ? -1 : 1;
+  machine::AxisWords target;
+  target[rotary] = to_angle(context.machine.position()[rotary] + sense * angle_deg);
+  return lift(context.machine.move({target, machine::Feed::rapid()}));
+}
+
+CycleResult<void> zero_rotary_axis(const CycleContext& context, Axis rotary, int row) {
+  const machine::MachineState& state = context.machine.state();
+  const std::size_t offset = index(rotary) - 3;
+  machine::Frames frames = state.frames;
+  machine::PresetFrame active = frames.preset();
+  active.rotary_offsets_deg[offset] = state.nose[rotary];
+  if (row == 0) {
+    frames.set_preset(active);
+    return lift(context.machine.set_frames(frames));
+  }
+  machine::Preset preset{.number = row, .comment = {}, .frame = active};
+  if (const machine::Preset* existing = state.presets.find(row)) preset = *existing;
+  preset.frame.rotary_offsets_deg[offset] = active.rotary_offsets_deg[offset];
+  return lift(context.machine.write_preset(preset));
+}
+
+}  // namespace fitgauge::probing

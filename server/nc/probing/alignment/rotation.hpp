@@ -1,0 +1,52 @@
+#pragma once
+
+#include "nc/probing/touch/probing_motion.hpp"
+
+namespace fitgauge::probing {
+
+/// The tilted plane in the workpiece system; the identity without one.
+machine::Matrix3 tilt_of(const machine::Frames& frames);
+
+/// The angle, -90 < angle <= 90, from the main axis to a line in the plane: the main axis of the
+/// workpiece system, or of the tilted plane when one is active.
+/// @param direction of the line, in plane coordinates of the input system.
+double workpiece_angle(const machine::Frames& frames, const WorkingPlane& plane,
+                       const Vec3& direction);
+
+/// The spatial angles of the active basic rotation after a further turn by `angle_deg` around the
+/// probe axis of the workpiece system, or of the tilted plane when one is active.
+Vec3 turned_rotation(const machine::Frames& frames, machine::Axis probe, double angle_deg);
+
+/// Measuring and alignment cycles begin without a basic rotation.
+CycleResult<void> reset_basic_rotation(machine::Machine& machine);
+
+/// What every alignment cycle begins with: resets an active basic rotation.
+/// @errors 1008 and 1007 with mirror and scaling active; those of ProbingMotion::begin.
+CycleResult<ProbingMotion> begin_alignment(const CycleContext& context);
+
+/// Sets the basic rotation, in spatial angles. Row 0: active at once, in no table; -1: also in the
+/// row of the active preset; otherwise only stored in that row (one that does not exist yet begins
+/// as the active preset) until cycle 247 activates it.
+/// @errors 1085 the row is write-protected.
+CycleResult<void> set_basic_rotation(const CycleContext& context, const Vec3& rotation_deg,
+                                     int row);
+
+/// The rotary axis that turns around a linear one: A around X, B around Y, C around Z.
+constexpr machine::Axis rotary_axis_around(machine::Axis linear) {
+  return static_cast<machine::Axis>(index(linear) + 3);
+}
+
+/// Turns a rotary table so that what stands at `angle_deg` (right-handed around the linear axis of
+/// the same letter) comes to 0.
+/// @errors 1100 the axis turns the head, not the workpiece; a fault when the machine has no such
+/// axis
+///   or it would leave its range.
+CycleResult<void> align_rotary_axis(const CycleContext& context, machine::Axis rotary,
+                                    double angle_deg);
+
+/// Makes the present position of a rotary axis read 0: of the active preset at once with row 0,
+/// else in that row of the preset table.
+/// @errors 1085 the row is write-protected.
+CycleResult<void> zero_rotary_axis(const CycleContext& context, machine::Axis rotary, int row);
+
+}  // namespace fitgauge::probing

@@ -1,0 +1,151 @@
+#include "nc/program/cycles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+
+#include "nc/probing/cycles.hpp"
+#include "nc/probing/parameters.hpp"
+#include "nc/program/machining_cycles.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+constexpr std::array kDotted{7, 8, 9, 10, 11, 12, 13, 19, 26, 32};
+
+namespace usual = probing::parameter;
+using probing::CycleDescriptor;
+using probing::CycleParameter;
+using probing::Unit;
+using probing::ValueKind;
+
+constexpr CycleParameter global_feed(int number, std::string_view meaning) {
+  return {.id = probing::q(number),
+          .meaning = meaning,
+          .unit = Unit::Feed,
+          .kind = ValueKind::NumberOrMax,
+          .range = {0, usual::kLongest}};
+}
+
+constexpr CycleParameter global_number(int number, std::string_view meaning, double least,
+                                       double most) {
+  return {.id = probing::q(number), .meaning = meaning, .range = {least, most}};
+}
+
+constexpr std::array kGeneral{
+    usual::length(200, "Set-up clearance"), usual::length(204, "2nd set-up clearance"),
+    global_feed(253, "Feed for pre-positioning"), global_feed(208, "Feed for retraction")};
+constexpr std::array kDrilling{usual::length(256, "Retraction for chip breaking"),
+                               global_number(210, "Dwell time at the top", 0, 3600),
+                               global_number(211, "Dwell time at the depth", 0, 3600)};
+constexpr std::array kPocketMilling{global_number(370, "Path overlap factor", 0, 1.999),
+                                    usual::choice(351, "Climb 1 or up-cut -1", -1, 1),
+                                    usual::choice(366, "Type of plunging", 0, 2)};
+constexpr std::array kContourMilling{
+    global_number(2, "Path overlap factor", 0.0001, 1.9999), usual::length(6, "Set-up clearance"),
+    usual::coordinate(7, "Clearance height"), usual::choice(9, "Direction of rotation", -1, 1)};
+constexpr std::array kProbing{usual::length(320, "Set-up clearance"),
+                              usual::coordinate(260, "Clearance height"),
+                              usual::choice(301, "Move to clearance height: 0 no, 1 yes", 0, 1)};
+constexpr std::array kPositioning{usual::choice(345, "Positioning height: 0 last, 1 Q204", 0, 1)};
+
+constexpr std::array<CycleDescriptor, 6> kDefinitions{
+    {{.number = 100, .name = "GENERAL", .parameters = kGeneral},
+     {.number = 105, .name = "DRILLING", .parameters = kDrilling},
+     {.number = 110, .name = "POCKET MILLING", .parameters = kPocketMilling},
+     {.number = 111, .name = "CONTOUR MILLING", .parameters = kContourMilling},
+     {.number = 120, .name = "PROBING", .parameters = kProbing},
+     {.number = 125, .name = "POSITIONING", .parameters = kPositioning}}};
+
+}  // namespace
+
+BoundCycle bind_cycle(const klartext::Program& program, const klartext::Cycle& cycle) {
+  BoundCycle bound;
+  if (cycle.family == klartext::CycleFamily::GlobalDef) {
+    bound.global = global_definition(cycle.number);
+  } else if (const auto* probing = probing_cycle(cycle.family, cycle.number);
+             probing != nullptr && !probing->descriptor.dotted) {
+    bound.probing = probing;
+  } else if (cycle.family == klartext::CycleFamily::CyclDef) {
+    const auto* machining = machining_cycle(cycle.number);
+    if (machining != nullptr && !machining->descriptor.dotted) bound.machining = machining;
+  }
+  const probing::CycleDescriptor* descriptor = bound.descriptor();
+  if (descriptor == nullptr) return bound;
+  for (const klartext::CycleParameter& written : program.view(cycle.parameters)) {
+    bound.parameters.push_back(find_parameter(*descriptor, written.parameter));
+  }
+  return bound;
+}
+
+double scale_of(probing::Unit unit, bool is_inch) {
+  if (!is_inch) return 1;
+  switch (unit) {
+    case probing::Unit::Length: return kMillimetresPerInch;
+    case probing::Unit::Feed: return kMillimetresPerInch / 10;
+    default: return 1;
+  }
+}
+
+std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
+                                              const klartext::CycleParameter& written,
+                                              const probing::CycleParameter& parameter) {
+  switch (written.kind) {
+    case klartext::CycleValue::Expression: break;
+    case klartext::CycleValue::Max: return std::numeric_limits<double>::infinity();
+    default: return std::nullopt;
+  }
+  if (const auto* number = std::get_if<double>(&written.value)) {
+    const bool is_inch = program.unit() == klartext::Unit::Inch;
+    return *number * scale_of(parameter.unit, is_inch);
+  }
+  if (const auto* text = std::get_if<klartext::Text>(&written.value)) {
+    return std::string(program.text(*text));
+  }
+  return std::nullopt;
+}
+
+const probing::CycleParameter* find_parameter(const probing::CycleDescriptor& descriptor,
+                                              klartext::QRef written) {
+  if (written.space != klartext::QSpace::Q && written.space != klartext::QSpace::Qs) return nullptr;
+  const auto* parameter = descriptor.find(probing::q(written.number));
+  if (parameter == nullptr || !written.is_string()) return parameter;
+  return parameter->takes_text() ? parameter : nullptr;
+}
+
+const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number) {
+  if (family == klartext::CycleFamily::GlobalDef) return nullptr;
+  return probing::find_cycle(family == klartext::CycleFamily::TchProbe
+                                 ? probing::CycleFamily::TchProbe
+                                 : probing::CycleFamily::CyclDef,
+                             number);
+}
+
+bool is_dotted_cycle(int number) {
+  return std::find(kDotted.begin(), kDotted.end(), number) != kDotted.end();
+}
+
+bool is_available(klartext::CycleFamily family, int number, bool dotted) {
+  if (const auto* cycle = probing_cycle(family, number)) {
+    return cycle->descriptor.dotted == dotted;
+  }
+  if (family == klartext::CycleFamily::TchProbe) return false;
+  if (const auto* cycle = machining_cycle(number)) return cycle->descriptor.dotted == dotted;
+  return dotted && is_dotted_cycle(number);
+}
+
+const CycleDescriptor* global_definition(int number) {
+  const auto found = std::ranges::find(kDefinitions, number, &CycleDescriptor::number);
+  return found == kDefinitions.end() ? nullptr : &*found;
+}
+
+const CycleDescriptor* global_definition_of(int parameter) {
+  const auto has = [&](const CycleDescriptor& definition) {
+    return definition.find(probing::q(parameter)) != nullptr;
+  };
+  const auto found = std::ranges::find_if(kDefinitions, has);
+  return found == kDefinitions.end() ? nullptr : &*found;
+}
+
+}  // namespace fitgauge::interpreter

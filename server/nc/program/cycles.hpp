@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "nc/klartext/statement.hpp"
+#include "nc/klartext/syntax.hpp"
+#include "nc/probing/arguments.hpp"
+#include "nc/probing/cycle_descriptor.hpp"
+#include "nc/probing/touch_probe_cycle.hpp"
+#include "nc/program/machining_cycles.hpp"
+
+namespace fitgauge::interpreter {
+
+/// A cycle block in Q parameters with its cycle and parameters found, so that a run looks nothing
+/// up by name. At most one of the cycles; none: it is not available.
+struct BoundCycle {
+  const probing::TouchProbeCycle* probing = nullptr;
+  const MachiningCycle* machining = nullptr;
+  const probing::CycleDescriptor* global = nullptr;  ///< GLOBAL DEF
+  /// One for each parameter of the block; not null, since the linker refuses unknown ones.
+  std::vector<const probing::CycleParameter*> parameters{};
+
+  /// Of its parameters; null when it is not available.
+  const probing::CycleDescriptor* descriptor() const {
+    if (probing != nullptr) return &probing->descriptor;
+    return machining != nullptr ? &machining->descriptor : global;
+  }
+};
+
+BoundCycle bind_cycle(const klartext::Program& program, const klartext::Cycle& cycle);
+
+inline constexpr double kMillimetresPerInch = 25.4;
+
+/// How many mm, degrees or mm/min one unit of a cycle parameter is: 25.4 for the lengths of an INCH
+/// program, 2.54 for its feeds (tenths of an inch a minute).
+double scale_of(probing::Unit unit, bool is_inch);
+
+/// The value of a cycle parameter as far as it is known before the program runs: numbers and texts
+/// written out. Nothing for parameters, formulas and PREDEF.
+std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
+                                              const klartext::CycleParameter& written,
+                                              const probing::CycleParameter& parameter);
+
+/// The descriptor's parameter that `Q262=` or `QS400=` of a block means, or null.
+const probing::CycleParameter* find_parameter(const probing::CycleDescriptor& descriptor,
+                                              klartext::QRef written);
+
+/// The cycle of the probing library, or null.
+const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number);
+
+/// 7 to 13, 19, 26, 32: `CYCL DEF 7.0`, `7.1`.
+bool is_dotted_cycle(int number);
+
+/// Whether a block of that cycle can run: cycles of the probing library, the coordinate
+/// transformations written in sub-lines, and machining cycles as motion can.
+bool is_available(klartext::CycleFamily family, int number, bool dotted);
+
+/// GLOBAL DEF 100, 105, 110, 111, 120 and 125: the values that PREDEF takes (decision 23). Static
+/// data; null for another number.
+const probing::CycleDescriptor* global_definition(int number);
+
+/// The GLOBAL DEF that has a value for `Q320=PREDEF`, or null where no PREDEF may stand.
+const probing::CycleDescriptor* global_definition_of(int parameter);
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include "nc/run/channel.hpp"
+#include "nc/run/m_functions.hpp"
+#include "nc/run/motion_words.hpp"
+#include "nc/run/positioning.hpp"
+#include "nc/run/statements.hpp"
+#include "nc/run/tool_orientation.hpp"
+#include "nc/run/tool_values.hpp"
+#include "nc/run/values.hpp"
+
+namespace fitgauge::interpreter {
+
+namespace {
+
+using klartext::Expr;
+using klartext::Letter;
+using klartext::QRef;
+
+/// The tool table's number of a tool given by number or name.
+NcResult<int> tool_number(Channel& channel, const Expr& tool) {
+  const auto* parameter = std::get_if<QRef>(&tool);
+  if (std::holds_alternative<klartext::Text>(tool) ||
+      (parameter != nullptr && parameter->is_string())) {
+    const auto name = text(channel, tool);
+    if (!name) return name.error();
+    const machine::Tool* found = channel.machine().state().tools.find(*name);
+    if (found == nullptr) return nc_error(1092, fmt::format("tool \"{}\"", *name));
+    return found->number;
+  }
+  // Indexed tools (5.1) are not in a simulated tool table; the main number is meant.
+  const auto value = number(channel, tool);
+  if (!value) return value.error();
+  if (*value < 0 || *value > 32767.9) return nc_error(1093, fmt::format("tool {}", *value));
+  return static_cast<int>(*value);
+}
+
+std::optional<machine::Axis> tool_axis(const std::optional<klartext::Axis>& axis) {
+  if (!axis || *axis > klartext::Axis::Z) return std::nullopt;
+  return static_cast<machine::Axis>(*axis);
+}
+
+using klartext::Motion;
+
+/// What the control takes into account and the simulated machine does not.
+NcResult<void> note_what_has_no_effect(Channel& channel, const MotionWords& words) {
+  if (!words.has_m(92)) return {};
+  return channel.note("M92 counts from the machine datum, as M91: the setup has no second");
+}
+
+}  // namespace
+
+NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
+  if (call.axis && *call.axis > klartext::Axis::Z) {
+    return nc_error(1079, "the tool axis is X, Y or Z");
+  }
+  machine::ToolCall command;
+  command.axis = tool_axis(call.axis);
+  if (!is_absent(call.tool)) {
+    const auto number = tool_number(channel, call.tool);
+    if (!number) return number.error();
+    command.number = *number;
+    channel.prepared_tool = 0;
+  } else {
+    const machine::ActiveTool& active = channel.machine().state().tool;
+    command.dl = active.dl;
+    command.dr = active.dr;
+    command.dr2 = active.dr2;
+  }
+  const double unit = channel.length_unit();
+  for (const klartext::Word& word : channel.program().view(call.words)) {
+    if (is_absent(word.value)) continue;
+    const auto value = number(channel, word.value);
+    if (!value) return value.error();
+    switch (word.letter) {
+      case Letter::S: command.spindle_rpm = *value; break;
+      case Letter::Dl: command.dl = *value * unit; break;
+      case Letter::Dr: command.dr = *value * unit; break;
+      case Letter::Dr2: command.dr2 = *value * unit; break;
+      default: break;
+    }
+  }
+  if (auto done = checked(channel.machine().call_tool(command)); !done) return done;
+  const auto words = read_words(channel, call.words);
+  if (!words) return words.error();
+  if (words->feed && !words->feed->is_rapid) {
+    channel.contour.tool_feed = words->feed->rate;
+    if (const auto used = use_feed(channel, words->feed); !used) return used.error();
+  }
+  update_preassigned(channel);
+  return {};
+}
+
+/// The old form with L and R defines the tool; otherwise it is only prepared, which takes no time.
+NcResult<void> execute(Channel& channel, const klartext::ToolDefinition& definition) {
+  if (is_absent(definition.tool)) return {};
+  const auto number = tool_number(channel, definition.tool);
+  if (!number) return number.error();
+  if (channel.program().view(definition.words).empty()) {
+    channel.prepared_tool = *number;
+    return {};
+  }
+  const machine::Tool* found = channel.machine().state().tools.find(*number);
+  machine::Tool tool = found != nullptr ? *found : machine::Tool{};
+  tool.number = *number;
+  for (const klartext::Word& word : channel.program().view(definition.words)) {
+    const auto value = interpreter::number(channel, word.value);
+    if (!value) return value.error();
+    (word.letter == Letter::L ? tool.l : tool.r) = *value * channel.length_unit();
+  }
+  return checked(channel.machine().write_tool(tool));
+}
+
+NcResult<Next> execute(Channel& channel, const Motion& motion) {
+  auto words = read_words(channel, motion.words);
+  if (!words) return words.error();
+  channel.contour.compensate(motion.compensation);
+  if (channel.contour.drawing() != nullptr) {
+    if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
+    return Next{};
+  }
+  if (auto noted = note_what_has_no_effect(channel, *words); !noted) return noted.error();
+  if (auto done = start_m_functions(channel, words->m); !done) return done.error();
+  if (auto done = orient_tool(channel, motion, *words); !done) return done.error();
+  if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
+  return end_m_functions(channel, *words);
+}
+
+NcResult<Next> execute(Channel& channel, const klartext::MFunctions& functions) {
+  const auto words = read_words(channel, functions.words);
+  if (!words) return words.error();
+  if (channel.contour.drawing() != nullptr) return Next{};
+  if (auto done = start_m_functions(channel, words->m); !done) return done.error();
+  return end_m_functions(channel, *words);
+}
+
+NcResult<Next> execute(Channel& channel, const klartext::Stop& stop) {
+  const auto words = read_words(channel, stop.words);
+  if (!words) return words.error();
+  if (auto done = start_m_functions(channel, words->m); !done) return done.error();
+  auto next = end_m_functions(channel, *words);
+  if (!next || next->kind != Next::Kind::Block) return next;
+  if (auto done = channel.programmed_stop("programmed stop"); !done) return done.error();
+  return next;
+}
+
+}  // namespace fitgauge::interpreter
