@@ -7,6 +7,9 @@
 #include <string_view>
 
 #include "cli/http_client.hpp"
+#include "cli/json_object.hpp"
+#include "cli/outcome.hpp"
+#include "cli/problem.hpp"
 #include "cli/terminal.hpp"
 
 namespace fitgauge::cli {
@@ -30,5 +33,20 @@ struct Context {
   /// A remark for the one who looks on.
   void note(std::string_view text) const { fmt::print(stderr, "fitgauge: {}\n", text); }
 };
+
+/// Prints what the service answered: as it came where JSON is asked for, else by `print`, which
+/// gets the document. @errors those of the answer, and of a document that cannot be read.
+template <class Print>
+Outcome<ExitCode> show(const Context& context, const Outcome<Answer>& answer, const Print& print) {
+  if (!answer) return answer.error();
+  if (context.json) {
+    context.print_document(answer->body);
+    return ExitCode::Good;
+  }
+  const auto document = read_document(*answer, context.client.url());
+  if (!document) return document.error();
+  print(*document);
+  return ExitCode::Good;
+}
 
 }  // namespace fitgauge::cli

@@ -6,9 +6,9 @@
 
 #include "base/length.hpp"
 #include "cli/address.hpp"
+#include "cli/context.hpp"
 #include "cli/input_file.hpp"
 #include "cli/problem.hpp"
-#include "cli/show.hpp"
 #include "cli/tolerance_zones.hpp"
 
 namespace fitgauge::cli {

@@ -6,11 +6,10 @@
 #include <memory>
 
 #include "cli/input_file.hpp"
-#include "cli/measure_table.hpp"
-#include "cli/progress.hpp"
 #include "cli/retry.hpp"
 #include "cli/row_input.hpp"
-#include "formats/sheet/exported_record.hpp"
+#include "cli/terminal.hpp"
+#include "formats/sheet/record_reader.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -4,12 +4,12 @@
 
 #include "base/text.hpp"
 #include "cli/address.hpp"
+#include "cli/context.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
-#include "cli/show.hpp"
 
 namespace fitgauge::cli {
 namespace {

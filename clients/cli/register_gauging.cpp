@@ -1,10 +1,9 @@
 #include "cli/registration.hpp"
 
-#include "cli/figure_commands.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/limits_commands.hpp"
 #include "cli/measure_command.hpp"
-#include "cli/statistics_command.hpp"
+#include "cli/statistics_commands.hpp"
 
 namespace fitgauge::cli {
 namespace {

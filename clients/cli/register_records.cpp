@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/figure_commands.hpp"
 #include "cli/record_commands.hpp"
+#include "cli/statistics_commands.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -46,4 +46,10 @@ class RowInput {
   std::shared_ptr<State> state_;
 };
 
+/// Whether the options say that a table is the shop's own.
+bool is_converted(const MeasureOptions& options);
+
+/// What the options say of a table, or of a DFQ. @errors Usage
+Outcome<sheet::ShopCsvOptions> table_options(const MeasureOptions& options);
+
 }  // namespace fitgauge::cli

@@ -1,12 +1,12 @@
 #include "cli/stored_commands.hpp"
 
 #include "cli/address.hpp"
+#include "cli/context.hpp"
 #include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
 #include "cli/nc_commands.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
-#include "cli/show.hpp"
 
 namespace fitgauge::cli {
 namespace {

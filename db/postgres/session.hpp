@@ -1,14 +1,39 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+
 #include "base/clock.hpp"
 #include "db/postgres/connection.hpp"
-#include "db/postgres/names.hpp"
 #include "db/postgres/notifications.hpp"
 #include "db/sql/session.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/open_options.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store::postgres {
+
+/// What the application keeps of the database in memory (table revisions, origins, keys of the
+/// log), as other daemons change it too: it is told before a transaction shows rows that need what
+/// is new.
+class Names {
+ public:
+  /// @param changed see OpenOptions::names_changed.
+  explicit Names(std::function<bool(const Stores&)> changed) : changed_(std::move(changed)) {}
+
+  void look(std::int64_t version, const Stores& stores) {
+    if (version <= seen_ || !changed_) return;
+    const std::lock_guard lock(mutex_);
+    if (version > seen_ && changed_(stores)) seen_ = version;
+  }
+
+ private:
+  const std::function<bool(const Stores&)> changed_;
+  std::mutex mutex_;
+  std::atomic<std::int64_t> seen_{-1};
+};
 
 /// A connection with its stores. Transactions that write hold the row `head` from their first
 /// statement to their commit, so that they follow each other, whoever makes them. The next one need

@@ -5,15 +5,34 @@
 
 #include "db/sql/read_pool_engine.hpp"
 #include "db/sql/writer_engine.hpp"
+#include "db/sqlite/checkpointer.hpp"
 #include "db/sqlite/data_directory.hpp"
 #include "db/sqlite/database_file.hpp"
 #include "db/sqlite/scrub.hpp"
+#include "db/sqlite/session.hpp"
 #include "db/sqlite/verifier.hpp"
-#include "db/sqlite/writer_session.hpp"
 #include "db/store/storage_failure.hpp"
 
 namespace fitgauge::store::sqlite {
 namespace {
+
+/// The writer's session with the checkpoints of what it commits. It closes last of all connections,
+/// and so checkpoints.
+class WriterSession final : public Session {
+ public:
+  WriterSession(const OpenOptions& options, const Clock& clock)
+      : Session(options, clock, Mode::Write), checkpointer_(options) {
+    checkpointer_.install(connection);
+  }
+
+  void tidy_up(WriterCounters& counters) override {
+    counters.log_pages = static_cast<std::uint64_t>(checkpointer_.log_pages());
+    checkpointer_.after_commit(connection);
+  }
+
+ private:
+  Checkpointer checkpointer_;
+};
 
 /// Destroyed from the last member to the first: the writer closes after the readers, and so
 /// checkpoints; the lock goes last.

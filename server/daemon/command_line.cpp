@@ -2,16 +2,20 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
-
 #include <CLI/CLI.hpp>
+
+#include <chrono>
 #include <iostream>
 #include <map>
+#include <thread>
 
 #include "api/service/version.hpp"
+#include "base/result.hpp"
 #include "base/spelling_hint.hpp"
+#include "daemon/application_options.hpp"
 #include "daemon/commands.hpp"
 #include "daemon/config.hpp"
-#include "daemon/forward_all.hpp"
+#include "daemon/forwarding.hpp"
 #include "daemon/healthcheck.hpp"
 #include "daemon/log.hpp"
 #include "daemon/preflight.hpp"
@@ -19,6 +23,60 @@
 
 namespace fitgauge::daemon {
 namespace {
+
+using Steady = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr milliseconds kBetweenGlances{100};
+constexpr seconds kBetweenLines{2};
+constexpr seconds kCentrePatience{60};
+
+/// Writes to the terminal what the service would write to its log.
+void print(std::string_view event, const std::string& detail) {
+  std::cerr << fmt::format("fitgauged: {}: {}\n", event, detail);
+}
+
+/// `fitgauged forward --all`: forwards all of the folder's log to the centre and ends; 1 when the
+/// centre refuses it, or cannot be reached for a minute. Once more goes on where it ended.
+Result<int> run_forward_all(const Config& config) {
+  if (config.forward_to.empty()) {
+    return Error{ErrorCode::ConfigInvalid, "forward --all needs forward-to, the centre's address"};
+  }
+  const SystemClock clock;
+  app::ApplicationOptions options = application_options(config);
+  options.log_told = print;
+  const auto opened = app::Application::open(options, clock);
+  if (!opened) return opened.error();
+  app::Application& app = **opened;
+  const auto forwarder = start_forwarder(config, app, print);
+  if (const auto behind = app.log().behind()) return *behind;
+
+  auto told = Steady::now();
+  auto went_on = told;
+  std::int64_t fewest = -1;
+  while (true) {
+    const auto state = forwarder->state();
+    const auto now = Steady::now();
+    if (fewest < 0 || state.rows < fewest) {
+      fewest = state.rows;
+      went_on = now;
+    }
+    if (state.rows == 0 && state.failure.empty()) break;
+    if (state.is_refused || now > went_on + kCentrePatience) {
+      std::cout << fmt::format("{} measurements are not at {}: {}\n", state.rows, config.forward_to,
+                               state.failure);
+      return 1;
+    }
+    if (now > told + kBetweenLines) {
+      told = now;
+      std::cout << fmt::format("{} measurements to go\n", state.rows) << std::flush;
+    }
+    std::this_thread::sleep_for(kBetweenGlances);
+  }
+  std::cout << fmt::format("all of {} is at {}\n", app.log().head_text(), config.forward_to);
+  return 0;
+}
 
 constexpr int kFailed = 1;
 constexpr int kUsage = 2;

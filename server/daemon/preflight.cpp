@@ -10,7 +10,7 @@
 
 #include "daemon/admin_key.hpp"
 #include "daemon/connections.hpp"
-#include "service/state/database_check.hpp"
+#include "service/state/readiness.hpp"
 
 namespace fitgauge::daemon {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <utility>
 
@@ -10,6 +12,24 @@
 #include "http/route.hpp"
 
 namespace fitgauge::http {
+namespace {
+
+constexpr std::array<std::string_view, 7> kNames{"GET",    "HEAD",  "POST",   "PUT",
+                                                 "DELETE", "PATCH", "OPTIONS"};
+
+}  // namespace
+
+std::string_view name(Method method) {
+  const auto index = static_cast<std::size_t>(method);
+  return index < kNames.size() ? kNames[index] : std::string_view{};
+}
+
+Method method_named(std::string_view name) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (kNames[i] == name) return static_cast<Method>(i);
+  }
+  return Method::Other;
+}
 
 std::optional<std::string_view> Request::header(std::string_view name) const {
   return head_->find(name);

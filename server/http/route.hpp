@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "http/method.hpp"
 #include "http/request.hpp"
 #include "http/responder.hpp"
 #include "http/response.hpp"

@@ -12,11 +12,9 @@
 #include "http/engine/exchange.hpp"
 #include "http/engine/io_thread.hpp"
 #include "http/engine/listener.hpp"
-#include "http/engine/plain_connection.hpp"
-#include "http/engine/tls_connection.hpp"
+#include "http/engine/transports.hpp"
 
 namespace fitgauge::http {
-
 namespace {
 
 using TlsContext = std::shared_ptr<asio::ssl::context>;

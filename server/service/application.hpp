@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/histogram.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/documents/key_service.hpp"
 #include "service/events/commit_signal.hpp"
@@ -26,8 +27,6 @@
 #include "service/revisions/revision_intake.hpp"
 #include "service/runs/run_service.hpp"
 #include "service/state/readiness.hpp"
-#include "service/state/storage_figures.hpp"
-#include "service/state/writer_figures.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::store {
@@ -39,6 +38,26 @@ struct VerifyReport;
 }  // namespace fitgauge::store
 
 namespace fitgauge::app {
+
+/// What the database's writer does, for metrics: now, and since the start.
+struct WriterFigures {
+  std::size_t queued = 0;  ///< jobs that wait
+  const Histogram<12>& commit_seconds;
+  const Histogram<9>& batch_jobs;
+  std::uint64_t failures = 0;
+  std::uint64_t log_pages = 0;  ///< in the write-ahead log
+};
+
+/// What the database does beside writing, for metrics.
+struct StorageFigures {
+  std::size_t readers_queued = 0;  ///< jobs that wait for a reader
+  bool is_on_server = false;       ///< not in files of the data folder
+
+  // What a server says of itself; nothing where there is none or it is away.
+  std::optional<std::int64_t> server_bytes{};
+  std::optional<std::int64_t> standbys{};
+  std::optional<std::int64_t> standby_behind_bytes{};  ///< of the last of them
+};
 
 struct ApplicationOptions {
   std::filesystem::path directory;  ///< of the database; on a server, of the log's key alone

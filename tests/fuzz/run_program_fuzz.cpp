@@ -14,7 +14,7 @@
 #include "base/json/field_reader.hpp"
 #include "base/json/json_value.hpp"
 #include "service/runs/run_executor.hpp"
-#include "service/runs/run_trace.hpp"
+#include "service/runs/stored_run.hpp"
 
 using namespace fitgauge;
 

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "formats/sheet/exported_record.hpp"
+#include "formats/sheet/record_reader.hpp"
 
 namespace fitgauge::sheet {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -67,5 +68,26 @@ class RecordReader {
   std::size_t line_ = 1;
   char separator_ = ';';
 };
+
+// What fitgauge exports, taken back: what was computed is left out, and limits of a class are those
+// of the class.
+
+/// What an export calls the fields of a drawing's limits; a class of the tables says them as well.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kLimitsOfExport = {
+    {{"feature", "feature"},
+     {"upper_deviation_um", "upper_um"},
+     {"lower_deviation_um", "lower_um"}}};
+
+/// Why a record of a simulation is none of a gauge.
+inline constexpr std::string_view kOfSimulation =
+    "is of a simulation, and would come in as measured: export with source=gauge";
+
+/// Appends a line of NDJSON as /v1/measurements takes it: a record of a list with the fields it was
+/// recorded with, any other line as it is. @param line without its end
+/// @errors CsvMalformed, without a place: it is of a simulation.
+Result<void> append_as_given(std::string& out, std::string_view line);
+
+/// Whether the name of a file says that it has records: `.ndjson`, `.jsonl`.
+bool is_ndjson(std::string_view file_name);
 
 }  // namespace fitgauge::sheet

@@ -8,7 +8,6 @@
 
 #include "base/csv_cell.hpp"
 #include "base/text.hpp"
-#include "formats/sheet/exported_record.hpp"
 #include "formats/sheet/record_reader.hpp"
 
 namespace fitgauge::sheet {

@@ -3,7 +3,6 @@
 #include <arpa/inet.h>
 #include <sys/socket.h>
 
-#include "http/client/address_check.hpp"
 #include "http/client/curl_handle.hpp"
 
 namespace fitgauge::http_client {

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "http/engine/http_date.hpp"
 #include "http/engine/output_queue.hpp"
+#include "http/engine/prepared_response.hpp"
 #include "http/response.hpp"
 
 namespace fitgauge::http {

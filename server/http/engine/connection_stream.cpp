@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "http/answer_batch.hpp"
 #include "http/engine/connection.hpp"
 #include "http/engine/io_thread.hpp"
+#include "http/responder.hpp"
 
 namespace fitgauge::http {
 

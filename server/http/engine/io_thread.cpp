@@ -1,13 +1,16 @@
 #include "http/engine/io_thread.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 
 #include "http/engine/connection.hpp"
 
 namespace fitgauge::http {
-
 namespace {
+
+/// One turn in vain among so many answers is not felt.
+constexpr unsigned kUntilRetry = 256;
 
 /// Deadlines are kept to a quarter of the shortest one, and to a quarter of a second, so that the
 /// Date is fresh too.
@@ -19,6 +22,25 @@ std::chrono::milliseconds sweep_interval(const ServerOptions& options) {
 }
 
 }  // namespace
+
+bool NextReads::put(Connection& connection) {
+  if (until_retry_ > 0) {
+    --until_retry_;
+    return false;
+  }
+  // Posted first: where memory for it is lacking, nothing waits for a turn that does not come.
+  if (waiting_.empty()) asio::post(context_, [this] { read(); });
+  waiting_.push_back(connection.shared_from_this());
+  return true;
+}
+
+void NextReads::read() {
+  turn_.swap(waiting_);
+  const auto found = std::count_if(turn_.begin(), turn_.end(),
+                                   [](const auto& each) { return each->read_in_turn(); });
+  if (2 * static_cast<std::size_t>(found) < turn_.size()) until_retry_ = kUntilRetry;
+  turn_.clear();
+}
 
 IoThread::IoThread(ServerShared& shared, std::uint64_t first_request_id)
     : shared_(shared),

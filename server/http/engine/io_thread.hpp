@@ -2,9 +2,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,13 +15,81 @@
 #include "base/thread.hpp"
 #include "http/engine/asio.hpp"
 #include "http/engine/byte_budget.hpp"
-#include "http/engine/gate.hpp"
-#include "http/engine/http_date.hpp"
-#include "http/engine/next_reads.hpp"
+#include "http/engine/prepared_response.hpp"
 #include "http/route.hpp"
 #include "http/server.hpp"
 
 namespace fitgauge::http {
+
+/// Counts who has a Place inside, and lets one wait until all have left. Thread-safe.
+class Gate {
+ public:
+  std::uint64_t inside() const {
+    const std::lock_guard lock(mutex_);
+    return inside_;
+  }
+
+  /// @returns false when somebody is still inside after `timeout`.
+  bool wait_until_empty(std::chrono::milliseconds timeout) {
+    std::unique_lock lock(mutex_);
+    return empty_.wait_for(lock, timeout, [this] { return inside_ == 0; });
+  }
+
+ private:
+  friend class Place;
+  void enter() {
+    const std::lock_guard lock(mutex_);
+    ++inside_;
+  }
+  void leave() {
+    const std::lock_guard lock(mutex_);
+    if (--inside_ == 0) empty_.notify_all();
+  }
+
+  mutable std::mutex mutex_;
+  std::condition_variable empty_;
+  std::uint64_t inside_ = 0;
+};
+
+/// Whoever has it is inside the gate, which outlives it.
+class Place {
+ public:
+  explicit Place(Gate& gate) : gate_(&gate) { gate_->enter(); }
+  Place(Place&& other) noexcept : gate_(std::exchange(other.gate_, nullptr)) {}
+  Place& operator=(Place&&) = delete;
+  ~Place() {
+    if (gate_) gate_->leave();
+  }
+
+ private:
+  Gate* gate_;
+};
+
+class Connection;
+
+/// Decides when the connections of one I/O thread read their next requests. Straight after an
+/// answer a read finds nothing, a system call in vain: the client has yet to see the answer. Behind
+/// the turn of all connections that are ready it mostly finds the next request while clients keep
+/// the thread busy; it then spares that call and Asio's wait for an event. So reads are put off to
+/// the end of the turn while at least half of them find something there. Otherwise, as with a
+/// client that is alone, connections wait for the event of their socket, and after a number of
+/// answers a turn tries again. Belongs to its thread.
+class NextReads {
+ public:
+  explicit NextReads(asio::io_context& context) : context_(context) {}
+
+  /// Puts the read off: calls read_in_turn() at the end of the turn.
+  /// @returns false when the connection has to wait for its socket instead.
+  bool put(Connection& connection);
+
+ private:
+  void read();
+
+  asio::io_context& context_;
+  std::vector<std::shared_ptr<Connection>> waiting_;
+  std::vector<std::shared_ptr<Connection>> turn_;  ///< being read
+  unsigned until_retry_ = 0;  ///< so many are not put off before a turn tries again
+};
 
 class Connection;
 

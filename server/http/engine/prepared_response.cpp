@@ -1,5 +1,7 @@
 #include "http/engine/prepared_response.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <stdexcept>
 #include <variant>
@@ -8,7 +10,6 @@
 #include "http/engine/answer.hpp"
 
 namespace fitgauge::http {
-
 namespace {
 
 std::string_view body_of(const Response& response) {
@@ -44,6 +45,19 @@ std::size_t size_in_memory(const PreparedResponse& answer) {
 std::shared_ptr<const PreparedResponse> prepare(const Response& response) {
   if (response.prepared) return response.prepared;
   return std::make_shared<const PreparedResponse>(response);
+}
+
+HttpDate format_http_date(Timestamp time) {
+  constexpr std::array<std::string_view, 7> kDays{"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
+  constexpr std::array<std::string_view, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                                     "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+  const CivilTime at = civil_time(time);
+  HttpDate date{};
+  fmt::format_to_n(date.data(), date.size(), "{}, {:02} {} {:04} {:02}:{:02}:{:02} GMT",
+                   kDays[static_cast<std::size_t>(at.weekday)], at.day,
+                   kMonths[static_cast<std::size_t>(at.month - 1)], at.year, at.hour, at.minute,
+                   at.second);
+  return date;
 }
 
 }  // namespace fitgauge::http

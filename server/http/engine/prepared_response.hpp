@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
 
+#include "base/clock.hpp"
 #include "http/response.hpp"
 
 namespace fitgauge::http {
@@ -36,5 +38,12 @@ class PreparedResponse {
   std::string not_modified_head_;
   std::size_t not_modified_date_offset_ = 0;
 };
+
+/// `Sun, 06 Nov 1994 08:49:37 GMT` (RFC 9110 section 5.6.7).
+using HttpDate = std::array<char, 29>;
+
+HttpDate format_http_date(Timestamp time);
+
+inline std::string_view text(const HttpDate& date) { return {date.data(), date.size()}; }
 
 }  // namespace fitgauge::http

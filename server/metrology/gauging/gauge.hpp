@@ -1,11 +1,98 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
 #include "base/length.hpp"
-#include "metrology/gauging/decision_rule.hpp"
+#include "base/result.hpp"
 #include "metrology/gauging/verdict.hpp"
 #include "tables/iso286/feature.hpp"
 
 namespace fitgauge::gauging {
+
+/// The factor k that widens a standard uncertainty (JCGM 100, 6.2), an exact decimal > 0 with up to
+/// six digits after the point.
+class CoverageFactor {
+ public:
+  /// k = 2.
+  constexpr CoverageFactor() = default;
+
+  /// @errors RuleInvalid.
+  static Result<CoverageFactor> parse(std::string_view text, bool exponent = false);
+  static Result<CoverageFactor> from_millionths(std::int64_t millionths);
+
+  constexpr std::int64_t millionths() const { return millionths_; }
+
+  friend constexpr auto operator<=>(CoverageFactor, CoverageFactor) = default;
+
+ private:
+  explicit constexpr CoverageFactor(std::int64_t millionths) : millionths_(millionths) {}
+
+  std::int64_t millionths_ = 2'000'000;
+};
+
+/// `2`, `1.96`.
+std::string format(CoverageFactor factor);
+
+/// The probability of conformance a good part has at least, in millionths: 0.5 <= p < 1.
+class ConformanceProbability {
+ public:
+  /// 95 % (ISO 14253-1:2017).
+  constexpr ConformanceProbability() = default;
+
+  /// @errors RuleInvalid.
+  static Result<ConformanceProbability> from_millionths(std::int64_t millionths);
+
+  constexpr std::int64_t millionths() const { return millionths_; }
+  constexpr double value() const { return static_cast<double>(millionths_) / 1e6; }
+
+  friend constexpr auto operator<=>(ConformanceProbability, ConformanceProbability) = default;
+
+ private:
+  explicit constexpr ConformanceProbability(std::int64_t millionths) : millionths_(millionths) {}
+
+  std::int64_t millionths_ = 950'000;
+};
+
+/// `0.95`
+std::string format(ConformanceProbability probability);
+
+/// How a measured value is compared with the limits (ISO 14253-1).
+class DecisionRule {
+ public:
+  enum class Kind : std::uint8_t { Simple, GuardBand, Conformance };
+
+  /// Against the limits themselves.
+  constexpr DecisionRule() = default;
+
+  /// Against limits moved inwards and outwards by g = k·u.
+  /// @errors RuleInvalid when the uncertainty is negative.
+  static Result<DecisionRule> guard_band(Length standard_uncertainty, CoverageFactor factor = {});
+
+  /// By the probability that the true value lies within the limits (JCGM 106:2012, clause 7).
+  /// @errors RuleInvalid unless the uncertainty is above 0.
+  static Result<DecisionRule> conformance(Length standard_uncertainty,
+                                          ConformanceProbability probability = {});
+
+  constexpr Kind kind() const { return kind_; }
+  constexpr Length standard_uncertainty() const { return standard_uncertainty_; }
+  constexpr CoverageFactor coverage_factor() const { return coverage_factor_; }
+  constexpr ConformanceProbability probability() const { return probability_; }
+
+  friend constexpr bool operator==(const DecisionRule&, const DecisionRule&) = default;
+
+ private:
+  Kind kind_ = Kind::Simple;
+  Length standard_uncertainty_;
+  CoverageFactor coverage_factor_;
+  ConformanceProbability probability_;
+};
+
+/// `simple`, `guard_band` or `conformance`.
+std::string_view word(DecisionRule::Kind kind);
+std::optional<DecisionRule::Kind> rule_from_word(std::string_view text);
 
 struct GaugingResult {
   Verdict verdict = Verdict::Good;

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "metrology/statistics/control_chart.hpp"
-#include "metrology/statistics/normality.hpp"
+#include "metrology/statistics/distributions.hpp"
 
 namespace fitgauge::metrology {
 

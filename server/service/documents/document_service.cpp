@@ -5,7 +5,7 @@
 #include <future>
 
 #include "db/store/database.hpp"
-#include "service/revisions/centre_decides.hpp"
+#include "service/revisions/revision.hpp"
 
 namespace fitgauge::app {
 namespace {

@@ -1,8 +1,47 @@
 #include "service/log/leaf.hpp"
 
+#include <string>
+
 #include "record/record.hpp"
 
 namespace fitgauge::app {
+namespace {
+
+/// What the store refuses in a row that no version of the service has written.
+std::string_view refusal_of(const Measurement& m) {
+  const Length u = m.standard_uncertainty.value_or(Length());
+  for (const auto& uncertainty :
+       {m.temperature_uncertainty, m.scale_temperature_uncertainty, m.part_expansion_uncertainty,
+        m.scale_expansion_uncertainty, m.added_uncertainty, std::optional(u.count())}) {
+    if (uncertainty.value_or(0) < 0) return "has an uncertainty below 0";
+  }
+  if (m.added_uncertainty && !m.corrected) return "has an uncertainty of no correction";
+  if (m.conformance && (m.conformance->probability < 0 || m.conformance->guard_band < 0 ||
+                        m.conformance->probability > 1'000'000'000)) {
+    return "has a probability that is none";
+  }
+  if (!m.cycle && m.measured <= Length()) return "has no size";
+  if (m.deviations.upper < m.deviations.lower) return "has its limits the wrong way round";
+  const bool is_explicit = m.basis == LimitsBasis::Explicit;
+  if (is_explicit == m.class_name.has_value() || is_explicit != m.table_revision.empty()) {
+    return "says two things of where its limits are from";
+  }
+  if (m.correction_of.has_value() != m.correction_reason.has_value()) {
+    return "is a correction by half";
+  }
+  if (m.conformance.has_value() != (m.rule.kind() == gauging::DecisionRule::Kind::Conformance)) {
+    return "has figures of another rule";
+  }
+  if (m.rule.kind() == gauging::DecisionRule::Kind::GuardBand && !m.coverage_factor) {
+    return "has no coverage factor";
+  }
+  Measurement again = m;
+  judge(again);
+  return again.result.verdict == m.result.verdict ? ""
+                                                  : "has a verdict that its limits do not give";
+}
+
+}  // namespace
 
 std::span<const tlog::Hash> LeafMaker::operator()(std::span<const Measurement> measurements) {
   records_.clear();
@@ -17,6 +56,14 @@ std::span<const tlog::Hash> LeafMaker::operator()(std::span<const Measurement> m
   }
   begins_.push_back(records_.size() + 1);  // behind a comma that is not there
   return leaves_;
+}
+
+std::string_view finding_in(const Measurement& measurement, std::string_view text) {
+  if (const std::string_view refusal = refusal_of(measurement); !refusal.empty()) return refusal;
+  std::string written;
+  append_record(written, measurement);
+  if (written == text) return "";
+  return "is a record that this version does not read whole: update the centre before its stations";
 }
 
 }  // namespace fitgauge::app

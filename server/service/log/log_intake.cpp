@@ -9,7 +9,7 @@
 
 #include "db/store/database.hpp"
 #include "proof/tile.hpp"
-#include "service/log/forwarded_record.hpp"
+#include "service/log/leaf.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
 #include "service/measurements/mapping.hpp"

@@ -8,11 +8,19 @@
 
 #include "base/clock.hpp"
 #include "base/digest.hpp"
+#include "base/error.hpp"
 #include "record/measurement.hpp"
 #include "service/documents/key_service.hpp"
 #include "tables/iso286/table_data.hpp"
 
 namespace fitgauge::app {
+
+/// The refusal to change at a station what its centre has given. @param what `the plan 'X'`
+inline Error centre_decides(std::string_view what) {
+  return {ErrorCode::Forbidden,
+          std::string(what) +
+              " came from the centre: change it there, and it is here within half a minute"};
+}
 
 /// Numbered as in the database.
 enum class RevisionKind : std::uint8_t {

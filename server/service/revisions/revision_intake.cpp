@@ -9,7 +9,7 @@
 #include "db/store/database.hpp"
 #include "proof/tree_hash.hpp"
 #include "record/origins.hpp"
-#include "service/log/forwarded_record.hpp"
+#include "service/log/leaf.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/tables/table_catalog.hpp"
 

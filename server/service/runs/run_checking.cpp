@@ -1,17 +1,82 @@
-// What is done for a run before it is started.
-
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <chrono>
+#include <string>
+#include <vector>
 
+#include "base/allowance.hpp"
+#include "base/text.hpp"
 #include "db/store/database.hpp"
 #include "db/store/storage_failure.hpp"
+#include "nc/klartext/diagnostic.hpp"
+#include "nc/klartext/mask_file.hpp"
+#include "nc/klartext/parser.hpp"
+#include "nc/klartext/printer.hpp"
 #include "nc/program/check.hpp"
-#include "service/files/draft_disk.hpp"
-#include "service/files/file_check.hpp"
+#include "nc/program/control_disk.hpp"
+#include "nc/program/program_cache.hpp"
+#include "service/files/disks.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/runs/run_service.hpp"
+#include "tables/tabfile/tab_reader.hpp"
+
+// What is done for a run before it is started.
 
 namespace fitgauge::app {
 namespace {
+
+constexpr std::array<std::string_view, 5> kTableExtensions = {".tab", ".t", ".tp", ".pr", ".d"};
+
+/// What refuses a table stands in one of its lines: `line 12`.
+std::vector<klartext::Diagnostic> check_table(const interpreter::ControlFile& file,
+                                              Allowance& allowance) {
+  const auto table = tabfile::read_tab_file(*file.bytes, allowance);
+  if (table) return {};
+  const Error error = table.error();
+  klartext::Diagnostic diagnostic{.message = error.message, .program = file.path.text()};
+  constexpr std::string_view kLine = "line ";
+  const std::string_view where = error.where;
+  SourcePosition& begin = diagnostic.range.begin;
+  std::from_chars(where.data() + kLine.size(), where.data() + where.size(), begin.line);
+  diagnostic.range.end = begin;
+  return {std::move(diagnostic)};
+}
+
+/// Everything there is to say about a file of the control's disk, by its kind: a mask (`.a`), a
+/// table (`.tab`, `.t`, `.tp`, `.pr`, `.d`), or else a program with those it calls.
+/// @errors ProgramUnknown when there is no such file.
+Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlPath& path,
+                                                     const interpreter::ControlDisk& disk,
+                                                     interpreter::ProgramCache& programs,
+                                                     Allowance& allowance) {
+  const std::string_view name = path.file_name();
+  const std::string extension = ascii_lower(name.substr(std::min(name.rfind('.'), name.size())));
+  const bool is_mask = extension == ".a";
+  const bool is_table = std::find(kTableExtensions.begin(), kTableExtensions.end(), extension) !=
+                        kTableExtensions.end();
+  if (!is_mask && !is_table) return interpreter::check(path, disk, programs, allowance);
+  const auto file = disk.find(path);
+  if (!file) return Error{ErrorCode::ProgramUnknown, "there is no file " + path.text()};
+  if (is_mask) return klartext::parse_mask(*file->bytes, file->path.text()).diagnostics;
+  return check_table(*file, allowance);
+}
+
+/// A program as a control lists it: one blank between words, blocks numbered from 0.
+/// @errors ProgramUnknown; ProgramInvalid with the first line that cannot be read.
+Result<std::string> format_file(const interpreter::ControlPath& path,
+                                const interpreter::ControlDisk& disk) {
+  const auto file = disk.find(path);
+  if (!file) return Error{ErrorCode::ProgramUnknown, "there is no file " + path.text()};
+  const auto parsed = klartext::parse_program(*file->bytes, file->path.text());
+  for (const klartext::Diagnostic& found : parsed.diagnostics) {
+    if (found.severity != klartext::Severity::Error) continue;
+    return Error{ErrorCode::ProgramInvalid, "line " + std::to_string(found.range.begin.line) +
+                                                ": " + found.message +
+                                                "; action=check lists all that is wrong"};
+  }
+  return klartext::format_program(parsed.program);
+}
 
 /// What one check or one reading of tables may take.
 constexpr std::chrono::seconds kPreparingTime{5};

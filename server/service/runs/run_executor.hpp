@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include "record/measurement.hpp"
 #include "service/runs/active_run.hpp"
 #include "service/runs/run_report.hpp"
 
@@ -27,5 +30,12 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active);
 /// The result of a run that did not come to its first block.
 interpreter::RunResult unstarted(interpreter::RunStatus status, interpreter::MessageKind kind,
                                  std::string text, std::string program);
+
+/// The records of a run (decision 27): one for each value that a cycle judged by limits of its
+/// block, so the cycle's verdict is among them. A cycle that judged nothing leaves its first value,
+/// indeterminate, with the widest limits there are; 0 and 1 leave none. The texts are views of the
+/// report and the order.
+std::vector<Measurement> measurements_of(const RunReport& report,
+                                         const std::optional<std::string>& caller);
 
 }  // namespace fitgauge::app

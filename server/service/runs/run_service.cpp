@@ -3,7 +3,7 @@
 #include "base/guarded.hpp"
 #include "db/store/database.hpp"
 #include "service/measurements/mapping.hpp"
-#include "service/runs/run_trace.hpp"
+#include "service/runs/stored_run.hpp"
 
 namespace fitgauge::app {
 namespace {

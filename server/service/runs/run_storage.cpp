@@ -8,7 +8,7 @@
 
 #include "db/store/database.hpp"
 #include "service/measurements/measurement_storage.hpp"
-#include "service/runs/run_measurements.hpp"
+#include "service/runs/run_executor.hpp"
 #include "service/runs/run_service.hpp"
 #include "service/runs/stored_run.hpp"
 

@@ -1,5 +1,6 @@
 #include "service/state/readiness.hpp"
 
+#include "db/postgres/database.hpp"
 #include "db/store/database.hpp"
 #include "service/log/log_service.hpp"
 #include "service/tables/table_catalog.hpp"
@@ -22,6 +23,10 @@ Readiness readiness(const store::Database& database, const TableCatalog& tables,
   }
   if (auto behind = log.behind()) readiness.findings.push_back(*std::move(behind));
   return readiness;
+}
+
+Result<void> check_database(const std::string& address) {
+  return store::postgres::check_server(address);
 }
 
 }  // namespace fitgauge::app

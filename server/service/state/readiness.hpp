@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/result.hpp"
 
 namespace fitgauge::store {
 class Database;
@@ -22,5 +23,9 @@ struct Readiness {
 
 Readiness readiness(const store::Database& database, const TableCatalog& tables,
                     const LogService& log);
+
+/// Whether a daemon could start on the database at `address` (`postgresql://…`); changes nothing.
+/// @errors StorageUnavailable, DatabaseNewer, DatabaseForeign, each naming the server's reason.
+Result<void> check_database(const std::string& address);
 
 }  // namespace fitgauge::app

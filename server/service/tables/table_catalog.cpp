@@ -6,7 +6,7 @@
 
 #include "db/store/database.hpp"
 #include "service/measurements/mapping.hpp"
-#include "service/revisions/centre_decides.hpp"
+#include "service/revisions/revision.hpp"
 #include "tables/iso286/table_rules.hpp"
 #include "tables/standards/standard.hpp"
 

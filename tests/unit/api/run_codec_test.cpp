@@ -7,7 +7,7 @@
 #include "api/runs/run_events.hpp"
 #include "api/runs/trace_codec.hpp"
 #include "base/json/json_value.hpp"
-#include "service/runs/run_trace.hpp"
+#include "service/runs/stored_run.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

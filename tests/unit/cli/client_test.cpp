@@ -3,10 +3,8 @@
 #include <vector>
 
 #include "cli/address.hpp"
-#include "cli/event_reader.hpp"
 #include "cli/json_object.hpp"
 #include "cli/nc_commands.hpp"
-#include "cli/progress.hpp"
 #include "cli/retry.hpp"
 #include "cli/terminal.hpp"
 #include "cli/watch_command.hpp"

@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "service/runs/run_measurements.hpp"
+#include "service/runs/run_executor.hpp"
 #include "service_fixture.hpp"
 
 namespace fitgauge::app {

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "http/client/address_check.hpp"
+#include "http/client/curl_handle.hpp"
 
 namespace fitgauge::http_client {
 namespace {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "http/answer_batch.hpp"
+#include "http/responder.hpp"
 #include "test_server.hpp"
 #include "worker.hpp"
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "metrology/statistics/anova.hpp"
-#include "metrology/statistics/normality.hpp"
+#include "metrology/statistics/distributions.hpp"
 #include "metrology/statistics/summary.hpp"
 
 // What is done otherwise with many values gives the same as with few.

@@ -1,15 +1,29 @@
-#include "daemon/file_limit.hpp"
+#include "daemon/process_limits.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 
 namespace fitgauge::daemon {
-
 namespace {
+
+/// The bodies of usual requests are smaller and pay nothing.
+constexpr int kLargeBlock = 1 << 20;
+/// As many as the C library allows by itself. It would count the processors in the middle of a
+/// run, and open a file for that.
+constexpr long kArenasOfAProcessor = 8;
+
 /// For the database with its readers, the listeners, timers and the log.
 constexpr rlim_t kOtherFiles = 256;
+
 }  // namespace
+
+void give_large_blocks_back() {
+  mallopt(M_MMAP_THRESHOLD, kLargeBlock);
+  mallopt(M_ARENA_MAX, static_cast<int>(kArenasOfAProcessor * sysconf(_SC_NPROCESSORS_ONLN)));
+}
 
 std::int64_t allow_connections(std::int64_t connections) {
   const rlim_t needed = static_cast<rlim_t>(connections) + kOtherFiles;

@@ -1,4 +1,4 @@
-#include "daemon/control.hpp"
+#include "daemon/ports.hpp"
 
 #include <fmt/format.h>
 
@@ -47,6 +47,24 @@ Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
            fmt::format("{} on port {}, {}", config.control_model, (*control)->port(),
                        config.control_write ? "writable" : "read-only"));
   return *std::move(control);
+}
+
+Result<std::unique_ptr<shdr::ShdrAdapter>> start_shdr(const Config& config,
+                                                      const api::Services& services) {
+  using Adapter = std::unique_ptr<shdr::ShdrAdapter>;
+  if (config.shdr_listen.empty()) return Adapter();
+  const auto address = http::parse_listen_address(config.shdr_listen);
+  if (!address) return address.error();
+  auto adapter = shdr::ShdrAdapter::start({.listen = *address,
+                                           .sent_away =
+                                               [](std::string_view peer, std::string_view why) {
+                                                 log_warning("shdr_agent_sent_away",
+                                                             fmt::format("{}: {}", peer, why));
+                                               }},
+                                          services.measurements, services.events, services.clock);
+  if (!adapter) return adapter.error();
+  log_info("shdr_listening", fmt::format("port {}", (*adapter)->port()));
+  return *std::move(adapter);
 }
 
 }  // namespace fitgauge::daemon
