@@ -10,7 +10,6 @@
 #include "base/text.hpp"
 
 namespace fitgauge::cli {
-
 namespace {
 
 int code_of(Colour colour) {

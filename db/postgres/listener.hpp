@@ -8,7 +8,7 @@
 #include "base/thread.hpp"
 #include "db/postgres/connection.hpp"
 #include "db/postgres/notifications.hpp"
-#include "db/store/server_figures.hpp"
+#include "db/store/writer_counters.hpp"
 
 namespace fitgauge::store::postgres {
 

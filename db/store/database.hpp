@@ -8,7 +8,6 @@
 
 #include "db/store/health.hpp"
 #include "db/store/read_pool.hpp"
-#include "db/store/server_figures.hpp"
 #include "db/store/verify.hpp"
 #include "db/store/writer.hpp"
 #include "db/store/writer_counters.hpp"

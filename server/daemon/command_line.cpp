@@ -16,7 +16,6 @@
 #include "daemon/commands.hpp"
 #include "daemon/config.hpp"
 #include "daemon/forwarding.hpp"
-#include "daemon/healthcheck.hpp"
 #include "daemon/log.hpp"
 #include "daemon/preflight.hpp"
 #include "daemon/serve.hpp"

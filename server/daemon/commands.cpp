@@ -1,15 +1,22 @@
 #include "daemon/commands.hpp"
 
 #include <fmt/format.h>
+#include <openssl/bio.h>
+#include <openssl/ssl.h>
+#include <sys/socket.h>
+#include <sys/time.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <system_error>
 
 #include "daemon/application_options.hpp"
+#include "http/server.hpp"
 #include "service/log/log_keys.hpp"
 
 namespace fitgauge::daemon {
@@ -31,6 +38,47 @@ Result<std::unique_ptr<app::Application>> attach(const Config& config) {
 bool is_new(const std::filesystem::path& folder) {
   std::error_code failure;
   return !std::filesystem::exists(folder, failure) || std::filesystem::is_empty(folder, failure);
+}
+
+constexpr std::string_view kRequest =
+    "GET /readyz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+
+constexpr std::chrono::seconds kHealthPatience{3};
+
+using Bio = std::unique_ptr<BIO, decltype(&BIO_free_all)>;
+using SslContext = std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)>;
+
+/// Where to ask: beside a listener that wants client certificates, which this has none of, at the
+/// plain one for health checks.
+Result<std::string> address_of(const Config& config) {
+  if (config.tls_client_ca.empty()) {
+    const auto listen = http::parse_listen_address(config.listen.front());
+    if (!listen) return listen.error();
+    return listen->own_address();
+  }
+  std::ifstream file(health_port_file(config));
+  std::string port;
+  if (file >> port) return "127.0.0.1:" + port;
+  return Error{ErrorCode::NotReady, "no service runs on " + config.data + ": it holds no " +
+                                        health_port_file(config).filename().string()};
+}
+
+void limit_waiting(BIO* connection) {
+  const int socket = static_cast<int>(BIO_get_fd(connection, nullptr));
+  const timeval limit{.tv_sec = kHealthPatience.count(), .tv_usec = 0};
+  setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+  setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
+}
+
+/// Calls again what a stop of this process has interrupted, as long as it may wait.
+template <class Call>
+int uninterrupted(BIO* connection, const Call& call) {
+  const auto end = std::chrono::steady_clock::now() + kHealthPatience;
+  int result = call();
+  while (result <= 0 && BIO_should_retry(connection) && std::chrono::steady_clock::now() < end) {
+    result = call();
+  }
+  return result;
 }
 
 }  // namespace
@@ -107,6 +155,43 @@ Result<int> run_key_list(const Config& config) {
         entry.revoked_at ? "\trevoked " + format_rfc3339(*entry.revoked_at) : std::string());
   }
   return 0;
+}
+
+std::filesystem::path health_port_file(const Config& config) {
+  return std::filesystem::path(config.data) / "health.port";
+}
+
+Result<void> healthcheck(const Config& config) {
+  const auto failed = [](std::string what) { return Error{ErrorCode::NotReady, std::move(what)}; };
+  const auto asked = address_of(config);
+  if (!asked) return asked.error();
+  const std::string& address = *asked;
+
+  const SslContext context(SSL_CTX_new(TLS_client_method()), &SSL_CTX_free);
+  const bool tls = !config.tls_cert.empty() && config.tls_client_ca.empty();
+  // The certificate is the service's own and names the address of the outside: it is not verified.
+  const Bio connection(tls ? BIO_new_ssl_connect(context.get()) : BIO_new(BIO_s_connect()),
+                       &BIO_free_all);
+  if (!connection || BIO_set_conn_hostname(connection.get(), address.c_str()) <= 0 ||
+      BIO_do_connect(connection.get()) <= 0) {
+    return failed("nothing listens on " + address);
+  }
+  limit_waiting(connection.get());
+  BIO* const io = connection.get();
+  if (uninterrupted(io, [io] {
+        return BIO_write(io, kRequest.data(), static_cast<int>(kRequest.size()));
+      }) <= 0) {
+    return failed("cannot write to " + address);
+  }
+  char answer[64] = {};
+  const int length = uninterrupted(io, [&] { return BIO_read(io, answer, sizeof answer); });
+  const std::string_view text(answer, length > 0 ? static_cast<std::size_t>(length) : 0);
+  const std::string_view line = text.substr(0, text.find('\r'));
+  if (!line.starts_with("HTTP/1.1 200")) {
+    return failed(line.empty() ? "no answer from " + address
+                               : fmt::format("{} answered '{}'", address, line));
+  }
+  return {};
 }
 
 }  // namespace fitgauge::daemon

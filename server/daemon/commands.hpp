@@ -1,8 +1,10 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "base/result.hpp"
 #include "daemon/config.hpp"
 
 namespace fitgauge::daemon {
@@ -21,5 +23,15 @@ Result<int> run_log_key(const Config& config);
 Result<int> run_key_create(const Config& config, const std::string& name, const std::string& role);
 Result<int> run_key_revoke(const Config& config, const std::string& name);
 Result<int> run_key_list(const Config& config);
+
+/// Where a service that wants client certificates writes the port on 127.0.0.1 that answers health
+/// checks without TLS, and nothing else.
+std::filesystem::path health_port_file(const Config& config);
+
+/// Asks the service that runs with this configuration for /readyz, as a container's health check
+/// does without curl.
+/// @errors NotReady saying what came back: no connection, no answer in 3 s, another status than
+/// 200.
+Result<void> healthcheck(const Config& config);
 
 }  // namespace fitgauge::daemon

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <stdexcept>
 #include <utility>
 
@@ -11,6 +12,100 @@
 
 namespace fitgauge::standards {
 namespace {
+
+enum class Unit : std::uint8_t { Millimetre, Micrometre, ArcMinute };
+
+struct Ending {
+  std::string_view text;
+  Unit unit;
+  Member member;
+  std::optional<Member> negative{};  ///< gets the same with the other sign
+};
+/// The longest that fits counts: they are looked up in this order.
+constexpr std::array<Ending, 7> kEndings = {{
+    {"_plus_minus_um", Unit::Micrometre, Member::Upper, Member::Lower},
+    {"_plus_minus_arcmin", Unit::ArcMinute, Member::UpperAngle, Member::LowerAngle},
+    {"_upper_um", Unit::Micrometre, Member::Upper},
+    {"_lower_um", Unit::Micrometre, Member::Lower},
+    {"_tolerance_um", Unit::Micrometre, Member::Tolerance},
+    {"_deviation_um", Unit::Micrometre, Member::Deviation},
+    {"_mm", Unit::Millimetre, Member::Nominal},
+}};
+
+constexpr std::array<std::pair<std::string_view, std::optional<Length> Row::*>, 4> kKeys = {{
+    {"over_mm", &Row::over},
+    {"up_to_mm", &Row::up_to},
+    {"pitch_mm", &Row::pitch},
+    {"diameter_mm", &Row::diameter},
+}};
+
+/// Takes the text up to the next separator away.
+std::string_view take(std::string_view& rest, char separator) {
+  const std::size_t end = std::min(rest.find(separator), rest.size());
+  const std::string_view text = rest.substr(0, end);
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  return text;
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  const auto count = 1 + std::count(line.begin(), line.end(), ',');
+  for (std::ptrdiff_t i = 0; i < count; ++i) cells.push_back(take(line, ','));
+  return cells;
+}
+
+std::optional<std::int64_t> number(std::string_view cell, Unit unit) {
+  if (unit == Unit::ArcMinute) {
+    std::int64_t minutes = 0;
+    const char* const end = cell.data() + cell.size();
+    const auto read = std::from_chars(cell.data(), end, minutes);
+    if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+    return minutes;
+  }
+  const auto length = unit == Unit::Millimetre ? parse_length_mm(cell) : parse_length_um(cell);
+  return length ? std::optional(length->count()) : std::nullopt;
+}
+
+/// Adds what a cell says to the row. @returns false: not a column or not a number.
+bool read_cell(std::string_view column, std::string_view cell, Row& row) {
+  for (const auto& [name, key] : kKeys) {
+    if (column != name) continue;
+    const auto count = number(cell, Unit::Millimetre);
+    if (count) row.*key = Length::nanometres(*count);
+    return cell.empty() || count;
+  }
+  for (const Ending& ending : kEndings) {
+    if (!column.ends_with(ending.text) || column.size() == ending.text.size()) continue;
+    if (cell.empty()) return true;
+    const auto count = number(cell, ending.unit);
+    if (!count) return false;
+    const std::string_view item = column.substr(0, column.size() - ending.text.size());
+    row.cells.push_back({item, ending.member, *count});
+    if (ending.negative) row.cells.push_back({item, *ending.negative, -*count});
+    return true;
+  }
+  return false;
+}
+
+/// A range follows the one before, or begins anew for another pitch; limits are the right way
+/// round.
+bool follows(const Row& row, const Row* before) {
+  if (row.up_to && !row.over) return false;
+  if (row.over && row.up_to && *row.over >= *row.up_to) return false;
+  for (const Cell& cell : row.cells) {
+    if (cell.member != Member::Upper) continue;
+    const auto lower = row.length(cell.item, Member::Lower);
+    if (!lower || lower->count() > cell.count) return false;
+  }
+  if (before == nullptr || !row.over) return true;
+  const bool same_range = row.over == before->over && row.up_to == before->up_to;
+  return same_range ? row.pitch && before->pitch && *before->pitch < *row.pitch
+                    : row.over == before->up_to;
+}
+
+Error broken(std::string_view table, std::size_t line, std::string_view what) {
+  return {ErrorCode::TablesInconsistent, fmt::format("line {} of {} {}", line, table, what)};
+}
 
 struct File {
   std::string_view table;
@@ -81,6 +176,38 @@ std::vector<Standard> make_all() {
 }
 
 }  // namespace
+
+bool Row::holds(Length size) const {
+  if (!over) return diameter && *diameter == size;
+  return *over < size && (!up_to || size <= *up_to);
+}
+
+std::optional<Length> Row::length(std::string_view item, Member member) const {
+  for (const Cell& cell : cells) {
+    if (cell.item == item && cell.member == member) return Length::nanometres(cell.count);
+  }
+  return std::nullopt;
+}
+
+Result<Table> read_table(std::string_view name, std::string_view csv) {
+  Table table{.name = name, .rows = {}};
+  const std::vector<std::string_view> columns = cells_of(take(csv, '\n'));
+  for (std::size_t line = 2; !csv.empty(); ++line) {
+    const std::vector<std::string_view> cells = cells_of(take(csv, '\n'));
+    if (cells.size() != columns.size()) return broken(name, line, "has another number of cells");
+    Row row;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (read_cell(columns[i], cells[i], row)) continue;
+      return broken(name, line, fmt::format("has '{}' for {}", cells[i], columns[i]));
+    }
+    if (!follows(row, table.rows.empty() ? nullptr : &table.rows.back())) {
+      return broken(name, line, "does not follow the one before, or has its limits wrong");
+    }
+    table.rows.push_back(std::move(row));
+  }
+  if (table.rows.empty()) return broken(name, 1, "has no row below it");
+  return table;
+}
 
 const Table& Standard::table(std::string_view table_name) const {
   const auto found = std::find_if(tables.begin(), tables.end(), [&](const Table& candidate) {

@@ -1,13 +1,62 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tables/standards/table.hpp"
+#include "base/length.hpp"
+#include "base/result.hpp"
 
 namespace fitgauge::standards {
+
+/// What a cell says of its item. Lengths in nanometres, angles in minutes of arc.
+enum class Member : std::uint8_t {
+  Nominal,
+  Upper,
+  Lower,
+  Tolerance,
+  Deviation,
+  UpperAngle,
+  LowerAngle
+};
+
+/// One number of a standard: the upper deviation of class m, say.
+struct Cell {
+  std::string_view item;  ///< `m`, `P6`, `hub_depth`
+  Member member = Member::Nominal;
+  std::int64_t count = 0;
+};
+
+/// What a row holds for: a range of sizes, a pitch, a diameter, or several of them.
+struct Row {
+  std::optional<Length> over{};   ///< exclusive
+  std::optional<Length> up_to{};  ///< inclusive; none beside `over`: without end
+  std::optional<Length> pitch{};
+  std::optional<Length> diameter{};
+  std::vector<Cell> cells{};
+
+  bool holds(Length size) const;
+  std::optional<Length> length(std::string_view item, Member member) const;
+};
+
+/// One table of a standard. Its texts are those of the file it was read from, which stays.
+struct Table {
+  std::string_view name;
+  std::vector<Row> rows;
+};
+
+/// Reads a file of tables/data/standards: the first columns say what a row holds for (`over_mm`,
+/// `up_to_mm`, `pitch_mm`, `diameter_mm`), each other one is an item and what it says of it, as in
+/// `hub_depth_mm`, `P6_lower_um`, `m_plus_minus_um`, `f_plus_minus_arcmin`,
+/// `external_6_tolerance_um`, `G_deviation_um`. An empty cell: the standard has no number there.
+/// @errors TablesInconsistent with the line: an unknown column, a cell that is no number, limits
+/// the
+///   wrong way round, ranges with a gap or out of order.
+Result<Table> read_table(std::string_view name, std::string_view csv);
 
 /// A standard beside ISO 286 that the program has numbers of.
 struct Standard {

@@ -13,7 +13,7 @@
 #include "base/clock.hpp"
 #include "base/length.hpp"
 #include "base/result.hpp"
-#include "formats/dfq/carried.hpp"
+#include "formats/dfq/fields.hpp"
 #include "formats/dfq/limits.hpp"
 #include "formats/dfq/reader.hpp"
 #include "formats/sheet/time_zone.hpp"

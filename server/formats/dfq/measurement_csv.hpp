@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "formats/dfq/carried.hpp"
+#include "formats/dfq/fields.hpp"
 #include "formats/dfq/limits.hpp"
 #include "formats/dfq/reader.hpp"
 #include "formats/sheet/shop_csv.hpp"

@@ -7,7 +7,6 @@
 #include "nc/klartext/parser_words.hpp"
 
 namespace fitgauge::klartext {
-
 namespace {
 
 constexpr LetterSet kM(Letter::M);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace fitgauge::probing {
-
 namespace {
 
 constexpr const TouchProbeCycle* kCycles[] = {

@@ -10,7 +10,6 @@
 #include "nc/run/values.hpp"
 
 namespace fitgauge::interpreter {
-
 namespace {
 
 using klartext::Expr;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "nc/run/channel.hpp"
-#include "nc/run/control_time.hpp"
 #include "nc/run/string_functions.hpp"
 #include "nc/run/values.hpp"
 #include "tables/tabfile/characters.hpp"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "nc/probing/measuring/tolerance_text.hpp"
+#include "nc/probing/measuring/probing_3d_log.hpp"
 
 namespace fitgauge::probing {
 namespace {
