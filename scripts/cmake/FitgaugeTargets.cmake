@@ -126,16 +126,19 @@ function(fitgauge_unity target folder)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# fitgauge_library(<name> [PUBLIC <targets>] [PRIVATE <targets>] [SEPARATE <regex>])
-# The room <name> from every *.cpp of the current folder but main.cpp. Its include root holds this folder alone,
+# fitgauge_library(<name> [PUBLIC <targets>] [PRIVATE <targets>] [SEPARATE <regex>] [WITHOUT <regex>])
+# The room <name> from every *.cpp of the current folder but main.cpp and what matches WITHOUT. Its include root holds this folder alone,
 # so `#include "<room>/<file>.hpp"` compiles only where that room is linked.
 function(fitgauge_library name)
-  cmake_parse_arguments(arg "" "SEPARATE" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "SEPARATE;WITHOUT" "PUBLIC;PRIVATE" ${ARGN})
   set(root "${CMAKE_BINARY_DIR}/include/${name}")
   file(MAKE_DIRECTORY "${root}")
   file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${root}/${name}" SYMBOLIC)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   list(REMOVE_ITEM sources "${CMAKE_CURRENT_SOURCE_DIR}/main.cpp")
+  if(arg_WITHOUT)
+    list(FILTER sources EXCLUDE REGEX "${arg_WITHOUT}")
+  endif()
   add_library(${name} STATIC ${sources})
   target_include_directories(${name} PUBLIC "${root}")
   target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} fitgauge_options)

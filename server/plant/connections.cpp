@@ -62,7 +62,7 @@ Connections::~Connections() {
 
 void Connections::begin(Definition definition, bool is_read_only) {
   const std::string key = ascii_lower(definition.name);
-  auto worker = make_worker(definition, plant_);
+  auto worker = definition.settings->start(plant_);
   const std::lock_guard lock(mutex_);
   entries_.insert_or_assign(
       key, Entry{.known = {std::move(definition), is_read_only}, .worker = std::move(worker)});
@@ -87,7 +87,7 @@ ConnectionState Connections::state_of(const Entry& entry) {
   ConnectionState state = entry.worker->state();
   state.name = entry.known.definition.name;
   state.kind = entry.known.definition.kind;
-  state.settings = entry.known.definition.settings;
+  state.settings = entry.known.definition.shown;
   state.is_read_only = entry.known.is_read_only;
   return state;
 }
@@ -135,7 +135,7 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
   if (before) keep_secrets(*json, before->definition);
   auto definition = read_definition(name, *json, {.roots = plant_.folders});
   if (!definition) return definition.error();
-  if (const FollowerOptions* const follower = follower_options(*definition)) {
+  if (const FollowerOptions* const follower = definition->settings->follower()) {
     // Where it begins is known before it is there: nothing that comes after the answer is missed.
     if (!before) {
       const auto forgotten = forget_progress(plant_.documents, name);
@@ -166,7 +166,7 @@ Result<void> Connections::remove(const std::string& name) {
 Result<ConnectionTest> Connections::test(const std::string& name) {
   const auto found = find(name);
   if (!found || found->definition.name != name) return unknown(name);
-  return test_connection(found->definition, plant_, stopping_.get_token());
+  return found->definition.settings->test(plant_, stopping_.get_token());
 }
 
 }  // namespace fitgauge::connections

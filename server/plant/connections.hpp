@@ -15,7 +15,6 @@
 #include "base/worker_pool.hpp"
 #include "http/route.hpp"
 #include "plant/definition.hpp"
-#include "plant/workers.hpp"
 
 namespace fitgauge::connections {
 

@@ -3,77 +3,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "base/json/field_reader.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"
-#include "plant/lsv2/lsv2_settings.hpp"
 
 namespace fitgauge::connections {
 namespace {
 
-using api::FieldErrors;
-using api::FieldReader;
-
-struct Kind {
-  std::string_view name;
-  void (*read)(FieldReader& fields, FieldErrors& errors, const FolderPermissions& allowed,
-               Definition& into);
-};
-
-void read_lsv2_kind(FieldReader& fields, FieldErrors& errors, const FolderPermissions&,
-                    Definition& into) {
-  into.options = read_lsv2(into.name, fields, errors);
-}
-
-void read_webhook_kind(FieldReader& fields, FieldErrors& errors, const FolderPermissions&,
-                       Definition& into) {
-  into.options = read_webhook(into.name, fields, errors);
-}
-
-void read_folder_in_kind(FieldReader& fields, FieldErrors& errors, const FolderPermissions& allowed,
-                         Definition& into) {
-  into.options = read_folder_in(into.name, allowed, fields, errors);
-}
-
-void read_folder_out_kind(FieldReader& fields, FieldErrors& errors,
-                          const FolderPermissions& allowed, Definition& into) {
-  into.options = read_folder_out(into.name, allowed, fields, errors);
-}
-
-void read_mqtt_kind(FieldReader& fields, FieldErrors& errors, const FolderPermissions& allowed,
-                    Definition& into) {
-  into.options = read_mqtt(into.name, allowed, fields, errors);
-}
-
-void read_sparkplug_kind(FieldReader& fields, FieldErrors& errors, const FolderPermissions& allowed,
-                         Definition& into) {
-  into.options = read_sparkplug(into.name, allowed, fields, errors);
-}
-
-constexpr Kind kKinds[] = {
-    {"lsv2", read_lsv2_kind},           {"webhook", read_webhook_kind},
-    {"folder_in", read_folder_in_kind}, {"folder_out", read_folder_out_kind},
-    {"mqtt", read_mqtt_kind},           {"sparkplug", read_sparkplug_kind},
-};
-
-std::string names_of_kinds() {
-  std::string names;
-  for (const Kind& kind : kKinds) names += (names.empty() ? "" : ", ") + std::string(kind.name);
-  return names;
-}
-
-/// The kind that is read, or none, which is reported.
-const Kind* read_kind(FieldReader& fields) {
+/// The kind of a body, or none, which is reported.
+const Kind* named_kind(const JsonValue& body, api::FieldErrors& errors) {
+  api::FieldReader fields(body, "", errors);
   const auto word = fields.text("kind");
   if (!word) return nullptr;
-  const auto found = std::find_if(std::begin(kKinds), std::end(kKinds),
-                                  [&](const Kind& kind) { return kind.name == *word; });
-  if (found != std::end(kKinds)) return &*found;
+  std::string names;
+  for (const Kind& kind : kinds()) {
+    if (kind.name == *word) return &kind;
+    names += (names.empty() ? "" : ", ") + std::string(kind.name);
+  }
   fields.report(ErrorCode::FieldInvalid, "kind",
                 fmt::format("there is no kind of connection '{}': take {}",
-                            first_characters(*word, 40), names_of_kinds()));
+                            first_characters(*word, 40), names));
   return nullptr;
 }
 
@@ -111,6 +61,8 @@ std::string text_of(const JsonValue& body) {
 
 }  // namespace
 
+bool is_secret(std::string_view setting) { return setting == kSecrets || setting == kPassword; }
+
 Result<void> check_name(std::string_view name) {
   const bool is_name =
       !name.empty() && name.size() <= 63 && std::all_of(name.begin(), name.end(), [](char c) {
@@ -138,17 +90,18 @@ void keep_secrets(JsonValue& body, const Definition& before) {
 Result<Definition> read_definition(std::string name, const JsonValue& body,
                                    const FolderPermissions& allowed) {
   if (const auto checked = check_name(name); !checked) return checked.error();
-  FieldErrors errors;
-  FieldReader fields(body, "", errors);
+  api::FieldErrors errors;
   Definition definition{.name = std::move(name)};
-  if (const Kind* kind = read_kind(fields)) {
+  if (const Kind* const kind = named_kind(body, errors)) {
     definition.kind = kind->name;
-    kind->read(fields, errors, allowed, definition);
-    fields.refuse_unknown();
+    ReadSettings read(body, errors, allowed);
+    read.member("kind", definition.kind);
+    definition.settings = kind->read(read, definition.name);
+    read.end();
   }
   if (auto error = errors.take()) return *std::move(error);
   definition.text = text_of(body);
-  definition.settings = text_of(shown(body));
+  definition.shown = text_of(shown(body));
   return definition;
 }
 

@@ -1,16 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
-#include <variant>
 
 #include "base/json/json_value.hpp"
-#include "plant/folder/folder_in.hpp"
-#include "plant/folder/folder_out.hpp"
-#include "plant/lsv2/collector_options.hpp"
-#include "plant/mqtt/mqtt.hpp"
-#include "plant/sparkplug/sparkplug.hpp"
-#include "plant/webhook/webhook.hpp"
+#include "base/result.hpp"
+#include "plant/kind.hpp"
 
 namespace fitgauge::connections {
 
@@ -18,15 +14,16 @@ namespace fitgauge::connections {
 struct Definition {
   std::string name{};
   std::string kind{};
-  std::string text{};      ///< JSON, as it is stored
-  std::string settings{};  ///< the same without what only this service may know
-  std::variant<MachineOptions, WebhookOptions, FolderInOptions, FolderOutOptions, MqttOptions,
-               SparkplugOptions>
-      options{};
+  std::string text{};   ///< JSON, as it is stored
+  std::string shown{};  ///< the same without its secrets
+  std::shared_ptr<const Settings> settings{};
 };
 
 /// Letters, digits, - and _, 1 to 63 of them. @errors PathMalformed
 Result<void> check_name(std::string_view name);
+
+/// Whether a setting is never shown.
+bool is_secret(std::string_view setting);
 
 /// Adds what `before` knows and `body` leaves out: its secrets, a password for the same broker and
 /// user alone.

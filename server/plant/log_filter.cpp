@@ -1,73 +1,36 @@
 #include "plant/log_filter.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "base/text.hpp"
+#include "plant/settings.hpp"
 #include "record/verdict_codec.hpp"
 
 namespace fitgauge::connections {
-namespace {
 
-using api::FieldErrors;
-using api::FieldReader;
-using gauging::Verdict;
-
-constexpr std::array kVerdicts = {Verdict::Good, Verdict::Rework, Verdict::Reject,
-                                  Verdict::Indeterminate};
-
-void read_verdicts(FieldReader& fields, LogFilter& filter) {
-  if (!fields.has("verdict")) return;
-  const JsonValue* const list = fields.array("verdict");
-  if (list == nullptr) return;
-  filter.verdicts = {};
-  for (const JsonValue& item : list->items) {
-    const auto found = std::find_if(kVerdicts.begin(), kVerdicts.end(), [&](Verdict verdict) {
-      return item.is(JsonValue::Kind::String) && item.text == gauging::word(verdict);
-    });
-    if (found == kVerdicts.end()) {
-      fields.report(ErrorCode::FieldInvalid, "verdict",
-                    "verdict is a list of good, rework, reject, indeterminate");
-      return;
-    }
-    filter.verdicts[static_cast<std::size_t>(found - kVerdicts.begin())] = true;
+template <class V>
+void members(V& v, LogFilter& filter) {
+  for (std::size_t i = 0; i < app::kTextFilters.size(); ++i) {
+    v.optional(app::kTextFilters[i], filter.query.texts[i], "The same text");
   }
-  if (list->items.empty()) {
-    fields.report(ErrorCode::FieldInvalid, "verdict", "an empty list lets nothing through");
-  }
+  v.optional("verdict", filter.verdicts, SomeOf{{"good", "rework", "reject", "indeterminate"}},
+             "One of these");
+  using From = LogFilter::From;
+  v.optional(
+      "source", filter.from,
+      Choice<From>{{{"gauge", From::Gauge}, {"simulation", From::Simulation}, {"all", From::All}}},
+      "gauge when absent");
 }
-
-void read_source(FieldReader& fields, LogFilter& filter) {
-  const auto word = fields.optional_text("source");
-  if (!word) return;
-  filter.query.source = app::source_from_word(*word);
-  if (!filter.query.source && *word != "all") {
-    fields.report(ErrorCode::FieldInvalid, "source", "source is gauge, simulation or all");
-  }
-}
-
-}  // namespace
 
 bool LogFilter::takes(const app::Measurement& measurement) const {
-  const auto at = std::find(kVerdicts.begin(), kVerdicts.end(), measurement.result.verdict);
-  return verdicts.at(static_cast<std::size_t>(at - kVerdicts.begin()));
+  return verdicts.contains(gauging::word(measurement.result.verdict));
 }
 
-LogFilter read_filter(FieldReader& fields, FieldErrors& errors) {
-  LogFilter filter;
-  filter.query.history = true;
-  if (!fields.has("filter")) return filter;
-  const JsonValue* const object = fields.object("filter");
-  if (object == nullptr) return filter;
-  FieldReader members(*object, fields.at("filter"), errors);
-  for (std::size_t i = 0; i < app::kTextFilters.size(); ++i) {
-    filter.query.texts[i] = members.optional_text(app::kTextFilters[i]);
-  }
-  read_verdicts(members, filter);
-  read_source(members, filter);
-  members.refuse_unknown();
-  return filter;
+std::string FilterForm::schema(api::Side side) const { return api::schema_of<LogFilter>(side); }
+
+bool FilterForm::read(api::FieldReader& fields, std::string_view name, LogFilter& to) const {
+  if (!api::Object<LogFilter>{}.read(fields, name, to)) return false;
+  to.query.source = std::nullopt;
+  if (to.from == LogFilter::From::Gauge) to.query.source = app::Source::Gauge;
+  if (to.from == LogFilter::From::Simulation) to.query.source = app::Source::Simulation;
+  return true;
 }
 
 }  // namespace fitgauge::connections

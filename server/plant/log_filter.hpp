@@ -1,22 +1,30 @@
 #pragma once
 
-#include <array>
+#include <cstdint>
+#include <set>
+#include <string>
 
-#include "base/json/field_reader.hpp"
+#include "base/json/body.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::connections {
 
 /// What an outgoing connection takes of the log.
 struct LogFilter {
+  LogFilter() { query.history = true; }
+
   app::MeasurementQuery query{};  ///< of all but verdicts; corrections too
-  std::array<bool, 4> verdicts{true, true, true, true};
+  std::set<std::string, std::less<>> verdicts{"good", "rework", "reject", "indeterminate"};
+  enum class From : std::uint8_t { Gauge, Simulation, All } from = From::Gauge;
 
   bool takes(const app::Measurement& measurement) const;
 };
 
-/// Reads the member `filter`: texts that a measurement must have, `verdict` (a list of words), and
-/// `source` (gauge, simulation or all). What is wrong goes to `errors`.
-LogFilter read_filter(api::FieldReader& fields, api::FieldErrors& errors);
+/// The form of a LogFilter: an object of texts that a measurement must have, `verdict` (a list of
+/// words), and `source`.
+struct FilterForm {
+  std::string schema(api::Side side) const;
+  bool read(api::FieldReader& fields, std::string_view name, LogFilter& to) const;
+};
 
 }  // namespace fitgauge::connections

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <future>
 #include <iterator>
 
@@ -16,10 +15,6 @@ constexpr std::size_t kPage = 256;
 constexpr std::chrono::milliseconds kBetweenSaves{1000};
 constexpr std::chrono::milliseconds kLongestSleep{30'000};
 constexpr std::chrono::seconds kFirstPause{1};
-constexpr std::int64_t kMostWait = 3600;
-constexpr std::string_view kRecorded = "measurement.recorded";
-constexpr std::array<std::string_view, 3> kStoredEvents = {"run.finished", "table.changed",
-                                                           "note.added"};
 
 struct Page {
   std::vector<Outgoing> measurements{};
@@ -63,42 +58,8 @@ Result<std::int64_t> end_of_log(app::MeasurementService& service) {
 
 }  // namespace
 
-void read_follower(api::FieldReader& fields, api::FieldErrors& errors, FollowerOptions& options) {
-  options.filter = read_filter(fields, errors);
-  const auto start = fields.optional_text("start");
-  options.from_beginning = start == "beginning";
-  if (start && *start != "now" && *start != "beginning") {
-    fields.report(ErrorCode::FieldInvalid, "start", "start is now or beginning");
-  }
-  options.longest_wait = std::chrono::seconds(
-      fields.integer_or("longest_wait_s", options.longest_wait.count(), 1, kMostWait));
-}
-
 std::string event_text(const OutgoingEvent& event, std::string_view origin) {
   return fmt::format("e{}-{}", event.id, origin);
-}
-
-void read_events(api::FieldReader& fields, FollowerOptions& options) {
-  if (!fields.has("events")) return;
-  const JsonValue* const list = fields.array("events");
-  if (list == nullptr) return;
-  bool has_measurements = false;
-  for (const JsonValue& item : list->items) {
-    const std::string type = item.is(JsonValue::Kind::String) ? item.text : std::string();
-    if (type == kRecorded) {
-      has_measurements = true;
-    } else if (std::find(kStoredEvents.begin(), kStoredEvents.end(), type) != kStoredEvents.end()) {
-      options.events.insert(type);
-    } else {
-      return fields.report(
-          ErrorCode::FieldInvalid, "events",
-          fmt::format("events is a list of {}, {}", kRecorded, fmt::join(kStoredEvents, ", ")));
-    }
-  }
-  if (list->items.empty()) {
-    fields.report(ErrorCode::FieldInvalid, "events", "an empty list lets nothing through");
-  }
-  if (!has_measurements) options.filter.verdicts = {};
 }
 
 Result<Progress> begin_progress(const FollowerOptions& options, const Plant& plant) {

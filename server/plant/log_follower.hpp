@@ -41,6 +41,9 @@ struct Delivery {
   bool wants_no_more = false;                  ///< for ever
 };
 
+/// Of one delivery, so that how far it came is kept soon.
+inline constexpr std::chrono::milliseconds kLongestStretch{500};
+
 /// The other side of an outgoing connection. Used by one thread.
 class Outlet {
  public:
@@ -65,24 +68,20 @@ class Outlet {
   virtual void wake_by(std::function<void()>) {}
 };
 
+inline constexpr std::string_view kRecorded = "measurement.recorded";
+
 /// What every outgoing connection has.
 struct FollowerOptions {
   std::string name{};
   LogFilter filter{};
-  std::set<std::string, std::less<>> events{};  ///< that go out beside measurements
-  bool from_beginning = false;                  ///< of the log; else from now on
-  std::chrono::seconds longest_wait{300};       ///< between two attempts in vain
-  std::chrono::seconds gather{0};               ///< what is younger waits for more
+  /// That go out beside measurements; while settings are read, with those.
+  std::set<std::string, std::less<>> events{std::string(kRecorded)};
+  bool from_beginning = false;             ///< of the log; else from now on
+  std::chrono::seconds longest_wait{300};  ///< between two attempts in vain
+  std::chrono::seconds gather{0};          ///< what is younger waits for more
   /// What goes out together is decided before, so that after a kill the same goes out together.
   bool plans = false;
 };
-
-/// Reads `filter`, `start` (now or beginning) and `longest_wait_s`. What is wrong goes to `errors`.
-void read_follower(api::FieldReader& fields, api::FieldErrors& errors, FollowerOptions& options);
-
-/// Reads `events`, the types of what goes out: measurement.recorded, run.finished, table.changed
-/// and note.added; the first alone when absent. To be called behind read_follower().
-void read_events(api::FieldReader& fields, FollowerOptions& options);
 
 /// Decides where a connection that has not begun begins, so that it misses nothing from now on.
 /// Waits. @errors those of storage.

@@ -64,7 +64,7 @@ class Worker {
     const std::lock_guard lock(mutex_);
     what(state_);
   }
-  /// Notes an attempt that is over; the first that fails, and the first that does not, are told.
+  /// Counts an ended attempt, and logs the first that fails and the first that succeeds again.
   /// @param why it failed; none: it did not.
   void finish_attempt(const std::optional<std::string>& why);
 

@@ -91,6 +91,7 @@ class Describe {
   template <class Look>
   void check(const Look&) {}
 
+  const schema::Fields& fields() const { return fields_; }
   std::string json() const {
     using schema::Others;
     return schema::object(fields_, side_ == Side::Order ? Others::Refused : Others::Allowed);

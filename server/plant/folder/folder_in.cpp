@@ -289,11 +289,11 @@ std::optional<std::string> FolderIn::fail(const std::vector<std::string>& names,
 
 }  // namespace
 
-std::unique_ptr<Worker> make_folder_in(const FolderInOptions& options, const Plant& plant) {
+std::unique_ptr<Worker> make(const FolderInOptions& options, const Plant& plant) {
   return std::make_unique<FolderIn>(options, plant);
 }
 
-ConnectionTest test_folder_in(const FolderInOptions& options) {
+ConnectionTest test_of(const FolderInOptions& options, const Plant&, const std::stop_token&) {
   std::error_code failure;
   if (!fs::is_directory(options.folder, failure)) {
     return {.ok = false, .detail = options.folder.string() + " is no folder"};

@@ -4,14 +4,13 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "base/json/field_reader.hpp"
 #include "formats/dfq/limits.hpp"
 #include "formats/sheet/shop_csv.hpp"
-#include "plant/folder/folder_path.hpp"
 #include "plant/plant.hpp"
 
 namespace fitgauge::connections {
@@ -30,16 +29,11 @@ struct FolderInOptions {
   std::size_t most_entries = 100'000;  ///< of one look
 };
 
-/// Reads what the kind folder_in takes: `folder`, `names`, `map`, `set`, `encoding`, `time_zone`,
-/// `other_columns`, `length_unit`, `interval_s`, `rest_s`. What is wrong goes to `errors`.
-FolderInOptions read_folder_in(std::string_view name, const FolderPermissions& allowed,
-                               api::FieldReader& fields, api::FieldErrors& errors);
-
 /// Takes the files of a folder, each once, and moves them to its folder `done`, or with a text that
 /// names line and remedy to `failed`. @param plant outlives it.
-std::unique_ptr<Worker> make_folder_in(const FolderInOptions& options, const Plant& plant);
+std::unique_ptr<Worker> make(const FolderInOptions& options, const Plant& plant);
 
 /// Whether the folder can be read, and files moved in it.
-ConnectionTest test_folder_in(const FolderInOptions& options);
+ConnectionTest test_of(const FolderInOptions& options, const Plant&, const std::stop_token&);
 
 }  // namespace fitgauge::connections

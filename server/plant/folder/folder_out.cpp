@@ -1,5 +1,3 @@
-#include "plant/folder/folder_out.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,13 +10,25 @@
 #include "api/measurements/measurement_dfq.hpp"
 #include "api/measurements/measurement_qif.hpp"
 #include "base/text.hpp"
+#include "formats/dfq/dfq_writer.hpp"
 #include "plant/folder/whole_file.hpp"
+#include "plant/follower_settings.hpp"
+#include "plant/kind.hpp"
 #include "record/record.hpp"
 
 namespace fitgauge::connections {
 namespace {
 
 namespace fs = std::filesystem;
+/// A folder that others take files of measurements from.
+struct FolderOutOptions {
+  FollowerOptions follower{.gather = std::chrono::seconds(60), .plans = true};
+  std::filesystem::path folder{};
+  enum class Format { Csv, Ndjson, Dfq, Qif } format = Format::Csv;
+  enum class Split { None, Part, Order } split = Split::None;  ///< a file has one of these alone
+  aqdef::DfqOptions dfq{};
+};
+
 using Format = FolderOutOptions::Format;
 using Split = FolderOutOptions::Split;
 
@@ -49,6 +59,9 @@ std::string plain(std::string_view key) {
   return name;
 }
 
+/// Writes NAME-FIRST-LAST.csv, where the numbers are the positions of the measurements in the log;
+/// beside, and renamed when it is whole and on disk.
+/// What a DFQ cannot hold is a dead letter.
 class FolderOut final : public Outlet {
  public:
   FolderOut(FolderOutOptions options, const Plant& plant)
@@ -140,72 +153,47 @@ Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::s
   return delivery;
 }
 
-template <class Word>
-Word read_word(std::string_view name, api::FieldReader& fields, Word fallback,
-               std::initializer_list<std::pair<std::string_view, Word>> words,
-               std::string_view said) {
-  const auto text = fields.optional_text(name);
-  if (!text) return fallback;
-  const auto found = std::find_if(words.begin(), words.end(),
-                                  [&](const auto& word) { return word.first == *text; });
-  if (found != words.end()) return found->second;
-  fields.report(ErrorCode::FieldInvalid, name, std::string(said));
-  return fallback;
+/// The form of a text of a part that stands in that field of a DFQ.
+auto part_text(std::size_t longest, int field) {
+  return By{longest, [field](std::string_view text) -> Result<std::string> {
+              if (text.empty()) return invalid_field("a text is wanted");
+              if (const auto checked = aqdef::check_text(field, text); !checked) {
+                return checked.error();
+              }
+              return std::string(text);
+            }};
 }
 
-/// A text of a part that stands in a field of a DFQ.
-void read_part_text(std::string_view name, int field, api::FieldReader& fields, std::string& into) {
-  const auto text = fields.optional_text(name);
-  if (!text) return;
-  into = *text;
-  if (const auto checked = aqdef::check_text(field, into); !checked || into.empty()) {
-    fields.report(ErrorCode::FieldInvalid, name,
-                  checked ? std::string("a text is wanted") : checked.error().message);
-  }
+template <class V>
+void members(V& v, FolderOutOptions& options) {
+  v.member("folder", options.folder, path_for(v), "Of this machine, an absolute path");
+  v.optional("time_zone", options.dfq.zone, By{0, sheet::TimeZone::load},
+             "Of the times in a DFQ; UTC when absent");
+  v.optional("format", options.format,
+             Choice<Format>{{{"csv", Format::Csv},
+                             {"ndjson", Format::Ndjson},
+                             {"dfq", Format::Dfq},
+                             {"qif", Format::Qif}}},
+             "csv when absent");
+  v.optional("part_number", options.dfq.part_number, part_text(30, aqdef::k::kPartNumber),
+             "K1001 of a DFQ; - when absent");
+  v.optional("part_description", options.dfq.part_description,
+             part_text(80, aqdef::k::kPartDescription), "K1002 of a DFQ; - when absent");
+  v.optional(
+      "split", options.split,
+      Choice<Split>{{{"none", Split::None}, {"part_id", Split::Part}, {"order", Split::Order}}},
+      "A file has measurements of one of these alone; none when absent");
+  v.optional("every_s", options.follower.gather, Within{1, 86'400},
+             "What is younger waits for more; 60 when absent");
+  follower_members(v, options.follower);
 }
 
-void read_dfq_options(api::FieldReader& fields, aqdef::DfqOptions& options) {
-  read_part_text("part_number", aqdef::k::kPartNumber, fields, options.part_number);
-  read_part_text("part_description", aqdef::k::kPartDescription, fields, options.part_description);
-  const auto name = fields.optional_text("time_zone");
-  if (!name) return;
-  auto zone = sheet::TimeZone::load(*name);
-  if (zone) {
-    options.zone = *std::move(zone);
-  } else {
-    fields.report(ErrorCode::FieldInvalid, "time_zone", zone.error().message);
-  }
-}
-
-}  // namespace
-
-FolderOutOptions read_folder_out(std::string_view name, const FolderPermissions& allowed,
-                                 api::FieldReader& fields, api::FieldErrors& errors) {
-  FolderOutOptions options;
-  options.follower.name = name;
-  options.folder = read_path("folder", allowed, fields);
-  options.format = read_word("format", fields, Format::Csv,
-                             {{"csv", Format::Csv},
-                              {"ndjson", Format::Ndjson},
-                              {"dfq", Format::Dfq},
-                              {"qif", Format::Qif}},
-                             "format is csv, ndjson, dfq or qif");
-  read_dfq_options(fields, options.dfq);
-  options.split =
-      read_word("split", fields, Split::None,
-                {{"none", Split::None}, {"part_id", Split::Part}, {"order", Split::Order}},
-                "split is none, part_id or order");
-  read_follower(fields, errors, options.follower);
-  options.follower.gather = std::chrono::seconds(fields.integer_or("every_s", 60, 1, 86'400));
-  options.follower.plans = true;
-  return options;
-}
-
-std::unique_ptr<Outlet> make_folder_out(const FolderOutOptions& options, const Plant& plant) {
+std::unique_ptr<Outlet> make(const FolderOutOptions& options, const Plant& plant) {
   return std::make_unique<FolderOut>(options, plant);
 }
 
-ConnectionTest test_folder_out(const FolderOutOptions& options) {
+/// Whether a file can be written there.
+ConnectionTest test_of(const FolderOutOptions& options, const Plant&, const std::stop_token&) {
   const fs::path path = options.folder / fmt::format(".{}.test", options.follower.name);
   if (!write_whole_file(path, "fitgauge\n")) {
     return {.ok = false,
@@ -216,5 +204,9 @@ ConnectionTest test_folder_out(const FolderOutOptions& options) {
   fs::remove(path, failure);
   return {.ok = true, .detail = "a file can be written"};
 }
+
+}  // namespace
+
+Kind folder_out_kind() { return kind_of<FolderOutOptions>("folder_out"); }
 
 }  // namespace fitgauge::connections

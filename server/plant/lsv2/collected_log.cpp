@@ -50,7 +50,7 @@ Measurement begun(CollectedLog& log, const Origin& origin) {
   Measurement measurement;
   measurement.received_at = origin.now;
   measurement.measured_at = origin.now;
-  measurement.machine = kept(log, origin.machine.machine);
+  measurement.machine = kept(log, origin.machine.machine_name());
   measurement.comment = kept(log, origin.path, kLongestComment);
   measurement.caller = kept(log, origin.machine.name);
   return measurement;
@@ -240,9 +240,9 @@ void number(std::vector<std::shared_ptr<CollectedLog>>& logs, const Origin& orig
     const std::size_t ordinal = seen[sha256(log->text)]++;
     before = to_hex(sha256(before + log->text));
     const std::string place = log->has_time ? std::to_string(ordinal) : before;
-    log->key = to_hex(sha256(
-        fmt::format("{}:{}{}:{}{}:{}{}", origin.machine.machine.size(), origin.machine.machine,
-                    origin.path.size(), ascii_lower(origin.path), place.size(), place, log->text)));
+    log->key = to_hex(sha256(fmt::format(
+        "{}:{}{}:{}{}:{}{}", origin.machine.machine_name().size(), origin.machine.machine_name(),
+        origin.path.size(), ascii_lower(origin.path), place.size(), place, log->text)));
   }
 }
 

@@ -130,7 +130,7 @@ std::optional<std::string> Collector::read_folder(LinkClient& control, const std
     const bool is_watched =
         !is_directory(entry) &&
         std::any_of(options_.paths.begin(), options_.paths.end(), [&](const WatchedPath& watched) {
-          return watched.folder == folder && matches(watched, entry.name);
+          return watched.folder == folder && matches_glob(watched.name, entry.name);
         });
     if (!is_watched) continue;
     if (auto why = fetch(control, folder + entry.name, entry); why && !first)
@@ -190,11 +190,11 @@ std::optional<std::string> Collector::fetch(LinkClient& control, const std::stri
 
 }  // namespace
 
-std::unique_ptr<Worker> make_collector(const MachineOptions& machine, const Plant& plant) {
+std::unique_ptr<Worker> make(const MachineOptions& machine, const Plant& plant) {
   return std::make_unique<Collector>(machine, plant);
 }
 
-ConnectionTest test_machine(const MachineOptions& machine, const std::stop_token& stop) {
+ConnectionTest test_of(const MachineOptions& machine, const Plant&, const std::stop_token& stop) {
   auto control = connect(machine, stop);
   if (!control) return {.ok = false, .detail = control.error().message};
   std::size_t files = 0;
@@ -205,7 +205,7 @@ ConnectionTest test_machine(const MachineOptions& machine, const std::stop_token
         std::count_if(entries->begin(), entries->end(), [&](const DirectoryEntry& entry) {
           return !is_directory(entry) &&
                  std::any_of(machine.paths.begin(), machine.paths.end(), [&](const auto& watched) {
-                   return watched.folder == folder && matches(watched, entry.name);
+                   return watched.folder == folder && matches_glob(watched.name, entry.name);
                  });
         }));
   }

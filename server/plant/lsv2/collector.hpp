@@ -11,9 +11,9 @@ namespace fitgauge::connections {
 /// Reads measuring logs from a control over LSV-2. It logs in as INSPECT and FILE, and only lists
 /// and reads. A machine that is away is asked again after twice the time, up to ten minutes.
 /// @param plant outlives it.
-std::unique_ptr<Worker> make_collector(const MachineOptions& machine, const Plant& plant);
+std::unique_ptr<Worker> make(const MachineOptions& machine, const Plant& plant);
 
 /// Logs in and lists the watched folders once. Waits.
-ConnectionTest test_machine(const MachineOptions& machine, const std::stop_token& stop);
+ConnectionTest test_of(const MachineOptions& machine, const Plant&, const std::stop_token& stop);
 
 }  // namespace fitgauge::connections

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,6 @@ struct WatchedPath {
   std::string name{};    ///< TCHPR*.TXT; letters count in either case
 };
 
-/// Reads `TNC:\nc_prog\TCHPR*.TXT`; `/` separates as `\` does. @errors ConfigInvalid
-Result<WatchedPath> parse_watched_path(std::string_view text);
-bool matches(const WatchedPath& watched, std::string_view file_name);
-
 /// A pattern of FN 16 files and the file that says it.
 struct NamedPattern {
   std::string file{};
@@ -31,7 +28,7 @@ struct NamedPattern {
 struct MachineOptions {
   std::string name{};  ///< of the connection
   control_link::ControlAddress address{};
-  std::string machine{};  ///< of its measurements
+  std::optional<std::string> machine{};  ///< of its measurements
   std::vector<WatchedPath> paths{};
   std::vector<NamedPattern> patterns{};
   std::chrono::seconds interval{60};
@@ -39,6 +36,9 @@ struct MachineOptions {
   std::size_t most_file_bytes = std::size_t{8} << 20;
   std::size_t most_round_bytes = std::size_t{64} << 20;  ///< the rest is for the next round
   std::size_t most_entries = 10'000;                     ///< of a folder
+
+  /// Without a machine the connection's.
+  const std::string& machine_name() const { return machine && !machine->empty() ? *machine : name; }
 };
 
 }  // namespace fitgauge::connections

@@ -1,101 +1,69 @@
-#include "plant/lsv2/lsv2_settings.hpp"
-
-#include <fmt/format.h>
-
 #include "base/text.hpp"
+#include "plant/kind.hpp"
+#include "plant/lsv2/collector.hpp"
 
 namespace fitgauge::connections {
 namespace {
 
-using api::FieldErrors;
-using api::FieldReader;
-
-constexpr std::size_t kMostPaths = 100;
 constexpr std::size_t kMostPatterns = 20;
-constexpr std::size_t kLongestMachine = 200;
-constexpr std::int64_t kMostInterval = 86'400;
 
-void read_address(FieldReader& fields, MachineOptions& machine) {
-  const auto text = fields.text("address");
-  if (!text) return;
-  if (const auto address = control_link::parse_control_address(*text)) {
-    machine.address = *address;
-  } else {
-    fields.report(ErrorCode::FieldInvalid, "address",
-                  fmt::format("'{}' is no HOST or HOST:PORT", first_characters(*text, 100)));
-  }
+Result<control_link::ControlAddress> read_address(std::string_view text) {
+  if (const auto address = control_link::parse_control_address(text)) return *address;
+  return invalid_field(fmt::format("'{}' is no HOST or HOST:PORT", first_characters(text, 100)));
 }
 
-void read_paths(FieldReader& fields, FieldErrors& errors, MachineOptions& machine) {
-  const JsonValue* const list = fields.array("paths");
-  if (list == nullptr) return;
-  if (list->items.empty() || list->items.size() > kMostPaths) {
-    fields.report(
-        ErrorCode::FieldInvalid, "paths",
-        fmt::format("1 to {} paths are watched, such as TNC:\\nc_prog\\TCHPR*.TXT", kMostPaths));
-    return;
-  }
-  for (std::size_t i = 0; i < list->items.size(); ++i) {
-    const JsonValue& item = list->items[i];
-    const std::string pointer = pointer_to(fields.at("paths"), i);
-    if (!item.is(JsonValue::Kind::String)) {
-      errors.add(ErrorCode::FieldType, pointer, "a path is a text");
-      continue;
-    }
-    if (auto watched = parse_watched_path(item.text)) {
-      machine.paths.push_back(*std::move(watched));
-    } else {
-      errors.add(ErrorCode::FieldInvalid, pointer, watched.error().message);
-    }
-  }
+/// `TNC:\nc_prog\TCHPR*.TXT`; `/` separates as `\` does.
+Result<WatchedPath> read_watched(const JsonValue& item) {
+  if (!item.is(JsonValue::Kind::String)) return Error{ErrorCode::FieldType, "a path is a text"};
+  std::string path = item.text;
+  std::replace(path.begin(), path.end(), '/', '\\');
+  const std::size_t stroke = path.rfind('\\');
+  const bool is_path = path.size() > 5 && ascii_iequals(path.substr(0, 5), "TNC:\\") &&
+                       stroke + 1 < path.size() && path.find("..") == std::string::npos &&
+                       path.find_first_of("*?") >= stroke;
+  if (is_path) return WatchedPath{path.substr(0, stroke + 1), path.substr(stroke + 1)};
+  return invalid_field(fmt::format(
+      "'{}' is no path to watch: write a folder of TNC:\\ and a file name, which may have "
+      "* and ?, such as TNC:\\nc_prog\\TCHPR*.TXT",
+      item.text));
 }
 
-void read_pattern(const JsonValue& item, const std::string& pointer, FieldErrors& errors,
-                  MachineOptions& machine) {
-  FieldReader fields(item, pointer, errors);
-  const auto file = fields.text("file");
-  const auto text = fields.text("text");
-  fields.refuse_unknown();
-  if (!file || !text) return;
-  auto pattern = log_reader::Pattern::parse(*text);
-  if (pattern) {
-    machine.patterns.push_back({*file, *std::move(pattern)});
-  } else {
-    fields.report(ErrorCode::FieldInvalid, "text", pattern.error().message);
+struct Patterns {
+  std::string schema(api::Side side) const {
+    return api::schema::array(api::schema_of<NamedPattern>(side));
   }
-}
-
-void read_patterns(FieldReader& fields, FieldErrors& errors, MachineOptions& machine) {
-  if (!fields.has("patterns")) return;
-  const JsonValue* const list = fields.array("patterns");
-  if (list == nullptr) return;
-  if (list->items.size() > kMostPatterns) {
-    fields.report(ErrorCode::FieldInvalid, "patterns",
-                  fmt::format("at most {} patterns", kMostPatterns));
-    return;
+  bool read(api::FieldReader& fields, std::string_view name, std::vector<NamedPattern>& to) const {
+    const JsonValue* const list = fields.array(name);
+    if (list == nullptr) return false;
+    if (list->items.size() <= kMostPatterns)
+      return api::List<NamedPattern>{}.read(fields, name, to);
+    fields.report(ErrorCode::FieldInvalid, name, fmt::format("at most {} patterns", kMostPatterns));
+    return false;
   }
-  for (std::size_t i = 0; i < list->items.size(); ++i) {
-    read_pattern(list->items[i], pointer_to(fields.at("patterns"), i), errors, machine);
-  }
-}
+};
 
 }  // namespace
 
-MachineOptions read_lsv2(std::string_view name, FieldReader& fields, FieldErrors& errors) {
-  MachineOptions machine;
-  machine.name = name;
-  machine.machine = fields.optional_text("machine").value_or("");
-  if (machine.machine.size() > kLongestMachine) {
-    fields.report(ErrorCode::FieldTooLong, "machine",
-                  fmt::format("machine takes at most {} bytes", kLongestMachine));
-  }
-  if (machine.machine.empty()) machine.machine = machine.name;
-  read_address(fields, machine);
-  read_paths(fields, errors, machine);
-  read_patterns(fields, errors, machine);
-  machine.interval = std::chrono::seconds(
-      fields.integer_or("interval_s", machine.interval.count(), 1, kMostInterval));
-  return machine;
+template <class V>
+void members(V& v, NamedPattern& pattern) {
+  v.member("file", pattern.file, "What it is called");
+  v.member("text", pattern.pattern, By{0, log_reader::Pattern::parse}, "The pattern");
 }
+
+template <class V>
+void members(V& v, MachineOptions& machine) {
+  v.member("address", machine.address, By{0, read_address}, "host or host:port of the control");
+  v.member("paths", machine.paths,
+           Each{1, 100, "paths are watched, such as TNC:\\nc_prog\\TCHPR*.TXT", api::schema::text(),
+                read_watched},
+           "What is watched: TNC:\\nc_prog\\TCHPR*.TXT");
+  v.optional("machine", machine.machine, api::Text{200},
+             "Of its measurements; its name when absent");
+  v.optional("interval_s", machine.interval, Within{1, 86'400},
+             "Between two attempts; 60 when absent");
+  v.optional("patterns", machine.patterns, Patterns{}, "For files of FN 16");
+}
+
+Kind lsv2_kind() { return kind_of<MachineOptions>("lsv2"); }
 
 }  // namespace fitgauge::connections

@@ -1,23 +1,30 @@
-#include "plant/mqtt/mqtt.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <deque>
 
+#include "plant/follower_settings.hpp"
+#include "plant/kind.hpp"
+#include "plant/mqtt/broker_settings.hpp"
 #include "plant/mqtt/mqtt_link.hpp"
+#include "plant/mqtt/topic_template.hpp"
 #include "record/record.hpp"
-#include "service/log/log_service.hpp"
 
 namespace fitgauge::connections {
 namespace {
 
 constexpr std::size_t kMostAhead = 32;
-/// So that how far it came is kept soon.
-constexpr std::chrono::milliseconds kLongestStretch{500};
-/// Without any acknowledgement.
-constexpr std::chrono::seconds kLongestSilence{20};
 constexpr std::size_t kLongestTopic = 500;
+
+/// A broker that is told each measurement as a message.
+struct MqttOptions {
+  FollowerOptions follower{};
+  Broker broker{};
+  TopicTemplate topic{};
+  std::string status_topic{};  ///< where `online` and the last will `offline` stand
+  std::string events_topic{};  ///< above the type of an event that is no measurement
+  bool retain = true;
+};
 
 /// What a reason code of MQTT 5 says of the message alone (5.0, 3.4.2.1).
 bool is_of_the_message(int reason) {
@@ -27,6 +34,9 @@ bool is_of_the_message(int reason) {
          reason == MqttClient::kCannotBeSent;
 }
 
+/// Publishes each measurement's record with QoS 1, in order and at most 32 ahead of the broker's
+/// acknowledgements; a measurement is dealt with when its own has come, and those before it. What
+/// the broker says it will never take (MQTT 5) is a dead letter. Stays connected between.
 class Mqtt final : public Outlet {
  public:
   Mqtt(const MqttOptions& options, const Plant& plant)
@@ -137,52 +147,36 @@ Mqtt::~Mqtt() {
   link_.client().leave();
 }
 
-}  // namespace
-
-namespace {
-
-/// A topic without names; empty where there is none.
-std::string read_plain_topic(api::FieldReader& fields, std::string_view name) {
-  const auto text = fields.optional_text(name);
-  if (!text) return {};
-  const bool is_topic = text->size() <= kLongestTopic && text->find_first_of("{}") == text->npos &&
-                        TopicTemplate::parse(*text).has_value();
-  if (!is_topic) {
-    fields.report(ErrorCode::FieldInvalid, name,
+/// The form of a topic without names.
+auto plain_topic(std::string_view name) {
+  return By{kLongestTopic, [name](std::string_view text) -> Result<std::string> {
+              const bool is_topic = text.size() <= kLongestTopic &&
+                                    text.find_first_of("{}") == text.npos &&
+                                    TopicTemplate::parse(text).has_value();
+              if (is_topic) return std::string(text);
+              return invalid_field(
                   fmt::format("{} is a topic without names, such as plant/fitgauge/status", name));
-  }
-  return *text;
+            }};
 }
 
-}  // namespace
-
-MqttOptions read_mqtt(std::string_view name, const FolderPermissions& allowed,
-                      api::FieldReader& fields, api::FieldErrors& errors) {
-  MqttOptions options;
-  options.follower.name = name;
-  options.broker = read_broker(allowed, fields);
-  const auto version = fields.optional_text("version");
-  options.broker.version_5 = version == "5";
-  if (version && *version != "5" && *version != "3.1.1") {
-    fields.report(ErrorCode::FieldInvalid, "version", "version is 3.1.1 or 5");
-  }
-  if (const auto text = fields.text("topic")) {
-    auto topic = TopicTemplate::parse(*text);
-    if (topic) {
-      options.topic = *std::move(topic);
-    } else {
-      fields.report(ErrorCode::FieldInvalid, "topic", topic.error().message);
-    }
-  }
-  options.status_topic = read_plain_topic(fields, "status_topic");
-  options.events_topic = read_plain_topic(fields, "events_topic");
-  options.retain = fields.boolean_or("retain", true);
-  read_follower(fields, errors, options.follower);
-  read_events(fields, options.follower);
-  return options;
+template <class V>
+void members(V& v, MqttOptions& options) {
+  broker_members(v, options.broker);
+  v.member("topic", options.topic, By{kLongestTopic, TopicTemplate::parse},
+           "plant/{machine}/{characteristic}");
+  v.optional("version", options.broker.version_5, Choice<bool>{{{"3.1.1", false}, {"5", true}}},
+             "Of MQTT; 3.1.1 when absent");
+  v.optional("status_topic", options.status_topic, plain_topic("status_topic"),
+             "Of online and offline; client_id/status when absent");
+  v.optional("events_topic", options.events_topic, plain_topic("events_topic"),
+             "Above the type of an event; client_id/events when absent");
+  v.optional("retain", options.retain, Truth{},
+             "The broker keeps the last of each topic; true when absent");
+  event_members(v, options.follower);
+  follower_members(v, options.follower);
 }
 
-std::unique_ptr<Outlet> make_mqtt(const MqttOptions& options, const Plant& plant) {
+std::unique_ptr<Outlet> make(const MqttOptions& options, const Plant& plant) {
   MqttOptions all = options;
   all.broker = named(all.broker, plant.origin, options.follower.name);
   const std::string own = topic_level(all.broker.client_id);
@@ -191,14 +185,13 @@ std::unique_ptr<Outlet> make_mqtt(const MqttOptions& options, const Plant& plant
   return std::make_unique<Mqtt>(all, plant);
 }
 
-ConnectionTest test_broker(const Broker& broker, std::string_view connection, const Plant& plant,
-                           const std::stop_token& stop) {
-  Broker probe = named(broker, plant.origin, connection);
-  probe.client_id += "-test";  // the broker would send the connection itself away
-  MqttClient client(probe, {}, [] {});
-  if (auto failure = client.wait_connected(stop)) return {.ok = false, .detail = *failure};
-  client.leave();
-  return {.ok = true, .detail = "the broker accepts the connection"};
+ConnectionTest test_of(const MqttOptions& options, const Plant& plant,
+                       const std::stop_token& stop) {
+  return test_broker(options.broker, options.follower.name, plant, stop);
 }
+
+}  // namespace
+
+Kind mqtt_kind() { return kind_of<MqttOptions>("mqtt"); }
 
 }  // namespace fitgauge::connections

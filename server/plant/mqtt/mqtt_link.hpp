@@ -10,6 +10,9 @@
 
 namespace fitgauge::connections {
 
+/// Of a broker that is asked for an answer.
+inline constexpr std::chrono::seconds kLongestSilence{20};
+
 /// What a broker says by a reason code, or the library of a message it does not send.
 std::string mqtt_reason(int reason);
 

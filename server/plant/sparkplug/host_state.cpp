@@ -7,13 +7,12 @@
 namespace fitgauge::connections {
 
 void HostState::take(std::string_view payload) {
-  using Kind = JsonValue::Kind;
   const auto state = parse_json(payload);
-  if (!state || !state->is(Kind::Object)) return;
+  if (!state || !state->is(JsonValue::Kind::Object)) return;
   const JsonValue* const online = state->find("online");
   const JsonValue* const time = state->find("timestamp");
-  const bool is_whole =
-      online != nullptr && online->is(Kind::Boolean) && time != nullptr && time->is(Kind::Number);
+  const bool is_whole = online != nullptr && online->is(JsonValue::Kind::Boolean) &&
+                        time != nullptr && time->is(JsonValue::Kind::Number);
   if (!is_whole) return;
   std::int64_t timestamp = 0;
   const char* const end = time->text.data() + time->text.size();

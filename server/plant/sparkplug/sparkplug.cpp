@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "plant/follower_settings.hpp"
+#include "plant/kind.hpp"
 #include "plant/mqtt/mqtt_link.hpp"
 #include "plant/sparkplug/edge_node.hpp"
 #include "plant/sparkplug/host_state.hpp"
@@ -13,10 +15,12 @@ namespace {
 
 /// Of them the broker is asked at once whether it has taken them.
 constexpr std::size_t kMostAtOnce = 64;
-constexpr std::chrono::seconds kLongestSilence{20};
 /// Between two looks whether the primary host is there.
 constexpr std::chrono::seconds kHostPause{1};
 
+/// Each measurement is the data of a device. Data has QoS 0, as the specification wants it, so a
+/// measurement is dealt with when the broker has answered a question that came behind it: it takes
+/// the packets of a connection in their order.
 class Sparkplug final : public Outlet {
  public:
   Sparkplug(const SparkplugOptions& options, const Plant& plant)
@@ -144,12 +148,50 @@ Delivery Sparkplug::deliver(std::span<const Outgoing> measurements, const std::s
   return delivery;
 }
 
+/// The form of the id of a group, a node or a host: one level of a topic that needs no escapes.
+auto level_id(std::string_view name) {
+  return By{kLongestBrokerText, [name](std::string_view id) -> Result<std::string> {
+              const bool is_id = !id.empty() && id.size() <= kLongestBrokerText &&
+                                 id.find('%') == id.npos && id != "-" && topic_level(id) == id;
+              if (!is_id) {
+                return invalid_field(
+                    fmt::format("{} has 1 to {} bytes without + # / % and control characters", name,
+                                kLongestBrokerText));
+              }
+              if (name == "group" && id == "STATE") {
+                return invalid_field("STATE is the place of the hosts");
+              }
+              return std::string(id);
+            }};
+}
+
 }  // namespace
 
-std::unique_ptr<Outlet> make_sparkplug(const SparkplugOptions& options, const Plant& plant) {
+std::unique_ptr<Outlet> make(const SparkplugOptions& options, const Plant& plant) {
   SparkplugOptions all = options;
   all.broker = named(all.broker, plant.origin, options.follower.name);
   return std::make_unique<Sparkplug>(all, plant);
 }
+
+ConnectionTest test_of(const SparkplugOptions& options, const Plant& plant,
+                       const std::stop_token& stop) {
+  return test_broker(options.broker, options.follower.name, plant, stop);
+}
+
+template <class V>
+void members(V& v, SparkplugOptions& options) {
+  broker_members(v, options.broker);
+  v.member("group", options.group, level_id("group"), "Its id of a group");
+  v.member("node", options.node, level_id("node"), "Its id of an edge node");
+  v.optional("device", options.device, By{500, TopicTemplate::parse_level},
+             "{machine}:{characteristic} when absent");
+  v.optional("primary_host", options.primary_host, level_id("primary_host"),
+             "Nothing goes out while it is offline");
+  v.optional("most_devices", options.most_devices, Within{1, 1000},
+             "Alive together; 1000 when absent");
+  follower_members(v, options.follower);
+}
+
+Kind sparkplug_kind() { return kind_of<SparkplugOptions>("sparkplug"); }
 
 }  // namespace fitgauge::connections

@@ -11,14 +11,13 @@
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"
 #include "http/client/http_client.hpp"
+#include "plant/follower_settings.hpp"
+#include "plant/kind.hpp"
 #include "record/record.hpp"
-#include "service/log/log_service.hpp"
 
 namespace fitgauge::connections {
 namespace {
 
-using api::FieldErrors;
-using api::FieldReader;
 using http_client::HttpAnswer;
 
 constexpr std::string_view kSecretPrefix = "whsec_";
@@ -26,40 +25,46 @@ constexpr std::size_t kShortestKey = 24;
 constexpr std::size_t kLongestKey = 64;
 constexpr std::size_t kMostKeys = 4;
 constexpr std::size_t kLongestUrl = 2000;
-constexpr std::int64_t kLongestTimeout = 30;
-/// So that how far it came is kept soon.
-constexpr std::chrono::milliseconds kLongestStretch{500};
 constexpr int kMostAttempts = 5;  ///< of an event that the receiver does not understand
 
-void read_keys(FieldReader& fields, FieldErrors& errors, WebhookOptions& options) {
-  const JsonValue* const list = fields.array("secrets");
-  if (list == nullptr) return;
-  if (list->items.empty() || list->items.size() > kMostKeys) {
-    fields.report(ErrorCode::FieldInvalid, "secrets", fmt::format("1 to {} secrets", kMostKeys));
-    return;
-  }
-  for (std::size_t i = 0; i < list->items.size(); ++i) {
-    const JsonValue& item = list->items[i];
-    const auto key = item.is(JsonValue::Kind::String) ? webhook_key(item.text) : std::nullopt;
-    if (key) {
-      options.keys.push_back(*key);
-    } else {
-      errors.add(ErrorCode::FieldInvalid, pointer_to(fields.at("secrets"), i),
-                 fmt::format("a secret is {} and {} to {} bytes in base64, as `printf "
-                             "whsec_; openssl rand -base64 32` makes one",
-                             kSecretPrefix, kShortestKey, kLongestKey));
-    }
-  }
+/// A receiver of webhooks.
+struct WebhookOptions {
+  FollowerOptions follower{};
+  std::string url{};
+  std::vector<std::string> keys{};  ///< bytes; each signs, so that a receiver may change its own
+  std::chrono::seconds timeout{15};
+};
+
+Result<std::string> read_url(std::string_view text) {
+  std::string url(text);
+  const auto fault = url.size() > kLongestUrl
+                         ? std::optional(fmt::format("at most {} bytes", kLongestUrl))
+                         : http_client::fault_of_url(url);
+  if (fault) return invalid_field(*fault);
+  return url;
 }
 
-void read_url(FieldReader& fields, WebhookOptions& options) {
-  const auto url = fields.text("url");
-  if (!url) return;
-  const auto fault = url->size() > kLongestUrl
-                         ? std::optional(fmt::format("at most {} bytes", kLongestUrl))
-                         : http_client::fault_of_url(*url);
-  if (fault) fields.report(ErrorCode::FieldInvalid, "url", *fault);
-  options.url = *url;
+Result<std::string> read_key(const JsonValue& item) {
+  const auto key = item.is(JsonValue::Kind::String) ? webhook_key(item.text) : std::nullopt;
+  if (key) return *key;
+  return invalid_field(
+      fmt::format("a secret is {} and {} to {} bytes in base64, as `printf "
+                  "whsec_; openssl rand -base64 32` makes one",
+                  kSecretPrefix, kShortestKey, kLongestKey));
+}
+
+template <class V>
+void members(V& v, WebhookOptions& options) {
+  v.member("url", options.url, By{kLongestUrl, read_url}, "https://host/path");
+  v.optional("timeout_s", options.timeout, Within{1, 30}, "Of a request; 15 when absent");
+  event_members(v, options.follower);
+  follower_members(v, options.follower);
+  v.optional(
+      "secrets", options.keys, Each{1, kMostKeys, "secrets", api::schema::text(), read_key},
+      "1 to 4, whsec_ and 24 to 64 bytes in base64; each signs. Those there are when absent");
+  v.check([](api::FieldReader& fields) {
+    if (!fields.has("secrets")) static_cast<void>(fields.array("secrets"));
+  });
 }
 
 std::string begun_event(std::string_view type, Timestamp time) {
@@ -163,6 +168,27 @@ Delivery Webhook::deliver_events(std::span<const OutgoingEvent> events,
   });
 }
 
+/// Posts each measurement as an event `measurement.recorded` whose webhook-id is the measurement's,
+/// and the other events that were asked for.
+/// 2xx is taken. 410 ends the connection. 400, 413, 415 and 422, five times, make a dead letter.
+/// Anything else is repeated for ever.
+std::unique_ptr<Outlet> make(const WebhookOptions& options, const Plant& plant) {
+  return std::make_unique<Webhook>(options, plant);
+}
+
+/// Posts one event `connection.test`.
+ConnectionTest test_of(const WebhookOptions& options, const Plant& plant,
+                       const std::stop_token& stop) {
+  const Timestamp now = plant.clock.now();
+  std::string body = begun_event("connection.test", now);
+  api::JsonWriter(body).begin_object().member("connection", options.follower.name).end_object();
+  body += '}';
+  const HttpAnswer answer =
+      Webhook(options, plant).send(fmt::format("test-{}", now.nanoseconds), body, stop);
+  const bool ok = answer.status >= 200 && answer.status <= 299;
+  return {.ok = ok, .detail = reason_of(answer)};
+}
+
 }  // namespace
 
 std::optional<std::string> webhook_key(std::string_view secret) {
@@ -188,32 +214,6 @@ std::string webhook_signature(const std::vector<std::string>& keys, std::string_
   return signatures;
 }
 
-WebhookOptions read_webhook(std::string_view name, FieldReader& fields, FieldErrors& errors) {
-  WebhookOptions options;
-  options.follower.name = name;
-  read_url(fields, options);
-  read_keys(fields, errors, options);
-  read_follower(fields, errors, options.follower);
-  read_events(fields, options.follower);
-  options.timeout = std::chrono::seconds(
-      fields.integer_or("timeout_s", options.timeout.count(), 1, kLongestTimeout));
-  return options;
-}
-
-std::unique_ptr<Outlet> make_webhook(const WebhookOptions& options, const Plant& plant) {
-  return std::make_unique<Webhook>(options, plant);
-}
-
-ConnectionTest test_webhook(const WebhookOptions& options, const Plant& plant,
-                            const std::stop_token& stop) {
-  const Timestamp now = plant.clock.now();
-  std::string body = begun_event("connection.test", now);
-  api::JsonWriter(body).begin_object().member("connection", options.follower.name).end_object();
-  body += '}';
-  const HttpAnswer answer =
-      Webhook(options, plant).send(fmt::format("test-{}", now.nanoseconds), body, stop);
-  const bool ok = answer.status >= 200 && answer.status <= 299;
-  return {.ok = ok, .detail = reason_of(answer)};
-}
+Kind webhook_kind() { return kind_of<WebhookOptions>("webhook"); }
 
 }  // namespace fitgauge::connections

@@ -1,0 +1,161 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/json/applicable.hpp"
+#include "base/json/body_forms.hpp"
+
+// The forms of settings, beside those of base/json/body_forms.hpp. A form here only reads: the
+// meaning of a setting names its default.
+
+namespace fitgauge::connections {
+
+/// A text that `parse` converts to a value, or refuses with a message.
+template <class Parse>
+struct By {
+  std::size_t longest;  ///< 0: as long as a body may be
+  Parse parse;
+
+  std::string schema(api::Side side) const { return api::Text{longest}.schema(side); }
+  template <class T>
+  bool read(api::FieldReader& fields, std::string_view name, T& to) const {
+    std::string text;
+    if (!api::Text{}.read(fields, name, text)) return false;
+    auto parsed = parse(text);
+    if (!parsed) fields.report(ErrorCode::FieldInvalid, name, parsed.error().message);
+    if (!parsed || !api::Text{longest}.read(fields, name, text)) return false;
+    to = *std::move(parsed);
+    return true;
+  }
+};
+template <class Parse>
+By(std::size_t, Parse) -> By<Parse>;
+
+/// The error of a member with a bad value.
+inline Error invalid_field(std::string message) {
+  return {ErrorCode::FieldInvalid, std::move(message)};
+}
+
+/// A whole number, or so many seconds.
+struct Within {
+  std::int64_t least;
+  std::int64_t most;
+
+  std::string schema(api::Side) const { return api::schema::integer(least, most); }
+  template <class T>
+  bool read(api::FieldReader& fields, std::string_view name, T& to) const {
+    const auto given = fields.integer(name, least, most);
+    if (given) to = static_cast<T>(*given);
+    return given.has_value();
+  }
+};
+
+struct Truth {
+  std::string schema(api::Side) const { return api::schema::boolean(); }
+  bool read(api::FieldReader& fields, std::string_view name, bool& to) const {
+    to = fields.boolean_or(name, to);
+    return true;
+  }
+};
+
+/// One of a few words, each with its value.
+template <class T>
+struct Choice {
+  std::vector<std::pair<std::string_view, T>> words;
+
+  std::string schema(api::Side) const {
+    std::vector<std::string_view> names;
+    for (const auto& [word, value] : words) names.push_back(word);
+    return api::schema::words(names);
+  }
+  bool read(api::FieldReader& fields, std::string_view name, T& to) const {
+    const auto text = fields.text(name);
+    if (!text) return false;
+    std::string names;
+    for (const auto& [word, value] : words) {
+      if (word == *text) return to = value, true;
+      names += (names.empty() ? "" : " ") + std::string(word);
+    }
+    fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} is {}", name, api::listed(names)));
+    return false;
+  }
+};
+
+/// A list of at least one of these words.
+struct SomeOf {
+  std::vector<std::string_view> words;
+
+  std::string schema(api::Side) const { return api::schema::array(api::schema::words(words)); }
+  bool read(api::FieldReader& fields, std::string_view name,
+            std::set<std::string, std::less<>>& to) const;
+};
+
+/// A list of `least` to `most` items. `take` converts an item to a value or an error; `item` is its
+/// schema.
+template <class Take>
+struct Each {
+  std::size_t least;
+  std::size_t most;
+  std::string_view wanted;  ///< follows the bounds in the message
+  std::string item;
+  Take take;
+
+  std::string schema(api::Side) const { return api::schema::array(item); }
+  template <class T>
+  bool read(api::FieldReader& fields, std::string_view name, std::vector<T>& to) const {
+    const JsonValue* const list = fields.array(name);
+    if (list == nullptr) return false;
+    if (list->items.size() < least || list->items.size() > most) {
+      const auto number =
+          least == 0 ? fmt::format("at most {}", most) : fmt::format("{} to {}", least, most);
+      fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} {}", number, wanted));
+      return false;
+    }
+    to.clear();
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      auto made = take(list->items[i]);
+      if (made) {
+        to.push_back(*std::move(made));
+      } else {
+        fields.errors().add(made.error().code, pointer_to(fields.at(name), i),
+                            made.error().message);
+      }
+    }
+    return true;
+  }
+};
+template <class Take>
+Each(std::size_t, std::size_t, std::string_view, std::string, Take) -> Each<Take>;
+
+/// Which files and folders of this machine a connection may name.
+struct FolderPermissions {
+  bool all = false;                            ///< it stands in the configuration file
+  std::vector<std::filesystem::path> roots{};  ///< else these and what is below them
+};
+
+/// An absolute path of this machine.
+struct Path {
+  const FolderPermissions* allowed;  ///< null if nothing is read
+
+  std::string schema(api::Side) const { return api::schema::text(); }
+  bool read(api::FieldReader& fields, std::string_view name, std::filesystem::path& to) const;
+};
+
+/// Reads the settings of one connection.
+struct ReadSettings : api::Read {
+  ReadSettings(const JsonValue& body, api::FieldErrors& errors, const FolderPermissions& may)
+      : Read(body, "", errors), allowed(may) {}
+  const FolderPermissions& allowed;
+};
+inline Path path_for(const ReadSettings& read) { return {&read.allowed}; }
+inline Path path_for(const api::Describe&) { return {nullptr}; }
+
+}  // namespace fitgauge::connections
