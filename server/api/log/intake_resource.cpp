@@ -7,7 +7,7 @@
 #include "base/base64.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/jobs.hpp"
-#include "service/log/batch_reader.hpp"
+#include "service/log/batch_text.hpp"
 
 namespace fitgauge::api {
 namespace {

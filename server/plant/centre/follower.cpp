@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "service/log/revisions_reader.hpp"
+#include "service/log/revisions_text.hpp"
 
 namespace fitgauge::forwarder {
 namespace {

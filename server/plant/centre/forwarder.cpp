@@ -9,7 +9,7 @@
 #include "base/base64.hpp"
 #include "base/guarded.hpp"
 #include "base/json/json_value.hpp"
-#include "plant/centre/batch_text.hpp"
+#include "service/log/batch_text.hpp"
 
 namespace fitgauge::forwarder {
 namespace {
@@ -128,7 +128,7 @@ Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
   if (!batch) return failed(Sent::Failed, batch.error().message);
   if (batch->records.empty()) return Sent::Nothing;
   const std::string path = fmt::format("/v1/log/{}/{}", options_.origin, batch->from);
-  const http_client::HttpAnswer answer = link_.put(path, batch_text(*batch), goes_on(stop));
+  const http_client::HttpAnswer answer = link_.put(path, api::batch_text(*batch), goes_on(stop));
   if (stop.stop_requested() && answer.status == 0) return Sent::Nothing;
   return answered(answer, confirmed_ + static_cast<std::int64_t>(batch->records.size()));
 }

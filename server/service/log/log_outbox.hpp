@@ -7,14 +7,10 @@
 #include <vector>
 
 #include "base/clock.hpp"
-#include "base/digest.hpp"
 #include "base/result.hpp"
 #include "db/store/idempotency_store.hpp"
 #include "proof/tree_hash.hpp"
-
-namespace fitgauge::store {
-class Database;
-}
+#include "service/log/log_intake.hpp"
 
 namespace fitgauge::app {
 
@@ -31,14 +27,13 @@ class LogOutbox {
   LogOutbox(store::Database& database, const TableCatalog& tables, LogService& log)
       : database_(database), tables_(tables), log_(log) {}
 
-  using KeptAnswer = store::IdempotencyStore::Forwarded;
   struct Batch {
     std::int64_t from = 1;  ///< the place of its first record
     std::string checkpoint{};
     std::string key{};  ///< the vkey
     std::vector<std::string> hand_overs{};
     std::vector<std::string> records{};
-    std::vector<KeptAnswer> answers{};
+    std::vector<store::IdempotencyStore::Forwarded> answers{};
   };
   /// What follows the first `after` records, at most `most`; no record where nothing does.
   /// @errors those of storage.

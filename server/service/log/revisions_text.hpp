@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "base/json/text_arena.hpp"
@@ -15,7 +16,9 @@ struct ReadRevisions {
   TextArena texts;
 };
 
-/// Reads what `GET /v1/log/revisions` answers. A kind that is not known here is left out.
+/// What `GET /v1/log/revisions` answers.
+std::string revisions_text(const app::RevisionPage& page);
+/// Reads that. A kind that is not known here is left out.
 /// @errors those of JSON; RequestInvalid, LogRecordInvalid.
 Result<std::unique_ptr<ReadRevisions>> read_revisions(std::string_view body);
 

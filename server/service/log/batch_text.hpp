@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "base/json/text_arena.hpp"
 #include "base/result.hpp"
 #include "service/log/log_intake.hpp"
+#include "service/log/log_outbox.hpp"
 
 namespace fitgauge::api {
 
@@ -16,7 +18,9 @@ struct ReadBatch {
   TextArena texts;
 };
 
-/// Reads the body of `PUT /v1/log/{origin}/{from}`, which outlives the batch.
+/// The body of `PUT /v1/log/{origin}/{from}`.
+std::string batch_text(const app::LogOutbox::Batch& batch);
+/// Reads such a body, which outlives the batch.
 /// @errors LogRecordInvalid and those of JSON, each with the line; RequestInvalid.
 Result<std::unique_ptr<ReadBatch>> read_batch(std::string_view origin, std::int64_t from,
                                               std::string_view body);

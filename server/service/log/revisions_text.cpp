@@ -1,4 +1,4 @@
-#include "service/log/revisions_reader.hpp"
+#include "service/log/revisions_text.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/json/json_value.hpp"
+#include "base/json/json_writer.hpp"
 #include "record/json_members.hpp"
 #include "record/record_reader.hpp"
 #include "service/tables/custom_column.hpp"
@@ -16,6 +17,49 @@ namespace fitgauge::api {
 namespace {
 
 constexpr std::size_t kDigitsOfOrigin = 16;
+
+void write_custom_columns(JsonWriter& json, const std::vector<iso286::CustomColumn>& columns) {
+  json.key("columns").begin_array();
+  for (const iso286::CustomColumn& column : columns) {
+    json.begin_object()
+        .member("feature", word(column.feature))
+        .member("tolerance_class", column.name)
+        .key("rows")
+        .begin_array();
+    for (const auto& [range, deviations] : column.rows) {
+      json.begin_object()
+          .member_mm("over_mm", range.over)
+          .member_mm("up_to_mm", range.up_to)
+          .member_um("upper_um", deviations.upper)
+          .member_um("lower_um", deviations.lower)
+          .end_object();
+    }
+    json.end_array().end_object();
+  }
+  json.end_array();
+}
+
+void write_revision(JsonWriter& json, const app::Revision& revision) {
+  json.begin_object().member("number", revision.number).member("kind", word(revision.kind));
+  if (!revision.name.empty()) json.member("name", revision.name);
+  switch (revision.kind) {
+    case app::RevisionKind::Tables:
+      json.member("table_revision", revision.id);
+      write_custom_columns(json, revision.columns);
+      break;
+    case app::RevisionKind::Key:
+      if (revision.is_removed) break;
+      json.member("role", word(revision.role)).member("token_sha256", to_hex(revision.token_hash));
+      break;
+    case app::RevisionKind::Correction:
+      json.member("place", revision.place).member("record", revision.text);
+      break;
+    default:
+      if (!revision.is_removed) json.member("text", revision.text);
+  }
+  if (revision.is_removed) json.member("removed", true);
+  json.end_object();
+}
 
 bool is_true(const JsonValue& json, std::string_view name) {
   const JsonValue* value = json.find(name);
@@ -113,6 +157,21 @@ Result<void> read_revision(const JsonValue& json, ReadRevisions& read) {
 }
 
 }  // namespace
+
+std::string revisions_text(const app::RevisionPage& page) {
+  std::string body;
+  JsonWriter json(body);
+  json.begin_object()
+      .member("origin", page.origin)
+      .member("size", page.size)
+      .member("position", page.position)
+      .member("more", page.more)
+      .key("revisions")
+      .begin_array();
+  for (const app::Revision& revision : page.revisions) write_revision(json, revision);
+  json.end_array().end_object();
+  return body;
+}
 
 Result<std::unique_ptr<ReadRevisions>> read_revisions(std::string_view body) {
   const auto json = parse_json(body);
