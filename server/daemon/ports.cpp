@@ -49,19 +49,19 @@ Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
   return *std::move(control);
 }
 
-Result<std::unique_ptr<shdr::ShdrAdapter>> start_shdr(const Config& config,
-                                                      const api::Services& services) {
-  using Adapter = std::unique_ptr<shdr::ShdrAdapter>;
+Result<std::unique_ptr<mtconnect::ShdrAdapter>> start_shdr(const Config& config,
+                                                           const api::Services& services) {
+  using Adapter = std::unique_ptr<mtconnect::ShdrAdapter>;
   if (config.shdr_listen.empty()) return Adapter();
   const auto address = http::parse_listen_address(config.shdr_listen);
   if (!address) return address.error();
-  auto adapter = shdr::ShdrAdapter::start({.listen = *address,
-                                           .sent_away =
-                                               [](std::string_view peer, std::string_view why) {
-                                                 log_warning("shdr_agent_sent_away",
-                                                             fmt::format("{}: {}", peer, why));
-                                               }},
-                                          services.measurements, services.events, services.clock);
+  auto adapter = mtconnect::ShdrAdapter::start(
+      {.listen = *address,
+       .sent_away =
+           [](std::string_view peer, std::string_view why) {
+             log_warning("shdr_agent_sent_away", fmt::format("{}: {}", peer, why));
+           }},
+      services.measurements, services.events, services.clock);
   if (!adapter) return adapter.error();
   log_info("shdr_listening", fmt::format("port {}", (*adapter)->port()));
   return *std::move(adapter);

@@ -16,7 +16,7 @@ Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
 
 /// Opens the SHDR port of the configuration; null where it names none. The adapter goes before
 /// `services`. @errors as ShdrAdapter::start.
-Result<std::unique_ptr<shdr::ShdrAdapter>> start_shdr(const Config& config,
-                                                      const api::Services& services);
+Result<std::unique_ptr<mtconnect::ShdrAdapter>> start_shdr(const Config& config,
+                                                           const api::Services& services);
 
 }  // namespace fitgauge::daemon

@@ -6,7 +6,7 @@
 #include <boost/asio/write.hpp>
 #include <utility>
 
-namespace fitgauge::shdr {
+namespace fitgauge::mtconnect {
 namespace {
 
 using http::error_code;
@@ -111,4 +111,4 @@ void AgentSession::end(std::string_view why) {
   hooks_.ended(shared_from_this(), why);
 }
 
-}  // namespace fitgauge::shdr
+}  // namespace fitgauge::mtconnect

@@ -10,7 +10,7 @@
 
 #include "http/engine/asio.hpp"
 
-namespace fitgauge::shdr {
+namespace fitgauge::mtconnect {
 
 /// What an agent may hold and how long it may take.
 struct SessionOptions {
@@ -63,4 +63,4 @@ class AgentSession : public std::enable_shared_from_this<AgentSession> {
   bool has_ended_ = false;
 };
 
-}  // namespace fitgauge::shdr
+}  // namespace fitgauge::mtconnect

@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "base/xml_text.hpp"
 
-namespace fitgauge::api::mtconnect {
+namespace fitgauge::mtconnect {
 namespace {
 
 using gauging::Verdict;
@@ -251,4 +251,4 @@ std::string error_document(const Agent& agent, std::string_view code, std::strin
                      code, xml_text(message));
 }
 
-}  // namespace fitgauge::api::mtconnect
+}  // namespace fitgauge::mtconnect

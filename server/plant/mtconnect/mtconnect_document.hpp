@@ -13,7 +13,7 @@
 
 // MTConnect 2.4: a device `Gauge` whose observations are the measurements of the log.
 
-namespace fitgauge::api::mtconnect {
+namespace fitgauge::mtconnect {
 
 /// Sequence 1 is that the gauge is there; measurement n of the log has two: its part and itself.
 constexpr std::uint64_t part_sequence(std::int64_t id) {
@@ -95,4 +95,4 @@ std::string devices_document(const Agent& agent);
 /// @param code OUT_OF_RANGE and such.
 std::string error_document(const Agent& agent, std::string_view code, std::string_view message);
 
-}  // namespace fitgauge::api::mtconnect
+}  // namespace fitgauge::mtconnect

@@ -9,7 +9,7 @@
 
 #include "base/text.hpp"
 
-namespace fitgauge::api::mtconnect {
+namespace fitgauge::mtconnect {
 namespace {
 
 /// The outer elements of MTConnectDevices; data items stand in the last.
@@ -176,4 +176,4 @@ Result<Selection> select(std::string_view path) {
                "path"};
 }
 
-}  // namespace fitgauge::api::mtconnect
+}  // namespace fitgauge::mtconnect

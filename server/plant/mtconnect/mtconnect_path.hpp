@@ -6,7 +6,7 @@
 
 #include "base/result.hpp"
 
-namespace fitgauge::api::mtconnect {
+namespace fitgauge::mtconnect {
 
 /// What the device Gauge observes.
 struct DataItem {
@@ -40,4 +40,4 @@ inline const Selection kEverything = Selection().set();
 /// @errors QueryInvalid: it is no such path, or names nothing that is there.
 Result<Selection> select(std::string_view path);
 
-}  // namespace fitgauge::api::mtconnect
+}  // namespace fitgauge::mtconnect

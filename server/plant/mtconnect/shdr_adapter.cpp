@@ -10,16 +10,15 @@
 #include <utility>
 
 #include "base/guarded.hpp"
+#include "base/text.hpp"
 #include "base/thread.hpp"
-#include "plant/mtconnect/mtconnect_shdr.hpp"
 #include "service/events/event_service.hpp"
 #include "service/measurements/measurement_service.hpp"
 
-namespace fitgauge::shdr {
+namespace fitgauge::mtconnect {
 namespace {
 
 namespace asio = http::asio;
-namespace mtconnect = api::mtconnect;
 using http::error_code;
 using Line = std::shared_ptr<const std::string>;
 
@@ -35,6 +34,41 @@ constexpr std::chrono::milliseconds kRetry{1000};
 Line shared(std::string line) { return std::make_shared<const std::string>(std::move(line)); }
 
 }  // namespace
+
+std::string shdr_text(std::string_view text) {
+  std::string plain(text);
+  std::replace_if(
+      plain.begin(), plain.end(),
+      [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7F'; }, ' ');
+  plain = trim(plain);
+  if (plain.empty()) return std::string(kUnavailable);
+  if (plain.front() != '"' && plain.find('|') == plain.npos) return plain;
+  std::string quoted = "\"";
+  for (const char c : plain) {
+    if (c == '|' || c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string shdr_availability(Timestamp at) {
+  return fmt::format("{}|avail|AVAILABLE\n", format_rfc3339(at));
+}
+
+std::string shdr_line(const app::Measurement& measurement) {
+  std::string cells;
+  for (const auto& [key, text] : cells_of(measurement)) {
+    cells += fmt::format("{}{}={}", cells.empty() ? "" : " ", key, text);
+  }
+  return fmt::format("{}|part|{}|feature|{}={{{}}}\n", format_rfc3339(measurement.received_at),
+                     shdr_text(measurement.part_id.value_or("")), entry_of(measurement), cells);
+}
+
+std::string shdr_line(const Counts& counts, Timestamp at) {
+  std::string line = format_rfc3339(at);
+  for (const auto& [id, count] : counts_by_item(counts)) line += fmt::format("|{}|{}", id, count);
+  return line + '\n';
+}
 
 /// All but its calls from outside happens on its thread. What the storage answers is posted there.
 class ShdrAdapter::Loop final : public app::CommitListener,
@@ -131,7 +165,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
             .has_room = [this] { follow(); }});
     agents_.insert(agent);
     agent->start();
-    agent->send(shared(mtconnect::shdr_availability(clock_.now())));
+    agent->send(shared(shdr_availability(clock_.now())));
     if (phase_ == Phase::Idle) return begin();
     // One that comes while the newest is read gets it with the others.
     if (phase_ == Phase::Following) greet(*agent);
@@ -195,7 +229,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
     measurements_.list(
         query, after, limit,
         [lines](const app::Measurement& measurement) {
-          lines->push_back(shared(mtconnect::shdr_line(measurement)));
+          lines->push_back(shared(shdr_line(measurement)));
         },
         [self = shared_from_this(), lines, take](const Result<app::ListPage>& page) {
           self->post([lines, page, take](Loop& loop) {
@@ -223,14 +257,13 @@ class ShdrAdapter::Loop final : public app::CommitListener,
 
   void count() {
     counts_soon_ = false;
-    measurements_.summary(
-        {}, "tolerance_class",
-        [self = shared_from_this(),
-         at = clock_.now()](const Result<std::vector<app::MeasurementGroup>>& groups) {
-          if (!groups) return;  // the next measurement brings the next counts
-          self->post([line = shared(mtconnect::shdr_line(mtconnect::counts_of(*groups), at))](
-                         Loop& loop) { loop.send(loop.counts_ = line); });
-        });
+    measurements_.summary({}, "tolerance_class",
+                          [self = shared_from_this(), at = clock_.now()](
+                              const Result<std::vector<app::MeasurementGroup>>& groups) {
+                            if (!groups) return;  // the next measurement brings the next counts
+                            self->post([line = shared(shdr_line(counts_of(*groups), at))](
+                                           Loop& loop) { loop.send(loop.counts_ = line); });
+                          });
   }
 
   const AdapterOptions options_;
@@ -268,4 +301,4 @@ ShdrAdapter::ShdrAdapter(std::shared_ptr<Loop> loop) : loop_(std::move(loop)) {}
 ShdrAdapter::~ShdrAdapter() { loop_->stop(); }
 std::uint16_t ShdrAdapter::port() const { return loop_->port(); }
 
-}  // namespace fitgauge::shdr
+}  // namespace fitgauge::mtconnect

@@ -9,13 +9,26 @@
 #include "base/clock.hpp"
 #include "http/server.hpp"
 #include "plant/mtconnect/agent_session.hpp"
+#include "plant/mtconnect/mtconnect_document.hpp"
+
+// SHDR, which an adapter tells an agent: `time|data item|value|data item|value` and a line end. The
+// data items are those of the device Gauge, by their ids.
 
 namespace fitgauge::app {
 class EventService;
 class MeasurementService;
 }  // namespace fitgauge::app
 
-namespace fitgauge::shdr {
+namespace fitgauge::mtconnect {
+
+std::string shdr_availability(Timestamp at);
+/// The part and the feature, whose table has one entry.
+std::string shdr_line(const app::Measurement& measurement);
+std::string shdr_line(const Counts& counts, Timestamp at);
+
+/// A text as a value between `|`: in quotes where it has one or begins with a quote, without
+/// control characters, and UNAVAILABLE where there is none.
+std::string shdr_text(std::string_view text);
 
 struct AdapterOptions {
   http::ListenAddress listen{};
@@ -49,4 +62,4 @@ class ShdrAdapter {
   const std::shared_ptr<Loop> loop_;
 };
 
-}  // namespace fitgauge::shdr
+}  // namespace fitgauge::mtconnect

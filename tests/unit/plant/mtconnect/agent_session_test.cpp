@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace fitgauge::shdr {
+namespace fitgauge::mtconnect {
 namespace {
 
 using namespace std::chrono_literals;
@@ -87,4 +87,4 @@ TEST_CASE("one that does not read is sent away") {
 }
 
 }  // namespace
-}  // namespace fitgauge::shdr
+}  // namespace fitgauge::mtconnect

@@ -1,8 +1,8 @@
-#include "plant/mtconnect/mtconnect_shdr.hpp"
+#include "plant/mtconnect/shdr_adapter.hpp"
 
 #include <doctest/doctest.h>
 
-namespace fitgauge::api::mtconnect {
+namespace fitgauge::mtconnect {
 namespace {
 
 TEST_CASE("a text stands between the bars of a line") {
@@ -24,4 +24,4 @@ TEST_CASE("counts are a line") {
 }
 
 }  // namespace
-}  // namespace fitgauge::api::mtconnect
+}  // namespace fitgauge::mtconnect

@@ -14,7 +14,7 @@
 
 #include <unistd.h>
 
-namespace fitgauge::shdr {
+namespace fitgauge::mtconnect {
 namespace {
 
 using http::asio::ip::tcp;
@@ -62,4 +62,4 @@ TEST_CASE("what fails while an agent is taken in is not the last agent that is t
 }
 
 }  // namespace
-}  // namespace fitgauge::shdr
+}  // namespace fitgauge::mtconnect
