@@ -15,7 +15,7 @@ std::string text_of(std::span<const double> values) {
 }
 
 std::string array_of(const std::string& item, std::span<const double> values) {
-  return schema::array(item, values.size());
+  return schema::array(item, values.size(), values.size());
 }
 
 std::string word_of(std::span<const std::string_view> words) {
