@@ -5,16 +5,20 @@
 namespace fitgauge::api {
 
 // The components of /openapi.json: each room describes the bodies it reads and the answers it
-// gives. Setups describe themselves (runs/setup_schema.hpp).
+// gives. Setups describe themselves (runs/setup_codec.hpp).
 
 void add_limits_schemas(Schemas& schemas);
+void add_gauges_schemas(Schemas& schemas);
 void add_statistics_schemas(Schemas& schemas);
+void add_uncertainty_schemas(Schemas& schemas);
+void add_documents_schemas(Schemas& schemas);
 void add_measurement_schemas(Schemas& schemas);
 void add_note_schemas(Schemas& schemas);
 void add_table_schemas(Schemas& schemas);
 void add_plan_schemas(Schemas& schemas);
 void add_file_schemas(Schemas& schemas);
 void add_run_schemas(Schemas& schemas);
+void add_diagnostic_schemas(Schemas& schemas);
 void add_cycle_schemas(Schemas& schemas);
 void add_service_schemas(Schemas& schemas);
 

@@ -48,7 +48,7 @@ class SettingsOf final : public Settings {
  public:
   static api::schema::Fields fields() {
     Options options;
-    api::Describe describe(api::Side::Order);
+    api::BodySchema describe(api::Side::Order);
     members(describe, options);
     return describe.fields();
   }

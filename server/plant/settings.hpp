@@ -150,12 +150,12 @@ struct Path {
 };
 
 /// Reads the settings of one connection.
-struct ReadSettings : api::Read {
+struct ReadSettings : api::BodyReader {
   ReadSettings(const JsonValue& body, api::FieldErrors& errors, const FolderPermissions& may)
-      : Read(body, "", errors), allowed(may) {}
+      : BodyReader(body, "", errors), allowed(may) {}
   const FolderPermissions& allowed;
 };
 inline Path path_for(const ReadSettings& read) { return {&read.allowed}; }
-inline Path path_for(const api::Describe&) { return {nullptr}; }
+inline Path path_for(const api::BodySchema&) { return {nullptr}; }
 
 }  // namespace fitgauge::connections

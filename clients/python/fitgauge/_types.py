@@ -334,7 +334,7 @@ class _RunMeasurementsSizes(TypedDict):
     nominal_mm: Decimal
     measured_mm: Decimal
     deviation_um: Decimal
-    verdict: VerdictWord
+    verdict: Union[VerdictWord, None]
 
 
 class RunMeasurementsSizes(_RunMeasurementsSizes, total=False):

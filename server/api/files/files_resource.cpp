@@ -5,8 +5,9 @@
 #include "api/files/file_path.hpp"
 #include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
+#include "api/schemas.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/json/json_writer.hpp"
+#include "base/json/body_forms.hpp"
 #include "base/text.hpp"
 #include "service/files/file_service.hpp"
 #include "service/jobs.hpp"
@@ -99,6 +100,23 @@ void delete_file(const Services& services, const http::Request& request,
                         });
 }
 
+}  // namespace
+
+void members(auto& v, const app::DiskFile& file) {
+  v.member("path", file.path, "As the control writes it");
+  v.member("href", file.path.empty() ? std::string() : href(file.path),
+           "Where this service has it");
+  v.member("size", file.size, "In bytes");
+  v.member("modified_at", file.modified_at, Time{}, "In UTC");
+}
+
+namespace {
+
+struct FilesAnswer {
+  std::vector<app::DiskFile> files{};
+};
+void members(auto& v, const FilesAnswer& answer) { v.member("files", answer.files, "By path"); }
+
 void list_files(const Services& services, const http::Request& request, http::Responder responder) {
   std::string prefix(request.text("prefix").value_or(""));
   std::replace(prefix.begin(), prefix.end(), '/', '\\');
@@ -106,19 +124,7 @@ void list_files(const Services& services, const http::Request& request, http::Re
   services.files.list(std::move(prefix), [shared = share(std::move(responder))](
                                              Result<std::vector<app::DiskFile>> files) {
     if (!files) return shared->fail(files.error());
-    std::string body;
-    JsonWriter json(body);
-    json.begin_object().key("files").begin_array();
-    for (const app::DiskFile& file : *files) {
-      json.begin_object()
-          .member("path", file.path)
-          .member("href", href(file.path))
-          .member("size", file.size)
-          .member("modified_at", format_rfc3339(file.modified_at))
-          .end_object();
-    }
-    json.end_array().end_object();
-    shared->answer({200, "application/json", std::move(body)});
+    shared->answer({200, "application/json", body_json(FilesAnswer{*std::move(files)})});
   });
 }
 
@@ -160,6 +166,13 @@ const http::Parameter kPath{.name = "path",
                             .description = "nc_prog/8255/8255.h is TNC:\\nc_prog\\8255\\8255.h"};
 
 }  // namespace
+
+void add_file_schemas(Schemas& schemas) {
+  schemas.push_back(answer_schema<FilesAnswer>(
+      "Files", R"({"files":[{"path":"TNC:\\nc_prog\\bore.h","href":"/v1/files/nc_prog/bore.h",)"
+               R"("size":214,"modified_at":"2026-11-20T07:00:00Z"}]})"));
+  add_diagnostic_schemas(schemas);
+}
 
 void add_files_routes(std::vector<http::Route>& routes, const Services& services) {
   routes.push_back({

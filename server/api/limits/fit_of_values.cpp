@@ -14,7 +14,7 @@ constexpr std::string_view kHole = "hole";
 constexpr std::string_view kShaft = "shaft";
 
 /// The values of one side of a fit, with what they come to.
-struct Side {
+struct MeasuredSide {
   SelectedValues selected;
   std::string as_of;
   metrology::Capability capability;
@@ -43,8 +43,8 @@ Result<app::MeasurementQuery> side_query(const Services& services, const http::R
   return measurement_query(services, request, prefix);
 }
 
-Result<Side> read_side(const Services& services, const app::MeasurementQuery& query,
-                       const iso286::LimitsOfSize& limits, bool ignores_subgroups) {
+Result<MeasuredSide> read_side(const Services& services, const app::MeasurementQuery& query,
+                               const iso286::LimitsOfSize& limits, bool ignores_subgroups) {
   ValueSelection selection;
   auto as_of = selection.read(services.measurements, query);
   if (!as_of) return as_of.error();
@@ -64,18 +64,18 @@ Result<Side> read_side(const Services& services, const app::MeasurementQuery& qu
   auto capability = metrology::assess_capability(selected->data, selected->limits, kConfidence);
   if (!capability) return capability.error();
   selected->data = {};
-  return Side{*std::move(selected), *std::move(as_of), *std::move(capability)};
+  return MeasuredSide{*std::move(selected), *std::move(as_of), *std::move(capability)};
 }
 
-void write_side(JsonWriter& json, std::string_view name, const Side& side) {
+void write_side(JsonWriter& json, std::string_view name, const MeasuredSide& side) {
   json.key(name).begin_object();
-  write_selection(json, side.selected, side.as_of);
+  write_body(json.key("selection"), selection_of(side.selected, side.as_of));
   json.key("mean").figure(side.capability.mean);
   json.key("standard_deviation_overall").figure(side.capability.overall);
   json.member("stable", side.capability.stable).end_object();
 }
 
-void write_stored(JsonWriter& json, const Side& hole, const Side& shaft) {
+void write_stored(JsonWriter& json, const MeasuredSide& hole, const MeasuredSide& shaft) {
   constexpr long double kMicrometres = 1000;
   const auto clearance = metrology::clearance_of(hole.sizes(), shaft.sizes());
   json.key("stored").begin_object();

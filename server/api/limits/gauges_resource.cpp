@@ -3,15 +3,57 @@
 #include <fmt/format.h>
 
 #include "api/limits/limits_codec.hpp"
+#include "api/schemas.hpp"
 #include "api/statistics/computation.hpp"
+#include "api/statistics/exact_reader.hpp"
 #include "api/wire/formulas.hpp"
-#include "base/json/field_reader.hpp"
 #include "metrology/statistics/limit_gauge.hpp"
 #include "metrology/statistics/press_fit.hpp"
 #include "tables/iso286/designation.hpp"
 
 namespace fitgauge::api {
 namespace {
+
+struct NewSizes {
+  Length upper{};
+  Length lower{};
+};
+void members(auto& v, const NewSizes& sizes) {
+  v.member("upper_mm", sizes.upper, Millimetres{}, "New");
+  v.member("lower_mm", sizes.lower, Millimetres{}, "New");
+}
+
+struct GoGauge {
+  NewSizes sizes{};
+  Length wear_limit{};
+};
+void members(auto& v, const GoGauge& gauge) {
+  members(v, gauge.sizes);
+  v.member("wear_limit_mm", gauge.wear_limit, Millimetres{}, "Worn out");
+}
+
+struct LimitGaugeAnswer {
+  std::string designation{};
+  iso286::Feature feature{};
+  Length upper_limit{};
+  Length lower_limit{};
+  GoGauge go{};
+  NewSizes no_go{};
+};
+void members(auto& v, const LimitGaugeAnswer& answer) {
+  constexpr std::string_view kNote =
+      "the tables of the later editions, ISO 1938-1:2015 and 2026, are not public";
+  constexpr OneOf<2> kKinds{"plug", "ring or snap"};
+  v.member("designation", answer.designation);
+  formula_members(v, kKinds.of(answer.feature));
+  v.member("scheme", metrology::kLimitGaugeScheme, "The standard of the values");
+  v.member("note", kNote, "On other editions");
+  v.member("kind", answer.feature, kKinds);
+  v.member("upper_limit_mm", answer.upper_limit, Millimetres{}, "Of the workpiece");
+  v.member("lower_limit_mm", answer.lower_limit, Millimetres{}, "Of the workpiece");
+  v.member("go", answer.go);
+  v.member("no_go", answer.no_go);
+}
 
 Result<http::Response> gauge(const http::Request& request, const iso286::ToleranceTables& tables) {
   const auto designation = iso286::parse_designation(*request.text("designation"));
@@ -20,108 +62,103 @@ Result<http::Response> gauge(const http::Request& request, const iso286::Toleran
   if (!limits) return limits.error();
   const auto made = metrology::limit_gauge(*limits, designation->class_name);
   if (!made) return made.error();
-
-  const auto designation_of =
-      designation_text(designation->nominal_size.length(), designation->class_name);
-  std::string body;
-  JsonWriter json(body);
-  const std::string_view kind = limits->feature == iso286::Feature::Hole ? "plug" : "ring or snap";
-  json.begin_object().member("designation", designation_of);
-  write_formula(json, kind);
-  json.member("scheme", metrology::kLimitGaugeScheme)
-      .member("note", "the tables of the later editions, ISO 1938-1:2015 and 2026, are not public")
-      .member("kind", kind)
-      .member_mm("upper_limit_mm", limits->upper_limit())
-      .member_mm("lower_limit_mm", limits->lower_limit())
-      .key("go")
-      .begin_object()
-      .member_mm("upper_mm", made->go.upper)
-      .member_mm("lower_mm", made->go.lower)
-      .member_mm("wear_limit_mm", made->go_wear_limit)
-      .end_object()
-      .key("no_go")
-      .begin_object()
-      .member_mm("upper_mm", made->no_go.upper)
-      .member_mm("lower_mm", made->no_go.lower)
-      .end_object()
-      .end_object();
-  http::Response response(200, "application/json", std::move(body));
+  const LimitGaugeAnswer answer{
+      .designation = designation_text(designation->nominal_size.length(), designation->class_name),
+      .feature = limits->feature,
+      .upper_limit = limits->upper_limit(),
+      .lower_limit = limits->lower_limit(),
+      .go = {{made->go.upper, made->go.lower}, made->go_wear_limit},
+      .no_go = {made->no_go.upper, made->no_go.lower}};
+  http::Response response(200, "application/json", body_json(answer));
   response.etag = etag_of(tables);
   return response;
 }
 
-double positive(FieldReader& fields, std::string_view name, double fallback, bool or_zero = false) {
-  const double value = fields.number_or(name, fallback);
-  constexpr double kMost = 1e9;
-  if ((value > 0 || (or_zero && value == 0)) && value <= kMost) return value;
-  fields.report(ErrorCode::FieldInvalid, name,
-                fmt::format("{} is {} 0 and at most 1e9", name, or_zero ? "at least" : "above"));
-  return fallback;
+// The forms of sizes, moduli and roughness.
+constexpr double kLargest = 1e9;
+constexpr Number kAboveZero{0, kLargest, Number::Ends::OpenBelow, "is above 0 and at most 1e9"};
+constexpr Number kFromZero{0, kLargest, Number::Ends::Closed, "is at least 0 and at most 1e9"};
+
+void material_members(auto& v, metrology::PressedPart& part) {
+  v.optional("youngs_modulus_mpa", part.youngs_modulus_mpa, kAboveZero);
+  v.optional("poisson_ratio", part.poisson_ratio, Number{0, 0.5});
+  v.optional("rz_um", part.rz_um, kFromZero, "Roughness, pressed flat in part");
 }
 
-metrology::PressedPart read_part(FieldReader& fields, std::string_view name,
-                                 std::string_view diameter, FieldErrors& errors) {
-  metrology::PressedPart part;
-  const JsonValue* object = fields.object(name);
-  if (object == nullptr) return part;
-  FieldReader own(*object, fields.at(name), errors);
-  const bool solid_allowed = diameter == "inner_diameter_mm";
-  if (!solid_allowed && !own.has(diameter)) own.number(diameter);
-  part.other_diameter_mm = positive(own, diameter, 0, solid_allowed || !own.has(diameter));
-  part.youngs_modulus_mpa = positive(own, "youngs_modulus_mpa", part.youngs_modulus_mpa);
-  part.poisson_ratio = own.number_or("poisson_ratio", part.poisson_ratio);
-  if (!(part.poisson_ratio >= 0 && part.poisson_ratio <= 0.5)) {
-    own.report(ErrorCode::FieldInvalid, "poisson_ratio", "poisson_ratio lies from 0 to 0.5");
-  }
-  part.rz_um = positive(own, "rz_um", 0, true);
-  own.refuse_unknown();
-  return part;
+struct HubOrder {
+  metrology::PressedPart part{};
+};
+void members(auto& v, HubOrder& hub) {
+  v.member("outer_diameter_mm", hub.part.other_diameter_mm, kAboveZero);
+  material_members(v, hub.part);
+}
+
+struct ShaftOrder {
+  metrology::PressedPart part{};
+};
+void members(auto& v, ShaftOrder& shaft) {
+  v.optional("inner_diameter_mm", shaft.part.other_diameter_mm, kFromZero, "0: solid");
+  material_members(v, shaft.part);
+}
+
+struct PressFitOrder {
+  metrology::PressFit fit{};
+  HubOrder hub{};
+  ShaftOrder shaft{};
+  double least = 0;
+  double most = 0;
+};
+void members(auto& v, PressFitOrder& order) {
+  v.member("joint_diameter_mm", order.fit.joint_diameter_mm, kAboveZero);
+  v.member("length_mm", order.fit.length_mm, kAboveZero);
+  v.optional("friction", order.fit.friction, kAboveZero, "Along the joint");
+  v.member("hub", order.hub);
+  v.member("shaft", order.shaft);
+  v.optional("min_interference_um", order.least, kFromZero);
+  v.member("max_interference_um", order.most, kFromZero);
+  v.check([&order](FieldReader& fields) {
+    if (order.least <= order.most) return;
+    fields.report(ErrorCode::FieldInvalid, "min_interference_um",
+                  "min_interference_um is above max_interference_um");
+  });
+}
+
+struct Pressed {
+  double interference = 0;
+  metrology::Pressure made{};
+};
+void members(auto& v, const Pressed& pressed) {
+  v.member("interference_um", pressed.interference, Finite{});
+  v.member("effective_interference_um", pressed.made.effective_um, Finite{},
+           "Less what the roughness takes");
+  v.member("pressure_mpa", pressed.made.pressure_mpa, Finite{}, "In the joint");
+  v.member("hub_stress_mpa", pressed.made.hub_stress_mpa, Finite{},
+           "Equivalent stress in the bore (von Mises)");
+  v.member("shaft_stress_mpa", pressed.made.shaft_stress_mpa, Finite{}, "Likewise");
+  v.member("axial_force_n", pressed.made.axial_force_n, Finite{}, "At which it slips");
+  v.member("torque_nm", pressed.made.torque_nm, Finite{}, "At which it slips");
+}
+
+struct PressFitAnswer {
+  Pressed least{};
+  Pressed most{};
+};
+void members(auto& v, const PressFitAnswer& answer) {
+  v.member("method", std::string_view("Lame, DIN 7190-1:2017, elastic, plane stress"));
+  formula_members(v, "press_fit");
+  v.member("at_min_interference", answer.least);
+  v.member("at_max_interference", answer.most);
 }
 
 Result<std::string> press_fit(const JsonValue& body) {
-  FieldErrors errors;
-  FieldReader fields(body, "", errors);
-  metrology::PressFit fit;
-  if (!fields.has("joint_diameter_mm")) fields.number("joint_diameter_mm");
-  fit.joint_diameter_mm = positive(fields, "joint_diameter_mm", 1);
-  if (!fields.has("length_mm")) fields.number("length_mm");
-  fit.length_mm = positive(fields, "length_mm", 1);
-  fit.friction = positive(fields, "friction", fit.friction);
-  fit.hub = read_part(fields, "hub", "outer_diameter_mm", errors);
-  fit.shaft = read_part(fields, "shaft", "inner_diameter_mm", errors);
-  const double least = positive(fields, "min_interference_um", 0, true);
-  if (!fields.has("max_interference_um")) fields.number("max_interference_um");
-  const double most = positive(fields, "max_interference_um", 0, true);
-  if (least > most) {
-    fields.report(ErrorCode::FieldInvalid, "min_interference_um",
-                  "min_interference_um is above max_interference_um");
-  }
-  fields.refuse_unknown();
-  if (auto error = errors.take()) return *std::move(error);
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object().member("method", "Lame, DIN 7190-1:2017, elastic, plane stress");
-  write_formula(json, "press_fit");
-  for (const auto& [name, interference] :
-       {std::pair{"at_min_interference", least}, std::pair{"at_max_interference", most}}) {
-    const auto made = metrology::press(fit, interference);
-    if (!made) {
-      errors.add(made.error().code, "/hub", made.error().message);
-      return *errors.take();
-    }
-    json.key(name)
-        .begin_object()
-        .member("interference_um", interference)
-        .member("effective_interference_um", made->effective_um)
-        .member("pressure_mpa", made->pressure_mpa)
-        .member("hub_stress_mpa", made->hub_stress_mpa)
-        .member("shaft_stress_mpa", made->shaft_stress_mpa)
-        .member("axial_force_n", made->axial_force_n)
-        .member("torque_nm", made->torque_nm)
-        .end_object();
-  }
-  json.end_object();
-  return out;
+  auto order = read_whole<PressFitOrder>(body);
+  if (!order) return order.error();
+  order->fit.hub = order->hub.part;
+  order->fit.shaft = order->shaft.part;
+  const auto least = metrology::press(order->fit, order->least);
+  const auto most = metrology::press(order->fit, order->most);
+  if (!least || !most) return at_member("hub", least ? most.error() : least.error());
+  return body_json(PressFitAnswer{{order->least, *least}, {order->most, *most}});
 }
 
 }  // namespace
@@ -153,6 +190,12 @@ void add_press_fits_routes(std::vector<http::Route>& routes, const Services& ser
                                        .tag = "limits",
                                        .reads = "PressFitOrder",
                                        .answers = "PressFit"}));
+}
+
+void add_gauges_schemas(Schemas& schemas) {
+  schemas.push_back(answer_schema<LimitGaugeAnswer>("LimitGauge"));
+  schemas.push_back(order_schema<PressFitOrder>("PressFitOrder"));
+  schemas.push_back(answer_schema<PressFitAnswer>("PressFit"));
 }
 
 }  // namespace fitgauge::api

@@ -49,24 +49,6 @@ void add_found_fits(Schemas& schemas, const schema::Fields& fit_fields) {
                                                   {"total", schema::count(), "All there are"}})});
 }
 
-void add_limit_gauge(Schemas& schemas) {
-  const schema::Fields sizes = {{"upper_mm", schema::number(), "New"},
-                                {"lower_mm", schema::number(), "New"}};
-  const schema::Fields wear = {{"wear_limit_mm", schema::number(), "Worn out"}};
-  schemas.push_back({"LimitGauge", schema::object({
-                                       {"designation", schema::text(), ""},
-                                       {"formula", schema::text(), "What was computed"},
-                                       {"clause", schema::text(), "Where that is from"},
-                                       {"scheme", schema::text(), "The standard of the values"},
-                                       {"note", schema::text(), "On other editions"},
-                                       {"kind", schema::words({"plug", "ring or snap"}), ""},
-                                       {"upper_limit_mm", schema::number(), "Of the workpiece"},
-                                       {"lower_limit_mm", schema::number(), "Of the workpiece"},
-                                       {"go", schema::object(sizes + wear), ""},
-                                       {"no_go", schema::object(sizes), ""},
-                                   })});
-}
-
 void add_standards(Schemas& schemas) {
   const schema::Fields identity = {
       {"name", schema::text(), "iso2768-1"},
@@ -101,46 +83,6 @@ void add_standards(Schemas& schemas) {
                         {"diameter_mm", schema::number(), ""}}));
   schemas.push_back(
       {"Standard", schema::object(identity + schema::Fields{{"rows", schema::array(row), ""}})});
-}
-
-void add_press_fit(Schemas& schemas) {
-  constexpr double kMost = 1e9;
-  const std::string positive = schema::number(0, kMost);
-  const schema::Fields material = schema::optional({
-      {"youngs_modulus_mpa", schema::with_default(positive, "210000"), ""},
-      {"poisson_ratio", schema::with_default(schema::number(0, 0.5), "0.3"), ""},
-      {"rz_um", schema::with_default(positive, "0"), "Roughness, pressed flat in part"},
-  });
-  const schema::Fields outer = {{"outer_diameter_mm", positive, ""}};
-  const schema::Fields inner = {
-      {"inner_diameter_mm", schema::with_default(positive, "0"), "0: solid", false}};
-  schemas.push_back(
-      {"PressFitOrder",
-       schema::object(
-           {
-               {"joint_diameter_mm", positive, ""},
-               {"length_mm", positive, ""},
-               {"friction", schema::with_default(positive, "0.12"), "Along the joint", false},
-               {"hub", schema::object(outer + material, Others::Refused), ""},
-               {"shaft", schema::object(inner + material, Others::Refused), ""},
-               {"min_interference_um", schema::with_default(positive, "0"), "", false},
-               {"max_interference_um", positive, ""},
-           },
-           Others::Refused)});
-  const std::string pressed = schema::object({
-      {"interference_um", schema::number(), ""},
-      {"effective_interference_um", schema::number(), "Less what the roughness takes"},
-      {"pressure_mpa", schema::number(), "In the joint"},
-      {"hub_stress_mpa", schema::number(), "Equivalent stress in the bore (von Mises)"},
-      {"shaft_stress_mpa", schema::number(), "Likewise"},
-      {"axial_force_n", schema::number(), "At which it slips"},
-      {"torque_nm", schema::number(), "At which it slips"},
-  });
-  schemas.push_back(
-      {"PressFit",
-       schema::object(formula_fields() + schema::Fields{{"method", schema::text(), ""},
-                                                        {"at_min_interference", pressed, ""},
-                                                        {"at_max_interference", pressed, ""}})});
 }
 
 }  // namespace
@@ -187,9 +129,8 @@ void add_limits_schemas(Schemas& schemas) {
   const schema::Fields fit = fit_members + formula_fields();
   schemas.push_back({"Fit", schema::object(fit)});
   add_found_fits(schemas, fit);
-  add_limit_gauge(schemas);
   add_standards(schemas);
-  add_press_fit(schemas);
+  add_gauges_schemas(schemas);
   const schema::Fields rule = schema::optional({
       {"corrected_mm", schema::number(),
        "The size at 20 °C, which decides, where an expansion is given"},

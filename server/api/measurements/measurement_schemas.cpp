@@ -128,7 +128,7 @@ void add_request_schemas(Schemas& schemas) {
   schemas.push_back({"NewMeasurement", schema::object(given_fields(), Others::Refused, kNew)});
   schemas.push_back(
       {"NewMeasurements", schema::any_of({schema::ref("NewMeasurement"),
-                                          schema::array(schema::ref("NewMeasurement"))})});
+                                          schema::array(schema::ref("NewMeasurement"), 1)})});
   const schema::Fields reason = {
       {"reason", schema::text(app::kLongestComment), "Why it is corrected"}};
   schemas.push_back({"Correction", schema::object(reason + given_fields(), Others::Refused,

@@ -2,75 +2,90 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <memory>
 #include <set>
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_posting.hpp"
-#include "api/measurements/note_limits.hpp"
 #include "api/resources.hpp"
+#include "api/schemas.hpp"
 #include "api/service/document_routes.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/json/field_reader.hpp"
-#include "base/json/json_writer.hpp"
+#include "base/json/body_forms.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {
 
+constexpr std::size_t kLongestEntry = 200;  // bytes of a cause, a measure, a name
 constexpr std::size_t kMostEntries = 500;
 
-struct NoteField {
-  std::string_view name;
-  std::size_t longest;
-  std::optional<std::string> app::Note::*text;
+/// The form of a text that is not blank.
+struct NoteText {
+  std::size_t longest = kLongestEntry;
+
+  std::string schema(Side) const { return schema::text(longest); }
+  void check(FieldErrors& errors, const std::string& at, std::string_view text) const {
+    if (text.size() > longest) {
+      errors.add(ErrorCode::FieldTooLong, at, fmt::format("at most {} bytes", longest));
+    } else if (text.find_first_not_of(" \t\r\n") == std::string_view::npos ||
+               text.find('\0') != std::string_view::npos) {
+      errors.add(ErrorCode::FieldInvalid, at, "a text that is given is not blank");
+    }
+  }
+  bool read(FieldReader& fields, std::string_view name, std::string& to) const {
+    auto given = fields.text(name);
+    if (!given) return false;
+    check(fields.errors(), fields.at(name), *given);
+    to = *std::move(given);
+    return true;
+  }
+  void write(JsonWriter& json, std::string_view from) const { json.value(from); }
 };
 
-constexpr std::array<NoteField, 4> kNoteFields = {{
-    {"cause", kLongestEntry, &app::Note::cause},
-    {"measure", kLongestEntry, &app::Note::measure},
-    {"text", kLongestNoteText, &app::Note::text},
-    {"operator", kLongestEntry, &app::Note::operator_id},
-}};
-
-bool is_blank(std::string_view text) {
-  return text.find_first_not_of(" \t\r\n") == std::string_view::npos;
+void given_members(auto& v, auto& note) {
+  v.optional("cause", note.cause, NoteText{}, "Why the value is what it is");
+  v.optional("measure", note.measure, NoteText{}, "What was done about it");
+  v.optional("text", note.text, NoteText{2000}, "Whatever else; one of the three is there");
+  v.optional("operator", note.operator_id, NoteText{}, "Who says so");
 }
 
-/// @param at where it stands in the body
-void check_text(FieldErrors& errors, const std::string& at, std::string_view text,
-                std::size_t longest) {
-  if (text.size() > longest) {
-    errors.add(ErrorCode::FieldTooLong, at, fmt::format("at most {} bytes", longest));
-  } else if (is_blank(text) || text.find('\0') != std::string_view::npos) {
-    errors.add(ErrorCode::FieldInvalid, at, "a text that is given is not blank");
-  }
+struct NoteOrder {
+  app::Note note{};
+};
+void members(auto& v, NoteOrder& order) { given_members(v, order.note); }
+
+}  // namespace
+
+void members(auto& v, const app::Note& note) {
+  v.member("id", note.id, "Opaque; sorts nowhere");
+  v.member("measurement_id", note.measurement, "The record it stands beside");
+  given_members(v, note);
+  v.optional("caller", note.caller, "The name of the key that stored it");
+  v.member("received_at", note.received_at, Time{}, "In UTC");
+}
+
+namespace {
+
+struct NotesAnswer {
+  std::vector<app::Note> notes{};
+};
+void members(auto& v, const NotesAnswer& answer) {
+  v.member("notes", answer.notes, List<app::Note>{{"Note"}}, "Oldest first");
 }
 
 Result<app::Note> read_note(std::string_view text) {
   const auto body = parse_json(text);
   if (!body) return body.error();
   FieldErrors errors;
-  FieldReader reader(*body, "", errors);
-  app::Note note;
-  for (const NoteField& field : kNoteFields) {
-    note.*field.text = reader.optional_text(field.name);
-    if (note.*field.text)
-      check_text(errors, reader.at(field.name), *(note.*field.text), field.longest);
-  }
-  reader.refuse_unknown();
+  NoteOrder order;
+  read_body(*body, "", errors, order);
+  app::Note& note = order.note;
   if (errors.empty() && !note.cause && !note.measure && !note.text) {
     errors.add(ErrorCode::FieldMissing, "/cause", "a note has a cause, a measure or a text");
   }
   if (auto error = errors.take()) return *std::move(error);
-  return note;
-}
-
-std::string note_json(const app::Note& note) {
-  std::string json;
-  append_note_json(json, note);
-  return json;
+  return std::move(note);
 }
 
 void add_note(const SharedPosting& posting, const app::RecordName& measurement) {
@@ -85,9 +100,9 @@ void add_note(const SharedPosting& posting, const app::RecordName& measurement) 
              return app::Answer{.status = 201,
                                 .content_type = "application/json",
                                 .location = {},
-                                .body = note_json(stored)};
+                                .body = body_json(stored)};
            },
-       .event = note_json},
+       .event = body_json<app::Note>},
       [posting](Result<app::Answer> answer) {
         if (!answer) return posting->responder.fail(answer.error());
         posting->responder.answer(api::response_of(*std::move(answer)));
@@ -107,49 +122,54 @@ void list_notes(const Services& services, const http::Request& request, http::Re
   services.measurements.list_notes(
       *id, [shared = share(std::move(responder))](const Result<std::vector<app::Note>>& notes) {
         if (!notes) return shared->fail(notes.error());
-        std::string body;
-        JsonWriter json(body);
-        json.begin_object().key("notes").begin_array();
-        for (const app::Note& note : *notes) json.raw(note_json(note));
-        json.end_array().end_object();
-        shared->answer({200, "application/json", std::move(body)});
+        shared->answer({200, "application/json", body_json(NotesAnswer{*notes})});
       });
 }
 
-/// Each text once, so that a choice is one.
-void check_entries(FieldReader& reader, FieldErrors& errors, std::string_view name) {
-  const JsonValue* list = reader.array(name);
-  if (list == nullptr) return;
-  if (list->items.size() > kMostEntries) {
-    return reader.report(ErrorCode::FieldTooLong, name,
-                         fmt::format("at most {} entries", kMostEntries));
+/// The form of the entries of a catalogue: each once, so that a choice is one.
+struct Entries {
+  std::string schema(Side side) const {
+    return schema::array(NoteText{}.schema(side), 0, kMostEntries);
   }
-  std::set<std::string_view> texts;
-  for (std::size_t i = 0; i < list->items.size(); ++i) {
-    const JsonValue& item = list->items[i];
-    const std::string at = pointer_to(reader.at(name), i);
-    if (!item.is(JsonValue::Kind::String)) {
-      errors.add(ErrorCode::FieldType, at,
-                 fmt::format("an entry is a string, not {}", name_of(item.kind)));
-      continue;
+  bool read(FieldReader& fields, std::string_view name, const auto&) const {
+    const JsonValue* list = fields.array(name);
+    if (list == nullptr) return false;
+    FieldErrors& errors = fields.errors();
+    if (list->items.size() > kMostEntries) {
+      fields.report(ErrorCode::FieldTooLong, name, fmt::format("at most {} entries", kMostEntries));
+      return false;
     }
-    check_text(errors, at, item.text, kLongestEntry);
-    if (!texts.insert(item.text).second) {
-      errors.add(ErrorCode::FieldConflict, at, "this entry stands here before");
+    std::set<std::string_view> texts;
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      const JsonValue& item = list->items[i];
+      const std::string at = pointer_to(fields.at(name), i);
+      if (!item.is(JsonValue::Kind::String)) {
+        errors.add(ErrorCode::FieldType, at,
+                   fmt::format("an entry is a string, not {}", name_of(item.kind)));
+        continue;
+      }
+      NoteText{}.check(errors, at, item.text);
+      if (!texts.insert(item.text).second) {
+        errors.add(ErrorCode::FieldConflict, at, "this entry stands here before");
+      }
     }
+    return true;
   }
+};
+
+struct Catalogue {
+  std::nullptr_t checked{};  ///< it is stored as it was sent
+};
+void members(auto& v, Catalogue& catalogue) {
+  v.member("causes", catalogue.checked, Entries{}, "In the order they are offered, each once");
+  v.member("measures", catalogue.checked, Entries{}, "The same of what can be done");
 }
 
 Result<CheckedDocument> check_catalogue(const Services&, const std::string&,
                                         std::string_view text) {
   const auto body = parse_json(text);
   if (!body) return body.error();
-  FieldErrors errors;
-  FieldReader reader(*body, "", errors);
-  check_entries(reader, errors, "causes");
-  check_entries(reader, errors, "measures");
-  reader.refuse_unknown();
-  if (auto error = errors.take()) return *std::move(error);
+  if (const auto catalogue = read_whole<Catalogue>(*body); !catalogue) return catalogue.error();
   return CheckedDocument{.text = std::string(text)};
 }
 
@@ -178,12 +198,21 @@ http::Parameter measurement_parameter() {
 
 void append_note_json(std::string& out, const app::Note& note) {
   JsonWriter json(out);
-  json.begin_object().member("id", note.id).member("measurement_id", note.measurement);
-  for (const NoteField& field : kNoteFields) {
-    if (const auto& text = note.*field.text) json.member(field.name, *text);
-  }
-  if (note.caller) json.member("caller", *note.caller);
-  json.member("received_at", format_rfc3339(note.received_at)).end_object();
+  write_body(json, note);
+}
+
+void add_note_schemas(Schemas& schemas) {
+  schemas.push_back(order_schema<NoteOrder>(
+      "NewNote", R"({"cause":"Insert worn","measure":"Insert changed","operator":"Kim"})"));
+  schemas.push_back(answer_schema<app::Note>(
+      "Note",
+      R"({"id":"n1-5f0c9a3e77d21b40","measurement_id":"m1-5f0c9a3e77d21b40","cause":"Insert worn",)"
+      R"("measure":"Insert changed","operator":"Kim","received_at":"2026-11-20T07:00:01.25Z"})"));
+  schemas.push_back(answer_schema<NotesAnswer>("Notes"));
+  schemas.push_back(order_schema<Catalogue>("Catalogue", R"({"causes":["Insert worn",)"
+                                                         R"("Part clamped askew"],"measures":[)"
+                                                         R"("Insert changed","Part scrapped"]})"));
+  schemas.push_back(names_schema("Catalogues", "catalogues"));
 }
 
 void add_notes_routes(std::vector<http::Route>& routes, const Services& services) {

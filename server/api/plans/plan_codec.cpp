@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t kLongestText = 200;
 constexpr std::size_t kLongestReaction = 2000;
-constexpr std::size_t kMostCharacteristics = 500;
 constexpr std::int64_t kLargestSubgroup = 25;
 
 /// What a measurement of the characteristic gets as it stands here.

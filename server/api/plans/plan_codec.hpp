@@ -10,6 +10,8 @@
 
 namespace fitgauge::api {
 
+inline constexpr std::size_t kMostCharacteristics = 500;
+
 /// Checks a plan and gives the text it is stored and answered as: `part` first, the rest as
 /// written. Every characteristic is one a measurement could have: its limits exist, its rule has
 /// what it needs, its name is its own.

@@ -1,3 +1,4 @@
+#include "api/plans/plan_codec.hpp"
 #include "api/schemas.hpp"
 
 namespace fitgauge::api {
@@ -40,7 +41,9 @@ Fields characteristic_fields() {
 void add_plan_schemas(Schemas& schemas) {
   const Fields name = {{"name", schema::text(200), "Of the part", false}};
   const Fields characteristics = {
-      {"characteristics", schema::array(schema::object(characteristic_fields(), Others::Refused)),
+      {"characteristics",
+       schema::array(schema::object(characteristic_fields(), Others::Refused), 1,
+                     kMostCharacteristics),
        "In the order of measuring, 1 to 500, each with a name and limits of its own"}};
   schemas.push_back(
       {"PlanOrder", schema::object(Fields{{"part", schema::text(200), "As in the path", false}} +

@@ -6,6 +6,8 @@
 
 #include "api/runs/run_order_codec.hpp"
 #include "api/runs/trace_codec.hpp"
+#include "api/schemas.hpp"
+#include "base/json/body_forms.hpp"
 #include "record/measurement.hpp"
 
 namespace fitgauge::api {
@@ -18,152 +20,201 @@ using interpreter::RunMessage;
 /// bit of a sum (25 + 21/1000 is 25.021).
 constexpr int kDigits = 15;
 
-void write_double(JsonWriter& json, double value) { json.significant(value, kDigits); }
-
-void write_optional(JsonWriter& json, std::string_view name,
-                    const std::optional<std::uint32_t>& n) {
-  json.key(name);
-  if (n) {
-    json.value(*n);
-  } else {
-    json.null();
+struct Digits {
+  std::string schema(Side) const { return schema::number(); }
+  void write(JsonWriter& json, double value) const { json.significant(value, kDigits); }
+  void write(JsonWriter& json, const machine::Vec3& values) const {
+    json.begin_array();
+    for (std::size_t axis = 0; axis < 3; ++axis) write(json, values[axis]);
+    json.end_array();
   }
-}
+};
+struct ThreeDigits : Digits {
+  std::string schema(Side side) const { return schema::array(Digits::schema(side), 3, 3); }
+};
 
-void write_head(JsonWriter& json, std::string_view id, app::RunState state,
-                std::string_view program) {
-  json.begin_object().member("id", id).member("status", word(state)).member("program", program);
-}
+constexpr Words kVerdict{gauging::Verdict::Indeterminate};
+constexpr Words kState{app::RunState::Cancelled};
 
-void write_verdict(JsonWriter& json, const std::optional<gauging::Verdict>& verdict) {
-  json.key("verdict");
-  if (verdict) {
-    json.value(word(*verdict));
-  } else {
-    json.null();
-  }
-}
-
-void write_parameters(JsonWriter& json, const std::vector<ParameterValue>& parameters) {
-  json.key("parameters").begin_object();
-  for (const ParameterValue& parameter : parameters) {
-    json.key(interpreter::name(parameter.parameter));
-    if (const auto* number = std::get_if<double>(&parameter.value)) {
-      write_double(json, *number);
-    } else {
-      json.value(std::get<std::string>(parameter.value));
+/// The form of parameters by name.
+struct ParameterValues {
+  std::string schema(Side) const { return schema::map(R"({"type":["number","string"]})"); }
+  void write(JsonWriter& json, const std::vector<ParameterValue>& parameters) const {
+    json.begin_object();
+    for (const ParameterValue& parameter : parameters) {
+      json.key(interpreter::name(parameter.parameter));
+      if (const auto* number = std::get_if<double>(&parameter.value)) {
+        Digits{}.write(json, *number);
+      } else {
+        json.value(std::get<std::string>(parameter.value));
+      }
     }
+    json.end_object();
   }
-  json.end_object();
+};
+
+struct PresetAnswer {
+  machine::Preset preset{};
+};
+void members(auto& v, const PresetAnswer& answer) {
+  const machine::PresetFrame& frame = answer.preset.frame;
+  v.member("number", answer.preset.number, "Row of the preset table");
+  v.member("x_mm", frame.origin.x, Digits{});
+  v.member("y_mm", frame.origin.y, Digits{});
+  v.member("z_mm", frame.origin.z, Digits{});
+  v.member("rotation_deg", frame.basic_rotation_deg, ThreeDigits{}, "SPA, SPB, SPC");
+  v.member("offsets_deg", frame.rotary_offsets_deg, ThreeDigits{}, "A_OFFS, B_OFFS, C_OFFS");
 }
 
-void write_lines(JsonWriter& json, std::string_view name, const std::vector<std::string>& lines) {
-  json.key(name).begin_array();
-  for (const std::string& line : lines) json.value(line);
-  json.end_array();
+struct FileAnswer {
+  std::string path{};
+  std::size_t size = 0;
+};
+void members(auto& v, const FileAnswer& file) {
+  v.member("path", file.path);
+  v.member("size", file.size, "In bytes");
 }
 
-void write_message(JsonWriter& json, const RunMessage& message) {
-  json.begin_object()
-      .member("kind", word(message.kind))
-      .member("number", message.number)
-      .member("text", message.text)
-      .member("program", message.program)
-      .member("line", message.line);
-  write_optional(json, "block", message.block);
-  if (message.column != 0) {
-    json.member("column", message.column).member("source", message.source);
-  }
-  json.end_object();
+struct TableAnswer {
+  std::string path{};
+  std::string_view source{};
+};
+void members(auto& v, const TableAnswer& table) {
+  v.member("path", table.path);
+  v.member("source", table.source, "live: projected from the tables in use; stored: a file");
 }
 
-void write_preset(JsonWriter& json, const machine::Preset& preset) {
-  const machine::PresetFrame& frame = preset.frame;
-  json.begin_object().member("number", preset.number);
-  write_double(json.key("x_mm"), frame.origin.x);
-  write_double(json.key("y_mm"), frame.origin.y);
-  write_double(json.key("z_mm"), frame.origin.z);
-  json.key("rotation_deg").begin_array();
-  for (std::size_t axis = 0; axis < 3; ++axis) write_double(json, frame.basic_rotation_deg[axis]);
-  json.end_array().key("offsets_deg").begin_array();
-  for (std::size_t axis = 0; axis < 3; ++axis) write_double(json, frame.rotary_offsets_deg[axis]);
-  json.end_array().end_object();
+}  // namespace
+
+void members(auto& v, const RunMessage& message) {
+  const bool has_column = message.column != 0;
+  v.member("kind", message.kind, Words{interpreter::MessageKind::Note},
+           "A note says what the simulation leaves out");
+  v.member("number", message.number, "Of the control's message; 0 where it has none");
+  v.member("text", message.text, "What happened");
+  v.member("program", message.program, "Where");
+  v.member("line", message.line, "Where, from 1");
+  v.member("block", message.block, "Where, by the number as written");
+  v.optional("column", has_column ? &message.column : nullptr, "Of a word that is wrong, from 1");
+  v.optional("source", has_column ? &message.source : nullptr,
+             "With the column: the line as written");
 }
 
-/// What the number of points of a circular feature lets one say about its form.
-void write_form(JsonWriter& json, const std::optional<probing::Form>& form) {
-  if (!form) return;
-  json.key("form").begin_object().member("assessable", form->assessable);
-  if (!form->reason.empty()) json.member("reason", form->reason);
-  if (form->residual_mm) write_double(json.key("residual_mm"), *form->residual_mm);
-  json.end_object();
+void members(auto& v, const probing::MeasuredSize& size) {
+  const auto* limits = size.limits ? &*size.limits : nullptr;
+  v.member("characteristic", size.characteristic, "What was measured: diameter, width");
+  v.member("nominal_mm", size.nominal, Millimetres{});
+  v.member("measured_mm", size.measured, Millimetres{});
+  v.member("deviation_um", size.measured - size.nominal, Micrometres{}, "Measured minus nominal");
+  v.optional("upper_limit_mm", limits != nullptr ? &limits->upper : nullptr, Millimetres{},
+             "Where the cycle was given limits");
+  v.optional("lower_limit_mm", limits != nullptr ? &limits->lower : nullptr, Millimetres{},
+             "Where the cycle was given limits");
+  v.member("verdict", size.verdict, kVerdict);
 }
 
-void write_size(JsonWriter& json, const probing::MeasuredSize& size) {
-  json.begin_object()
-      .member("characteristic", size.characteristic)
-      .member_mm("nominal_mm", size.nominal)
-      .member_mm("measured_mm", size.measured)
-      .member_um("deviation_um", size.measured - size.nominal);
-  if (size.limits) {
-    json.member_mm("upper_limit_mm", size.limits->upper)
-        .member_mm("lower_limit_mm", size.limits->lower);
-  }
-  write_verdict(json, size.verdict);
-  json.end_object();
+void members(auto& v, const probing::Form& form) {
+  v.member("assessable", form.assessable, "Whether there are enough points to judge it");
+  v.optional("reason", form.reason.empty() ? nullptr : &form.reason, "Why not");
+  v.optional("residual_mm", form.residual_mm, Digits{},
+             "Root mean square of the points from the circle");
 }
 
-void write_measurement(JsonWriter& json, const interpreter::Measurement& measurement) {
-  json.begin_object()
-      .member("cycle", std::uint32_t{measurement.record.cycle})
-      .member("program", measurement.program)
-      .member("line", measurement.line);
-  write_optional(json, "block", measurement.block);
-  write_verdict(json, measurement.record.verdict);
-  json.key("sizes").begin_array();
-  for (const probing::MeasuredSize& size : measurement.record.sizes) write_size(json, size);
-  json.end_array();
-  write_form(json, measurement.record.form);
-  json.end_object();
+void members(auto& v, const interpreter::Measurement& measurement) {
+  const probing::MeasuringRecord& record = measurement.record;
+  v.member("cycle", record.cycle, "Its number");
+  v.member("program", measurement.program);
+  v.member("line", measurement.line);
+  v.member("block", measurement.block);
+  v.member("verdict", record.verdict, kVerdict, "null without limits");
+  v.member("sizes", record.sizes);
+  v.optional("form", record.form, "Of a circular feature");
+}
+
+void members(auto& v, const klartext::DiagnosticNote& note) {
+  v.member("message", note.message);
+  v.member("line", note.range.begin.line, "From 1");
+  v.member("column", note.range.begin.column, "From 1");
+}
+
+void members(auto& v, const klartext::Diagnostic& found) {
+  v.member("severity", found.severity != klartext::Severity::Error, OneOf<2>{"error", "warning"},
+           "An error refuses a run");
+  v.member("code", id(found.code), "Stable");
+  v.member("message", found.message, "What is wrong and what to do");
+  v.member("program", found.program, "The file it is in");
+  v.member("line", found.range.begin.line, "From 1");
+  v.member("column", found.range.begin.column, "From 1");
+  v.member("block", found.block, "The block number, where there is one");
+  v.member("source", found.source, "The line as written");
+  v.optional("notes", found.notes.empty() ? nullptr : &found.notes,
+             "Other places that belong to it");
+}
+
+namespace {
+
+struct RunHead {
+  std::string id{};
+  app::RunState state{};
+  std::string program{};
+};
+void members(auto& v, const RunHead& head) {
+  v.member("id", head.id, "Opaque");
+  v.member("status", head.state, kState, "The last five are final");
+  v.member("program", head.program, "As the control writes its path");
+}
+
+RunHead head_of(const app::RunReport& report) {
+  return {report.id_text(), app::state_of(report.result.status), report.program};
+}
+
+/// A run, with its result when it is over; until then with what it has printed.
+struct RunAnswer {
+  RunHead head{};
+  Timestamp created_at{};
+  std::optional<Timestamp> finished_at{};
+  std::uint64_t blocks = 0;
+  std::vector<std::string> screen{};
+  std::uint64_t seed = 0;
+  const interpreter::RunResult* result = nullptr;
+};
+void members(auto& v, const RunAnswer& run) {
+  static const interpreter::RunResult kNone;
+  const bool is_over = run.result != nullptr;
+  const interpreter::RunResult& result = is_over ? *run.result : kNone;
+  std::vector<FileAnswer> files;
+  for (const auto& file : result.files) files.push_back({file.path.text(), file.bytes.size()});
+  std::vector<TableAnswer> tables;
+  for (const auto& table : result.tables) tables.push_back({table.path.text(), word(table.source)});
+  std::vector<PresetAnswer> presets;
+  for (const auto& preset : result.presets) presets.push_back({preset});
+  const std::vector<PresetAnswer>* const shown = is_over ? &presets : nullptr;
+  members(v, run.head);
+  v.member("created_at", run.created_at, Time{}, "In UTC");
+  v.optional("finished_at", run.finished_at, Time{}, "Absent until it is over");
+  v.member("blocks_executed", run.blocks, "So far");
+  v.member("verdict", result.verdict, kVerdict, "Of the last measuring cycle");
+  v.member("parameters", result.parameters, ParameterValues{},
+           "Every Q, QL, QR and QS defined at the end");
+  v.member("screen", is_over ? result.screen : run.screen, "Every line printed, in order");
+  v.member("files", files, "Written by the run");
+  v.member("tables", tables, "Opened by the run");
+  v.member("messages", result.messages, "Every status but completed has one");
+  v.member("measurements", result.measurements, "One for each measuring cycle");
+  v.optional("active_preset", is_over ? &result.active_preset : nullptr, "At the end");
+  v.optional("presets", shown, "The preset table at the end");
+  v.optional("machining_time_s", is_over ? &result.machining_time_s : nullptr, Digits{},
+             "What the machine would have taken");
+  v.optional("setup_seed", is_over ? &run.seed : nullptr, "With it the run can be repeated");
 }
 
 std::string report_json(const app::RunReport& report) {
-  const interpreter::RunResult& result = report.result;
-  std::string out;
-  JsonWriter json(out);
-  write_head(json, report.id_text(), app::state_of(result.status), report.program);
-  json.member("created_at", format_rfc3339(report.created_at))
-      .member("finished_at", format_rfc3339(report.finished_at))
-      .member("blocks_executed", result.blocks_executed);
-  write_verdict(json, result.verdict);
-  write_parameters(json, result.parameters);
-  write_lines(json, "screen", result.screen);
-  json.key("files").begin_array();
-  for (const interpreter::WrittenFile& file : result.files) {
-    json.begin_object()
-        .member("path", file.path.text())
-        .member("size", std::uint64_t{file.bytes.size()})
-        .end_object();
-  }
-  json.end_array().key("tables").begin_array();
-  for (const interpreter::OpenedTable& table : result.tables) {
-    json.begin_object()
-        .member("path", table.path.text())
-        .member("source", word(table.source))
-        .end_object();
-  }
-  json.end_array().key("messages").begin_array();
-  for (const RunMessage& message : result.messages) write_message(json, message);
-  json.end_array().key("measurements").begin_array();
-  for (const interpreter::Measurement& measurement : result.measurements) {
-    write_measurement(json, measurement);
-  }
-  json.end_array().member("active_preset", result.active_preset).key("presets").begin_array();
-  for (const machine::Preset& preset : result.presets) write_preset(json, preset);
-  json.end_array();
-  write_double(json.key("machining_time_s"), result.machining_time_s);
-  json.member("setup_seed", report.seed).end_object();
-  return out;
+  return body_json(RunAnswer{.head = head_of(report),
+                             .created_at = report.created_at,
+                             .finished_at = report.finished_at,
+                             .blocks = report.result.blocks_executed,
+                             .seed = report.seed,
+                             .result = &report.result});
 }
 
 /// An order is stored as it was accepted: what it leaves out has the default.
@@ -178,36 +229,47 @@ std::uint64_t seed_of(const std::string& request) {
   return value;
 }
 
-std::string event_json(const app::RunReport& report) {
-  std::string out;
-  JsonWriter json(out);
-  write_head(json, report.id_text(), app::state_of(report.result.status), report.program);
-  json.member("finished_at", format_rfc3339(report.finished_at));
-  write_verdict(json, report.result.verdict);
-  json.end_object();
-  return out;
+struct FinishedAnswer {
+  RunHead head{};
+  Timestamp finished_at{};
+  std::optional<gauging::Verdict> verdict{};
+};
+void members(auto& v, const FinishedAnswer& finished) {
+  members(v, finished.head);
+  v.member("finished_at", finished.finished_at, Time{}, "In UTC");
+  v.member("verdict", finished.verdict, kVerdict);
 }
 
-/// The run object while there are no results.
-std::string unfinished_json(std::string_view id, app::RunState state, std::string_view program,
-                            Timestamp created_at, std::uint64_t blocks,
-                            const std::vector<std::string>& screen) {
-  std::string out;
-  JsonWriter json(out);
-  write_head(json, id, state, program);
-  json.member("created_at", format_rfc3339(created_at))
-      .member("blocks_executed", blocks)
-      .key("verdict")
-      .null()
-      .key("parameters")
-      .begin_object()
-      .end_object();
-  write_lines(json, "screen", screen);
-  for (const std::string_view empty : {"files", "tables", "messages", "measurements"}) {
-    json.key(empty).begin_array().end_array();
-  }
-  json.end_object();
-  return out;
+std::string event_json(const app::RunReport& report) {
+  return body_json(FinishedAnswer{head_of(report), report.finished_at, report.result.verdict});
+}
+
+struct ListedRun {
+  RunHead head{};
+  Timestamp created_at{};
+  std::optional<Timestamp> finished_at{};
+};
+void members(auto& v, const ListedRun& run) {
+  members(v, run.head);
+  v.member("created_at", run.created_at, Time{}, "In UTC");
+  v.member("finished_at", run.finished_at, Time{}, "null until it is over");
+}
+
+struct RunListAnswer {
+  std::vector<ListedRun> runs{};
+  std::optional<std::string> next{};
+};
+void members(auto& v, const RunListAnswer& list) {
+  v.member("runs", list.runs, "The newest first");
+  v.member("next", list.next, "For `after`; null on the last page");
+}
+
+struct DiagnosticsAnswer {
+  std::vector<klartext::Diagnostic> diagnostics{};
+};
+void members(auto& v, const DiagnosticsAnswer& answer) {
+  v.member("diagnostics", answer.diagnostics, List<klartext::Diagnostic>{{"Diagnostic"}},
+           "Empty: all is well");
 }
 
 /// Its setup stands in it, so that no setup is asked for by its name.
@@ -234,74 +296,64 @@ app::RunFormat run_format() {
 
 std::string unfinished_run_json(const app::ActiveRun& run) {
   const auto news = run.news(0);
-  return unfinished_json(run.id_text(), news.state, run.program(), run.created_at(), news.blocks,
-                         news.lines);
+  return body_json(RunAnswer{.head = {run.id_text(), news.state, std::string(run.program())},
+                             .created_at = run.created_at(),
+                             .blocks = news.blocks,
+                             .screen = news.lines});
 }
 
 std::string unfinished_run_json(const app::StoredRun& run) {
-  return unfinished_json(run.id_text(), run.state, run.program, run.created_at, 0, {});
+  return body_json(
+      RunAnswer{.head = {run.id_text(), run.state, run.program}, .created_at = run.created_at});
 }
 
 std::string run_cursor(std::int64_t id) { return fmt::format("r{}", id); }
 
 std::string run_page_json(const app::RunService::Page& page) {
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object().key("runs").begin_array();
+  RunListAnswer list;
   for (const app::StoredRun& run : page.runs) {
-    write_head(json, run.id_text(), run.state, run.program);
-    json.member("created_at", format_rfc3339(run.created_at)).key("finished_at");
-    if (run.finished_at) {
-      json.value(format_rfc3339(*run.finished_at));
-    } else {
-      json.null();
-    }
-    json.end_object();
+    list.runs.push_back({{run.id_text(), run.state, run.program}, run.created_at, run.finished_at});
   }
-  json.end_array().key("next");
-  if (page.next) {
-    json.value(run_cursor(*page.next));
-  } else {
-    json.null();
-  }
-  json.end_object();
-  return out;
+  if (page.next) list.next = run_cursor(*page.next);
+  return body_json(list);
 }
 
 void write_diagnostics(JsonWriter& json, const std::vector<klartext::Diagnostic>& diagnostics) {
-  json.begin_array();
-  for (const klartext::Diagnostic& found : diagnostics) {
-    json.begin_object()
-        .member("severity", found.severity == klartext::Severity::Error ? "error" : "warning")
-        .member("code", id(found.code))
-        .member("message", found.message)
-        .member("program", found.program)
-        .member("line", found.range.begin.line)
-        .member("column", found.range.begin.column);
-    write_optional(json, "block", found.block);
-    json.member("source", found.source);
-    if (!found.notes.empty()) {
-      json.key("notes").begin_array();
-      for (const klartext::DiagnosticNote& note : found.notes) {
-        json.begin_object()
-            .member("message", note.message)
-            .member("line", note.range.begin.line)
-            .member("column", note.range.begin.column)
-            .end_object();
-      }
-      json.end_array();
-    }
-    json.end_object();
-  }
-  json.end_array();
+  List<klartext::Diagnostic>{}.write(json, diagnostics);
 }
 
 std::string diagnostics_json(const std::vector<klartext::Diagnostic>& diagnostics) {
-  std::string out;
-  JsonWriter json(out);
-  write_diagnostics(json.begin_object().key("diagnostics"), diagnostics);
-  json.end_object();
-  return out;
+  return body_json(DiagnosticsAnswer{diagnostics});
+}
+
+void add_diagnostic_schemas(Schemas& schemas) {
+  schemas.push_back(answer_schema<klartext::Diagnostic>(
+      "Diagnostic",
+      R"({"severity":"error","code":"nc.label_unknown","message":"label 5 is not defined",)"
+      R"("program":"TNC:\\nc_prog\\bore.h","line":3,"column":1,"block":2,"source":"2 CALL LBL 5"})"));
+  schemas.push_back(answer_schema<DiagnosticsAnswer>("Diagnostics"));
+}
+
+void add_run_schemas(Schemas& schemas) {
+  schemas.push_back(run_order_schema());
+  schemas.push_back(answer_schema<RunAnswer>(
+      "Run", R"({"id":"r1","status":"completed","program":"TNC:\\nc_prog\\bore.h",)"
+             R"("created_at":"2026-11-20T07:00:00Z","finished_at":"2026-11-20T07:00:00.02Z",)"
+             R"("blocks_executed":4,"verdict":"good","parameters":{"Q153":25.013},)"
+             R"("screen":[],"files":[],"tables":[],"messages":[],"measurements":[],)"
+             R"("active_preset":1,"presets":[],"machining_time_s":12.4,"setup_seed":1})"));
+  schemas.push_back(answer_schema<RunListAnswer>("RunList"));
+  schemas.push_back({"RunParameters", ParameterValues{}.schema(Side::Answer)});
+  schemas.push_back(answer_schema<FinishedAnswer>("RunFinished"));
+  const std::string status = kState.schema(Side::Answer);
+  schemas.push_back(
+      {"RunProgress",
+       schema::object({{"status", status, ""}, {"blocks_executed", schema::count(), "So far"}})});
+  schemas.push_back(
+      {"RunOutput", schema::object({{"line", schema::text(), "As printed on the screen"}})});
+  schemas.push_back({"RunEvent", schema::any_of({schema::ref("RunOutput"),
+                                                 schema::ref("RunProgress"), schema::ref("Run")})});
+  add_trace_schema(schemas);
 }
 
 }  // namespace fitgauge::api

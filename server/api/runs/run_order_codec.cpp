@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 
 #include "api/files/file_path.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/runs/setup_builder.hpp"
 #include "api/runs/setup_codec.hpp"
-#include "base/json/field_reader.hpp"
+#include "api/runs/setup_forms.hpp"
 
 namespace fitgauge::api {
+
 namespace {
 
 using Kind = JsonValue::Kind;
@@ -20,23 +22,36 @@ using Kind = JsonValue::Kind;
 /// Of a replay.
 constexpr std::size_t kMostContacts = 10'000;
 
-struct Language {
-  std::string_view word;
-  klartext::MaskLanguage language;
-};
-constexpr std::array<Language, 4> kLanguages{{{"english", klartext::MaskLanguage::English},
-                                              {"german", klartext::MaskLanguage::German},
-                                              {"dutch", klartext::MaskLanguage::Dutch},
-                                              {"italian", klartext::MaskLanguage::Italian}}};
+/// The form of a language of masks.
+struct LanguageForm {
+  static constexpr std::array kLanguages = {std::pair{"english", klartext::MaskLanguage::English},
+                                            std::pair{"german", klartext::MaskLanguage::German},
+                                            std::pair{"dutch", klartext::MaskLanguage::Dutch},
+                                            std::pair{"italian", klartext::MaskLanguage::Italian}};
 
-std::optional<interpreter::ControlPath> read_program(FieldReader& fields) {
-  const auto text = fields.text("program");
-  if (!text) return std::nullopt;
-  auto path = parse_file_path(*text);
-  if (path) return *std::move(path);
-  fields.report(path.error().code, "program", path.error().message);
-  return std::nullopt;
-}
+  std::string schema(Side) const {
+    std::vector<std::string_view> words;
+    for (const auto& [word, language] : kLanguages) words.emplace_back(word);
+    return schema::words(words);
+  }
+  void write(JsonWriter& json, klartext::MaskLanguage from) const {
+    for (const auto& [word, language] : kLanguages) {
+      if (language == from) json.value(word);
+    }
+  }
+  bool read(FieldReader& fields, std::string_view name, klartext::MaskLanguage& to) const {
+    const auto given = fields.text(name);
+    if (!given) return false;
+    for (const auto& [word, language] : kLanguages) {
+      if (*given != word) continue;
+      to = language;
+      return true;
+    }
+    fields.report(ErrorCode::FieldInvalid, name,
+                  "language takes english, german, dutch or italian");
+    return false;
+  }
+};
 
 /// The value of a parameter: a number, or for a QS a string.
 std::optional<std::variant<double, std::string>> read_value(const JsonValue& value) {
@@ -50,65 +65,51 @@ std::optional<std::variant<double, std::string>> read_value(const JsonValue& val
   return number;
 }
 
-std::vector<interpreter::ParameterValue> read_parameters(FieldReader& fields, FieldErrors& errors) {
-  std::vector<interpreter::ParameterValue> parameters;
-  const JsonValue* object = fields.has("parameters") ? fields.object("parameters") : nullptr;
-  if (object == nullptr) return parameters;
-  for (const auto& [name, value] : object->members) {
-    const std::string pointer = pointer_to(fields.at("parameters"), name);
-    const auto parameter = interpreter::parse_parameter_name(name);
-    if (!parameter) {
-      errors.add(parameter.error().code, pointer, parameter.error().message);
-      continue;
+/// The form of parameters by name.
+struct Parameters {
+  std::string schema(Side) const { return schema::map(R"({"type":["number","string"]})"); }
+  bool read(FieldReader& fields, std::string_view of,
+            std::vector<interpreter::ParameterValue>& to) const {
+    const JsonValue* object = fields.object(of);
+    if (object == nullptr) return false;
+    FieldErrors& errors = fields.errors();
+    for (const auto& [name, value] : object->members) {
+      const std::string pointer = pointer_to(fields.at(of), name);
+      const auto parameter = interpreter::parse_parameter_name(name);
+      if (!parameter) {
+        errors.add(parameter.error().code, pointer, parameter.error().message);
+        continue;
+      }
+      auto read = read_value(value);
+      if (!read) {
+        errors.add(value.is(Kind::Number) ? ErrorCode::NumberOutOfRange : ErrorCode::FieldType,
+                   pointer, fmt::format("{} takes a number or a string within its range", name));
+        continue;
+      }
+      interpreter::ParameterValue given{*parameter, *std::move(read)};
+      if (const auto valid = interpreter::validate(given); !valid) {
+        errors.add(valid.error().code, pointer, valid.error().message);
+      } else {
+        to.push_back(std::move(given));
+      }
     }
-    auto read = read_value(value);
-    if (!read) {
-      errors.add(value.is(Kind::Number) ? ErrorCode::NumberOutOfRange : ErrorCode::FieldType,
-                 pointer, fmt::format("{} takes a number or a string within its range", name));
-      continue;
-    }
-    interpreter::ParameterValue given{*parameter, *std::move(read)};
-    if (const auto valid = interpreter::validate(given); !valid) {
-      errors.add(valid.error().code, pointer, valid.error().message);
-    } else {
-      parameters.push_back(std::move(given));
-    }
+    return true;
   }
-  return parameters;
-}
+};
 
-void read_limits(FieldReader& fields, FieldErrors& errors, interpreter::RunLimits& limits) {
-  if (!fields.has("limits")) return;
-  const JsonValue* object = fields.object("limits");
-  if (object == nullptr) return;
-  FieldReader reader(*object, fields.at("limits"), errors);
-  limits.blocks = static_cast<std::uint64_t>(
-      reader.integer_or("blocks", static_cast<std::int64_t>(limits.blocks), 1, kMostBlocks));
-  const double seconds = reader.number_or("seconds", limits.time.count());
-  if (seconds > 0 && seconds <= kMostSeconds) {
-    limits.time = std::chrono::duration<double>(seconds);
-  } else {
-    reader.report(ErrorCode::FieldInvalid, "seconds",
-                  fmt::format("seconds takes more than 0 and at most {}", kMostSeconds));
-  }
-  reader.refuse_unknown();
-}
-
-/// What is measured, as the records of the run have it.
-app::RunSubject read_subject(FieldReader& fields) {
-  const auto read = [&fields](std::string_view name) {
-    auto text = fields.optional_text(name).value_or("");
-    if (text.size() > kLongestSubject) {
-      fields.report(ErrorCode::FieldTooLong, name,
-                    fmt::format("{} takes at most {} bytes", name, kLongestSubject));
-    }
-    if (text.find('\0') != std::string::npos) {
+/// The form of a text in the records of a run.
+struct Subject : Text {
+  static constexpr bool kHasDefault = false;
+  bool read(FieldReader& fields, std::string_view name, std::string& to) const {
+    if (!Text::read(fields, name, to)) return false;
+    const bool has_nul = to.find('\0') != std::string::npos;
+    if (has_nul) {
       fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} holds a NUL character", name));
     }
-    return text;
-  };
-  return {.part_id = read("part_id"), .order = read("order")};
-}
+    return !has_nul;
+  }
+};
+constexpr Subject kSubject{{.longest = kLongestSubject}};
 
 /// `[50.1, 40, -5]`: where the ball's centre stood when it touched.
 std::optional<machine::Vec3> read_point(const JsonValue& value) {
@@ -122,55 +123,75 @@ std::optional<machine::Vec3> read_point(const JsonValue& value) {
   return point;
 }
 
-std::optional<std::vector<machine::ScriptedContact>> read_contacts(FieldReader& fields,
-                                                                   FieldErrors& errors) {
-  if (!fields.has("contacts_mm")) return std::nullopt;
-  const JsonValue* const array = fields.array("contacts_mm");
-  if (array == nullptr) return std::nullopt;
-  if (array->items.size() > kMostContacts) {
-    fields.report(ErrorCode::FieldInvalid, "contacts_mm",
-                  fmt::format("contacts_mm takes at most {} contacts", kMostContacts));
-    return std::nullopt;
+/// The form of what a real machine touched.
+struct Contacts {
+  std::string schema(Side) const {
+    return schema::array(schema::null_or(schema::array(schema::number(), 3, 3)), 0, kMostContacts);
   }
-  std::vector<machine::ScriptedContact> contacts;
-  for (std::size_t i = 0; i < array->items.size(); ++i) {
-    const JsonValue& item = array->items[i];
-    const auto point = item.is(Kind::Null) ? std::nullopt : read_point(item);
-    if (!point && !item.is(Kind::Null)) {
-      errors.add(ErrorCode::FieldType, pointer_to(fields.at("contacts_mm"), std::to_string(i)),
-                 "a contact is [X, Y, Z] of the ball's centre, or null where nothing was touched");
+  bool read(FieldReader& fields, std::string_view name,
+            std::vector<machine::ScriptedContact>& to) const {
+    const JsonValue* const array = fields.array(name);
+    if (array == nullptr) return false;
+    if (array->items.size() > kMostContacts) {
+      fields.report(ErrorCode::FieldInvalid, name,
+                    fmt::format("{} takes at most {} contacts", name, kMostContacts));
+      return false;
     }
-    contacts.push_back({.ball_centre = point});
+    for (std::size_t i = 0; i < array->items.size(); ++i) {
+      const JsonValue& item = array->items[i];
+      const auto point = item.is(Kind::Null) ? std::nullopt : read_point(item);
+      if (!point && !item.is(Kind::Null)) {
+        fields.errors().add(
+            ErrorCode::FieldType, pointer_to(fields.at(name), i),
+            "a contact is [X, Y, Z] of the ball's centre, or null where nothing was touched");
+      }
+      to.push_back({.ball_centre = point});
+    }
+    return true;
   }
-  return contacts;
+};
+
+}  // namespace
+
+void members(auto& v, interpreter::RunLimits& limits) {
+  v.optional("blocks", limits.blocks, Integer{1, kMostBlocks}, "Executed");
+  double seconds = limits.time.count();
+  v.optional("seconds", seconds,
+             Number{0, kMostSeconds, Number::Ends::OpenBelow, "takes more than 0 and at most 60"},
+             "Of computing, above 0; machining time has no limit");
+  limits.time = std::chrono::duration<double>(seconds);
 }
 
-void read_words(FieldReader& fields, interpreter::RunOptions& options) {
-  if (const auto on_stop = fields.optional_text("on_stop")) {
-    if (*on_stop == "end") {
-      options.on_stop = interpreter::OnStop::End;
-    } else if (*on_stop != "continue") {
-      fields.report(ErrorCode::FieldInvalid, "on_stop", "on_stop takes \"continue\" or \"end\"");
-    }
-  }
-  if (const auto unreadable = fields.optional_text("unreadable")) {
-    if (*unreadable == "error_block") {
-      options.keeps_unreadable = true;
-    } else if (*unreadable != "refuse") {
-      fields.report(ErrorCode::FieldInvalid, "unreadable",
-                    "unreadable takes \"refuse\" or \"error_block\"");
-    }
-  }
-  if (const auto word = fields.optional_text("language")) {
-    const auto found = std::find_if(kLanguages.begin(), kLanguages.end(),
-                                    [&word](const Language& l) { return l.word == *word; });
-    if (found != kLanguages.end()) {
-      options.language = found->language;
-    } else {
-      fields.report(ErrorCode::FieldInvalid, "language",
-                    "language takes english, german, dutch or italian");
-    }
-  }
+namespace {
+
+struct RunOrderBody {
+  std::string program{};
+  interpreter::RunOptions options{};
+  app::RunSubject subject{};
+  std::optional<std::vector<machine::ScriptedContact>> contacts{};
+};
+void members(auto& v, RunOrderBody& order) {
+  interpreter::RunOptions& options = order.options;
+  std::nullptr_t elsewhere{};
+  v.member("program", order.program, DiskFile{}, "TNC:\\nc_prog\\8255\\8255.h");
+  v.optional("setup", elsewhere, Elsewhere{schema::any_of({schema::text(), schema::ref("Setup")})},
+             "The name of a stored setup, or a setup");
+  v.optional("parameters", options.parameters, Parameters{},
+             "Q, QL and QR numbers and QS strings, as if an earlier program had left them");
+  v.optional("limits", options.limits, "What ends the run with limit_exceeded");
+  v.optional("contacts_mm", order.contacts, Contacts{},
+             "What a real machine touched: the ball's centre in the active system for each probing "
+             "move in order, null where a move touched nothing. They stand for the setup's "
+             "workpiece");
+  v.optional("on_stop", options.on_stop, OneOf<2>{"continue", "end"},
+             "At STOP, M0 and Q281=2: go on as with NC Start, or end there");
+  v.optional("unreadable", options.keeps_unreadable, OneOf<2>{"refuse", "error_block"},
+             "Lines that are no Klartext: refuse the program, or fail where one is reached");
+  v.optional("block_skip", options.block_skip, "Skip blocks that begin with /");
+  v.optional("language", options.language, LanguageForm{}, "Of FN 16 masks");
+  v.optional("part_id", order.subject.part_id, kSubject,
+             "The part that is measured: in each record of the run");
+  v.optional("order", order.subject.order, kSubject, "Its order, likewise");
 }
 
 /// The setup as JSON: the member itself, or the named one, which then replaces the name.
@@ -193,37 +214,35 @@ Result<void> put_setup_in_place(JsonValue& body, const FindSetup& find_setup, Fi
 
 }  // namespace
 
+NamedSchema run_order_schema() {
+  return order_schema<RunOrderBody>("RunOrder",
+                                    R"({"program":"TNC:\\nc_prog\\8255\\8255.h",)"
+                                    R"("setup":"m3","parameters":{"Q1":25,"QS1":"H7"}})");
+}
+
 Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup,
                                        const app::ControlTables& tables) {
   FieldErrors errors;
   if (const auto placed = put_setup_in_place(body, find_setup, errors); !placed) {
     return placed.error();
   }
-  FieldReader fields(body, "", errors);
-  const auto program = read_program(fields);
-  interpreter::RunOptions options;
-  options.parameters = read_parameters(fields, errors);
-  read_limits(fields, errors, options.limits);
-  read_words(fields, options);
-  options.block_skip = fields.boolean_or("block_skip", options.block_skip);
-  auto subject = read_subject(fields);
+  RunOrderBody order;
+  read_body(body, "", errors, order);
   const JsonValue nothing{.kind = Kind::Object};
-  const JsonValue* const given = fields.optional("setup");
+  const JsonValue* const given = body.find("setup");
   machine::Setup setup =
       decode_setup(given != nullptr ? *given : nothing, "/setup", tables, errors);
-  if (given != nullptr) decode_builder(*given, "/setup", options, errors);
-  auto contacts = read_contacts(fields, errors);
-  fields.refuse_unknown();
+  if (given != nullptr) decode_builder(*given, "/setup", order.options, errors);
   if (auto error = errors.take()) return std::move(*error);
   std::string request;
   JsonWriter json(request);
   write_json(json, body);
-  return app::RunOrder{.program = *program,
+  return app::RunOrder{.program = *parse_file_path(order.program),
                        .setup = std::move(setup),
-                       .options = std::move(options),
+                       .options = std::move(order.options),
                        .request = std::move(request),
-                       .contacts = std::move(contacts),
-                       .subject = std::move(subject)};
+                       .contacts = std::move(order.contacts),
+                       .subject = std::move(order.subject)};
 }
 
 }  // namespace fitgauge::api

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/json/json_value.hpp"
+#include "base/json/schema.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/runs/control_tables.hpp"
 #include "service/runs/run_report.hpp"
@@ -25,5 +26,8 @@ using FindSetup = std::function<Result<app::NamedDocument>(const std::string& na
 /// @errors RequestInvalid with every bad field; those of `find_setup` but SetupUnknown.
 Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup,
                                        const app::ControlTables& tables);
+
+/// The schema of such a body.
+NamedSchema run_order_schema();
 
 }  // namespace fitgauge::api

@@ -36,7 +36,7 @@ void answer_end(const SharedPosting& posting, std::string location,
                 const Result<app::FinishedRun>& end) {
   if (!end) return posting->responder.fail(end.error());
   posting->responder.answer(
-      response_of({201, "application/json", std::move(location), end->report}));
+      api::response_of({201, "application/json", std::move(location), end->report}));
 }
 
 void replay(const SharedPosting& posting, app::Answer kept) {
@@ -133,7 +133,7 @@ Result<void> start(const SharedPosting& posting) {
   if (!run) return run.error();
   app::Answer answer = accepted(**run, at_once);
   if (at_once) {
-    posting->responder.answer(with_preference(response_of(std::move(answer))));
+    posting->responder.answer(with_preference(api::response_of(std::move(answer))));
     return {};
   }
   (*run)->on_end([posting, location = std::move(answer.location)](

@@ -18,7 +18,7 @@
 namespace fitgauge::api {
 namespace {
 
-constexpr std::int64_t kDefaultLimit = 100;
+constexpr std::int64_t kRunsOfAPage = 100;
 
 Result<std::int64_t> id_of(const Services& services, const http::Request& request) {
   return services.runs.parse_id(*request.text("id"));
@@ -82,7 +82,8 @@ std::string media_type_of(const std::string& path) {
   return html ? "text/html; charset=utf-8" : "text/plain; charset=utf-8";
 }
 
-void get_file(const Services& services, const http::Request& request, http::Responder responder) {
+void get_run_file(const Services& services, const http::Request& request,
+                  http::Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   services.runs.file(
@@ -174,7 +175,7 @@ void list_runs(const Services& services, const http::Request& request, http::Res
   }
   services.runs.list(
       std::move(query), after,
-      static_cast<std::size_t>(request.integer("limit").value_or(kDefaultLimit)),
+      static_cast<std::size_t>(request.integer("limit").value_or(kRunsOfAPage)),
       [&request, shared = share(std::move(responder))](Result<app::RunService::Page> page) {
         if (!page) return shared->fail(page.error());
         http::Response response = json_response(run_page_json(*page));
@@ -253,7 +254,7 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
   });
   routes.push_back({
       .pattern = "/v1/runs/{id}/files/{name}",
-      .handler = with(services, get_file),
+      .handler = with(services, get_run_file),
       .summary = "A file the run has written, by its name",
       .parameters = {kId,
                      {.name = "name",

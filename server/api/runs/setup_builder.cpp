@@ -82,14 +82,6 @@ bool is_known_cycle(int number) {
   return false;
 }
 
-std::string actions_schema() {
-  const std::string call = schema::object(
-      {{"call", schema::text(), "The program that stands for it"}}, schema::Others::Refused);
-  return schema::map(schema::any_of({schema::words({"ignore"}), call}));
-}
-
-std::string separator_schema() { return schema::words({"comma", "point"}); }
-
 void read_separator(const JsonValue& setup, const std::string& pointer,
                     interpreter::RunOptions& options, FieldErrors& errors) {
   const JsonValue* separator = setup.find("decimal_separator");
@@ -122,21 +114,13 @@ void read_print_folder(const JsonValue& setup, const std::string& pointer,
 
 }  // namespace
 
-void name_builder_actions(SetupFields& fields) {
-  fields.elsewhere({"m_functions",
-                    "Of the machine's builder, by number: `ignore`, or an object "
-                    "whose `call` is the program that stands for it"},
-                   actions_schema);
-  fields.elsewhere({"cycles", "Of the machine's builder, likewise"}, actions_schema);
+std::string builder_actions_schema() {
+  const std::string call = schema::object(
+      {{"call", schema::text(), "The program that stands for it"}}, schema::Others::Refused);
+  return schema::map(schema::any_of({schema::words({"ignore"}), call}));
 }
 
-void name_printing(SetupFields& fields) {
-  fields.elsewhere({"decimal_separator", "Of FN 15; comma when absent"}, separator_schema);
-  fields.elsewhere({"fn16_default_path",
-                    "fn16DefaultPath: the folder, such as `TNC:\\logs`, of logs and of files that "
-                    "FN 16 names without a folder; that of the program when absent"},
-                   [] { return schema::text(); });
-}
+std::string decimal_separator_schema() { return schema::words({"comma", "point"}); }
 
 void decode_builder(const JsonValue& setup, const std::string& pointer,
                     interpreter::RunOptions& options, FieldErrors& errors) {

@@ -1,10 +1,15 @@
 #include "api/runs/setup_codec.hpp"
 
 #include "api/runs/setup_builder.hpp"
-#include "api/runs/setup_reader.hpp"
+#include "api/runs/setup_workpiece.hpp"
+#include "api/service/document_routes.hpp"
 
 namespace fitgauge::api {
 namespace {
+
+constexpr std::string_view kSetupExample =
+    R"({"workpiece":{"features":[{"type":"block","min_mm":[0,0,-40],"max_mm":[100,80,0]},)"
+    R"({"type":"bore","center_mm":[50,40],"diameter_mm":25.013}]}})";
 
 /// What does not make sense together, unless a field that was refused already is why.
 void check(const machine::Setup& setup, const std::string& pointer, FieldErrors& errors) {
@@ -18,30 +23,56 @@ void check(const machine::Setup& setup, const std::string& pointer, FieldErrors&
 
 }  // namespace
 
-void read_setup(SetupFields& fields, machine::Setup& setup) {
-  fields.object({"machine", "Axes, tools, touch probes and presets"}, "Machine",
-                [&setup](SetupFields& machine) {
-                  read_machine(machine, setup.machine);
-                  name_builder_actions(machine);
-                });
-  fields.object({"workpiece", "What lies on the table; nothing when absent"}, "Workpiece",
-                [&setup](SetupFields& workpiece) {
-                  workpiece.array({"features", "Joined in this order"}, "Feature", setup.features,
-                                  read_feature);
-                });
-  name_builder_actions(fields);
-  name_printing(fields);
-  fields.seed({"seed", "Of the random parts of a contact: the same seed, the same run"},
-              setup.seed);
+void members(auto& v, machine::Setup& setup) {
+  v.optional("machine", setup.machine, Object<machine::MachineSetup>{"Machine"},
+             "Axes, tools, touch probes and presets");
+  v.optional("workpiece", setup.features, kWorkpieceForm,
+             "What lies on the table; nothing when absent");
+  builder_members(v);
+  printing_members(v);
+  v.optional("seed", setup.seed, Integer{},
+             "Of the random parts of a contact: the same seed, the same run");
+}
+
+void add_setup_schemas(Schemas& schemas) {
+  const auto add = [&schemas](std::string_view name, const auto& describe) {
+    BodySchema v(Side::Order);
+    describe(v);
+    schemas.push_back({std::string(name), v.json()});
+  };
+  const auto add_nested = [&add]<class T>(const auto& form, T variable) {
+    add(form.component, [&](BodySchema& v) { form.describe(v, variable); });
+  };
+  add_nested(axis_form(machine::Axis::X), machine::AxisSetup{});
+  add_nested(axis_form(machine::Axis::A), machine::AxisSetup{});
+  add_nested(kAxesForm, machine::MachineSetup{}.axes);
+  schemas.push_back(order_schema<machine::AxisWords>("StartPosition"));
+  schemas.push_back(order_schema<machine::ToolSetup>("Tool"));
+  schemas.push_back(order_schema<machine::ProbeSetup>("Probe"));
+  schemas.push_back(order_schema<machine::ToolTouchProbeSetup>("ToolTouchProbe"));
+  schemas.push_back(order_schema<machine::CalibrationRing>("CalibrationRing"));
+  add_nested(kStudForm, machine::Boss{});
+  schemas.push_back(order_schema<machine::CalibrationSphere>("CalibrationSphere"));
+  add_nested(kPresetForm, machine::Preset{});
+  schemas.push_back(order_schema<machine::MachineSetup>("Machine"));
+  std::vector<std::string> features;
+  each_kind_of_feature([&](const FeatureKind& kind, auto feature) {
+    features.push_back(schema::ref(kind.component));
+    add(kind.component, [&](BodySchema& v) {
+      v.member("type", kind.word, kind, kind.meaning);
+      members(v, feature);
+    });
+  });
+  schemas.push_back({"Feature", schema::any_of(features)});
+  add_nested(kWorkpieceForm, std::vector<machine::Feature>{});
+  schemas.push_back(order_schema<machine::Setup>("Setup", kSetupExample));
+  schemas.push_back(names_schema("Setups", "setups", "m3"));
 }
 
 machine::Setup decode_setup(const JsonValue& body, const std::string& pointer,
                             const app::ControlTables& tables, FieldErrors& errors) {
   machine::Setup setup;
-  {
-    SetupReader reader(body, pointer, errors);
-    read_setup(reader, setup);
-  }
+  read_body(body, pointer, errors, setup);
   const JsonValue* const machine = body.find("machine");
   const auto has = [machine](std::string_view name) {
     return machine != nullptr && machine->find(name) != nullptr;

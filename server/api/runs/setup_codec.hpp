@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/json/field_reader.hpp"
+#include "base/json/schema.hpp"
 #include "service/runs/control_tables.hpp"
 
 namespace fitgauge::api {
@@ -12,5 +13,8 @@ namespace fitgauge::api {
 /// below `pointer`; the setup is then not to be used.
 machine::Setup decode_setup(const JsonValue& body, const std::string& pointer,
                             const app::ControlTables& tables, FieldErrors& errors);
+
+/// Setup and all it is made of.
+void add_setup_schemas(Schemas& schemas);
 
 }  // namespace fitgauge::api

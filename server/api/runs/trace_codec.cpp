@@ -176,4 +176,35 @@ Result<std::string> TraceCsv::rows(std::string_view piece) {
   return out;
 }
 
+void add_trace_schema(Schemas& schemas) {
+  const std::string position = schema::map(schema::number());
+  const std::string move = schema::object({
+      {"kind", schema::words({"rapid", "feed", "probe", "arc"}), ""},
+      {"block", schema::null_or(schema::count()), "That commanded it, by its number as written"},
+      {"line", schema::count(), ""},
+      {"program", schema::text(), ""},
+      {"start_mm", position, "By axis"},
+      {"start_deg", position, "Of the rotary axes, where there are any", false},
+      {"end_mm", position, "By axis"},
+      {"end_deg", position, "Of the rotary axes, where there are any", false},
+      {"feed_mm_min", schema::number(), ""},
+      {"seconds", schema::number(), ""},
+      {"contact_mm", schema::null_or(position), "Where the stylus touched"},
+      {"cycle", schema::null_or(schema::count()), "That moved, by its number"},
+      {"machine_start_mm", position, "In machine coordinates"},
+      {"machine_end_mm", position, "In machine coordinates"},
+      {"center_mm", position, "Of an arc", false},
+      {"sweep_deg", schema::number(), "Of an arc, counter-clockwise positive", false},
+      {"axis", schema::text(), "Of an arc: the one it turns about", false},
+      {"machine_center_mm", position, "Of an arc, in machine coordinates", false},
+      {"machine_axis", position, "Of an arc: direction in machine coordinates", false},
+      {"machine_contact_mm", position, "Of a contact, in machine coordinates", false},
+      {"machine_contact_normal", schema::null_or(position), "Of a contact: away from the material",
+       false},
+  });
+  schemas.push_back(
+      {"Trace", schema::object({{"moves", schema::array(move), "In order"},
+                                {"dropped", schema::count(), "Moves beyond the longest trace"}})});
+}
+
 }  // namespace fitgauge::api

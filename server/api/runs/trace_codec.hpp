@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/json/json_value.hpp"
+#include "base/json/schema.hpp"
 #include "service/runs/run_report.hpp"
 
 namespace fitgauge::api {
@@ -33,5 +34,8 @@ class TraceCsv {
   std::string rest_;  ///< of a line that has not ended
   std::vector<Column> columns_;
 };
+
+/// The schema of a trace.
+void add_trace_schema(Schemas& schemas);
 
 }  // namespace fitgauge::api

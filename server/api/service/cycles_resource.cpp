@@ -2,106 +2,75 @@
 
 #include <cmath>
 
-#include "base/json/json_writer.hpp"
+#include "api/schemas.hpp"
+#include "base/json/body_forms.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/machining_cycles.hpp"
 
 namespace fitgauge::api {
-namespace {
 
 using probing::CycleDescriptor;
 using probing::CycleFamily;
 using probing::CycleParameter;
-using probing::ValueKind;
 
-std::string_view word(CycleFamily family) {
-  return family == CycleFamily::TchProbe ? "TCH PROBE" : "CYCL DEF";
-}
-
-std::string_view word(ValueKind kind) {
-  switch (kind) {
-    case ValueKind::Number: return "number";
-    case ValueKind::Whole: return "whole";
-    case ValueKind::NumberOrMax: return "number or MAX";
-    case ValueKind::Text: return "text";
-    case ValueKind::NumberOrText: return "number or text";
+/// A number, or MAX for one without end.
+struct NumberOrMax {
+  std::string schema(Side) const { return R"({"type":["number","string"]})"; }
+  void write(JsonWriter& json, double from) const {
+    std::isinf(from) ? json.value("MAX") : json.value(from);
   }
-  return "";
+};
+
+void members(auto& v, const probing::ValueRange& range) {
+  v.member("min", range.min);
+  v.member("max", range.max, "null: no end");
 }
 
-/// null where there is no end.
-void write_end(JsonWriter& json, std::string_view name, double value) {
-  json.key(name);
-  if (std::isfinite(value)) {
-    json.value(value);
-  } else {
-    json.null();
-  }
+void members(auto& v, const CycleParameter& parameter) {
+  constexpr OneOf<5> kKinds{"number", "whole", "number or MAX", "text", "number or text"};
+  v.member("name", name(parameter), "Q261, or its place in a cycle without names");
+  v.member("meaning", parameter.meaning);
+  v.member("unit", symbol(parameter.unit));
+  v.member("kind", parameter.kind, kKinds);
+  v.member("required", parameter.required && !parameter.default_value);
+  v.optional("range", parameter.is_text() ? nullptr : &parameter.range, "Of a number");
+  v.optional("default", parameter.default_value, NumberOrMax{}, "A number, or MAX");
 }
 
-void write_default(JsonWriter& json, const std::optional<double>& value) {
-  if (!value) return;
-  json.key("default");
-  if (std::isinf(*value)) {
-    json.value("MAX");
-  } else {
-    json.value(*value);
-  }
+void members(auto& v, const probing::CycleOutput& result) {
+  v.member("name", "Q" + std::to_string(result.q), "Q153");
+  v.member("meaning", result.meaning);
+  v.member("unit", symbol(result.unit));
 }
 
-void write_parameter(JsonWriter& json, const CycleParameter& parameter) {
-  json.begin_object()
-      .member("name", name(parameter))
-      .member("meaning", parameter.meaning)
-      .member("unit", symbol(parameter.unit))
-      .member("kind", word(parameter.kind))
-      .member("required", parameter.required && !parameter.default_value);
-  if (!parameter.is_text()) {
-    json.key("range").begin_object();
-    write_end(json, "min", parameter.range.min);
-    write_end(json, "max", parameter.range.max);
-    json.end_object();
-  }
-  write_default(json, parameter.default_value);
-  json.end_object();
+void members(auto& v, const CycleDescriptor& cycle) {
+  v.member("number", cycle.number);
+  v.member("name", cycle.name, "As the control calls it");
+  v.member("family", cycle.family, OneOf<2>{"CYCL DEF", "TCH PROBE"});
+  v.member("kind", word(cycle.kind), "What it is for");
+  v.member("parameters", cycle.parameters, List<CycleParameter>{});
+  v.member("results", cycle.results, List<probing::CycleOutput>{},
+           "What it leaves in Q parameters");
+  v.member("simulated", cycle.simulated, "What it does here");
+  v.member("not_simulated", cycle.not_simulated, "What has no effect here");
 }
 
-void write_head(JsonWriter& json, const CycleDescriptor& cycle) {
-  json.begin_object()
-      .member("number", std::uint32_t{cycle.number})
-      .member("name", cycle.name)
-      .member("family", word(cycle.family))
-      .member("kind", word(cycle.kind));
+struct CyclesAnswer {
+  std::vector<CycleDescriptor> cycles{};
+};
+void members(auto& v, const CyclesAnswer& answer) {
+  v.member("cycles", answer.cycles, List<CycleDescriptor>{{"Cycle"}});
 }
 
-void write_cycle(JsonWriter& json, const CycleDescriptor& cycle) {
-  write_head(json, cycle);
-  json.key("parameters").begin_array();
-  for (const CycleParameter& parameter : cycle.parameters) write_parameter(json, parameter);
-  json.end_array().key("results").begin_array();
-  for (const probing::CycleOutput& result : cycle.results) {
-    json.begin_object()
-        .member("name", "Q" + std::to_string(result.q))
-        .member("meaning", result.meaning)
-        .member("unit", symbol(result.unit))
-        .end_object();
-  }
-  json.end_array().member("simulated", cycle.simulated);
-  json.member("not_simulated", cycle.not_simulated).end_object();
-}
+namespace {
 
 http::Response list_cycles() {
-  std::string body;
-  JsonWriter json(body);
-  json.begin_object().key("cycles").begin_array();
-  for (const probing::TouchProbeCycle* cycle : probing::cycles()) {
-    write_cycle(json, cycle->descriptor);
+  CyclesAnswer answer;
+  for (const auto* cycle : probing::cycles()) answer.cycles.push_back(cycle->descriptor);
+  for (const auto& cycle : interpreter::machining_cycles()) {
+    answer.cycles.push_back(cycle.descriptor);
   }
-  for (const interpreter::MachiningCycle& cycle : interpreter::machining_cycles()) {
-    write_cycle(json, cycle.descriptor);
-  }
-  json.end_array().end_object();
-  return {200, "application/json", std::move(body)};
+  return {200, "application/json", body_json(answer)};
 }
 
 const CycleDescriptor* find_descriptor(int number) {
@@ -121,13 +90,15 @@ Result<http::Response> find_cycle(const http::Request& request) {
     return Error{ErrorCode::CycleUnknown,
                  "there is no cycle " + std::to_string(number) + "; /v1/cycles lists all"};
   }
-  std::string body;
-  JsonWriter json(body);
-  write_cycle(json, *cycle);
-  return http::Response(200, "application/json", std::move(body));
+  return http::Response(200, "application/json", body_json(*cycle));
 }
 
 }  // namespace
+
+void add_cycle_schemas(Schemas& schemas) {
+  schemas.push_back(answer_schema<CycleDescriptor>("Cycle"));
+  schemas.push_back(answer_schema<CyclesAnswer>("Cycles"));
+}
 
 void add_cycles_routes(std::vector<http::Route>& routes) {
   routes.push_back({

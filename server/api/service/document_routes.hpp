@@ -8,6 +8,7 @@
 
 #include "api/services.hpp"
 #include "base/json/json_writer.hpp"
+#include "base/json/schema.hpp"
 #include "base/result.hpp"
 #include "http/route.hpp"
 #include "service/documents/document_service.hpp"
@@ -54,6 +55,10 @@ struct KindOfDocument {
   /// Runs after a change was stored and before it is answered; null: nothing.
   void (*changed)(const Services& services, std::function<void(Result<void>)> done) = nullptr;
 };
+
+/// The schema of a list of names and times: the answer of a kind that is described by its name.
+/// @param example a name; empty: none
+NamedSchema names_schema(std::string name, std::string_view member, std::string_view example = {});
 
 /// @param kind is static.
 void add_document_routes(std::vector<http::Route>& routes, const Services& services,

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "api/runs/setup_schema.hpp"
+#include "api/runs/setup_codec.hpp"
 #include "api/schemas.hpp"
 #include "api/service/version.hpp"
 #include "base/decimal.hpp"

@@ -4,39 +4,6 @@ namespace fitgauge::api {
 
 using schema::Others;
 
-void add_cycle_schemas(Schemas& schemas) {
-  const std::string number_or_null = schema::null_or(schema::number());
-  const std::string range =
-      schema::object({{"min", number_or_null, ""}, {"max", number_or_null, "null: no end"}});
-  const std::string parameter = schema::object({
-      {"name", schema::text(), "Q261, or its place in a cycle without names"},
-      {"meaning", schema::text(), ""},
-      {"unit", schema::text(), ""},
-      {"kind", schema::words({"number", "whole", "number or MAX", "text", "number or text"}), ""},
-      {"required", schema::boolean(), ""},
-      {"range", range, "Of a number", false},
-      {"default", R"({"type":["number","string"]})", "A number, or MAX", false},
-  });
-  const std::string result = schema::object({
-      {"name", schema::text(), "Q153"},
-      {"meaning", schema::text(), ""},
-      {"unit", schema::text(), ""},
-  });
-  schemas.push_back(
-      {"Cycle", schema::object({
-                    {"number", schema::count(), ""},
-                    {"name", schema::text(), "As the control calls it"},
-                    {"family", schema::words({"TCH PROBE", "CYCL DEF"}), ""},
-                    {"kind", schema::text(), "What it is for"},
-                    {"parameters", schema::array(parameter), ""},
-                    {"results", schema::array(result), "What it leaves in Q parameters"},
-                    {"simulated", schema::text(), "What it does here"},
-                    {"not_simulated", schema::text(), "What has no effect here"},
-                })});
-  schemas.push_back(
-      {"Cycles", schema::object({{"cycles", schema::array(schema::ref("Cycle")), ""}})});
-}
-
 void add_service_schemas(Schemas& schemas) {
   schemas.push_back(
       {"Resync", schema::object({{"detail", schema::text(), "Read the lists again"}})});

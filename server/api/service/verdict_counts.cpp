@@ -7,7 +7,7 @@ namespace fitgauge::api {
 namespace {
 
 /// What one refresh reads at most; the next goes on.
-constexpr std::size_t kRowsAtATime = 200'000;
+constexpr std::size_t kRowsOfAStep = 200'000;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void VerdictCounts::refresh(std::function<void()> done) {
   everything.source.reset();
   everything.history = true;
   measurements_.list(
-      everything, *after, kRowsAtATime,
+      everything, *after, kRowsOfAStep,
       [read](const app::Measurement& row) {
         ++read->counts[static_cast<std::size_t>(row.source)]
                       [static_cast<std::size_t>(row.result.verdict)];

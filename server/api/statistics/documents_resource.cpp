@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "api/schemas.hpp"
 #include "api/service/document_routes.hpp"
-#include "api/statistics/exact_reader.hpp"
 #include "api/statistics/uncertainty_resource.hpp"
+#include "base/json/body_forms.hpp"
 #include "record/gauge_book.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 
 namespace fitgauge::api {
 namespace {
-
-constexpr std::size_t kLongestGaugeComment = 2000;
 
 Result<CheckedDocument> check_budget(const Services&, const std::string&, std::string_view text) {
   const auto body = parse_json(text);
@@ -26,25 +25,40 @@ void reload_gauges(const Services& services, std::function<void(Result<void>)> d
   services.gauges.reload(std::move(done));
 }
 
+/// The form of the time to which a calibration holds.
+struct Due {
+  std::string schema(Side) const { return schema::text(); }
+  bool read(FieldReader& fields, std::string_view name, std::string& to) const {
+    const auto given = fields.text(name);
+    if (!given) return false;
+    to = *given;
+    const bool is_due = parse_due(to).has_value();
+    if (!is_due) {
+      fields.report(ErrorCode::TimeMalformed, name,
+                    fmt::format("{} is a date, 2027-03-31, or an RFC 3339 time", name));
+    }
+    return is_due;
+  }
+};
+
+struct GaugeOrder {
+  std::optional<std::string> uncertainty{};
+  std::string calibration_due{};
+  std::optional<std::string> comment{};
+};
+void members(auto& v, GaugeOrder& gauge) {
+  v.optional("uncertainty", gauge.uncertainty, "The name of its budget, in µm");
+  v.member("calibration_due", gauge.calibration_due, Due{},
+           "A date, to its end in UTC, or an RFC 3339 time");
+  v.optional("comment", gauge.comment, Text{.longest = 2000});
+}
+
 Result<CheckedDocument> check_gauge(const Services&, const std::string&, std::string_view text) {
   const auto body = parse_json(text);
   if (!body) return body.error();
-  FieldErrors errors;
-  FieldReader fields(*body, "", errors);
-  CheckedDocument checked{.text = std::string(text),
-                          .uncertainty = fields.optional_text("uncertainty")};
-  if (const auto due = fields.text("calibration_due"); due && !parse_due(*due)) {
-    fields.report(ErrorCode::TimeMalformed, "calibration_due",
-                  "calibration_due is a date, 2027-03-31, or an RFC 3339 time");
-  }
-  if (const auto comment = fields.optional_text("comment");
-      comment && comment->size() > kLongestGaugeComment) {
-    fields.report(ErrorCode::FieldTooLong, "comment",
-                  fmt::format("comment takes at most {} bytes", kLongestGaugeComment));
-  }
-  fields.refuse_unknown();
-  if (auto error = errors.take()) return *std::move(error);
-  return checked;
+  auto gauge = read_whole<GaugeOrder>(*body);
+  if (!gauge) return gauge.error();
+  return CheckedDocument{.text = std::string(text), .uncertainty = std::move(gauge->uncertainty)};
 }
 
 constexpr KindOfDocument kUncertainties{.kind = app::DocumentKind::Uncertainty,
@@ -81,6 +95,12 @@ constexpr KindOfDocument kGauges{.kind = app::DocumentKind::GaugeInUse,
                                  .changed = reload_gauges};
 
 }  // namespace
+
+void add_documents_schemas(Schemas& schemas) {
+  schemas.push_back(order_schema<GaugeOrder>("GaugeInUse"));
+  schemas.push_back(names_schema("UncertaintyBudgetNames", "uncertainties"));
+  schemas.push_back(names_schema("GaugeInUseNames", "gauges"));
+}
 
 void add_documents_routes(std::vector<http::Route>& routes, const Services& services) {
   add_document_routes(routes, services, kUncertainties);

@@ -20,15 +20,14 @@ void report_type(const JsonValue& value, std::string pointer, FieldErrors& error
              fmt::format("a number or a string with one is wanted, not {}", name_of(value.kind)));
 }
 
-Decimals read_items(const JsonValue& array, const std::string& pointer, FieldErrors& errors) {
-  Decimals values;
+void read_items(const JsonValue& array, const std::string& pointer, Decimals& to,
+                FieldErrors& errors) {
   if (array.items.empty()) {
     errors.add(ErrorCode::StatisticsTooFew, pointer, "there is no value");
   }
   for (std::size_t i = 0; i < array.items.size(); ++i) {
-    add_exact(array.items[i], pointer_to(pointer, i), values, errors);
+    add_exact(array.items[i], pointer_to(pointer, i), to, errors);
   }
-  return values;
 }
 
 }  // namespace
@@ -48,28 +47,33 @@ void add_exact(const JsonValue& value, const std::string& pointer, Decimals& to,
   }
 }
 
-std::optional<Exact> read_exact(FieldReader& fields, std::string_view name, bool required,
-                                FieldErrors& errors) {
-  const JsonValue* value = fields.optional(name);
-  if (value == nullptr) {
-    if (required) fields.report(ErrorCode::FieldMissing, name, fmt::format("{} is required", name));
-    return std::nullopt;
-  }
+bool ExactNumber::read(FieldReader& fields, std::string_view name, Exact& to) const {
+  const JsonValue* value = fields.any(name);
+  if (value == nullptr) return false;
   Decimals one;
-  const FieldErrors::Mark before = errors.mark();
-  add_exact(*value, fields.at(name), one, errors);
-  return errors.mark() == before ? std::optional(one[0]) : std::nullopt;
+  const FieldErrors::Mark before = fields.errors().mark();
+  add_exact(*value, fields.at(name), one, fields.errors());
+  if (fields.errors().mark() != before) return false;
+  to = one[0];
+  return true;
 }
 
-Decimals read_values(FieldReader& fields, std::string_view name, FieldErrors& errors) {
-  const JsonValue* array = fields.array(name);
-  return array == nullptr ? Decimals() : read_items(*array, fields.at(name), errors);
+bool PositiveExact::read(FieldReader& fields, std::string_view name, Exact& to) const {
+  if (!ExactNumber().read(fields, name, to)) return false;
+  if (to <= 0) fields.report(code, name, std::string(refusal));
+  return to > 0;
 }
 
-Groups read_groups(FieldReader& fields, std::string_view name, FieldErrors& errors) {
-  Groups groups;
+bool ExactNumbers::read(FieldReader& fields, std::string_view name, Decimals& to) const {
   const JsonValue* array = fields.array(name);
-  if (array == nullptr) return groups;
+  if (array != nullptr) read_items(*array, fields.at(name), to, fields.errors());
+  return array != nullptr;
+}
+
+bool ExactGroups::read(FieldReader& fields, std::string_view name, Groups& to) const {
+  const JsonValue* array = fields.array(name);
+  if (array == nullptr) return false;
+  FieldErrors& errors = fields.errors();
   const std::string pointer = fields.at(name);
   for (std::size_t i = 0; i < array->items.size(); ++i) {
     const JsonValue& group = array->items[i];
@@ -79,39 +83,36 @@ Groups read_groups(FieldReader& fields, std::string_view name, FieldErrors& erro
                  fmt::format("an array of values is wanted, not {}", name_of(group.kind)));
       continue;
     }
-    if (group.items.empty()) errors.add(ErrorCode::StatisticsTooFew, place, "there is no value");
-    for (std::size_t j = 0; j < group.items.size(); ++j) {
-      add_exact(group.items[j], pointer_to(place, j), groups.values, errors);
-    }
-    groups.ends.push_back(groups.values.size());
+    read_items(group, place, to.values, errors);
+    to.ends.push_back(to.values.size());
   }
   if (array->items.empty()) {
     errors.add(ErrorCode::StatisticsTooFew, pointer, "there is no group of values");
   }
-  return groups;
+  return true;
 }
 
-Subgroups read_subgroups(FieldReader& fields, FieldErrors& errors) {
-  if (!fields.has("subgroups")) return {.values = read_values(fields, "values", errors)};
+bool ExactSubgroups::read(FieldReader& fields, std::string_view name, Subgroups& to) const {
   if (fields.has("values")) {
-    fields.report(ErrorCode::FieldConflict, "subgroups", "give values or subgroups, not both");
-    fields.optional("values");
+    fields.report(ErrorCode::FieldConflict, name, "give values or subgroups, not both");
   }
+  FieldErrors& errors = fields.errors();
   const FieldErrors::Mark before = errors.mark();
-  Groups groups = read_groups(fields, "subgroups", errors);
-  if (errors.mark() != before) return {};
+  Groups groups;
+  if (!ExactGroups().read(fields, name, groups) || errors.mark() != before) return false;
   const std::size_t size = groups.ends.front();
   const metrology::GroupedCounts counts = groups.counts();
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i].size() == size && size > 1) continue;
     errors.add(size > 1 ? ErrorCode::StatisticsUnbalanced : ErrorCode::StatisticsTooFew,
-               pointer_to(fields.at("subgroups"), i),
+               pointer_to(fields.at(name), i),
                size > 1 ? fmt::format("subgroups have one size: {} values here, {} in the first",
                                       counts[i].size(), size)
                         : "a subgroup has two values or more; send single ones as values");
-    return {};
+    return false;
   }
-  return {.values = std::move(groups.values), .size = size};
+  to = {.values = std::move(groups.values), .size = size};
+  return true;
 }
 
 Error at_member(std::string_view name, Error error) {

@@ -3,54 +3,235 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
+#include "api/schemas.hpp"
 #include "api/statistics/computation.hpp"
-#include "api/statistics/exact_reader.hpp"
-#include "api/statistics/gauge_study_reader.hpp"
-#include "api/statistics/statistics_codec.hpp"
-#include "api/wire/formulas.hpp"
+#include "api/statistics/gauge_study.hpp"
+#include "api/statistics/statistics_answers.hpp"
+#include "metrology/statistics/gauge_study.hpp"
 #include "metrology/statistics/pairing.hpp"
 #include "metrology/statistics/run_length.hpp"
 
 namespace fitgauge::api {
+
+struct SummaryOrder {
+  metrology::Decimals values{};
+};
+void members(auto& v, SummaryOrder& order) { v.member("values", order.values, "One or more"); }
+
+void members(auto& v, const metrology::Quantile& quantile) {
+  v.member("p", quantile.p);
+  v.member("value", quantile.value);
+}
+
+struct Quantiles {
+  std::vector<metrology::Quantile> values{};
+};
+void members(auto& v, const Quantiles& quantiles) {
+  v.member("type", 7, Integer{7, 7}, "Hyndman and Fan 1996");
+  v.member("values", quantiles.values);
+}
+
+void members(auto& v, const metrology::Summary& summary) {
+  formula_members(v, "summary");
+  v.member("count", summary.moments.count);
+  v.member("mean", summary.moments.mean);
+  v.member("standard_deviation", summary.moments.standard_deviation());
+  v.member("autocorrelation_lag_1", summary.autocorrelation_lag_1);
+  v.member("min", summary.min);
+  v.member("max", summary.max);
+  v.member("quantiles", Quantiles{{summary.quantiles.begin(), summary.quantiles.end()}});
+}
+
+struct GroupsOrder {
+  metrology::Groups groups{};
+};
+void members(auto& v, GroupsOrder& order) {
+  v.member("groups", order.groups, "Two or more, of any size");
+}
+
+void members(auto& v, const metrology::Anova& anova) {
+  formula_members(v, "anova_one_way");
+  v.member("between", anova.between, "Groups");
+  v.member("within", anova.within, "Rest");
+  members(v, anova.test);
+  v.member("r_squared", anova.r_squared);
+  v.member("residual_standard_deviation", anova.residual_standard_deviation);
+}
+
+struct CapabilityOrder {
+  metrology::Subgroups data{};
+  metrology::SpecificationLimits limits{};
+  double confidence = 0.95;
+};
+void members(auto& v, CapabilityOrder& order) {
+  data_members(v, order.data);
+  v.optional("lower", order.limits.lower, "This, upper or both");
+  v.optional("upper", order.limits.upper);
+  v.optional("target", order.limits.target, "Of cpm; the middle when absent");
+  v.check([](FieldReader& fields) {
+    if (!fields.has("lower") && !fields.has("upper")) {
+      fields.report(ErrorCode::FieldMissing, "upper", "give lower, upper or both");
+    }
+  });
+  v.optional("confidence", order.confidence,
+             Number{.least = 0, .most = 1, .ends = Number::Ends::Open}, "Of the intervals");
+}
+
+void members(auto& v, metrology::ChartPlan::Phase& phase) {
+  constexpr std::int64_t kMost = 100'000'000;
+  v.optional("from", phase.from, Integer{0, kMost});
+  v.member("to", phase.to, Integer{0, kMost}, "Exclusive");
+}
+
+/// The form of rules by their numbers.
+struct Rules {
+  std::string schema(Side) const {
+    return schema::array(schema::integer(1, metrology::ZoneRules::kCount));
+  }
+  bool read(FieldReader& fields, std::string_view name, metrology::ZoneRules& to) const {
+    const JsonValue* array = fields.array(name);
+    if (array == nullptr) return false;
+    for (const JsonValue& item : array->items) {
+      const int rule = item.text.size() == 1 ? item.text[0] - '0' : 0;
+      if (!item.is(JsonValue::Kind::Number) || rule < 1 || rule > metrology::ZoneRules::kCount) {
+        fields.report(ErrorCode::FieldInvalid, name, "rules are of 1, 2, 3 and 4");
+        return false;
+      }
+      to.add(rule);
+    }
+    return true;
+  }
+};
+
+struct ChartOrder {
+  metrology::ChartPlan plan{};
+  metrology::Subgroups data{};
+};
+void members(auto& v, ChartOrder& order) {
+  metrology::ChartPlan& plan = order.plan;
+  constexpr double kLeast = 1e-6;
+  v.member("kind", plan.kind, Words{metrology::ChartKind::Cusum});
+  data_members(v, order.data);
+  v.optional("rules", plan.rules, Rules{}, "None when absent");
+  v.optional("phase1", plan.phase1, "The points the limits are taken from");
+  v.optional("centre", plan.centre, "Known");
+  v.optional("standard_deviation", plan.standard_deviation,
+             PositiveExact{ErrorCode::FieldInvalid, "a known standard deviation is above 0"},
+             "Known, of single values; above 0");
+  v.optional("lambda", plan.lambda, Number{metrology::kLeastLambda, 1}, "Of ewma");
+  v.optional("reference_value", plan.reference_value, Number{kLeast, 10},
+             "k of cusum, in standard deviations");
+  v.optional("decision_interval", plan.decision_interval, Number{kLeast, 20},
+             "h of cusum, likewise");
+  v.check([&plan](FieldReader& fields) {
+    // Limits are known by `centre` and `standard_deviation`, else something of them is estimated.
+    static constexpr std::array<Applicable, 1> kOfLimits = {{{"phase1", "estimated"}}};
+    const bool is_known = plan.centre && plan.standard_deviation;
+    fields.refuse_not_applicable(chart_members(), "kind", word(plan.kind));
+    fields.refuse_not_applicable(kOfLimits, "limits", is_known ? "known" : "estimated");
+  });
+}
+
+struct Type1Order {
+  metrology::Decimals values{};
+  metrology::Exact reference{};
+  metrology::Exact tolerance{};
+};
+void members(auto& v, Type1Order& order) {
+  v.member("values", order.values, "Two or more, of one master");
+  v.member("reference", order.reference, "The size of the master");
+  v.member("tolerance", order.tolerance, kTolerance, "Of what will be measured");
+}
+
+void members(auto& v, const metrology::Type1Study& study) {
+  formula_members(v, "type1");
+  v.member("count", study.count);
+  v.member("mean", study.mean);
+  v.member("standard_deviation", study.standard_deviation);
+  v.member("bias", study.bias);
+  v.member("t", study.t);
+  v.member("p", study.p);
+  v.member("cg", study.cg);
+  v.member("cgk", study.cgk);
+}
+
+/// The form of sizes in mm.
+struct Sizes {
+  std::string schema(Side) const { return schema::array(schema::exact()); }
+  bool read(FieldReader& fields, std::string_view name, std::vector<Length>& to) const {
+    const JsonValue* array = fields.array(name);
+    if (array == nullptr) return false;
+    for (std::size_t i = 0; i < array->items.size(); ++i) {
+      const JsonValue& item = array->items[i];
+      const std::string pointer = pointer_to(fields.at(name), i);
+      const bool is_number = item.is(JsonValue::Kind::Number);
+      if (!is_number && !item.is(JsonValue::Kind::String)) {
+        fields.errors().add(ErrorCode::FieldType, pointer,
+                            fmt::format("a size in mm is wanted, not {}", name_of(item.kind)));
+        continue;
+      }
+      const auto size =
+          parse_length_mm(item.text, {.exponent = is_number, .round_to_nearest = true});
+      if (size) {
+        to.push_back(*size);
+      } else {
+        fields.errors().add(size.error().code, pointer, size.error().message);
+      }
+    }
+    return true;
+  }
+};
+
+/// A body has either name of each list.
+struct PairingOrder {
+  std::string_view holes_name = "holes";
+  std::string_view shafts_name = "shafts";
+  std::vector<Length> holes{};
+  std::vector<Length> shafts{};
+  Length target{};
+};
+void members(auto& v, PairingOrder& order) {
+  v.member(order.holes_name, order.holes, Sizes{}, "Measured sizes in mm");
+  v.member(order.shafts_name, order.shafts, Sizes{}, "Measured sizes in mm");
+  v.member("target_clearance_um", order.target, Micrometres{}, "Interference is negative");
+}
+
+std::string pairing_schema() {
+  PairingOrder other{.holes_name = "holes_mm", .shafts_name = "shafts_mm"};
+  BodySchema of_other(Side::Order);
+  members(of_other, other);
+  return schema::any_of({schema_of<PairingOrder>(Side::Order), of_other.json()});
+}
+
+void members(auto& v, const metrology::Pair& pair) {
+  v.member("hole", pair.hole, "Its place, from 0");
+  v.member("shaft", pair.shaft, "Its place, from 0");
+  v.member("clearance_um", pair.clearance, Micrometres{});
+}
+
+struct Pairing {
+  std::vector<metrology::Pair> pairs{};
+};
+void members(auto& v, const Pairing& pairing) {
+  formula_members(v, "pairing");
+  v.member("pairs", pairing.pairs);
+}
+
 namespace {
 
-using metrology::Exact;
-
 Result<std::string> summary(const JsonValue& body) {
-  FieldErrors errors;
-  FieldReader fields(body, "", errors);
-  const metrology::Decimals values = read_values(fields, "values", errors);
-  fields.refuse_unknown();
-  if (auto error = errors.take()) return *std::move(error);
-  std::string out;
-  JsonWriter json(out);
-  write_summary(json, metrology::summarise(values));
-  return out;
+  const auto order = read_whole<SummaryOrder>(body);
+  if (!order) return order.error();
+  return body_json(metrology::summarise(order->values));
 }
 
 Result<std::string> anova(const JsonValue& body) {
-  FieldErrors errors;
-  FieldReader fields(body, "", errors);
-  const metrology::Groups groups = read_groups(fields, "groups", errors);
-  fields.refuse_unknown();
-  if (auto error = errors.take()) return *std::move(error);
-  const auto made = metrology::analyse_variance(groups.counts());
+  const auto order = read_whole<GroupsOrder>(body);
+  if (!order) return order.error();
+  const auto made = metrology::analyse_variance(order->groups.counts());
   if (!made) return at_member("groups", made.error());
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object();
-  write_formula(json, "anova_one_way");
-  json.key("between").begin_object();
-  write_variation_members(json, made->between);
-  json.end_object().key("within").begin_object();
-  write_variation_members(json, made->within);
-  json.end_object();
-  write_test_members(json, made->test);
-  json.key("r_squared").figure(made->r_squared);
-  json.key("residual_standard_deviation").figure(made->residual_standard_deviation).end_object();
-  return out;
+  return body_json(*made);
 }
 
 std::string_view data_member(const JsonValue& body) {
@@ -58,213 +239,50 @@ std::string_view data_member(const JsonValue& body) {
 }
 
 Result<std::string> capability(const JsonValue& body) {
-  FieldErrors errors;
-  FieldReader fields(body, "", errors);
-  const metrology::Subgroups data = read_subgroups(fields, errors);
-  const metrology::SpecificationLimits limits{
-      .lower = read_exact(fields, "lower", false, errors),
-      .upper = read_exact(fields, "upper", false, errors),
-      .target = read_exact(fields, "target", false, errors)};
-  if (!fields.has("lower") && !fields.has("upper")) {
-    fields.report(ErrorCode::FieldMissing, "upper", "give lower, upper or both");
-  }
-  const double confidence = fields.number_or("confidence", 0.95);
-  if (!(confidence > 0 && confidence < 1)) {
-    fields.report(ErrorCode::FieldInvalid, "confidence", "confidence lies between 0 and 1");
-  }
-  fields.refuse_unknown();
-  if (auto error = errors.take()) return *std::move(error);
-  const auto made = metrology::assess_capability(data, limits, confidence);
+  const auto order = read_whole<CapabilityOrder>(body);
+  if (!order) return order.error();
+  auto made = metrology::assess_capability(order->data, order->limits, order->confidence);
   if (!made) {
     const Error error = made.error();
     const bool of_limits = error.code == ErrorCode::LimitsInvalid;
     const std::string_view member = of_limits ? "upper" : data_member(body);
     return at_member(error.where.empty() ? member : error.where, error);
   }
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object();
-  write_capability_members(json, *made, limits, confidence);
-  json.end_object();
-  return out;
-}
-
-metrology::ZoneRules read_rules(FieldReader& fields) {
-  metrology::ZoneRules rules;
-  if (!fields.has("rules")) {
-    fields.optional("rules");
-    return rules;
-  }
-  const JsonValue* array = fields.array("rules");
-  if (array == nullptr) return rules;
-  for (const JsonValue& item : array->items) {
-    const bool known = item.is(JsonValue::Kind::Number) && item.text.size() == 1 &&
-                       item.text[0] >= '1' && item.text[0] <= '4';
-    if (known) {
-      rules.add(item.text[0] - '0');
-    } else {
-      fields.report(ErrorCode::FieldInvalid, "rules", "rules are of 1, 2, 3 and 4");
-      return rules;
-    }
-  }
-  return rules;
-}
-
-std::optional<metrology::ChartPlan::Phase> read_phase(FieldReader& fields, FieldErrors& errors) {
-  if (!fields.has("phase1")) return std::nullopt;
-  const JsonValue* object = fields.object("phase1");
-  if (object == nullptr) return std::nullopt;
-  constexpr std::int64_t kMost = 100'000'000;
-  FieldReader phase(*object, fields.at("phase1"), errors);
-  const auto from = phase.integer_or("from", 0, 0, kMost);
-  if (!phase.has("to")) phase.report(ErrorCode::FieldMissing, "to", "to is required");
-  const auto to = phase.integer_or("to", 0, 0, kMost);
-  phase.refuse_unknown();
-  return metrology::ChartPlan::Phase{static_cast<std::size_t>(from), static_cast<std::size_t>(to)};
-}
-
-/// A number within ends that belong to it, or its fallback.
-double number_between(FieldReader& fields, std::string_view name, double fallback, double least,
-                      double most) {
-  const double value = fields.number_or(name, fallback);
-  if (value >= least && value <= most) return value;
-  fields.report(ErrorCode::FieldInvalid, name,
-                fmt::format("{} lies from {} to {}", name, least, most));
-  return fallback;
-}
-
-/// Limits are known by `centre` and `standard_deviation`, else something of them is estimated.
-constexpr std::array<Applicable, 1> kLimitMembers = {{{"phase1", "estimated"}}};
-
-metrology::ChartPlan read_plan(FieldReader& fields, FieldErrors& errors) {
-  metrology::ChartPlan plan;
-  if (const auto text = fields.text("kind")) {
-    const auto kind = metrology::chart_kind_from_word(*text);
-    if (!kind) {
-      fields.report(ErrorCode::FieldInvalid, "kind", "kind is i_mr, xbar_r, xbar_s, ewma or cusum");
-    }
-    plan.kind = kind.value_or(plan.kind);
-  }
-  plan.rules = read_rules(fields);
-  plan.phase1 = read_phase(fields, errors);
-  plan.centre = read_exact(fields, "centre", false, errors);
-  plan.standard_deviation = read_exact(fields, "standard_deviation", false, errors);
-  if (plan.standard_deviation && *plan.standard_deviation <= 0) {
-    fields.report(ErrorCode::FieldInvalid, "standard_deviation",
-                  "a known standard deviation is above 0");
-  }
-  constexpr double kLeast = 1e-6;
-  plan.lambda = number_between(fields, "lambda", plan.lambda, metrology::kLeastLambda, 1);
-  plan.reference_value =
-      number_between(fields, "reference_value", plan.reference_value, kLeast, 10);
-  plan.decision_interval =
-      number_between(fields, "decision_interval", plan.decision_interval, kLeast, 20);
-  fields.optional("phase1");
-  const auto given = [&](const Applicable& row) { return fields.has(row.member); };
-  const auto refuse = [&](std::string_view member, std::string message) {
-    fields.report(ErrorCode::FieldConflict, member, std::move(message));
-  };
-  refuse_not_applicable(chart_members(), "kind", word(plan.kind), given, refuse);
-  const bool is_known = plan.centre && plan.standard_deviation;
-  refuse_not_applicable(kLimitMembers, "limits", is_known ? "known" : "estimated", given, refuse);
-  return plan;
+  return body_json(CapabilityAnswer{*std::move(made), order->limits, order->confidence});
 }
 
 Result<std::string> chart(const JsonValue& body) {
-  FieldErrors errors;
-  FieldReader fields(body, "", errors);
-  const metrology::ChartPlan plan = read_plan(fields, errors);
-  const metrology::Subgroups data = read_subgroups(fields, errors);
-  fields.refuse_unknown();
-  if (auto error = errors.take()) return *std::move(error);
-  const auto made = metrology::make_charts(data, plan);
+  const auto order = read_whole<ChartOrder>(body);
+  if (!order) return order.error();
+  auto made = metrology::make_charts(order->data, order->plan);
   if (!made) {
     const std::string& where = made.error().where;
     return at_member(where.empty() ? data_member(body) : where, made.error());
   }
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object().member("kind", word(plan.kind));
-  write_formula(json, word(plan.kind));
-  write_chart_members(json, *made);
-  json.end_object();
-  return out;
+  return body_json(ChartAnswer{order->plan.kind, *std::move(made)});
 }
 
 Result<std::string> type1(const JsonValue& body) {
-  FieldErrors errors;
-  FieldReader fields(body, "", errors);
-  const metrology::Decimals values = read_values(fields, "values", errors);
-  const auto reference = read_exact(fields, "reference", true, errors);
-  const auto tolerance = read_exact(fields, "tolerance", true, errors);
-  fields.refuse_unknown();
-  if (auto error = errors.take()) return *std::move(error);
-  const auto made = metrology::study_type1(values, *reference, *tolerance);
-  if (!made) {
-    const bool of_tolerance = made.error().code == ErrorCode::LimitsInvalid;
-    return at_member(of_tolerance ? "tolerance" : "values", made.error());
-  }
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object();
-  write_formula(json, "type1");
-  json.member("count", std::uint64_t{made->count}).key("mean").figure(made->mean);
-  json.key("standard_deviation").figure(made->standard_deviation).key("bias").figure(made->bias);
-  json.key("t").figure(made->t).key("p").figure(made->p);
-  json.key("cg").figure(made->cg).key("cgk").figure(made->cgk).end_object();
-  return out;
-}
-
-/// Sizes of measured parts, under either of two names.
-std::vector<Length> read_sizes(FieldReader& fields, std::string_view name, std::string_view other,
-                               FieldErrors& errors) {
-  const std::string_view given = fields.has(other) && !fields.has(name) ? other : name;
-  std::vector<Length> sizes;
-  const JsonValue* array = fields.array(given);
-  if (array == nullptr) return sizes;
-  for (std::size_t i = 0; i < array->items.size(); ++i) {
-    const JsonValue& item = array->items[i];
-    const std::string pointer = pointer_to(fields.at(given), i);
-    if (!item.is(JsonValue::Kind::Number) && !item.is(JsonValue::Kind::String)) {
-      errors.add(ErrorCode::FieldType, pointer,
-                 fmt::format("a size in mm is wanted, not {}", name_of(item.kind)));
-      continue;
-    }
-    const auto size = parse_length_mm(
-        item.text, {.exponent = item.is(JsonValue::Kind::Number), .round_to_nearest = true});
-    if (size) {
-      sizes.push_back(*size);
-    } else {
-      errors.add(size.error().code, pointer, size.error().message);
-    }
-  }
-  return sizes;
+  const auto order = read_whole<Type1Order>(body);
+  if (!order) return order.error();
+  const auto made = metrology::study_type1(order->values, order->reference, order->tolerance);
+  if (!made) return at_member("values", made.error());
+  return body_json(*made);
 }
 
 Result<std::string> pairing(const JsonValue& body) {
+  const auto has_only = [&body](std::string_view other, std::string_view name) {
+    return body.find(other) != nullptr && body.find(name) == nullptr;
+  };
   FieldErrors errors;
-  FieldReader fields(body, "", errors);
-  const std::vector<Length> holes = read_sizes(fields, "holes", "holes_mm", errors);
-  const std::vector<Length> shafts = read_sizes(fields, "shafts", "shafts_mm", errors);
-  const auto target = fields.um("target_clearance_um");
-  fields.refuse_unknown();
+  PairingOrder order;
+  if (has_only("holes_mm", order.holes_name)) order.holes_name = "holes_mm";
+  if (has_only("shafts_mm", order.shafts_name)) order.shafts_name = "shafts_mm";
+  read_body(body, "", errors, order);
   if (auto error = errors.take()) return *std::move(error);
-  const auto made = metrology::pair(holes, shafts, *target);
-  if (!made) return at_member(holes.empty() ? "holes" : "shafts", made.error());
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object();
-  write_formula(json, "pairing");
-  json.key("pairs").begin_array();
-  for (const metrology::Pair& pair : *made) {
-    json.begin_object()
-        .member("hole", std::uint64_t{pair.hole})
-        .member("shaft", std::uint64_t{pair.shaft})
-        .member_um("clearance_um", pair.clearance)
-        .end_object();
-  }
-  json.end_array().end_object();
-  return out;
+  auto made = metrology::pair(order.holes, order.shafts, order.target);
+  if (!made) return at_member(order.holes.empty() ? "holes" : "shafts", made.error());
+  return body_json(Pairing{*std::move(made)});
 }
 
 }  // namespace
@@ -321,6 +339,27 @@ void add_statistics_routes(std::vector<http::Route>& routes, const Services& ser
   for (const Computation& computation : computations) {
     routes.push_back(route_of(services, computation));
   }
+}
+
+void add_statistics_schemas(Schemas& schemas) {
+  schemas.push_back(order_schema<SummaryOrder>("Values"));
+  schemas.push_back(answer_schema<metrology::Summary>("ValueSummary"));
+  schemas.push_back(order_schema<GroupsOrder>("Groups"));
+  schemas.push_back(answer_schema<metrology::Anova>("Anova"));
+  schemas.push_back(order_schema<CapabilityOrder>("CapabilityOrder"));
+  schemas.push_back(answer_schema<IndexAnswer>("CapabilityIndex"));
+  schemas.push_back(answer_schema<CapabilityAnswer>("Capability"));
+  schemas.push_back(answer_schema<Stored<CapabilityAnswer>>("StoredCapability"));
+  schemas.push_back(order_schema<ChartOrder>("ChartOrder"));
+  schemas.push_back(answer_schema<ChartAnswer>("ControlChart"));
+  schemas.push_back(answer_schema<Stored<ChartAnswer>>("StoredControlChart"));
+  schemas.push_back(order_schema<Type1Order>("Type1Order"));
+  schemas.push_back(answer_schema<metrology::Type1Study>("Type1Study"));
+  add_gauge_study_schemas(schemas);
+  schemas.push_back({"PairingOrder", pairing_schema()});
+  schemas.push_back(answer_schema<Pairing>("Pairing"));
+  add_uncertainty_schemas(schemas);
+  add_documents_schemas(schemas);
 }
 
 }  // namespace fitgauge::api

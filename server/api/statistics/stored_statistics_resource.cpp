@@ -4,7 +4,7 @@
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
-#include "api/statistics/statistics_codec.hpp"
+#include "api/statistics/statistics_answers.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"
 #include "service/jobs.hpp"
@@ -38,13 +38,13 @@ void answer_with(const Services& services, const http::Request& request, http::R
 }
 
 /// The subgroup or the measurement that a point is of. A moving range is named by its later value.
-PointName name_in(const SelectedValues& selected) {
-  return [&selected](JsonWriter& json, const metrology::ChartViolation& violation) {
+NamePoint name_in(const SelectedValues& selected) {
+  return [&selected](NamedViolation& named) {
     if (!selected.subgroups.empty()) {
-      json.member("subgroup", selected.subgroups[violation.index]);
+      named.subgroup = selected.subgroups[named.violation.index];
     } else {
-      const std::size_t later = violation.chart == "mr" ? 1 : 0;
-      json.member("id", selected.ids.text(violation.index + later));
+      const std::size_t later = named.violation.chart == "mr" ? 1 : 0;
+      named.id = selected.ids.text(named.violation.index + later);
     }
   };
 }
@@ -61,17 +61,12 @@ void find_capability(const Services& services, const http::Request& request,
                 auto selected = std::move(selection).selected(ignore);
                 if (!selected) return selected.error();
                 if (target) selected->limits.target = exact_mm(*target);
-                const auto made =
+                auto made =
                     metrology::assess_capability(selected->data, selected->limits, confidence);
                 if (!made) return made.error();
-                std::string out;
-                JsonWriter json(out);
-                json.begin_object();
-                write_selection(json, *selected, as_of);
-                write_capability_members(json, *made, selected->limits, confidence,
-                                         name_in(*selected));
-                json.end_object();
-                return out;
+                return body_json(Stored<CapabilityAnswer>{
+                    selection_of(*selected, as_of),
+                    {*std::move(made), selected->limits, confidence, name_in(*selected)}});
               });
 }
 
@@ -147,24 +142,21 @@ void find_chart(const Services& services, const http::Request& request, http::Re
                 auto selected = std::move(selection).selected(stored.ignores_subgroups);
                 if (!selected) return selected.error();
                 if (!stored.has_kind && selected->data.size > 1) plan.kind = ChartKind::XbarR;
-                const auto made = metrology::make_charts(selected->data, plan);
+                auto made = metrology::make_charts(selected->data, plan);
                 if (!made) return made.error();
                 selected->data = {};
                 std::string out;
                 constexpr std::size_t kOfAPoint = 12;  // what is not written to is no memory
                 out.reserve(2 * kOfAPoint * selected->count);
                 JsonWriter json(out);
-                json.begin_object();
-                write_selection(json, *selected, as_of);
-                json.member("kind", word(plan.kind));
-                write_formula(json, word(plan.kind));
-                write_chart_members(json, *made, name_in(*selected));
-                json.end_object();
+                write_body(json,
+                           Stored<ChartAnswer>{selection_of(*selected, as_of),
+                                               {plan.kind, *std::move(made), name_in(*selected)}});
                 return out;
               });
 }
 
-std::vector<http::Parameter> with_filters(std::vector<http::Parameter> own) {
+std::vector<http::Parameter> with_stored_filters(std::vector<http::Parameter> own) {
   auto parameters = measurement_filter_parameters();
   own.push_back(subgroups_parameter());
   constexpr std::int64_t kMostOfLast = 1'000'000;
@@ -185,7 +177,7 @@ http::Parameter number(std::string name, std::int64_t least, std::int64_t most,
 
 std::vector<http::Parameter> chart_parameters() {
   constexpr std::int64_t kMost = 100'000'000;
-  return with_filters({
+  return with_stored_filters({
       {.name = "kind",
        .type = http::Words{{"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}},
        .description = "xbar_r where the values name subgroups, else i_mr, when absent"},
@@ -210,12 +202,13 @@ void add_stored_statistics_routes(std::vector<http::Route>& routes, const Servic
       .handler = with(services, find_capability),
       .summary = "Capability and performance of stored values",
       .description = "Against the limits in the records, which must be the same in all.",
-      .parameters = with_filters({{.name = "target_mm",
-                                   .type = http::LengthIn{},
-                                   .description = "Of cpm; the middle of the limits when absent"},
-                                  {.name = "confidence",
-                                   .type = http::Decimal{.scale = kScale, .min = 1, .max = 999'999},
-                                   .description = "Of the intervals; 0.95 when absent"}}),
+      .parameters =
+          with_stored_filters({{.name = "target_mm",
+                                .type = http::LengthIn{},
+                                .description = "Of cpm; the middle of the limits when absent"},
+                               {.name = "confidence",
+                                .type = http::Decimal{.scale = kScale, .min = 1, .max = 999'999},
+                                .description = "Of the intervals; 0.95 when absent"}}),
       .access = "viewer",
       .operation = "assessStoredCapability",
       .tag = "measurements",

@@ -1,50 +1,66 @@
 #include "api/statistics/uncertainty_resource.hpp"
 
 #include "api/resources.hpp"
+#include "api/schemas.hpp"
 #include "api/statistics/computation.hpp"
+#include "api/statistics/exact_reader.hpp"
 #include "api/wire/formulas.hpp"
-#include "base/json/field_reader.hpp"
-#include "base/json/json_writer.hpp"
 #include "service/measurements/uncertainty_budget.hpp"
 
 namespace fitgauge::api {
 
+struct SimulationAnswer {
+  UncertaintySimulation order{};
+  metrology::MonteCarloResult made{};
+};
+struct SimulatedInterval {
+  double lower = 0;
+  double upper = 0;
+};
+void members(auto& v, const SimulatedInterval& interval) {
+  v.member("lower", interval.lower);
+  v.member("upper", interval.upper);
+}
+void members(auto& v, const SimulationAnswer& simulated) {
+  const metrology::MonteCarloResult& made = simulated.made;
+  v.member("trials", simulated.order.trials);
+  v.member("seed", simulated.order.seed);
+  v.member("mean", made.mean, "Of the deviation from the estimate");
+  v.member("standard_deviation", made.standard_deviation);
+  v.member("interval", SimulatedInterval{made.lower, made.upper}, "Equal probability outside");
+}
+
+struct UncertaintyAnswer {
+  metrology::CombinedUncertainty combined{};
+  double probability = 0;
+  std::optional<SimulationAnswer> simulated{};
+};
+void members(auto& v, const UncertaintyAnswer& answer) {
+  formula_members(v, "uncertainty");
+  v.member("combined_standard_uncertainty", answer.combined.combined);
+  v.member("effective_degrees_of_freedom", answer.combined.degrees_of_freedom);
+  v.member("welch_satterthwaite", answer.combined.welch_satterthwaite);
+  v.member("probability", answer.probability);
+  v.member("coverage_factor", answer.combined.coverage_factor);
+  v.member("expanded_uncertainty", answer.combined.expanded);
+  v.optional("monte_carlo", answer.simulated, "Where it was asked for");
+}
+
 Result<std::string> compute_uncertainty(const JsonValue& body) {
   const auto read = read_uncertainty_budget(body);
   if (!read) return read.error();
-  const auto& [budget, simulation, combined] = *read;
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object();
-  write_formula(json, "uncertainty");
-  json.member("combined_standard_uncertainty", combined.combined)
-      .member("effective_degrees_of_freedom", combined.degrees_of_freedom)
-      .member("welch_satterthwaite", combined.welch_satterthwaite)
-      .member("probability", budget.probability)
-      .member("coverage_factor", combined.coverage_factor)
-      .member("expanded_uncertainty", combined.expanded);
-  if (simulation) {
-    const auto made = metrology::simulate(budget, simulation->trials, simulation->seed);
-    if (!made) {
-      FieldErrors errors;
-      errors.add(made.error().code, "/correlations", made.error().message);
-      return *errors.take();
-    }
-    json.key("monte_carlo")
-        .begin_object()
-        .member("trials", simulation->trials)
-        .member("seed", simulation->seed)
-        .member("mean", made->mean)
-        .member("standard_deviation", made->standard_deviation)
-        .key("interval")
-        .begin_object()
-        .member("lower", made->lower)
-        .member("upper", made->upper)
-        .end_object()
-        .end_object();
+  UncertaintyAnswer answer{read->combined, read->budget.probability};
+  if (const auto& simulation = read->simulation) {
+    const auto made = metrology::simulate(read->budget, simulation->trials, simulation->seed);
+    if (!made) return at_member("correlations", made.error());
+    answer.simulated = SimulationAnswer{*simulation, *made};
   }
-  json.end_object();
-  return out;
+  return body_json(answer);
+}
+
+void add_uncertainty_schemas(Schemas& schemas) {
+  schemas.push_back({"UncertaintyBudget", uncertainty_budget_schema()});
+  schemas.push_back(answer_schema<UncertaintyAnswer>("Uncertainty"));
 }
 
 void add_uncertainty_routes(std::vector<http::Route>& routes, const Services& services) {

@@ -13,7 +13,7 @@ namespace {
 using metrology::Decimals;
 using metrology::Wide;
 
-constexpr int kDecimals = 6;  // a nanometre in mm
+constexpr int kDecimalsOfMm = 6;  // a nanometre in mm
 
 Error none_selected() {
   return {ErrorCode::StatisticsTooFew,
@@ -30,7 +30,7 @@ Error unbalanced(std::string what) {
 }  // namespace
 
 metrology::Exact exact_mm(Length length) {
-  return {metrology::Integer(length.count()), metrology::power_of_ten(kDecimals)};
+  return {metrology::Integer(length.count()), metrology::power_of_ten(kDecimalsOfMm)};
 }
 
 void MeasurementIds::add(std::int64_t number, std::string_view origin) {
@@ -181,7 +181,7 @@ Result<SelectedValues> ValueSelection::described() {
 Result<SelectedValues> ValueSelection::one_by_one() && {
   auto made = described();
   if (!made) return made;
-  made->data = {.values = Decimals(std::move(counts_), kDecimals)};
+  made->data = {.values = Decimals(std::move(counts_), kDecimalsOfMm)};
   made->ids = std::move(ids_);
   return made;
 }
@@ -209,7 +209,7 @@ Result<SelectedValues> ValueSelection::by_subgroup() && {
   std::vector<Wide> sorted(counts_.size());
   for (std::size_t i = 0; i < counts_.size(); ++i) sorted[ends[groups_[i]]++] = counts_[i];
   counts_ = {};
-  made->data = {.values = Decimals(std::move(sorted), kDecimals), .size = size};
+  made->data = {.values = Decimals(std::move(sorted), kDecimalsOfMm), .size = size};
   made->subgroups.reserve(names_.size());
   for (const std::string* name : names_) made->subgroups.push_back(*name);
   return made;
@@ -232,20 +232,20 @@ bool ignores_subgroups(const http::Request& request) {
   return request.text("subgroups") == "ignore";
 }
 
-void write_selection(JsonWriter& json, const SelectedValues& selected, const std::string& as_of) {
-  const auto limit = [&json](std::string_view name, const std::optional<Length>& value) {
-    if (value) json.member_mm(name, *value);
-  };
-  json.key("selection")
-      .begin_object()
-      .member("count", std::uint64_t{selected.count})
-      .member("subgroups", std::uint64_t{selected.subgroups.size()})
-      .member("first_id", std::string_view(selected.first_id))
-      .member("last_id", std::string_view(selected.last_id))
-      .member("as_of", as_of);
-  limit("lower_limit_mm", selected.lower_limit);
-  limit("upper_limit_mm", selected.upper_limit);
-  json.end_object();
+SelectionAnswer selection_of(const SelectedValues& selected, std::string as_of) {
+  return {.count = selected.count,
+          .subgroups = selected.subgroups.size(),
+          .first_id = selected.first_id,
+          .last_id = selected.last_id,
+          .as_of = std::move(as_of),
+          .lower_limit = selected.lower_limit,
+          .upper_limit = selected.upper_limit};
+}
+
+schema::Fields selection_field() {
+  BodySchema describe(Side::Answer);
+  describe.member("selection", SelectionAnswer{}, "Which measurements it is of");
+  return describe.fields();
 }
 
 }  // namespace fitgauge::api

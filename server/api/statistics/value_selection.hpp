@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/json/json_writer.hpp"
+#include "base/json/body_forms.hpp"
 #include "http/route.hpp"
 #include "metrology/statistics/capability.hpp"
 #include "metrology/statistics/control_chart.hpp"
@@ -113,7 +113,26 @@ class ValueSelection {
 http::Parameter subgroups_parameter();
 bool ignores_subgroups(const http::Request& request);
 
-/// The member `selection`.
-void write_selection(JsonWriter& json, const SelectedValues& selected, const std::string& as_of);
+/// The measurements a figure is of, in an answer.
+struct SelectionAnswer {
+  std::size_t count = 0;
+  std::size_t subgroups = 0;
+  std::string first_id{};
+  std::string last_id{};
+  std::string as_of{};
+  std::optional<Length> lower_limit{};
+  std::optional<Length> upper_limit{};
+};
+void members(auto& v, const SelectionAnswer& selection) {
+  v.member("count", selection.count, "Values");
+  v.member("subgroups", selection.subgroups, "0 where the values are taken one by one");
+  v.member("first_id", selection.first_id, "The first of them in storage order");
+  v.member("last_id", selection.last_id);
+  v.member("as_of", selection.as_of, "The newest measurement there was");
+  v.optional("lower_limit_mm", selection.lower_limit, Millimetres{}, "That all of them have");
+  v.optional("upper_limit_mm", selection.upper_limit, Millimetres{});
+}
+
+SelectionAnswer selection_of(const SelectedValues& selected, std::string as_of);
 
 }  // namespace fitgauge::api

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "api/schemas.hpp"
+
 namespace fitgauge::api {
 namespace {
 
@@ -63,11 +65,22 @@ constexpr std::array kFormulas = {
 
 std::span<const Formula> formulas() { return kFormulas; }
 
-void write_formula(JsonWriter& json, std::string_view of) {
+const Formula& formula_of(std::string_view of) {
   const auto found = std::find_if(kFormulas.begin(), kFormulas.end(),
                                   [of](const Formula& formula) { return formula.of == of; });
   if (found == kFormulas.end()) throw std::logic_error("no formula of " + std::string(of));
-  json.member("formula", found->formula).member("clause", found->clause);
+  return *found;
+}
+
+void write_formula(JsonWriter& json, std::string_view of) {
+  BodyWriter write(json);
+  formula_members(write, of);
+}
+
+schema::Fields formula_fields() {
+  BodySchema describe(Side::Answer);
+  formula_members(describe, "summary");
+  return describe.fields();
 }
 
 }  // namespace fitgauge::api

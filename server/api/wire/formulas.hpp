@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "base/json/json_writer.hpp"
+#include "base/json/body_forms.hpp"
 
 namespace fitgauge::api {
 
@@ -16,7 +16,16 @@ struct Formula {
 };
 std::span<const Formula> formulas();
 
-/// Writes the members `formula` and `clause`. @param of a name in formulas(); another is a bug
+/// @param of a name in formulas(); another is a bug
+const Formula& formula_of(std::string_view of);
+
+/// Writes the members `formula` and `clause`.
 void write_formula(JsonWriter& json, std::string_view of);
+
+/// Describes these members of a body.
+void formula_members(auto& v, std::string_view of) {
+  v.member("formula", formula_of(of).formula, "What was computed");
+  v.member("clause", formula_of(of).clause, "Where that is from");
+}
 
 }  // namespace fitgauge::api

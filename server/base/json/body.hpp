@@ -11,9 +11,9 @@
 #include "base/json/json_writer.hpp"
 #include "base/json/schema.hpp"
 
-// A body is described once, by `template <class V> void members(V& v, T& body)`, which names each
-// member with its variable, its form and its meaning. The visitor Describe makes its schema of
-// that, Read fills it from JSON and Write writes it as JSON.
+// A body is described once, by `void members(auto& v, T& body)`, which names each member
+// with its variable, its form and its meaning. The visitor BodySchema makes its schema of
+// that, BodyReader fills it from JSON and BodyWriter writes it as JSON.
 //
 // A form says how a value is described, read and written; body_forms.hpp has the usual ones:
 //   std::string schema(Side) const
@@ -49,52 +49,74 @@ struct Bare<const T*> {
   static constexpr bool kIsOptional = true;
 };
 template <class T>
-using UsualForm = typename FormOf<typename Bare<std::remove_const_t<T>>::Type>::Type;
+using BareType = typename Bare<std::remove_const_t<T>>::Type;
+
+/// What a description names after a member's variable: its form, unless it is the usual one, and
+/// its meaning, where the name does not say it.
+template <class T>
+typename FormOf<BareType<T>>::Type form_of(std::string_view = {}) {
+  return {};
+}
+template <class T, class Form>
+requires(!std::is_convertible_v<Form, std::string_view>) const Form& form_of(
+    const Form& form, std::string_view = {}) {
+  return form;
+}
+inline std::string_view meaning_of(std::string_view meaning = {}) { return meaning; }
+template <class Form>
+requires(!std::is_convertible_v<Form, std::string_view>) std::string_view
+    meaning_of(const Form&, std::string_view meaning = {}) {
+  return meaning;
+}
+
+/// Whether the schema says the value of a variable that is not given: not of bodies and lists.
+template <class Form, class T>
+concept HasDefault = !requires {
+  Form::kHasDefault;
+}
+&&requires(const Form& form, JsonWriter& to, const T& value) { form.write(to, value); };
 
 /// Makes the schema of a body of its members.
-class Describe {
+class BodySchema {
  public:
-  explicit Describe(Side side) : side_(side) {}
+  explicit BodySchema(Side side) : side_(side) {}
 
   /// A member that is always there; of an answer, an empty std::optional is null.
-  template <class T>
-  void member(std::string_view name, const T& value, std::string_view meaning = {}) {
-    member(name, value, UsualForm<T>{}, meaning);
-  }
-  template <class T, class Form>
-  requires(!std::is_convertible_v<Form, std::string_view>) void member(
-      std::string_view name, const T&, const Form& form, std::string_view meaning = {}) {
-    std::string json = form.schema(side_);
+  template <class T, class... More>
+  void member(std::string_view name, const T&, const More&... more) {
+    std::string json = form_of<T>(more...).schema(side_);
     if (Bare<T>::kIsOptional && side_ == Side::Answer) json = schema::null_or(json);
-    fields_.push_back({std::string(name), std::move(json), std::string(meaning), true});
+    fields_.push_back({std::string(name), std::move(json), std::string(meaning_of(more...)), true});
   }
 
   /// A member that may be left out: without it the variable keeps its value, the default.
-  template <class T>
-  void optional(std::string_view name, const T& value, std::string_view meaning = {}) {
-    optional(name, value, UsualForm<T>{}, meaning);
-  }
-  template <class T, class Form>
-  requires(!std::is_convertible_v<Form, std::string_view>) void optional(
-      std::string_view name, const T& value, const Form& form, std::string_view meaning = {}) {
+  template <class T, class... More>
+  void optional(std::string_view name, const T& value, const More&... more) {
+    const auto& form = form_of<T>(more...);
+    using Form = std::remove_cvref_t<decltype(form)>;
     std::string json = form.schema(side_);
-    if constexpr (!Bare<T>::kIsOptional && requires(JsonWriter & to) { form.write(to, value); }) {
+    if constexpr (HasDefault<Form, BareType<T>>) {
       std::string usual;
       JsonWriter writer(usual);
-      form.write(writer, value);
-      if (side_ == Side::Order) json = schema::with_default(std::move(json), usual);
+      if constexpr (Bare<T>::kIsOptional) {
+        if (value) form.write(writer, *value);
+      } else {
+        form.write(writer, value);
+      }
+      if (side_ == Side::Order && !usual.empty()) json = schema::with_default(json, usual);
     }
-    fields_.push_back({std::string(name), std::move(json), std::string(meaning), false});
+    fields_.push_back(
+        {std::string(name), std::move(json), std::string(meaning_of(more...)), false});
   }
 
   /// Looks at what members say together; of no concern to a schema or an answer.
-  template <class Look>
-  void check(const Look&) {}
+  void check(const auto&) {}
 
   const schema::Fields& fields() const { return fields_; }
-  std::string json() const {
+  std::string json(std::string_view example = {}) const {
     using schema::Others;
-    return schema::object(fields_, side_ == Side::Order ? Others::Refused : Others::Allowed);
+    return schema::object(fields_, side_ == Side::Order ? Others::Refused : Others::Allowed,
+                          example);
   }
 
  private:
@@ -103,42 +125,26 @@ class Describe {
 };
 
 /// Fills a body from JSON. Refers to the JSON and the errors, which outlive it.
-class Read {
+class BodyReader {
  public:
-  Read(const JsonValue& object, std::string pointer, FieldErrors& errors)
+  BodyReader(const JsonValue& object, std::string pointer, FieldErrors& errors)
       : fields_(object, std::move(pointer), errors) {}
 
-  template <class T>
-  void member(std::string_view name, T& to, std::string_view = {}) {
-    member(name, to, UsualForm<T>{});
-  }
-  template <class T, class Form>
-  requires(!std::is_convertible_v<Form, std::string_view>) void member(std::string_view name, T& to,
-                                                                       const Form& form,
-                                                                       std::string_view = {}) {
+  template <class T, class... More>
+  void member(std::string_view name, T& to, const More&... more) {
     if constexpr (Bare<T>::kIsOptional) {
-      typename Bare<T>::Type read{};
-      if (form.read(fields_, name, read)) to = std::move(read);
+      BareType<T> given{};
+      if (form_of<T>(more...).read(fields_, name, given)) to = std::move(given);
     } else {
-      form.read(fields_, name, to);
+      form_of<T>(more...).read(fields_, name, to);
     }
   }
-  template <class T>
-  void optional(std::string_view name, T& to, std::string_view = {}) {
-    optional(name, to, UsualForm<T>{});
+  template <class T, class... More>
+  void optional(std::string_view name, T& to, const More&... more) {
+    fields_.has(name) ? member(name, to, more...) : void(fields_.optional(name));
   }
-  template <class T, class Form>
-  requires(!std::is_convertible_v<Form, std::string_view>) void optional(std::string_view name,
-                                                                         T& to, const Form& form,
-                                                                         std::string_view = {}) {
-    fields_.has(name) ? member(name, to, form) : void(fields_.optional(name));
-  }
-
   /// @param look gets the FieldReader, to report what does not go together
-  template <class Look>
-  void check(const Look& look) {
-    look(fields_);
-  }
+  void check(const auto& look) { look(fields_); }
   /// Ends the body: what no member asked for is refused.
   void end() { fields_.refuse_unknown(); }
 
@@ -147,70 +153,55 @@ class Read {
 };
 
 /// Writes a body as JSON, without its braces.
-class Write {
+class BodyWriter {
  public:
-  explicit Write(JsonWriter& json) : json_(json) {}
+  explicit BodyWriter(JsonWriter& json) : json_(json) {}
 
-  template <class T>
-  void member(std::string_view name, const T& value, std::string_view = {}) {
-    member(name, value, UsualForm<T>{});
-  }
-  template <class T, class Form>
-  requires(!std::is_convertible_v<Form, std::string_view>) void member(std::string_view name,
-                                                                       const T& value,
-                                                                       const Form& form,
-                                                                       std::string_view = {}) {
+  template <class T, class... More>
+  void member(std::string_view name, const T& value, const More&... more) {
     json_.key(name);
     if constexpr (Bare<T>::kIsOptional) {
-      value ? form.write(json_, *value) : void(json_.null());
+      value ? form_of<T>(more...).write(json_, *value) : void(json_.null());
     } else {
-      form.write(json_, value);
+      form_of<T>(more...).write(json_, value);
     }
   }
-  template <class T>
-  void optional(std::string_view name, const T& value, std::string_view = {}) {
-    optional(name, value, UsualForm<T>{});
-  }
-  template <class T, class Form>
-  requires(!std::is_convertible_v<Form, std::string_view>) void optional(std::string_view name,
-                                                                         const T& value,
-                                                                         const Form& form,
-                                                                         std::string_view = {}) {
+  template <class T, class... More>
+  void optional(std::string_view name, const T& value, const More&... more) {
     if constexpr (Bare<T>::kIsOptional) {
       if (!value) return;
     }
-    member(name, value, form);
+    member(name, value, more...);
   }
-  template <class Look>
-  void check(const Look&) {}
+  void check(const auto&) {}
 
  private:
   JsonWriter& json_;
 };
 
-/// The schema of a body whose members `T` describes.
+/// The schema of a body whose members `T` describes; they are described of a `T{}`.
 template <class T>
-std::string schema_of(Side side) {
-  T example{};
-  Describe describe(side);
-  members(describe, example);
-  return describe.json();
+std::string schema_of(Side side, std::string_view example = {}) {
+  T body{};
+  BodySchema describe(side);
+  members(describe, body);
+  return describe.json(example);
 }
 
 /// A component of /openapi.json.
 template <class T>
-NamedSchema order_schema(std::string name) {
-  return {std::move(name), schema_of<T>(Side::Order)};
+NamedSchema order_schema(std::string name, std::string_view example = {}) {
+  return {std::move(name), schema_of<T>(Side::Order, example)};
 }
 template <class T>
-NamedSchema answer_schema(std::string name) {
-  return {std::move(name), schema_of<T>(Side::Answer)};
+NamedSchema answer_schema(std::string name, std::string_view example = {}) {
+  return {std::move(name), schema_of<T>(Side::Answer, example)};
 }
 
 /// Reads an object into a body; every bad member goes to the errors with its pointer.
 template <class T>
 void read_body(const JsonValue& object, std::string pointer, FieldErrors& errors, T& to) {
-  Read read(object, std::move(pointer), errors);
+  BodyReader read(object, std::move(pointer), errors);
   if (!object.is(JsonValue::Kind::Object)) return;
   members(read, to);
   read.end();
@@ -218,7 +209,7 @@ void read_body(const JsonValue& object, std::string pointer, FieldErrors& errors
 
 /// @errors RequestInvalid with every bad member.
 template <class T>
-Result<T> read_order(const JsonValue& json) {
+Result<T> read_whole(const JsonValue& json) {
   FieldErrors errors;
   T order{};
   read_body(json, "", errors, order);
@@ -229,14 +220,14 @@ Result<T> read_order(const JsonValue& json) {
 template <class T>
 void write_body(JsonWriter& json, const T& body) {
   json.begin_object();
-  Write write(json);
+  BodyWriter write(json);
   members(write, body);
   json.end_object();
 }
 
 /// The JSON of an answer.
 template <class T>
-std::string answer_of(const T& answer) {
+std::string body_json(const T& answer) {
   std::string out;
   JsonWriter json(out);
   write_body(json, answer);

@@ -1,5 +1,7 @@
 #include "base/json/body_forms.hpp"
 
+#include <cmath>
+
 namespace fitgauge::api {
 
 bool Text::read(FieldReader& fields, std::string_view name, std::string& to) const {
@@ -15,27 +17,58 @@ bool Text::read(FieldReader& fields, std::string_view name, std::string& to) con
   return fits;
 }
 
+bool Word::read(FieldReader& fields, std::string_view name, std::string& to) const {
+  auto given = fields.text(name);
+  if (!given) return false;
+  if (*given != word) {
+    fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} is {}", name, word));
+  }
+  to = *std::move(given);
+  return to == word;
+}
+
 std::string Integer::schema(Side) const {
   const bool is_count = least == 0 && most == std::numeric_limits<std::int64_t>::max();
   return is_count ? schema::count() : schema::integer(least, most);
 }
 
 std::string Number::schema(Side) const {
-  return is_open ? schema::number_between(least, most) : schema::number(least, most);
+  std::string json = schema::number();
+  if (std::isfinite(least)) {
+    json = schema::bounded(json, ends == Ends::Closed ? "minimum" : "exclusiveMinimum", least);
+  }
+  if (std::isfinite(most)) {
+    json = schema::bounded(json, ends == Ends::Open ? "exclusiveMaximum" : "maximum", most);
+  }
+  return json;
 }
 
 bool Number::read(FieldReader& fields, std::string_view name, double& to) const {
   const auto given = fields.number(name);
   if (!given) return false;
-  const bool fits = is_open ? *given > least && *given < most : *given >= least && *given <= most;
+  const bool fits = (ends == Ends::Closed ? *given >= least : *given > least) &&
+                    (ends == Ends::Open ? *given < most : *given <= most);
   if (fits) {
     to = *given;
   } else {
-    fields.report(ErrorCode::FieldInvalid, name,
-                  is_open ? fmt::format("{} lies between {} and {}", name, least, most)
-                          : fmt::format("{} lies from {} to {}", name, least, most));
+    const std::string_view between =
+        ends == Ends::Closed ? "lies from {} to {}" : "lies between {} and {}";
+    const std::string wanted =
+        must.empty() ? fmt::format(fmt::runtime(between), least, most) : std::string(must);
+    fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} {}", name, wanted));
   }
   return fits;
+}
+
+std::optional<std::size_t> find_word(FieldReader& fields, std::string_view name,
+                                     std::span<const std::string_view> words) {
+  const auto given = fields.text(name);
+  if (!given) return std::nullopt;
+  const auto found = std::find(words.begin(), words.end(), *given);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  fields.report(ErrorCode::FieldInvalid, name,
+                fmt::format("{} takes \"{}\"", name, fmt::join(words, "\" or \"")));
+  return std::nullopt;
 }
 
 }  // namespace fitgauge::api

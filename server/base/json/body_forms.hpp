@@ -7,7 +7,9 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <span>
 
+#include "base/clock.hpp"
 #include "base/json/applicable.hpp"
 #include "base/json/body.hpp"
 
@@ -15,18 +17,40 @@
 
 namespace fitgauge::api {
 
-/// A body within a body; `component` names its schema among the components of /openapi.json.
+/// A body within a body, whose members `describe(v, body)` names; `component` names its schema
+/// among the components of /openapi.json.
+template <class Members>
+struct Nested {
+  static constexpr bool kHasDefault = false;
+  std::string_view component;
+  Members describe;
+
+  std::string schema(Side) const { return schema::ref(component); }
+  void read_item(const JsonValue& item, std::string pointer, FieldErrors& errors, auto& to) const {
+    BodyReader v(item, std::move(pointer), errors);
+    if (!item.is(JsonValue::Kind::Object)) return;
+    describe(v, to);
+    v.end();
+  }
+  bool read(FieldReader& fields, std::string_view name, auto& to) const {
+    const JsonValue* object = fields.object(name);
+    if (object != nullptr) read_item(*object, fields.at(name), fields.errors(), to);
+    return object != nullptr;
+  }
+};
+template <class Members>
+Nested(std::string_view, Members) -> Nested<Members>;
+
+struct MembersOf {
+  void operator()(auto& v, auto& body) const { members(v, body); }
+};
+/// A body of a type within a body; without a component its schema stands in its place.
 template <class T>
-struct Object {
-  std::string_view component{};
+struct Object : Nested<MembersOf> {
+  constexpr Object(std::string_view name = {}) : Nested{name, {}} {}
 
   std::string schema(Side side) const {
     return component.empty() ? schema_of<T>(side) : schema::ref(component);
-  }
-  bool read(FieldReader& fields, std::string_view name, T& to) const {
-    const JsonValue* object = fields.object(name);
-    if (object != nullptr) read_body(*object, fields.at(name), fields.errors(), to);
-    return object != nullptr;
   }
   void write(JsonWriter& json, const T& from) const { write_body(json, from); }
 };
@@ -38,16 +62,18 @@ struct FormOf {
 /// Bodies in their order, or values of a form.
 template <class Item, class Form = typename FormOf<Item>::Type>
 struct List {
+  static constexpr bool kHasDefault = false;
   Form form{};
 
   std::string schema(Side side) const { return schema::array(form.schema(side)); }
   bool read(FieldReader& fields, std::string_view name, std::vector<Item>& to) const {
     const JsonValue* array = fields.array(name);
     if (array == nullptr) return false;
-    for (std::size_t i = 0; i < array->items.size(); ++i) {
-      read_body(array->items[i], pointer_to(fields.at(name), i), fields.errors(),
-                to.emplace_back());
+    std::vector<Item> given(array->items.size());
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      form.read_item(array->items[i], pointer_to(fields.at(name), i), fields.errors(), given[i]);
     }
+    to = std::move(given);
     return true;
   }
   template <class Items>
@@ -83,16 +109,28 @@ struct FormOf<std::string_view> {
   using Type = Text;
 };
 
+/// A time of an answer, in UTC.
+struct Time {
+  std::string schema(Side) const { return schema::time(); }
+  void write(JsonWriter& json, Timestamp from) const { json.value(format_rfc3339(from)); }
+};
+
 /// A text that is this word.
 struct Word {
   std::string_view word;
 
   std::string schema(Side) const { return schema::words({word}); }
+  bool read(FieldReader& fields, std::string_view name, std::string& to) const;
   void write(JsonWriter& json, std::string_view from) const { json.value(from); }
 };
 
 struct Flag {
   std::string schema(Side) const { return schema::boolean(); }
+  bool read(FieldReader& fields, std::string_view name, bool& to) const {
+    const auto given = fields.boolean(name);
+    to = given.value_or(to);
+    return given.has_value();
+  }
   void write(JsonWriter& json, bool from) const { json.value(from); }
 };
 template <>
@@ -122,16 +160,20 @@ struct FormOf<T> {
   using Type = Integer;
 };
 
-/// A number within its ends, which belong to it unless the range is open.
+/// A number within its ends, which belong to it unless they are open.
 struct Number {
-  double least;
-  double most;
-  bool is_open = false;
+  enum class Ends : std::uint8_t { Closed, Open, OpenBelow };
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  Ends ends = Ends::Closed;
+  std::string_view must{};  ///< what the refusal says after the name, unless both ends
 
   std::string schema(Side) const;
   bool read(FieldReader& fields, std::string_view name, double& to) const;
   void write(JsonWriter& json, double from) const { json.value(from); }
 };
+inline constexpr Number kPositive{
+    .least = 0, .ends = Number::Ends::OpenBelow, .must = "is above 0"};
 
 /// A figure of an answer: null where it is undefined. A double has the shortest text that reads
 /// back as the same, a long double 17 digits.
@@ -149,17 +191,62 @@ struct FormOf<T> {
   using Type = Figure;
 };
 
-/// A length as an exact decimal of micrometres.
-struct Micrometres {
+/// A length as an exact decimal; a double of a machine is in the same unit.
+struct Millimetres {
   std::string schema(Side side) const {
     return side == Side::Order ? schema::exact() : schema::number();
   }
+  bool read(FieldReader& fields, std::string_view name, Length& to) const {
+    const auto given = fields.mm(name);
+    to = given.value_or(to);
+    return given.has_value();
+  }
+  bool read(FieldReader& fields, std::string_view name, double& to) const {
+    const auto given = fields.mm(name);
+    to = given ? given->to_mm() : to;
+    return given.has_value();
+  }
+  void write(JsonWriter& json, Length from) const { json.mm(from); }
+  void write(JsonWriter& json, double from) const { json.value(from); }
+};
+struct Micrometres : Millimetres {
   bool read(FieldReader& fields, std::string_view name, Length& to) const {
     const auto given = fields.um(name);
     to = given.value_or(to);
     return given.has_value();
   }
+  bool read(FieldReader& fields, std::string_view name, double& to) const {
+    constexpr double kNanometres = 1000;
+    const auto given = fields.um(name);
+    to = given ? static_cast<double>(given->count()) / kNanometres : to;
+    return given.has_value();
+  }
   void write(JsonWriter& json, Length from) const { json.um(from); }
+  void write(JsonWriter& json, double from) const { json.value(from); }
+};
+
+/// @returns the place of a member's word; reports another word, or none.
+std::optional<std::size_t> find_word(FieldReader& fields, std::string_view name,
+                                     std::span<const std::string_view> words);
+
+/// One of some words, for the values of a type from 0.
+template <std::size_t size>
+struct OneOf : std::array<std::string_view, size> {
+  std::string schema(Side) const { return schema::words({this->begin(), this->end()}); }
+  template <class T>
+  bool read(FieldReader& fields, std::string_view name, T& to) const {
+    const auto found = find_word(fields, name, *this);
+    if (found) to = static_cast<T>(*found);
+    return found.has_value();
+  }
+  template <class T>
+  void write(JsonWriter& json, const T& from) const {
+    json.value(of(from));
+  }
+  template <class T>
+  constexpr std::string_view of(const T& value) const {
+    return (*this)[static_cast<std::size_t>(value)];
+  }
 };
 
 /// The words of an enumeration from its first value to `last`; `word(E)` has the text of each.
@@ -178,15 +265,17 @@ struct Words {
     if (!given) return false;
     const auto words = all();
     const auto found = std::find(words.begin(), words.end(), *given);
-    if (found != words.end()) to = static_cast<E>(found - words.begin());
     if (found == words.end()) {
-      fields.report(
-          ErrorCode::FieldInvalid, name,
-          fmt::format("{} is {}", name, listed(fmt::format("{}", fmt::join(words, " ")))));
+      const std::string wanted = listed(fmt::format("{}", fmt::join(words, " ")));
+      fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} is {}", name, wanted));
+      return false;
     }
-    return found != words.end();
+    to = static_cast<E>(found - words.begin());
+    return true;
   }
   void write(JsonWriter& json, E from) const { json.value(word(from)); }
 };
+template <class E>
+Words(E) -> Words<E>;
 
 }  // namespace fitgauge::api

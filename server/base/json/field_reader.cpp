@@ -96,6 +96,11 @@ std::optional<double> FieldReader::number(std::string_view name) {
   return parsed;
 }
 
+std::optional<bool> FieldReader::boolean(std::string_view name) {
+  const JsonValue* value = take(name, true, {Kind::Boolean}, "true or false");
+  return value == nullptr ? std::nullopt : std::optional(value->boolean);
+}
+
 std::optional<std::string> FieldReader::text(std::string_view name) {
   const JsonValue* value = take(name, true, {Kind::String}, "a string");
   return value == nullptr ? std::nullopt : std::optional(value->text);
@@ -104,6 +109,8 @@ std::optional<std::string> FieldReader::text(std::string_view name) {
 const JsonValue* FieldReader::array(std::string_view name) {
   return take(name, true, {Kind::Array}, "an array");
 }
+
+const JsonValue* FieldReader::any(std::string_view name) { return take(name, true); }
 
 const JsonValue* FieldReader::object(std::string_view name) {
   return take(name, true, {Kind::Object}, "an object");
@@ -146,6 +153,15 @@ std::optional<std::string> FieldReader::optional_text(std::string_view name) {
 }
 
 const JsonValue* FieldReader::optional(std::string_view name) { return take(name, false); }
+
+void FieldReader::refuse_not_applicable(std::span<const Applicable> table, std::string_view what,
+                                        std::string_view kind) {
+  api::refuse_not_applicable(
+      table, what, kind, [this](const Applicable& row) { return has(row.member); },
+      [this](std::string_view member, std::string message) {
+        report(ErrorCode::FieldConflict, member, std::move(message));
+      });
+}
 
 void FieldReader::refuse_unknown() {
   if (accepts_all_) return;

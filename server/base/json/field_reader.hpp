@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/json/applicable.hpp"
 #include "base/json/json_value.hpp"
 #include "base/length.hpp"
 
@@ -50,9 +51,11 @@ class FieldReader {
   std::optional<Length> mm(std::string_view name);
   std::optional<Length> um(std::string_view name);
   std::optional<double> number(std::string_view name);
+  std::optional<bool> boolean(std::string_view name);
   std::optional<std::string> text(std::string_view name);
   std::optional<std::int64_t> integer(std::string_view name, std::int64_t least, std::int64_t most);
   const JsonValue* array(std::string_view name);
+  const JsonValue* any(std::string_view name);
   const JsonValue* object(std::string_view name);
 
   // Members that may be absent.
@@ -63,6 +66,9 @@ class FieldReader {
   std::optional<std::string> optional_text(std::string_view name);
   const JsonValue* optional(std::string_view name);
 
+  /// Reports every member that is given and that its kind does not use.
+  void refuse_not_applicable(std::span<const Applicable> table, std::string_view what,
+                             std::string_view kind);
   /// Reports every member that was not asked for.
   void refuse_unknown();
   /// As if every member had been asked for.

@@ -35,10 +35,6 @@ std::string number() { return R"({"type":"number"})"; }
 std::string number(double least, double most) {
   return fmt::format(R"({{"type":"number","minimum":{},"maximum":{}}})", least, most);
 }
-std::string number_between(double least, double most) {
-  return fmt::format(R"({{"type":"number","exclusiveMinimum":{},"exclusiveMaximum":{}}})", least,
-                     most);
-}
 std::string integer(std::int64_t least, std::int64_t most) {
   return fmt::format(R"({{"type":"integer","minimum":{},"maximum":{}}})", least, most);
 }
@@ -55,7 +51,13 @@ std::string words(const std::vector<std::string_view>& words) {
   return fmt::format(R"({{"type":"string","enum":{}}})", list_of(quoted_words));
 }
 
-std::string exact() { return R"({"type":["number","string"],"pattern":"^-?[0-9]+([.][0-9]+)?$"})"; }
+std::string exact() {
+  return R"({"type":["number","string"],"pattern":"^[-+]?[0-9]+([.][0-9]+)?$"})";
+}
+
+std::string bounded(std::string json, std::string_view bound, double value) {
+  return with_members(std::move(json), fmt::format(R"("{}":{})", bound, value));
+}
 
 std::string null_or(const std::string& json) {
   if (json == kNumberOrNull) return json;
@@ -71,8 +73,10 @@ std::string array(const std::string& item) {
   return fmt::format(R"({{"type":"array","items":{}}})", item);
 }
 std::string array(const std::string& item, std::size_t least, std::size_t most) {
-  const std::string end = most == kAnyNumber ? "" : fmt::format(R"(,"maxItems":{})", most);
-  return with_members(array(item), fmt::format(R"("minItems":{}{})", least, end));
+  std::string json = array(item);
+  if (least > 0) json = bounded(json, "minItems", static_cast<double>(least));
+  if (most != kAnyNumber) json = bounded(json, "maxItems", static_cast<double>(most));
+  return json;
 }
 
 std::string map(const std::string& value) {

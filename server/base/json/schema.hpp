@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace fitgauge::api {
@@ -30,7 +31,6 @@ enum class Others : std::uint8_t { Allowed, Refused };
 std::string boolean();
 std::string number();
 std::string number(double least, double most);
-std::string number_between(double least, double most);  ///< neither end belongs to it
 std::string integer(std::int64_t least, std::int64_t most);
 std::string count();  ///< a whole number from 0
 std::string text();
@@ -40,6 +40,11 @@ std::string words(const std::vector<std::string_view>& words);
 /// A number in a request, which may also come as a string, so that no double comes between.
 std::string exact();
 inline constexpr std::size_t kAnyNumber = 0;
+/// The same with a bound: `maximum`, `exclusiveMinimum`, ...
+std::string bounded(std::string json, std::string_view bound, double value);
+inline std::string above_zero(std::string json) {
+  return bounded(std::move(json), "exclusiveMinimum", 0);
+}
 std::string null_or(const std::string& json);
 std::string array(const std::string& item);
 std::string array(const std::string& item, std::size_t least, std::size_t most = kAnyNumber);

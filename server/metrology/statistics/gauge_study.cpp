@@ -267,9 +267,6 @@ std::optional<StudyMethod> study_method_from_word(std::string_view text) {
 std::string_view word(StudyMethod method) {
   return kMethods[static_cast<std::size_t>(method)].first;
 }
-std::optional<StudyModel> study_model_from_word(std::string_view text) {
-  return from_word(kModels, text);
-}
 std::string_view word(StudyModel model) { return kModels[static_cast<std::size_t>(model)].first; }
 
 Result<Type1Study> study_type1(const Decimals& values, const Exact& reference,

@@ -42,7 +42,6 @@ std::optional<StudyMethod> study_method_from_word(std::string_view text);
 std::string_view word(StudyMethod method);
 
 enum class StudyModel : std::uint8_t { Auto, Interaction, Pooled };
-std::optional<StudyModel> study_model_from_word(std::string_view text);
 std::string_view word(StudyModel model);
 
 /// `Auto` pools the interaction with the repeatability above this probability.

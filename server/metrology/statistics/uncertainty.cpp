@@ -13,13 +13,8 @@
 namespace fitgauge::metrology {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Distribution>, 5> kDistributionWords = {{
-    {"normal", Distribution::Normal},
-    {"rectangular", Distribution::Rectangular},
-    {"triangular", Distribution::Triangular},
-    {"u_shaped", Distribution::UShaped},
-    {"t", Distribution::T},
-}};
+constexpr std::array<std::string_view, 5> kDistributionWords = {"normal", "rectangular",
+                                                                "triangular", "u_shaped", "t"};
 
 Error impossible() {
   return {ErrorCode::FieldInvalid,
@@ -120,11 +115,8 @@ double draw(Random& random, const Contribution& c) {
 
 }  // namespace
 
-std::optional<Distribution> distribution_from_word(std::string_view text) {
-  for (const auto& [name, distribution] : kDistributionWords) {
-    if (name == text) return distribution;
-  }
-  return std::nullopt;
+std::string_view word(Distribution distribution) {
+  return kDistributionWords[static_cast<std::size_t>(distribution)];
 }
 
 std::optional<double> standard_uncertainty_of(Distribution distribution, double half_width) {

@@ -12,7 +12,7 @@ namespace fitgauge::metrology {
 
 /// The shapes of a contribution (JCGM 100, 4.3; JCGM 101, table 1). U-shaped is the arcsine.
 enum class Distribution : std::uint8_t { Normal, Rectangular, Triangular, UShaped, T };
-std::optional<Distribution> distribution_from_word(std::string_view text);
+std::string_view word(Distribution distribution);
 
 /// The standard uncertainty of a half width; none for the shapes that have no width.
 std::optional<double> standard_uncertainty_of(Distribution distribution, double half_width);

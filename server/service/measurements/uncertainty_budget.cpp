@@ -4,197 +4,210 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "base/json/field_reader.hpp"
-
 namespace fitgauge::api {
+
+void members(auto& v, UncertaintySimulation& simulation) {
+  v.optional("trials", simulation.trials, Integer{1000, simulation.most},
+             "Trials times contributions have a limit");
+  v.optional("seed", simulation.seed, Integer{});
+}
+
 namespace {
 
-using metrology::Contribution;
 using metrology::Distribution;
 
-constexpr std::size_t kMostContributions = 100;
+/// The form of figures and sensitivities, whose products to the fourth power are doubles then.
+struct Magnitude {
+  static constexpr double kLeast = 1e-30;
+  static constexpr double kMost = 1e15;
+  double least = 0;
 
-/// Of figures and sensitivities, whose products to the fourth power are doubles then.
-constexpr double kLeastFigure = 1e-30;
-constexpr double kMostFigure = 1e15;
-
-void check_magnitude(FieldReader& row, std::string_view name, double value) {
-  const double magnitude = std::abs(value);
-  if (magnitude == 0 || (magnitude >= kLeastFigure && magnitude <= kMostFigure)) return;
-  row.report(ErrorCode::FieldInvalid, name,
-             fmt::format("{} is 0 or from {} to {}: choose a unit that fits", name, kLeastFigure,
-                         kMostFigure));
-}
-
-/// A number that is 0 or more, where the member is given.
-std::optional<double> not_negative(FieldReader& row, std::string_view name) {
-  if (!row.has(name)) {
-    row.optional(name);
-    return std::nullopt;
-  }
-  const auto value = row.number(name);
-  if (value && *value < 0) {
-    row.report(ErrorCode::FieldInvalid, name, fmt::format("{} is 0 or more", name));
-  } else if (value) {
-    check_magnitude(row, name, *value);
-  }
-  return value;
-}
-
-Contribution read_contribution(FieldReader& row) {
-  Contribution c;
-  const auto u = not_negative(row, "standard_uncertainty");
-  const auto half_width = not_negative(row, "half_width");
-  const std::string word =
-      row.optional_text("distribution").value_or(half_width ? "rectangular" : "normal");
-  if (const auto distribution = metrology::distribution_from_word(word)) {
-    c.distribution = *distribution;
-  } else {
-    row.report(ErrorCode::FieldInvalid, "distribution",
-               "distribution is normal, rectangular, triangular, u_shaped or t");
-  }
-  if (u && half_width) {
-    row.report(ErrorCode::FieldConflict, "half_width",
-               "give standard_uncertainty or half_width, not both");
-  } else if (!u && !half_width) {
-    if (!row.has("standard_uncertainty") && !row.has("half_width")) {
-      row.report(ErrorCode::FieldMissing, "standard_uncertainty",
-                 "standard_uncertainty is required, or half_width with distribution");
+  std::string schema(Side) const { return schema::number(least, kMost); }
+  bool read(FieldReader& fields, std::string_view name, double& to) const {
+    to = fields.number(name).value_or(to);
+    const double magnitude = std::abs(to);
+    if (to < 0 && least == 0) {
+      fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} is 0 or more", name));
+    } else if (magnitude != 0 && (magnitude < kLeast || magnitude > kMost)) {
+      fields.report(
+          ErrorCode::FieldInvalid, name,
+          fmt::format("{} is 0 or from {} to {}: choose a unit that fits", name, kLeast, kMost));
     }
-  } else if (u) {
-    c.standard_uncertainty = *u;
-  } else if (const auto of = metrology::standard_uncertainty_of(c.distribution, *half_width)) {
-    c.standard_uncertainty = *of;
-  } else {
-    row.report(ErrorCode::FieldInvalid, "half_width",
-               "half_width belongs to rectangular, triangular and u_shaped; for the others give "
-               "standard_uncertainty");
+    return true;
   }
-  c.sensitivity = row.number_or("sensitivity", 1);
-  check_magnitude(row, "sensitivity", c.sensitivity);
-  if (row.has("degrees_of_freedom")) {
-    const auto freedom = row.number("degrees_of_freedom");
-    if (freedom && !(*freedom > 0)) {
-      row.report(ErrorCode::FieldInvalid, "degrees_of_freedom", "degrees_of_freedom is above 0");
+  void write(JsonWriter& json, double from) const { json.value(from); }
+};
+
+struct ContributionOrder {
+  std::string name{};
+  std::optional<double> standard_uncertainty{};
+  std::optional<double> half_width{};
+  std::optional<Distribution> distribution{};
+  double sensitivity = 1;
+  std::optional<double> degrees_of_freedom{};
+
+  Distribution shape() const {
+    return distribution.value_or(half_width ? Distribution::Rectangular : Distribution::Normal);
+  }
+  metrology::Contribution contribution() const {
+    metrology::Contribution c{.sensitivity = sensitivity, .distribution = shape()};
+    c.standard_uncertainty = standard_uncertainty.value_or(0);
+    if (half_width) {
+      c.standard_uncertainty = metrology::standard_uncertainty_of(shape(), *half_width).value_or(0);
     }
-    c.degrees_of_freedom = freedom.value_or(c.degrees_of_freedom);
-  } else if (c.distribution == Distribution::T) {
-    row.report(ErrorCode::FieldMissing, "degrees_of_freedom",
-               "a contribution with the distribution t has degrees_of_freedom");
+    c.degrees_of_freedom = degrees_of_freedom.value_or(c.degrees_of_freedom);
+    return c;
   }
-  row.optional("degrees_of_freedom");
-  return c;
+};
+
+void check_width(const ContributionOrder& c, FieldReader& fields) {
+  const bool has_uncertainty = fields.has("standard_uncertainty");
+  const bool has_width = fields.has("half_width");
+  if (has_uncertainty && has_width) {
+    fields.report(ErrorCode::FieldConflict, "half_width",
+                  "give standard_uncertainty or half_width, not both");
+  } else if (!has_uncertainty && !has_width) {
+    fields.report(ErrorCode::FieldMissing, "standard_uncertainty",
+                  "standard_uncertainty is required, or half_width with distribution");
+  } else if (c.half_width && !metrology::standard_uncertainty_of(c.shape(), *c.half_width)) {
+    fields.report(ErrorCode::FieldInvalid, "half_width",
+                  "half_width belongs to rectangular, triangular and u_shaped; for the others give "
+                  "standard_uncertainty");
+  }
 }
 
-/// The names of contributions, to which correlations refer.
-using Names = std::map<std::string, std::size_t>;
-
-Names read_contributions(FieldReader& fields, metrology::Budget& budget, FieldErrors& errors) {
-  Names names;
-  const JsonValue* array = fields.array("contributions");
-  if (array == nullptr) return names;
-  if (array->items.empty() || array->items.size() > kMostContributions) {
-    fields.report(ErrorCode::FieldInvalid, "contributions",
-                  fmt::format("a budget has 1 to {} contributions", kMostContributions));
-    return names;
-  }
-  for (std::size_t i = 0; i < array->items.size(); ++i) {
-    FieldReader row(array->items[i], pointer_to(fields.at("contributions"), i), errors);
-    if (!array->items[i].is(JsonValue::Kind::Object)) continue;
-    const auto name = row.text("name");
-    budget.contributions.push_back(read_contribution(row));
-    row.refuse_unknown();
-    if (name && !names.try_emplace(*name, i).second) {
-      row.report(ErrorCode::FieldConflict, "name",
-                 fmt::format("another contribution is called '{}'", *name));
+void members(auto& v, ContributionOrder& c) {
+  v.member("name", c.name, "No other has it");
+  v.optional("standard_uncertainty", c.standard_uncertainty, Magnitude{}, "This or half_width");
+  v.optional("half_width", c.half_width, Magnitude{});
+  v.optional("distribution", c.distribution, Words{Distribution::T},
+             "rectangular with a half width, else normal");
+  v.check([&c](FieldReader& fields) { check_width(c, fields); });
+  v.optional("sensitivity", c.sensitivity, Magnitude{-Magnitude::kMost});
+  v.optional("degrees_of_freedom", c.degrees_of_freedom, kPositive, "Without end when absent");
+  v.check([&c](FieldReader& fields) {
+    if (c.shape() == Distribution::T && !fields.has("degrees_of_freedom")) {
+      fields.report(ErrorCode::FieldMissing, "degrees_of_freedom",
+                    "a contribution with the distribution t has degrees_of_freedom");
     }
-  }
-  return names;
+  });
 }
 
-void read_correlations(FieldReader& fields, const Names& names, metrology::Budget& budget,
-                       FieldErrors& errors) {
-  if (!fields.has("correlations")) {
-    fields.optional("correlations");
-    return;
+struct Contributions : List<ContributionOrder> {
+  static constexpr std::size_t kMost = 100;
+
+  std::string schema(Side side) const {
+    return schema::array(schema_of<ContributionOrder>(side), 1, kMost);
   }
-  const JsonValue* array = fields.array("correlations");
-  if (array == nullptr) return;
+  bool read(FieldReader& fields, std::string_view name, std::vector<ContributionOrder>& to) const {
+    const JsonValue* array = fields.array(name);
+    if (array == nullptr) return false;
+    const bool fits = !array->items.empty() && array->items.size() <= kMost;
+    if (!fits) {
+      fields.report(ErrorCode::FieldInvalid, name,
+                    fmt::format("a budget has 1 to {} contributions", kMost));
+    }
+    return fits && List::read(fields, name, to);
+  }
+};
+
+/// The form of the names of two contributions.
+struct TwoNames {
+  std::string schema(Side) const { return schema::array(schema::text(), 2, 2); }
+  bool read(FieldReader& fields, std::string_view name, std::vector<std::string>& to) const {
+    const JsonValue* array = fields.array(name);
+    if (array == nullptr) return false;
+    for (const JsonValue& item : array->items) to.push_back(item.text);
+    return true;
+  }
+};
+
+struct CorrelationOrder {
+  std::optional<std::vector<std::string>> between{};
+  double coefficient = 0;
+};
+void members(auto& v, CorrelationOrder& correlation) {
+  v.member("between", correlation.between, TwoNames{}, "Names of contributions");
+  v.member("coefficient", correlation.coefficient, Number{-1, 1});
+}
+
+/// The form of a simulation of so many contributions.
+struct SimulationForm : Object<UncertaintySimulation> {
+  std::size_t contributions;
+
+  bool read(FieldReader& fields, std::string_view name, UncertaintySimulation& to) const {
+    to.most =
+        static_cast<std::int64_t>(metrology::kMostDraws / std::max<std::size_t>(contributions, 5));
+    to.trials = std::min(to.trials, static_cast<std::uint64_t>(to.most));
+    return Object::read(fields, name, to);
+  }
+};
+
+struct BudgetOrder {
+  std::vector<ContributionOrder> contributions{};
+  std::vector<CorrelationOrder> correlations{};
+  UncertaintyBudget made{};
+};
+
+/// Finds the contributions that correlations name.
+void correlate(BudgetOrder& order, FieldReader& fields) {
+  const auto report = [&fields](ErrorCode code, std::string_view list, std::size_t i,
+                                std::string_view member, std::string message) {
+    fields.errors().add(code, pointer_to(pointer_to(fields.at(list), i), member),
+                        std::move(message));
+  };
+  std::map<std::string, std::size_t> names;
+  for (std::size_t i = 0; i < order.contributions.size(); ++i) {
+    const std::string& name = order.contributions[i].name;
+    if (!names.try_emplace(name, i).second && !name.empty()) {
+      report(ErrorCode::FieldConflict, "contributions", i, "name",
+             fmt::format("another contribution is called '{}'", name));
+    }
+    order.made.budget.contributions.push_back(order.contributions[i].contribution());
+  }
   std::set<std::pair<std::size_t, std::size_t>> seen;
-  for (std::size_t i = 0; i < array->items.size(); ++i) {
-    FieldReader row(array->items[i], pointer_to(fields.at("correlations"), i), errors);
-    if (!array->items[i].is(JsonValue::Kind::Object)) continue;
-    const JsonValue* between = row.array("between");
-    const auto coefficient = row.number("coefficient");
-    row.refuse_unknown();
-    if (coefficient && std::abs(*coefficient) > 1) {
-      row.report(ErrorCode::FieldInvalid, "coefficient", "coefficient lies from -1 to 1");
+  for (std::size_t i = 0; i < order.correlations.size(); ++i) {
+    const auto& [between, coefficient] = order.correlations[i];
+    if (!between) continue;
+    const auto a = between->size() == 2 ? names.find(between->front()) : names.end();
+    const auto b = between->size() == 2 ? names.find(between->back()) : names.end();
+    if (a == names.end() || b == names.end() || a == b) {
+      report(ErrorCode::FieldInvalid, "correlations", i, "between",
+             "between names two contributions");
+    } else if (!seen.insert(std::minmax(a->second, b->second)).second) {
+      report(ErrorCode::FieldConflict, "correlations", i, "between",
+             fmt::format("the correlation of '{}' and '{}' is given above", between->front(),
+                         between->back()));
+    } else {
+      order.made.budget.correlations.push_back({a->second, b->second, coefficient});
     }
-    if (between == nullptr) continue;
-    std::vector<std::size_t> pair;
-    for (const JsonValue& name : between->items) {
-      if (const auto found = names.find(name.text); found != names.end()) {
-        pair.push_back(found->second);
-      }
-    }
-    if (pair.size() != 2 || between->items.size() != 2 || pair[0] == pair[1]) {
-      row.report(ErrorCode::FieldInvalid, "between", "between names two contributions");
-      continue;
-    }
-    if (!seen.insert(std::minmax(pair[0], pair[1])).second) {
-      row.report(ErrorCode::FieldConflict, "between",
-                 fmt::format("the correlation of '{}' and '{}' is given above",
-                             between->items[0].text, between->items[1].text));
-      continue;
-    }
-    budget.correlations.push_back({pair[0], pair[1], coefficient.value_or(0)});
   }
 }
 
-std::optional<UncertaintySimulation> read_simulation(FieldReader& fields, std::size_t contributions,
-                                          FieldErrors& errors) {
-  if (!fields.has("monte_carlo")) {
-    fields.optional("monte_carlo");
-    return std::nullopt;
-  }
-  const JsonValue* object = fields.object("monte_carlo");
-  if (object == nullptr) return std::nullopt;
-  constexpr std::int64_t kUsual = 1'000'000;
-  constexpr std::int64_t kFewest = 1'000;
-  FieldReader own(*object, fields.at("monte_carlo"), errors);
-  const auto most =
-      static_cast<std::int64_t>(metrology::kMostDraws / std::max<std::size_t>(contributions, 5));
-  const UncertaintySimulation simulation{.trials = static_cast<std::uint64_t>(
-                                  own.integer_or("trials", std::min(kUsual, most), kFewest, most)),
-                              .seed = static_cast<std::uint64_t>(own.integer_or(
-                                  "seed", 1, 0, std::numeric_limits<std::int64_t>::max()))};
-  own.refuse_unknown();
-  return simulation;
+void members(auto& v, BudgetOrder& order) {
+  v.member("contributions", order.contributions, Contributions{}, "1 to 100");
+  v.optional("correlations", order.correlations);
+  v.check([&order](FieldReader& fields) { correlate(order, fields); });
+  v.optional("probability", order.made.budget.probability,
+             Number{.least = 0, .most = 1, .ends = Number::Ends::Open});
+  v.optional("monte_carlo", order.made.simulation, SimulationForm{{}, order.contributions.size()});
 }
 
 }  // namespace
 
-Result<UncertaintyBudget> read_uncertainty_budget(const JsonValue& body) {
-  FieldErrors errors;
-  FieldReader fields(body, "", errors);
-  UncertaintyBudget made;
-  const Names names = read_contributions(fields, made.budget, errors);
-  read_correlations(fields, names, made.budget, errors);
-  made.budget.probability = fields.number_or("probability", made.budget.probability);
-  if (!(made.budget.probability > 0 && made.budget.probability < 1)) {
-    fields.report(ErrorCode::FieldInvalid, "probability", "probability lies between 0 and 1");
-  }
-  made.simulation = read_simulation(fields, made.budget.contributions.size(), errors);
-  fields.refuse_unknown();
-  if (auto error = errors.take()) return *std::move(error);
+std::string uncertainty_budget_schema() { return schema_of<BudgetOrder>(Side::Order); }
 
+Result<UncertaintyBudget> read_uncertainty_budget(const JsonValue& body) {
+  auto order = read_whole<BudgetOrder>(body);
+  if (!order) return order.error();
+  UncertaintyBudget made = std::move(order->made);
   const auto combined = metrology::combine(made.budget);
   if (!combined) {
+    FieldErrors errors;
     errors.add(combined.error().code, "/correlations", combined.error().message);
     return *errors.take();
   }

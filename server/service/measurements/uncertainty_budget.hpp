@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "base/json/json_value.hpp"
+#include "base/json/body_forms.hpp"
 #include "base/result.hpp"
 #include "metrology/statistics/uncertainty.hpp"
 
@@ -11,8 +11,9 @@ namespace fitgauge::api {
 
 /// A Monte Carlo simulation that a budget asks for.
 struct UncertaintySimulation {
-  std::uint64_t trials = 0;
-  std::uint64_t seed = 0;
+  std::uint64_t trials = 1'000'000;
+  std::uint64_t seed = 1;
+  std::int64_t most = metrology::kMostDraws / 5;  ///< trials, with so many contributions
 };
 
 /// A budget with its combined uncertainty.
@@ -21,6 +22,9 @@ struct UncertaintyBudget {
   std::optional<UncertaintySimulation> simulation{};
   metrology::CombinedUncertainty combined{};
 };
+
+/// The schema of a budget.
+std::string uncertainty_budget_schema();
 
 /// @errors RequestInvalid with every bad field.
 Result<UncertaintyBudget> read_uncertainty_budget(const JsonValue& body);

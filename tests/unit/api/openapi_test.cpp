@@ -6,7 +6,6 @@
 #include <set>
 
 #include "api/runs/setup_codec.hpp"
-#include "api/runs/setup_schema.hpp"
 #include "api/schemas.hpp"
 #include "base/json/json_value.hpp"
 

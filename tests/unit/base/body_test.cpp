@@ -27,10 +27,10 @@ struct Order {
   std::optional<Part> spare{};
   std::vector<Part> parts{};
 };
-template <class V>
-void members(V& v, Order& order) {
+void members(auto& v, Order& order) {
   v.member("colour", order.colour, Words{Colour::Blue});
-  v.optional("share", order.share, Number{.least = 0, .most = 1, .is_open = true}, "Of all");
+  v.optional("share", order.share, Number{.least = 0, .most = 1, .ends = Number::Ends::Open},
+             "Of all");
   v.optional("spare", order.spare);
   v.member("parts", order.parts);
   v.check([&](FieldReader& fields) {
@@ -46,8 +46,7 @@ struct Answer {
   std::optional<Part> best{};
   std::optional<std::size_t> count{};
 };
-template <class V>
-void members(V& v, const Answer& answer) {
+void members(auto& v, const Answer& answer) {
   v.member("mean", answer.mean, "Of all");
   v.member("spread", answer.spread);
   v.member("best", answer.best, Object<Part>{"Part"});
@@ -57,7 +56,7 @@ void members(V& v, const Answer& answer) {
 std::string refusals(std::string_view text) {
   const auto body = parse_json(text);
   REQUIRE(body.has_value());
-  const auto order = read_order<Order>(*body);
+  const auto order = read_whole<Order>(*body);
   REQUIRE_FALSE(order.has_value());
   std::string all;
   for (const Error& error : order.error().details) all += error.where + ": " + error.message + '\n';
@@ -89,7 +88,7 @@ TEST_CASE("a body's schema has its bounds, its defaults and what it refuses") {
 TEST_CASE("a body is read with its defaults") {
   const auto body =
       parse_json(R"({"colour":"green","parts":[{"name":"a"},{"name":"b","weight":9}]})");
-  const auto order = read_order<Order>(*body);
+  const auto order = read_whole<Order>(*body);
   REQUIRE(order.has_value());
   CHECK(order->colour == Colour::Green);
   CHECK(order->share == 0.5);
@@ -114,8 +113,8 @@ TEST_CASE("every bad member of a body is reported at its place") {
 }
 
 TEST_CASE("an answer leaves out, or says null, what is not there") {
-  CHECK(answer_of(Answer{.mean = 0.5L}) == R"({"mean":0.5,"spread":null,"best":null})");
-  CHECK(answer_of(Answer{.mean = 1, .spread = 2.5L, .best = Part{"a", 4}, .count = 7}) ==
+  CHECK(body_json(Answer{.mean = 0.5L}) == R"({"mean":0.5,"spread":null,"best":null})");
+  CHECK(body_json(Answer{.mean = 1, .spread = 2.5L, .best = Part{"a", 4}, .count = 7}) ==
         R"({"mean":1,"spread":2.5,"best":{"name":"a","weight":4},"count":7})");
 }
 

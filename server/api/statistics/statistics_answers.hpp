@@ -1,0 +1,199 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "api/statistics/exact_reader.hpp"
+#include "api/statistics/value_selection.hpp"
+#include "api/wire/formulas.hpp"
+#include "metrology/statistics/anova.hpp"
+#include "metrology/statistics/capability.hpp"
+#include "metrology/statistics/summary.hpp"
+
+// The answers of /v1/statistics that stored values have too. Figures have 17 significant digits; an
+// undefined one is null.
+
+namespace fitgauge::api {
+
+/// Members of a chart's order that only some kinds use, of values that are sent or stored.
+std::span<const Applicable> chart_members();
+
+void members(auto& v, const metrology::Variation& variation) {
+  const bool varies = variation.degrees_of_freedom > 0;
+  v.member("degrees_of_freedom", variation.degrees_of_freedom);
+  v.member("sum_of_squares", variation.sum_of_squares);
+  v.optional("mean_square", varies ? std::optional(variation.mean_square()) : std::nullopt,
+             "Absent without degrees of freedom");
+}
+
+void members(auto& v, const metrology::FTest& test) {
+  v.member("f", test.f);
+  v.member("p", test.p);
+}
+
+/// A violation with the stored measurement or subgroup of its point.
+struct NamedViolation {
+  metrology::ChartViolation violation{};
+  std::optional<std::string> id{};
+  std::optional<std::string> subgroup{};
+};
+void members(auto& v, const NamedViolation& named) {
+  v.member("chart", named.violation.chart, "As it is named in charts");
+  v.member("rule", named.violation.rule, Integer{1, metrology::ZoneRules::kCount},
+           "Western Electric 1956");
+  v.member("index", named.violation.index, "Of the point, from 0");
+  v.optional("id", named.id, "Of the stored measurement");
+  v.optional("subgroup", named.subgroup, "Of stored ones");
+}
+
+/// Names the point of a violation.
+using NamePoint = std::function<void(NamedViolation&)>;
+
+/// The form of violations.
+struct Violations {
+  const NamePoint& name;
+
+  std::string schema(Side side) const { return schema::array(schema_of<NamedViolation>(side)); }
+  void write(JsonWriter& json, const std::vector<metrology::ChartViolation>& from) const {
+    json.begin_array();
+    for (const metrology::ChartViolation& violation : from) {
+      NamedViolation named{violation};
+      if (name) name(named);
+      write_body(json, named);
+    }
+    json.end_array();
+  }
+};
+
+/// The form of many points: the nearest doubles.
+struct Points {
+  std::string schema(Side) const { return schema::array(schema::number()); }
+  void write(JsonWriter& json, const std::vector<double>& points) const;
+};
+
+void members(auto& v, const metrology::Chart& chart) {
+  v.member("name", chart.name, "i, mr, xbar, r, s, ewma or cusum");
+  v.member("centre", chart.centre);
+  v.member("lower_limit", chart.lower_limit);
+  v.member("upper_limit", chart.upper_limit);
+  v.member("points", chart.points, Points{}, "Nearest doubles");
+  v.optional("lower_points", chart.lower_points.empty() ? nullptr : &chart.lower_points, Points{},
+             "Of cusum: the sums below");
+}
+
+void chart_members(auto& v, const metrology::ControlCharts& charts, const NamePoint& name) {
+  v.member("standard_deviation", charts.standard_deviation, "Of single values, from within");
+  v.member("charts", charts.charts, "Location first");
+  v.member("violations", charts.violations, Violations{name});
+  v.member("average_run_length", charts.average_run_length,
+           "Points to a false alarm of the location chart");
+}
+
+struct ChartAnswer {
+  metrology::ChartKind kind{};
+  metrology::ControlCharts charts{};
+  NamePoint name{};
+};
+void members(auto& v, const ChartAnswer& answer) {
+  v.member("kind", word(answer.kind));
+  formula_members(v, word(answer.kind));
+  chart_members(v, answer.charts, answer.name);
+}
+
+/// An answer of stored values.
+template <class Answer>
+struct Stored {
+  SelectionAnswer selection{};
+  Answer answer{};
+};
+template <class Answer>
+void members(auto& v, const Stored<Answer>& stored) {
+  v.member("selection", stored.selection, "Which measurements it is of");
+  members(v, stored.answer);
+}
+
+/// An index with the way its interval is computed.
+struct IndexAnswer {
+  metrology::CapabilityIndex index{};
+  std::string_view interval{};
+};
+void members(auto& v, const IndexAnswer& answer) {
+  v.member("value", answer.index.value);
+  v.member("lower", answer.index.lower);
+  v.member("upper", answer.index.upper);
+  v.member("interval", answer.interval, "How it is computed");
+}
+
+void members(auto& v, const metrology::NormalityTest& test) {
+  v.member("test", "anderson_darling", Word{"anderson_darling"});
+  v.member("statistic", test.statistic);
+  v.member("adjusted", test.adjusted);
+  v.member("p", test.p);
+}
+
+void members(auto& v, const metrology::ModelChoice& choice) {
+  v.member("scheme", std::string_view("ISO 22514-2:2017"));
+  v.member("name", choice.model, Words{metrology::ProcessModel::D});
+  v.member("meaning", meaning(choice.model));
+  v.member("significance", metrology::kModelSignificance, Finite{});
+  v.member("subgroup_size", choice.tests.subgroup_size);
+  v.member("p_location", choice.tests.location);
+  v.member("p_dispersion", choice.tests.dispersion);
+  v.member("p_trend", choice.tests.trend);
+}
+
+void members(auto& v, const metrology::PercentileCapability& percentile) {
+  v.member("quantiles", std::string_view("empirical, type 7"), "How they are taken");
+  v.member("x_0135", percentile.x_0135);
+  v.member("x_50", percentile.x_50);
+  v.member("x_99865", percentile.x_99865);
+  v.member("pp", percentile.pp);
+  v.member("ppk", percentile.ppk);
+}
+
+struct CapabilityAnswer {
+  metrology::Capability capability{};
+  metrology::SpecificationLimits limits{};
+  long double confidence = 0;
+  NamePoint name{};
+};
+void members(auto& v, const CapabilityAnswer& answer) {
+  constexpr std::string_view kWidth = "chi-square, n - 1";
+  constexpr std::string_view kDistance = "normal, Bissell 1990";
+  const metrology::Capability& c = answer.capability;
+  const auto index = [&v](std::string_view name,
+                          const std::optional<metrology::CapabilityIndex>& of,
+                          std::string_view interval) {
+    v.member(name, of ? std::optional(IndexAnswer{*of, interval}) : std::nullopt,
+             Object<IndexAnswer>{"CapabilityIndex"});
+  };
+  formula_members(v, "capability");
+  v.member("count", c.count);
+  v.member("mean", c.mean);
+  v.member("standard_deviation_within", c.within);
+  v.member("standard_deviation_overall", c.overall);
+  v.member("lower", answer.limits.lower);
+  v.member("upper", answer.limits.upper);
+  v.member("confidence", answer.confidence);
+  index("cp", c.cp, kWidth);
+  index("cpk", c.cpk, kDistance);
+  index("cpl", c.cpl, kDistance);
+  index("cpu", c.cpu, kDistance);
+  index("pp", c.pp, kWidth);
+  index("ppk", c.ppk, kDistance);
+  index("cpm", c.cpm, "chi-square, Boyles 1991");
+  index("cm", c.cm, kWidth);
+  index("cmk", c.cmk, kDistance);
+  v.member("stable", c.stable, "No rule is broken");
+  v.member("violations", c.violations, Violations{answer.name});
+  v.member("normality", c.normality, "From five values");
+  v.member("model", c.model, "From five subgroups");
+  v.member("percentile", c.percentile, "From 741 values");
+}
+
+}  // namespace fitgauge::api
