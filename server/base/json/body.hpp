@@ -51,8 +51,8 @@ struct Bare<const T*> {
 template <class T>
 using BareType = typename Bare<std::remove_const_t<T>>::Type;
 
-/// What a description names after a member's variable: its form, unless it is the usual one, and
-/// its meaning, where the name does not say it.
+/// The form that a description names after a member's variable; the usual one if it names none. Its
+/// meaning follows if the name does not say it.
 template <class T>
 typename FormOf<BareType<T>>::Type form_of(std::string_view = {}) {
   return {};
