@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <span>
@@ -148,12 +149,33 @@ void members(auto& v, const metrology::ModelChoice& choice) {
 }
 
 void members(auto& v, const metrology::PercentileCapability& percentile) {
-  v.member("quantiles", std::string_view("empirical, type 7"), "How they are taken");
+  v.member("quantiles", std::string_view("of the distribution"), "Of which they are");
   v.member("x_0135", percentile.x_0135);
   v.member("x_50", percentile.x_50);
   v.member("x_99865", percentile.x_99865);
   v.member("pp", percentile.pp);
   v.member("ppk", percentile.ppk);
+}
+
+struct ParameterAnswer {
+  std::string_view name{};
+  double value = 0;
+};
+void members(auto& v, const ParameterAnswer& parameter) {
+  v.member("name", parameter.name);
+  v.member("value", parameter.value);
+}
+
+void members(auto& v, const metrology::FittedDistribution& fit) {
+  v.member("name", fit.name, Words{metrology::ProcessDistribution::Mixture});
+  std::vector<ParameterAnswer> parameters;
+  for (const auto& [name, value] : fit.named_parameters()) parameters.push_back({name, value});
+  v.member("parameters", parameters);
+  v.member("chi_squared", fit.chi_squared,
+           "Of the test of this fit; null for a normal one that the "
+           "test of normality lets stand");
+  v.member("degrees_of_freedom", fit.degrees_of_freedom);
+  v.member("p", fit.p);
 }
 
 struct CapabilityAnswer {
@@ -164,12 +186,15 @@ struct CapabilityAnswer {
 };
 void members(auto& v, const CapabilityAnswer& answer) {
   constexpr std::string_view kWidth = "chi-square, n - 1";
+  constexpr std::string_view kFitted = "none: percentile method";
   constexpr std::string_view kDistance = "normal, Bissell 1990";
   const metrology::Capability& c = answer.capability;
-  const auto index = [&v](std::string_view name,
-                          const std::optional<metrology::CapabilityIndex>& of,
-                          std::string_view interval) {
-    v.member(name, of ? std::optional(IndexAnswer{*of, interval}) : std::nullopt,
+  const auto index = [&v, &c](std::string_view name,
+                              const std::optional<metrology::CapabilityIndex>& of,
+                              std::string_view interval) {
+    const bool is_fitted = of && std::isnan(of->lower) && c.percentile;
+    v.member(name,
+             of ? std::optional(IndexAnswer{*of, is_fitted ? kFitted : interval}) : std::nullopt,
              Object<IndexAnswer>{"CapabilityIndex"});
   };
   formula_members(v, "capability");
@@ -193,7 +218,10 @@ void members(auto& v, const CapabilityAnswer& answer) {
   v.member("violations", c.violations, Violations{answer.name});
   v.member("normality", c.normality, "From five values");
   v.member("model", c.model, "From five subgroups");
-  v.member("percentile", c.percentile, "From 741 values");
+  v.member("distribution", c.distribution,
+           "From 25 values; null with a `reason` if none of the known ones fits");
+  v.member("percentile", c.percentile, "From 25 values, of the distribution");
+  v.member("reason", c.reason(), "Why indices are null");
 }
 
 }  // namespace fitgauge::api

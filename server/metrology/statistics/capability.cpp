@@ -99,24 +99,35 @@ void set_cpm(Capability& capability, const SpecificationLimits& limits, const Ex
   capability.cpm = intervals.about_target(nearest(width) / (6 * root), off / capability.overall);
 }
 
-PercentileCapability by_percentiles(const Ranking& ranking, int scale,
+PercentileCapability by_percentiles(const FittedDistribution& fit,
                                     const SpecificationLimits& limits) {
-  const Exact part = Exact(1) / 100'000;
-  const Exact low = quantile(ranking, scale, 135 * part);
-  const Exact middle = quantile(ranking, scale, 50'000 * part);
-  const Exact high = quantile(ranking, scale, 99'865 * part);
-  PercentileCapability result{
-      .x_0135 = nearest(low), .x_50 = nearest(middle), .x_99865 = nearest(high)};
-  if (low == middle || middle == high) return result;
-  std::optional<long double> above;
-  std::optional<long double> below;
-  if (limits.upper) above = nearest((*limits.upper - middle) / (high - middle));
-  if (limits.lower) below = nearest((middle - *limits.lower) / (middle - low));
+  const long double low = fit.quantile(0.00135);
+  const long double middle = fit.quantile(0.5);
+  const long double high = fit.quantile(0.99865);
+  PercentileCapability result{.x_0135 = low, .x_50 = middle, .x_99865 = high};
+  if (limits.upper) result.above = (nearest(*limits.upper) - middle) / (high - middle);
+  if (limits.lower) result.below = (middle - nearest(*limits.lower)) / (middle - low);
   if (limits.lower && limits.upper) {
-    result.pp = nearest((*limits.upper - *limits.lower) / (high - low));
+    result.pp = nearest(*limits.upper - *limits.lower) / (high - low);
   }
-  result.ppk = smaller(above, below);
+  result.ppk = smaller(result.above, result.below);
   return result;
+}
+
+/// In place of the indices of a normal distribution. Their intervals are not known.
+void take_percentiles(Capability& capability) {
+  const PercentileCapability none;
+  const PercentileCapability& from = capability.percentile ? *capability.percentile : none;
+  const auto index = [](const std::optional<long double>& value) {
+    return value ? std::optional(CapabilityIndex{.value = *value}) : std::nullopt;
+  };
+  capability.pp = capability.cm = index(from.pp);
+  capability.ppk = capability.cmk = index(from.ppk);
+  if (!capability.model || capability.model->model != ProcessModel::A2) return;
+  capability.cp = capability.pp;
+  capability.cpk = capability.ppk;
+  capability.cpl = index(from.below);
+  capability.cpu = index(from.above);
 }
 
 NormalityTest normality_of(const Ranking& ranking, int scale, const Exact& mean,
@@ -131,12 +142,23 @@ void describe_distribution(Capability& capability, const Subgroups& data, const 
                            const SpecificationLimits& limits) {
   const Ranking ranking(data.values.counts());
   const int scale = data.values.scale();
-  if (ranking.size() >= kFewestForPercentiles) {
-    capability.percentile = by_percentiles(ranking, scale, limits);
-  }
   if (ranking.size() < kFewestForNormality) return;
   capability.normality = normality_of(ranking, scale, mean, capability.overall);
-  capability.model = choose_model(data, *capability.normality);
+  bool is_normal = capability.normality->p >= kModelSignificance;
+  if (ranking.size() < kFewestForFit) {
+    capability.model = choose_model(data, is_normal);
+    return;
+  }
+  const FittedDistribution normal{.parameters = {static_cast<double>(capability.mean),
+                                                 static_cast<double>(capability.overall)}};
+  capability.distribution = is_normal ? normal : fit_distribution(ranking, scale);
+  is_normal =
+      capability.distribution && capability.distribution->name == ProcessDistribution::Normal;
+  capability.model = choose_model(data, is_normal);
+  if (capability.distribution) {
+    capability.percentile = by_percentiles(*capability.distribution, limits);
+  }
+  if (!is_normal) take_percentiles(capability);
 }
 
 Result<void> check(const SpecificationLimits& limits) {
@@ -157,6 +179,11 @@ Result<void> check(const SpecificationLimits& limits) {
 }
 
 }  // namespace
+
+std::optional<std::string_view> Capability::reason() const {
+  if (count < kFewestForFit || distribution) return std::nullopt;
+  return "the values are not normal, and no distribution of ISO 22514-2 fits them";
+}
 
 Result<Capability> assess_capability(const Subgroups& data, const SpecificationLimits& limits,
                                      long double confidence) {

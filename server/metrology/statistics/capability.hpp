@@ -3,6 +3,8 @@
 #include <optional>
 
 #include "metrology/statistics/control_chart.hpp"
+#include "metrology/statistics/distributions.hpp"
+#include "metrology/statistics/fitted_distribution.hpp"
 #include "metrology/statistics/process_model.hpp"
 
 namespace fitgauge::metrology {
@@ -22,19 +24,20 @@ struct CapabilityIndex {
   long double upper = kUndefined;
 };
 
-/// The percentile method of ISO 22514-2:2017: quantiles of the values themselves in place of
-/// three standard deviations. Undefined below kFewestForPercentiles values.
+/// The percentile method of ISO 22514-2:2017: quantiles of the fitted distribution in place of
+/// three standard deviations.
 struct PercentileCapability {
   long double x_0135 = kUndefined;
   long double x_50 = kUndefined;
   long double x_99865 = kUndefined;
+  std::optional<long double> below{};  ///< (x_50 - lower) / (x_50 - x_0135)
+  std::optional<long double> above{};  ///< (upper - x_50) / (x_99865 - x_50)
   std::optional<long double> pp{};
   std::optional<long double> ppk{};
 };
-/// One value in 741 lies below the 0.135 % quantile.
-inline constexpr std::size_t kFewestForPercentiles = 741;
-
-/// Indices a missing limit leaves without meaning are none.
+/// Indices that a missing limit leaves without meaning are none. Of values that are not normal,
+/// `pp` and `ppk` are those of the percentile method, `cp`, `cpl`, `cpu` and `cpk` too if location
+/// and dispersion are constant; none if no distribution fits.
 struct Capability {
   std::size_t count = 0;
   long double mean = 0;
@@ -45,7 +48,12 @@ struct Capability {
   std::vector<ChartViolation> violations{};  ///< of rules 1 to 4: what `stable` answers
   std::optional<NormalityTest> normality{};
   std::optional<ModelChoice> model{};
+  /// From kFewestForFit values; a normal one where the test of normality has nothing against it.
+  std::optional<FittedDistribution> distribution{};
   std::optional<PercentileCapability> percentile{};
+
+  /// Why indices are none though the limits would give them.
+  std::optional<std::string_view> reason() const;
 };
 
 /// @param confidence of the intervals, 0 < confidence < 1

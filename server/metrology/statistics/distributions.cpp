@@ -67,6 +67,11 @@ long double t_quantile(long double p, long double degrees_of_freedom) {
   return bm::quantile(bm::students_t_distribution<long double>(degrees_of_freedom), p);
 }
 
+long double chi_squared_above(long double value, long double degrees_of_freedom) {
+  const bm::chi_squared_distribution<long double> distribution(degrees_of_freedom);
+  return bm::cdf(bm::complement(distribution, value));
+}
+
 long double chi_squared_quantile(long double p, long double degrees_of_freedom) {
   if (degrees_of_freedom > kManyDegreesOfFreedom) {
     return chi_squared_series(normal_quantile(p), degrees_of_freedom);

@@ -22,6 +22,8 @@ long double f_above(long double f, long double between, long double within);
 long double t_beyond(long double t, long double degrees_of_freedom);
 /// The t with that probability below it.
 long double t_quantile(long double p, long double degrees_of_freedom);
+/// The probability of a value above that.
+long double chi_squared_above(long double value, long double degrees_of_freedom);
 long double chi_squared_quantile(long double p, long double degrees_of_freedom);
 
 /// The Anderson-Darling test of a normal distribution whose mean and standard deviation are

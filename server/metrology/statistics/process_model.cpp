@@ -122,7 +122,7 @@ std::string_view meaning(ProcessModel model) {
   return kRows[static_cast<std::size_t>(model)].meaning;
 }
 
-std::optional<ModelChoice> choose_model(const Subgroups& data, const NormalityTest& normality) {
+std::optional<ModelChoice> choose_model(const Subgroups& data, bool normal) {
   const std::vector<std::size_t> ends = ends_of_groups(data);
   const int scale = data.values.scale();
   if (ends.size() < kFewestGroups) return std::nullopt;
@@ -136,7 +136,6 @@ std::optional<ModelChoice> choose_model(const Subgroups& data, const NormalityTe
   // An undefined probability (no spread within) is not below the significance.
   const bool moves = choice.tests.location < kModelSignificance;
   const bool widens = choice.tests.dispersion < kModelSignificance;
-  const bool normal = normality.p >= kModelSignificance;
   // Two standard errors of the r(1) of a random series.
   const double random_bound = 2 / std::sqrt(static_cast<double>(ends.size()));
   if (moves && widens) {

@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "metrology/statistics/control_chart.hpp"
-#include "metrology/statistics/distributions.hpp"
 
 namespace fitgauge::metrology {
 
@@ -33,6 +32,7 @@ struct ModelChoice {
 };
 
 /// None with fewer than five subgroups: the tests have no power.
-std::optional<ModelChoice> choose_model(const Subgroups& data, const NormalityTest& normality);
+/// @param normal whether all values together are
+std::optional<ModelChoice> choose_model(const Subgroups& data, bool normal);
 
 }  // namespace fitgauge::metrology
