@@ -208,7 +208,7 @@ void add_fits_routes(std::vector<http::Route>& routes, const Services& services,
       .handler = ResponseCache::cached(cache, search_fits),
       .summary = "Fits whose clearances lie within bounds",
       .description =
-          "The preferred fits of ISO 286-1 (hole basis) first, then the widest tolerances.",
+          "The preferred fits of ISO 286-1 first, then the widest tolerances.",
       .parameters = {{.name = "nominal_mm",
                       .type = http::LengthIn{},
                       .required = true,

@@ -43,7 +43,7 @@ void add_found_fits(Schemas& schemas, const schema::Fields& fit_fields) {
       schema::object(fit_fields + schema::Fields{
                                       {"hole_class", schema::text(), ""},
                                       {"shaft_class", schema::text(), ""},
-                                      {"preferred", schema::boolean(), "By ISO 286-1, figure B.2"},
+                                      {"preferred", schema::boolean(), "By ISO 286-1:2010, figures B.2 and B.3"},
                                   });
   schemas.push_back({"FoundFits", schema::object({{"fits", schema::array(fit), "The first"},
                                                   {"total", schema::count(), "All there are"}})});

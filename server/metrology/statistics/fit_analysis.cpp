@@ -10,18 +10,30 @@ namespace fitgauge::metrology {
 namespace {
 
 struct Preferred {
-  std::string_view hole;
-  std::string_view shafts;  ///< with a blank before and after each
+  std::string_view basic;  ///< a hole H or a shaft h
+  std::string_view with;   ///< with a blank before and after each
 };
-// ISO 286-1:2010, figure B.2.
-constexpr std::array<Preferred, 6> kPreferred = {{
+// ISO 286-1:2010, figures B.2 (hole basis) and B.3 (shaft basis).
+constexpr std::array<Preferred, 11> kPreferred = {{
     {"H6", " g5 h5 js5 k5 m5 n5 p5 "},
     {"H7", " f6 g6 h6 js6 k6 m6 n6 p6 r6 s6 t6 u6 x6 "},
     {"H8", " e7 f7 h7 js7 k7 m7 s7 u7 d8 e8 f8 h8 "},
     {"H9", " d8 e8 f8 h8 "},
     {"H10", " b9 c9 d9 e9 h9 "},
     {"H11", " b11 c11 d10 h10 "},
+    {"h5", " G6 H6 JS6 K6 M6 N6 P6 "},
+    {"h6", " F7 G7 H7 JS7 K7 M7 N7 P7 R7 S7 T7 U7 X7 "},
+    {"h7", " E8 F8 H8 "},
+    {"h8", " D9 E9 F9 H9 "},
+    {"h9", " E8 F8 H8 D9 E9 F9 H9 B11 C10 D10 H10 "},
 }};
+
+bool is_preferred_with(std::string_view basic, std::string_view other) {
+  const std::string word = ' ' + std::string(other) + ' ';
+  return std::any_of(kPreferred.begin(), kPreferred.end(), [&](const Preferred& row) {
+    return row.basic == basic && row.with.find(word) != std::string_view::npos;
+  });
+}
 
 /// The probability that the sum of two independent uniform values on [0, a] and [0, b] is below x.
 double uniform_sum_below(double x, double a, double b) {
@@ -39,12 +51,7 @@ double uniform_sum_below(double x, double a, double b) {
 }  // namespace
 
 bool is_preferred(std::string_view hole, std::string_view shaft) {
-  for (const Preferred& row : kPreferred) {
-    if (row.hole != hole) continue;
-    const std::string word = ' ' + std::string(shaft) + ' ';
-    return row.shafts.find(word) != std::string_view::npos;
-  }
-  return false;
+  return is_preferred_with(hole, shaft) || is_preferred_with(shaft, hole);
 }
 
 FitProbabilities probability_of_interference(const iso286::Fit& fit) {

@@ -41,7 +41,7 @@ struct ClearanceBounds {
 struct FoundFit {
   iso286::ClassId hole;
   iso286::ClassId shaft;
-  bool preferred = false;  ///< one of ISO 286-1:2010, annex B, figure B.2 (hole basis)
+  bool preferred = false;  ///< by ISO 286-1:2010, figures B.2 (hole basis) and B.3 (shaft basis)
   Length least;            ///< clearance
   Length most;
 };

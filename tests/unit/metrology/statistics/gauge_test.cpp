@@ -121,7 +121,11 @@ TEST_CASE("fits are found within their bounds, the preferred first") {
   }
   CHECK(has_h7_g6);  // 7 to 41
   CHECK(is_preferred("H7", "g6"));
+  CHECK(is_preferred("G7", "h6"));
+  CHECK(is_preferred("S7", "h6"));
+  CHECK(is_preferred("D9", "h9"));
   CHECK_FALSE(is_preferred("H7", "g7"));
+  CHECK_FALSE(is_preferred("G8", "h6"));
   CHECK_FALSE(is_preferred("H7", "6"));
   CHECK_FALSE(is_preferred("G7", "h6"));
   CHECK(find_fits(tables(), size("25"), {Length::micrometres(1), Length::micrometres(1)}).empty());
