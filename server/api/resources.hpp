@@ -48,6 +48,8 @@ void add_certificates_routes(std::vector<http::Route>& routes, const Services& s
 void add_statistics_routes(std::vector<http::Route>& routes, const Services& services);
 /// GET /v1/measurements/{capability,chart}: figures of stored values.
 void add_stored_statistics_routes(std::vector<http::Route>& routes, const Services& services);
+/// GET /v1/measurements/compensation: the next offset of a machine.
+void add_compensation_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/uncertainty: an uncertainty budget, computed and not stored.
 void add_uncertainty_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/uncertainties and /v1/gauges-in-use: budgets and gauges that are kept under a name.

@@ -28,6 +28,7 @@ http::RouteTable make_routes(const Services& services, std::vector<http::Route> 
   add_certificates_routes(routes, services);
   add_statistics_routes(routes, services);
   add_stored_statistics_routes(routes, services);
+  add_compensation_routes(routes, services);
   add_uncertainty_routes(routes, services);
   add_documents_routes(routes, services);
   add_plans_routes(routes, services);

@@ -12,6 +12,7 @@ void add_gauges_schemas(Schemas& schemas);
 void add_statistics_schemas(Schemas& schemas);
 void add_uncertainty_schemas(Schemas& schemas);
 void add_documents_schemas(Schemas& schemas);
+void add_compensation_schemas(Schemas& schemas);
 void add_measurement_schemas(Schemas& schemas);
 void add_note_schemas(Schemas& schemas);
 void add_table_schemas(Schemas& schemas);

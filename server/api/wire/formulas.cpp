@@ -23,6 +23,12 @@ constexpr std::array kFormulas = {
         "Cp = (U − L)/6σ, Cpk = min(x̄ − L, U − x̄)/3σ; Pp, Ppk the same with s; "
         "Cpm = (U − L)/6√(s² + (x̄ − T)²), of one limit and a target |limit − T|/3√(s² + (x̄ − T)²)",
         "ISO 22514-2:2017; each interval names its own source"},
+    Formula{
+        "compensation",
+        "level + wear by a Kalman filter, variances by maximum likelihood; dead band D³ = "
+        "3c|β|h²/4 "
+        "of wear β, D⁴ = 6cqh² of wandering q, c of a correction in parts, h half the tolerance",
+        "NIST/SEMATECH e-Handbook 6.4.4; Del Castillo 2002, 1 and 5; Box and Luceño 1997"},
     Formula{"i_mr", "x̄ ± 3σ, σ = mean moving range/1.128", "ISO 7870-2"},
     Formula{"xbar_r", "x̿ ± 3σ/√n, σ = R̄/d₂", "ISO 7870-2"},
     Formula{"xbar_s", "x̿ ± 3σ/√n, σ = s̄/c₄", "ISO 7870-2"},

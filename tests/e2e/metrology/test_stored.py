@@ -218,3 +218,34 @@ class Stored(DaemonTest):
                 self.assert_problem(self.daemon.get("/v1/measurements/" + query), 400, code)
         problem = self.daemon.get("/v1/measurements/chart?characteristic=equal&phase1_to=9")
         self.assertEqual(problem.status, 422, problem)
+
+    def test_the_next_offset_of_a_machine_that_wears(self):
+        scatter = (0.9, -1.1, 0.4, -0.2, 1.2, -0.7, -0.9, 0.3, 0.6, -0.5)
+        worn = [f"{74 + (5 + 0.2 * i + scatter[i % 10]) / 1000:.4f}" for i in range(40)]
+        self.store("worn", worn, machine="M1")
+        found = self.find("compensation", "characteristic=worn&machine=M1")
+        self.assertEqual((found["state"], found["values"]), ("propose", 40), found)
+        self.assertAlmostEqual(found["offset_um"], -13, delta=1)
+        low, high = found["interval_um"]
+        self.assertTrue(low < found["offset_um"] < high, found)
+        self.assertAlmostEqual(found["wear_um"], 0.2, delta=0.05)
+        # The correction that was made stands in the record; the level is where it was meant to be.
+        level = 74 + (13 + found["offset_um"]) / 1000
+        self.store("worn", [f"{level:.4f}"], machine="M1", offset_um=f"{found['offset_um']:.3f}")
+        after = self.find("compensation", "characteristic=worn&machine=M1")
+        self.assertEqual(after["state"], "wait", after)
+        self.assertGreaterEqual(after["next_in_parts"], 1)
+        self.assertEqual(self.find("compensation", "characteristic=none")["state"], "wait")
+        self.assertIsNone(self.find("compensation", "characteristic=none")["offset_um"])
+
+    def test_what_an_offset_cannot_be_proposed_for(self):
+        one_sided = {"nominal_mm": 74, "feature": "hole", "upper_um": 50}
+        self.store("one-sided", ["74.01"], one_sided)
+        self.store("mixed", ["74.01"])
+        self.store("mixed", ["74.01"], {**DRAWING, "upper_um": 60})
+        for query, status, code in [("characteristic=one-sided", 400, "query.invalid"),
+                                    ("characteristic=mixed", 422, "limits.mixed"),
+                                    ("characteristic=mixed&cost=0", 400, "query.invalid"),
+                                    ("characteristic=one-sided&target_mm=74.05", 400, "query.invalid")]:
+            with self.subTest(query):
+                self.assert_problem(self.daemon.get("/v1/measurements/compensation?" + query), status, code)
