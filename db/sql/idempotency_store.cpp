@@ -19,18 +19,17 @@ struct IdempotencyStore::Statements {
         retention(kept_for),
         find(c, fmt::format("SELECT body_digest, status, content_type, location, body, {} "
                             "FROM idempotent_answers WHERE key = ? AND caller = ? AND method = ? "
-                            "AND path = ? AND expires_at > ?",
+                            "AND path = ?",
                             kIdempotentAnswers.is_sound(c))),
-        // An expired answer that was not purged yet makes room.
-        insert(c, kIdempotentAnswers.replace(c)),
+        insert(c, kIdempotentAnswers.insert(c)),
         forwarded(c, fmt::format("SELECT key, caller, method, path, body_digest, status, "
                                  "content_type, location, body, expires_at, {} FROM "
                                  "idempotent_answers WHERE measurement BETWEEN ? AND ? AND "
-                                 "path LIKE '/v1/measurements%' AND expires_at > ? ORDER BY id",
+                                 "path LIKE '/v1/measurements%' ORDER BY id",
                                  kIdempotentAnswers.is_sound(c))),
         is_kept(c,
                 "SELECT 1 FROM idempotent_answers WHERE key = ? AND caller = ? AND method = ? AND "
-                "path = ? AND expires_at > ?"),
+                "path = ?"),
         remove(c,
                "DELETE FROM idempotent_answers WHERE id IN "
                "(SELECT id FROM idempotent_answers WHERE expires_at <= ? LIMIT ?) RETURNING 1") {}
@@ -51,8 +50,7 @@ IdempotencyStore::IdempotencyStore(sql::Connection& connection, const Clock& clo
 IdempotencyStore::~IdempotencyStore() = default;
 
 Result<std::optional<StoredAnswer>> IdempotencyStore::find(const IdempotentRequest& request) const {
-  Rows rows = statements_->find.query(request.key, request.caller, request.method, request.path,
-                                      statements_->clock.now().nanoseconds);
+  Rows rows = statements_->find.query(request.key, request.caller, request.method, request.path);
   if (!rows.next()) return std::optional<StoredAnswer>();
   require_sound(rows, 5, kIdempotentAnswers);
   if (rows.get<Digest>(0) != request.body) {
@@ -88,7 +86,7 @@ Result<StoredAnswer> IdempotencyStore::once(const IdempotentRequest& request,
 
 void IdempotencyStore::visit_forwarded(std::int64_t first, std::int64_t last,
                                        const Visitor& visit) const {
-  Rows rows = statements_->forwarded.query(first, last, statements_->clock.now().nanoseconds);
+  Rows rows = statements_->forwarded.query(first, last);
   while (rows.next()) {
     require_sound(rows, 10, kIdempotentAnswers);
     visit({.request = {.caller = rows.get<std::string>(1),
@@ -106,10 +104,8 @@ void IdempotencyStore::visit_forwarded(std::int64_t first, std::int64_t last,
 
 void IdempotencyStore::keep(const Forwarded& forwarded) {
   const IdempotentRequest& request = forwarded.request;
-  const bool is_kept = statements_->is_kept
-                           .query(request.key, request.caller, request.method, request.path,
-                                  statements_->clock.now().nanoseconds)
-                           .next();
+  const bool is_kept =
+      statements_->is_kept.query(request.key, request.caller, request.method, request.path).next();
   if (is_kept) return;
   const StoredAnswer& answer = forwarded.answer;
   statements_->insert.run(request.key, request.caller, request.method, request.path, request.body,
@@ -117,8 +113,8 @@ void IdempotencyStore::keep(const Forwarded& forwarded) {
                           forwarded.expires_at_ns, std::optional<std::int64_t>());
 }
 
-std::int64_t IdempotencyStore::purge(std::int64_t limit) {
-  return statements_->remove.run_counting(statements_->clock.now().nanoseconds, limit);
+std::int64_t IdempotencyStore::purge(Timestamp now, std::int64_t limit) {
+  return statements_->remove.run_counting(now.nanoseconds, limit);
 }
 
 }  // namespace fitgauge::store

@@ -389,6 +389,12 @@ std::int64_t MeasurementsStore::log_size() const { return statements_->log_size(
 
 std::int64_t MeasurementsStore::last_id() const { return statements_->table.last_id(); }
 
+std::optional<Timestamp> MeasurementsStore::newest_received_at() const {
+  std::optional<Timestamp> newest;
+  find(last_id(), [&](const MeasurementRow& row) { newest = Timestamp{row.received_at_ns}; });
+  return newest;
+}
+
 Result<std::vector<SummaryGroup>> MeasurementsStore::summary(const MeasurementFilter& filter,
                                                              TextField group_by,
                                                              std::size_t max_groups) const {

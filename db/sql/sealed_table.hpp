@@ -36,8 +36,7 @@ inline constexpr SealedTable kApiKeys{"api_keys", "id",
 inline constexpr SealedTable kIdempotentAnswers{
     "idempotent_answers", "id",
     "key, caller, method, path, body_digest, status, content_type, location, body, expires_at, "
-    "measurement",
-    "key, caller, method, path"};
+    "measurement"};
 inline constexpr SealedTable kFileRevisions{"file_revisions", "revision",
                                             "path, path_key, content, modified_at, caller"};
 inline constexpr SealedTable kDocuments{"documents", "name",

@@ -31,17 +31,22 @@ Error internal_error(const std::exception& bug) {
 
 }  // namespace
 
-bool run_maintenance_step(sql::Session& session, const OpenOptions& options, Timestamp now) {
+bool run_maintenance_step(sql::Session& session, const OpenOptions& options,
+                          const SteadyTime& clock, Retention& retention) {
   using std::chrono::nanoseconds;
   Stores& stores = session.stores();
-  const std::int64_t runs_before = now.nanoseconds - nanoseconds(options.run_retention).count();
+  std::int64_t keys = 0;
+  std::int64_t runs = 0;
   session.begin_writing();
-  const std::int64_t deleted = stores.idempotency.purge(kStep) +
-                               stores.runs.purge(runs_before, kStep) +
-                               stores.events.trim(options.event_retention, kStep);
+  if (const auto now = retention.time(clock, stores)) {
+    keys = stores.idempotency.purge(*now, kStep);
+    runs = stores.runs.purge(now->nanoseconds - nanoseconds(options.run_retention).count(), kStep);
+  }
+  const std::int64_t events = stores.events.trim(options.event_retention, kStep);
   const bool indexed = stores.measurements.index_step();
   session.commit();
-  return deleted > 0 || indexed;
+  retention.deleted(keys, runs);
+  return keys + runs + events > 0 || indexed;
 }
 
 void MaintenancePace::stepped(Time begin, Time end, bool more) {
@@ -90,6 +95,7 @@ void Writer::Engine::end(const IdempotentRequest& request) {
 }
 
 void Writer::Engine::run() {
+  begin_retention();
   Jobs jobs;
   while (true) {
     if (jobs.empty()) jobs = queue_.take_all(patience());
@@ -224,19 +230,37 @@ milliseconds Writer::Engine::patience() const {
   return pace_.patience(MaintenancePace::Clock::now());
 }
 
+SteadyTime Writer::Engine::steady_time() const {
+  return options_.steady_time ? options_.steady_time() : SteadyTime{.time = clock_.now()};
+}
+
+/// Before the first job stores a record with the time of this start.
+void Writer::Engine::begin_retention() {
+  try {
+    session().begin_reading();
+    retention_.time(steady_time(), session().stores());
+    session().commit();
+  } catch (const StorageFailure& failure) {
+    fail(failure.error());
+  }
+}
+
 void Writer::Engine::maintain() {
   const auto begin = MaintenancePace::Clock::now();
   bool more = false;
   try {
     if (health_.health().state != HealthState::Damaged) {
-      more = run_maintenance_step(session(), options_, clock_.now());
+      more = run_maintenance_step(session(), options_, steady_time(), retention_);
     }
   } catch (const StorageFailure& failure) {
     fail(failure.error());
   } catch (const std::exception& bug) {
     fail(internal_error(bug));
   }
-  pace_.stepped(begin, MaintenancePace::Clock::now(), more);
+  const auto end = MaintenancePace::Clock::now();
+  pace_.stepped(begin, end, more);
+  const auto deleted = retention_.report(end.time_since_epoch(), more);
+  if (deleted && options_.purged) options_.purged(*deleted);
 }
 
 /// Finds out whether commits work again.

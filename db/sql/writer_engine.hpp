@@ -13,6 +13,7 @@
 #include "base/clock.hpp"
 #include "base/thread.hpp"
 #include "db/sql/health_monitor.hpp"
+#include "db/sql/retention.hpp"
 #include "db/sql/session.hpp"
 #include "db/store/job_queue.hpp"
 #include "db/store/open_options.hpp"
@@ -24,7 +25,8 @@ namespace fitgauge::store {
 /// Does one step of what requests leave behind: deletes some expired answers, old runs and events,
 /// indexes the next blocks of measurements. One transaction of some milliseconds.
 /// @returns whether there is more to do.
-bool run_maintenance_step(sql::Session& session, const OpenOptions& options, Timestamp now);
+bool run_maintenance_step(sql::Session& session, const OpenOptions& options,
+                          const SteadyTime& clock, Retention& retention);
 
 /// When the writer takes its next maintenance step: at once while it has nothing else to do, and
 /// under any load after kShare times what the last step took. Used by the writer's thread.
@@ -86,6 +88,8 @@ class Writer::Engine {
   void commit_transaction();
   Error bug_of(const std::exception& thrown);
   std::chrono::milliseconds patience() const;
+  SteadyTime steady_time() const;
+  void begin_retention();
   void maintain();
   void probe();
   void succeed();
@@ -103,6 +107,7 @@ class Writer::Engine {
   std::unique_ptr<sql::Session> session_;  // the thread's own from here on
   bool failing_ = false;
   MaintenancePace pace_;
+  Retention retention_;
   Thread thread_;
 };
 

@@ -37,8 +37,8 @@ struct StoredAnswer {
   bool replayed = false;  ///< set on an answer that came from the store
 };
 
-/// The answers of requests with an Idempotency-Key. Expired ones count as never
-/// kept; the writer's maintenance purges them.
+/// The answers of requests with an Idempotency-Key. An answer counts until the writer's maintenance
+/// purges it after it has expired.
 class IdempotencyStore {
  public:
   IdempotencyStore(sql::Connection& connection, const Clock& clock, std::chrono::hours retention);
@@ -73,8 +73,8 @@ class IdempotencyStore {
   /// Keeps an answer from elsewhere, unless there is one of that key already.
   void keep(const Forwarded& forwarded);
 
-  /// Deletes up to `limit` expired answers. @returns how many.
-  std::int64_t purge(std::int64_t limit);
+  /// Deletes up to `limit` answers that have expired by `now`. @returns how many.
+  std::int64_t purge(Timestamp now, std::int64_t limit);
 
  private:
   struct Statements;

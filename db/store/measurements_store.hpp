@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/clock.hpp"
 #include "base/result.hpp"
 #include "db/store/measured_value.hpp"
 #include "db/store/measurement_filter.hpp"
@@ -91,6 +92,8 @@ class MeasurementsStore {
 
   /// The newest id, 0 when there is none.
   std::int64_t last_id() const;
+  /// Of the newest record.
+  std::optional<Timestamp> newest_received_at() const;
 
   /// @errors QueryInvalid when there are more than `max_groups` groups.
   Result<std::vector<SummaryGroup>> summary(const MeasurementFilter& filter, TextField group_by,

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/steady_time.hpp"
 #include "db/store/health.hpp"
 #include "db/store/verify.hpp"
 
@@ -58,6 +59,11 @@ struct OpenOptions {
   std::function<void(const Health&)> health_changed{};
   /// Called for each job that threw: a bug, answered with Internal. Neither blocks nor throws.
   std::function<void(const Error&)> job_threw{};
+
+  /// Runs and idempotency keys expire by it; without it by the clock, which then never jumps.
+  std::function<SteadyTime()> steady_time{};
+  /// Called on the writer thread with a sentence on runs and idempotency keys that were deleted.
+  std::function<void(const std::string&)> purged{};
 
   /// Another daemon has added what the application keeps in memory: table revisions, origins, keys
   /// of the log. Called inside a transaction, before a job sees rows that need them. @returns

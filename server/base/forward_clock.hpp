@@ -1,45 +1,73 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "base/clock.hpp"
+#include "base/steady_time.hpp"
 
 namespace fitgauge {
 
-/// The time of another clock that never goes back: what is recorded later has no earlier time. When
-/// the other clock is set back, this one goes on from where it was, at half speed, until the other
-/// has caught up. Set back by more than a day it had been wrong before: then its time is taken as
-/// it is. Thread-safe; refers to the other clock, which outlives it.
+/// The time of another clock that never goes back: a later record has no earlier time. After the
+/// other clock was set back, this clock continues from the last time that it gave, at half speed,
+/// until the other clock has caught up. Compares the other clock with one that nobody sets and
+/// reports each jump of a second or more. Thread-safe; the other clock outlives it.
 class ForwardClock final : public Clock {
  public:
-  /// Is told in one sentence when the other clock is a second or more behind, on the thread that
-  /// asked for the time.
-  using Report = std::function<void(const std::string&)>;
+  /// The time since the machine's start, sleep included (CLOCK_BOOTTIME): nobody sets it.
+  using Running = std::function<std::chrono::nanoseconds()>;
+  /// Receives `clock_set_back` or `clock_set_ahead` and a sentence, on the thread that asked for
+  /// the time.
+  using Report = std::function<void(std::string_view event, const std::string& detail)>;
 
-  ForwardClock(const Clock& other, Report report) : other_(other), report_(std::move(report)) {}
+  ForwardClock(const Clock& other, Running running, Report report);
 
   Timestamp now() const override;
 
-  /// As if `time` had been given: for what was recorded before the start.
+  /// The other clock's time, which deletions go by.
+  SteadyTime steady() const;
+
+  /// As if `time` had been given, for records from before the start.
   void begin_after(Timestamp time);
 
+  static std::chrono::nanoseconds running_time();
+
  private:
-  /// Where the other clock was set back: what it said then, and the time that was given.
+  /// The other clock's time and the running time around its reading.
+  struct Reading {
+    std::chrono::nanoseconds before{};
+    std::int64_t ns = 0;
+    std::chrono::nanoseconds after{};
+  };
+  /// The other clock's time when it was set back, and the time that this clock had given.
   struct SetBack {
     std::int64_t to_ns = 0;
     std::int64_t given_ns = 0;
   };
+  struct Jump {
+    std::string_view event;
+    std::string detail;
+  };
+  using Jumps = std::vector<Jump>;
 
-  std::optional<std::string> follow(std::int64_t other_ns) const;
+  Reading read() const;
+  SteadyTime look(Jumps& jumps) const;
+  void compare(const Reading& reading, Jumps& jumps) const;
+  void follow(std::int64_t other_ns, Jumps& jumps) const;
+  void report(const Jumps& jumps) const;
 
   const Clock& other_;
+  const Running running_;
   const Report report_;
   mutable std::mutex mutex_;
-  mutable std::int64_t seen_ns_ = 0;   ///< of the other clock
-  mutable std::int64_t given_ns_ = 0;  ///< by this one
+  mutable Reading last_;
+  mutable std::chrono::nanoseconds held_{};  ///< running time since the last jump
+  mutable std::int64_t seen_ns_ = 0;         ///< of the other clock
+  mutable std::int64_t given_ns_ = 0;        ///< by this one
   mutable std::optional<SetBack> set_back_;
 };
 

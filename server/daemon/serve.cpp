@@ -121,12 +121,15 @@ Result<void> write_port_file(const std::string& path, std::uint16_t port) {
   return {};
 }
 
-/// Returns when the service is to end.
-void wait_for_end(http::Server& server, bool tls) {
+/// Returns when the service is to end. Looks at the clock each second, so that a jump is reported
+/// when it happens.
+void wait_for_end(http::Server& server, bool tls, const Clock& clock) {
   const sigset_t signals = waited_signals();
+  constexpr timespec kSecond{.tv_sec = 1, .tv_nsec = 0};
   for (;;) {
-    int signal = 0;
-    if (sigwait(&signals, &signal) != 0) continue;
+    const int signal = sigtimedwait(&signals, nullptr, &kSecond);
+    clock.now();
+    if (signal < 0) continue;
     if (signal != SIGHUP) return;
     const auto reloaded = server.reload_tls();
     if (!tls) {
@@ -164,14 +167,15 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   });
 
   const SystemClock machine_clock;
-  ForwardClock clock(machine_clock,
-                     [](const std::string& what) { log_warning("clock_set_back", what); });
+  ForwardClock clock(machine_clock, ForwardClock::running_time, log_warning);
   app::ApplicationOptions options = application_options(config);
+  options.steady_time = [&clock] { return clock.steady(); };
   options.around_outcomes = answer_together;
   options.health_changed = log_health;
   options.job_threw = [](const std::string& what) { log_error("storage_job_threw", what); };
   options.log_told = [](std::string_view event, const std::string& detail) {
-    event == "log_head" ? log_info(event, detail) : log_warning(event, detail);
+    const bool is_news = event == "log_head" || event == "purged";
+    is_news ? log_info(event, detail) : log_warning(event, detail);
   };
   auto opened = app::Application::open(options, clock);
   if (!opened) return opened.error();
@@ -264,7 +268,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   for (const std::uint16_t port : server.ports())
     log_info("listening", fmt::format("port {}", port));
 
-  wait_for_end(server, !config.tls_cert.empty());
+  wait_for_end(server, !config.tls_cert.empty(), clock);
   log_info("stopping", "");
   // Runs are cancelled first, so that those who wait for one get their answer.
   app.jobs().call_off();

@@ -35,6 +35,10 @@ store::OpenOptions options_of_store(const ApplicationOptions& options) {
       tell(word(health.state), health.reason);
     };
   }
+  open.steady_time = options.steady_time;
+  if (options.log_told) {
+    open.purged = [tell = options.log_told](const std::string& what) { tell("purged", what); };
+  }
   if (options.job_threw) {
     open.job_threw = [tell = options.job_threw](const Error& bug) { tell(bug.message); };
   }
@@ -280,11 +284,7 @@ Readiness Application::readiness() const { return app::readiness(*database_, *ta
 Result<std::optional<Timestamp>> Application::newest_measurement() const {
   return database_->readers().wait(
       [](const store::Stores& stores) -> Result<std::optional<Timestamp>> {
-        std::optional<Timestamp> newest;
-        stores.measurements.find(
-            stores.measurements.last_id(),
-            [&](const store::MeasurementRow& row) { newest = Timestamp{row.received_at_ns}; });
-        return newest;
+        return stores.measurements.newest_received_at();
       });
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/histogram.hpp"
+#include "base/steady_time.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/documents/key_service.hpp"
 #include "service/events/commit_signal.hpp"
@@ -76,6 +77,8 @@ struct ApplicationOptions {
   std::string origin_name = "station";  ///< of the log of a new data folder
   /// Calls what it is given, on the writer thread: the `done` of everything a commit has stored.
   std::function<void(const std::function<void()>&)> around_outcomes{};
+  /// The time that runs and idempotency keys expire by; without it the clock, as it is.
+  std::function<SteadyTime()> steady_time{};
   /// The storage's health has changed: `ok`, `checking`, `writes_failing` or `damaged`, and why.
   /// Called on a storage thread; must not block.
   std::function<void(std::string_view state, const std::string& reason)> health_changed{};

@@ -6,6 +6,7 @@ import unittest
 from datetime import datetime
 
 from support.daemon import Daemon, preload
+from support.waiting import wait_for
 
 LIBRARY = next(iter(sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))), None)
 PART = {"designation": "25 H7", "measured_mm": 25.013}
@@ -34,9 +35,9 @@ class SetBack(unittest.TestCase):
         self.assertEqual(answer.status, 201, answer)
         return answer.json
 
-    def warnings(self):
+    def warnings(self, event="clock_set_back"):
         lines = map(json.loads, self.daemon.log.splitlines())
-        return [line["detail"] for line in lines if line["event"] == "clock_set_back"]
+        return [line["detail"] for line in lines if line["event"] == event]
 
     def check(self, records):
         """All are there once, in the order of their ids and of their times."""
@@ -69,3 +70,33 @@ class SetBack(unittest.TestCase):
         self.check(records)
         self.assertEqual(self.daemon.stop(), 0)
         self.assertEqual(len(self.warnings()), 1)
+
+    def test_by_400_days_ahead_for_a_while(self):
+        """Finding 4 of the review: the finished runs and the idempotency keys were deleted."""
+        self.daemon.start()
+        self.daemon.request("PUT", "/v1/files/empty.h", b"BEGIN PGM EMPTY MM\nEND PGM EMPTY MM\n")
+        run = self.daemon.request("POST", "/v1/runs?wait=10", {"program": "empty.h"}).json
+        first = self.daemon.measure(PART, KEY)
+        records = [first.json, self.measure()]
+        self.set_clock("+400d")
+        wait_for(lambda: self.warnings("clock_set_ahead"), "the report of the jump")
+        records.append(self.measure())
+        self.assertEqual(self.daemon.measure(PART, KEY).body, first.body)
+        self.set_clock("+0")
+        records.append(self.measure())
+        self.assertEqual(self.daemon.measure(PART, KEY).body, first.body)
+        self.assertEqual(self.daemon.get(f"/v1/runs/{run['id']}").status, 200)
+        self.check(records)
+        self.assertEqual(self.daemon.stop(), 0)
+        self.assertEqual(len(self.warnings()), 1)
+        self.assertEqual(self.warnings("purged"), [])
+
+    def test_by_400_days_ahead_while_it_is_off(self):
+        self.daemon.start()
+        first = self.daemon.measure(PART, KEY)
+        self.daemon.kill()
+        self.set_clock("+400d")
+        self.daemon.start()
+        records = [first.json, self.measure(), self.measure()]
+        self.assertEqual(self.daemon.measure(PART, KEY).body, first.body)
+        self.check(records)

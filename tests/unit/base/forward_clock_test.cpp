@@ -13,8 +13,14 @@ namespace {
 class ManualClock final : public Clock {
  public:
   Timestamp now() const override { return {now_ns}; }
-  void advance(std::chrono::nanoseconds by) { now_ns += by.count(); }
+  /// Sets the clock: no time passes.
+  void set_by(std::chrono::nanoseconds by) { now_ns += by.count(); }
+  void advance(std::chrono::nanoseconds by) {
+    set_by(by);
+    running += by;
+  }
 
+  std::chrono::nanoseconds running{};
   std::int64_t now_ns = 1'795'000'000'000'000'000;
 };
 
@@ -25,9 +31,20 @@ struct Fixture {
     return std::chrono::nanoseconds(now() - machine.now_ns);
   }
 
+  /// Advances second by second, looking each time, as the service does.
+  void run_for(std::chrono::seconds time) {
+    for (; time > 0s; time -= 1s) {
+      machine.advance(1s);
+      now();
+    }
+  }
+
   ManualClock machine;
   std::vector<std::string> reports;
-  ForwardClock clock{machine, [this](const std::string& what) { reports.push_back(what); }};
+  ForwardClock clock{machine, [this] { return machine.running; },
+                     [this](std::string_view event, const std::string& detail) {
+                       reports.push_back(std::string(event) + ": " + detail);
+                     }};
 };
 
 }  // namespace
@@ -43,7 +60,7 @@ TEST_CASE_FIXTURE(Fixture, "a clock that goes on is followed to the nanosecond")
 TEST_CASE_FIXTURE(Fixture,
                   "set back an hour, the time goes on at half speed until it is caught up") {
   const std::int64_t before = now();
-  machine.advance(-1h);
+  machine.set_by(-1h);
   CHECK(now() == before);
   REQUIRE(reports.size() == 1);
   CHECK(reports[0].find("3600 s before") != std::string::npos);
@@ -65,11 +82,11 @@ TEST_CASE_FIXTURE(Fixture,
 
 TEST_CASE_FIXTURE(Fixture, "set back again while it catches up, the time still goes on") {
   now();
-  machine.advance(-1h);
+  machine.set_by(-1h);
   now();
   machine.advance(30min);
   const std::int64_t before = now();
-  machine.advance(-1h);
+  machine.set_by(-1h);
   CHECK(now() == before);
   CHECK(reports.size() == 2);
   machine.advance(3h + 30min);
@@ -77,18 +94,45 @@ TEST_CASE_FIXTURE(Fixture, "set back again while it catches up, the time still g
 }
 
 TEST_CASE_FIXTURE(Fixture,
-                  "a clock that was wrong by more than a day is believed when it is set right") {
-  machine.advance(24h * 365);
+                  "a clock that was a year ahead for a second never makes the time go back") {
   now();
-  machine.advance(-24h * 365);
-  CHECK(ahead() == 0ns);
+  machine.set_by(24h * 365);
+  const std::int64_t wrong = now();
   REQUIRE(reports.size() == 1);
-  CHECK(reports[0].find("taken as it is") != std::string::npos);
+  CHECK(reports[0].find("clock_set_ahead: the machine's clock jumped ahead by 31536000 s, to ") ==
+        0);
+  machine.set_by(-24h * 365);
+  CHECK(now() == wrong);
+  machine.advance(1min);
+  CHECK(now() == wrong + std::chrono::nanoseconds(30s).count());
+  REQUIRE(reports.size() == 2);
+  CHECK(reports[1].find("clock_set_back: ") == 0);
+  CHECK(clock.steady().time == machine.now());
+}
+
+TEST_CASE_FIXTURE(Fixture, "the time that the clock has held counts from its last jump") {
+  run_for(60s);
+  CHECK(clock.steady().held == 60s);
+  machine.set_by(24h * 400);
+  now();
+  CHECK(clock.steady().held == 0s);
+  run_for(2s);
+  machine.set_by(-24h * 400);
+  CHECK(clock.steady().held == 0s);
+  run_for(3s);
+  CHECK(clock.steady().held == 3s);
+}
+
+TEST_CASE_FIXTURE(Fixture, "a machine that slept has not run, and its clock has not jumped") {
+  run_for(60s);
+  machine.advance(8h);
+  CHECK(clock.steady().held < 66s);
+  CHECK(reports.empty());
 }
 
 TEST_CASE_FIXTURE(Fixture, "less than a second is no news") {
   const std::int64_t before = now();
-  machine.advance(-999ms);
+  machine.set_by(-999ms);
   CHECK(now() == before);
   CHECK(reports.empty());
 }

@@ -232,6 +232,7 @@ TEST_CASE("what has expired is tidied away when the writer is idle") {
     REQUIRE(stores.runs.finish(id, {}, 1).has_value());
     for (int i = 0; i < 10; ++i) stores.events.append("run.finished", "", 1);
   });
+  REQUIRE(fixture.append(fixture.clock.row()).has_value());
   const auto left = [&] {
     return *fixture.read([](const Stores& stores) -> Result<std::size_t> {
       return stores.runs.list({}, std::nullopt, 10).runs.size() + stores.events.after(0, 99).size();

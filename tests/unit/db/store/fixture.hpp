@@ -43,6 +43,8 @@ class ManualClock final : public Clock {
  public:
   Timestamp now() const override { return {now_.load()}; }
   void advance(std::chrono::nanoseconds by) { now_ += by.count(); }
+  /// A record of now.
+  MeasurementRow row() const;
 
  private:
   std::atomic<std::int64_t> now_ = 1'795'000'000'000'000'000;
@@ -67,6 +69,12 @@ inline MeasurementRow sample_row() {
   row.upper_deviation_nm = 21'000;
   row.basis = Basis::Explicit;
   row.measured_nm = 25'013'000;
+  return row;
+}
+
+inline MeasurementRow ManualClock::row() const {
+  MeasurementRow row = sample_row();
+  row.received_at_ns = now().nanoseconds;
   return row;
 }
 
