@@ -173,7 +173,7 @@ ServerCounters Server::Impl::counters() const {
   ServerCounters counters{.connections_accepted = accepted_.load(std::memory_order_relaxed),
                           .connections_open = shared_.connections.inside(),
                           .connections_refused = refused_.load(std::memory_order_relaxed),
-                          .body_bytes_in_flight = shared_.budget.used()};
+                          .body_bytes_in_flight = shared_.budgets.used()};
   for (const auto& thread : threads_) counters.requests += thread->requests();
   return counters;
 }

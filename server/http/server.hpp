@@ -54,7 +54,8 @@ struct ServerOptions {
   /// Beyond it a connection is answered 503 and closed.
   std::size_t max_connections = 1024;
   /// Bytes of large bodies in memory at once, all connections together. A body waits for its share;
-  /// under pressure a sender that has stopped loses its own.
+  /// under pressure a sender that has stopped loses its own. A body without a length that has grown
+  /// beyond 1 MiB takes its route's limit.
   std::size_t body_budget = std::size_t{64} << 20;
   /// Bytes of answers that wait for their readers, all connections together. Beyond it those end
   /// that have been leaving longest, if for longer than `unsent_time`: who reads has his by then.

@@ -17,23 +17,39 @@ void BodyReader::start(const Plan& plan) {
 void BodyReader::clear() {
   data_.reset();
   gunzip_.reset();
-  if (taken_ > 0) budget_.give_back(taken_);
-  size_ = capacity_ = taken_ = discarded_ = 0;
+  share_ = ByteShare();
+  size_ = capacity_ = discarded_ = 0;
 }
 
 BodyReader::Outcome BodyReader::reserve(std::size_t size) {
   if (size > plan_.limit) return Outcome::TooLarge;
-  if (size <= capacity_) return Outcome::Ok;
-  const std::size_t needed = size > kFree ? size : 0;
-  if (needed > taken_) {
-    if (!budget_.try_take(needed - taken_)) return Outcome::NoBudget;
-    taken_ = needed;
+  return hold(size, budgets_.wholes);
+}
+
+/// In few steps: the last one has room for every body that the limit allows.
+BodyReader::Outcome BodyReader::grow(std::size_t size) {
+  if (size > plan_.limit) return Outcome::TooLarge;
+  const std::size_t part = std::min(BodyBudgets::kPart, plan_.limit);
+  if (size > part) return hold(plan_.limit, budgets_.wholes);
+  if (size > kFree) return hold(part, budgets_.parts);
+  return hold(std::max(size, std::min(2 * capacity_, kFree)), budgets_.parts);
+}
+
+BodyReader::Outcome BodyReader::hold(std::size_t capacity, ByteBudget& budget) {
+  ByteShare share;
+  if (capacity > kFree) {
+    if (!budget.try_take(capacity)) {
+      lacking_ = &budget;
+      return Outcome::NoBudget;
+    }
+    share = ByteShare(budget, capacity);
   }
   // Not value-initialised: a page is touched when the bytes come that fill it.
-  std::unique_ptr<char[]> grown(new char[size + Request::kBodyPadding]);
+  std::unique_ptr<char[]> grown(new char[capacity + Request::kBodyPadding]);
   if (size_ > 0) std::memcpy(grown.get(), data_.get(), size_);
   data_ = std::move(grown);
-  capacity_ = size;
+  share_ = std::move(share);
+  capacity_ = capacity;
   return Outcome::Ok;
 }
 
@@ -45,9 +61,7 @@ BodyReader::Outcome BodyReader::add(std::string_view& piece) {
     return discarded_ > plan_.limit ? Outcome::TooLarge : Outcome::Ok;
   }
   if (piece.size() > capacity_ - size_) {
-    const std::size_t needed = size_ + piece.size();
-    const std::size_t roomy = std::min(std::max(needed, 2 * capacity_), plan_.limit);
-    const Outcome outcome = reserve(std::max(needed, roomy));
+    const Outcome outcome = grow(size_ + piece.size());
     if (outcome != Outcome::Ok) return outcome;
   }
   std::memcpy(data_.get() + size_, piece.data(), piece.size());
@@ -69,8 +83,7 @@ BodyReader::Outcome BodyReader::add_decoded(std::string_view& piece) {
         piece.remove_prefix(step.consumed);
         continue;
       }
-      const Outcome outcome =
-          reserve(std::min(std::max<std::size_t>(4096, 2 * capacity_), plan_.limit));
+      const Outcome outcome = grow(std::min(std::max<std::size_t>(4096, size_ + 1), plan_.limit));
       if (outcome != Outcome::Ok) return outcome;
     }
     const Gunzip::Step step =

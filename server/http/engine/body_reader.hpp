@@ -13,7 +13,7 @@
 namespace fitgauge::http {
 
 /// Gathers one request's body in memory: decodes gzip, holds the limit after decompression and
-/// takes what is more than kFree from the budget. Used by one thread. After TooLarge or Malformed
+/// takes what is more than kFree from the budgets. Used by one thread. After TooLarge or Malformed
 /// only clear() may follow.
 class BodyReader {
  public:
@@ -22,8 +22,7 @@ class BodyReader {
 
   enum class Outcome { Ok, NoBudget, TooLarge, Malformed };
 
-  explicit BodyReader(ByteBudget& budget) : budget_(budget) {}
-  ~BodyReader() { clear(); }
+  explicit BodyReader(BodyBudgets& budgets) : budgets_(budgets) {}
   BodyReader(const BodyReader&) = delete;
   BodyReader& operator=(const BodyReader&) = delete;
 
@@ -38,7 +37,7 @@ class BodyReader {
   void start(const Plan& plan);
   const Plan& plan() const { return plan_; }
 
-  /// Makes room for `size` bytes in all; NoBudget leaves everything as it was.
+  /// Makes room for a body of `size` bytes; NoBudget leaves everything as it was.
   Outcome reserve(std::size_t size);
 
   /// Takes bytes off the front of `piece`; NoBudget leaves the rest to be added later.
@@ -52,19 +51,25 @@ class BodyReader {
   Outcome finish() const;
 
   std::string_view bytes() const { return {data_.get(), size_}; }
-  bool holds_budget() const { return taken_ > 0; }
+  /// After NoBudget: the budget that lacked the bytes.
+  ByteBudget& lacking() const { return *lacking_; }
+  /// Another body waits for bytes that this one holds.
+  bool is_wanted() const { return share_.is_wanted(); }
 
   void clear();
 
  private:
   Outcome add_decoded(std::string_view& piece);
+  Outcome grow(std::size_t size);
+  Outcome hold(std::size_t capacity, ByteBudget& budget);
 
-  ByteBudget& budget_;
+  BodyBudgets& budgets_;
+  ByteBudget* lacking_ = nullptr;
   Plan plan_;
+  ByteShare share_;  // outlives the bytes
   std::unique_ptr<char[]> data_;
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;
-  std::size_t taken_ = 0;
   std::size_t discarded_ = 0;
   std::optional<Gunzip> gunzip_;
 };

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <utility>
 
 namespace fitgauge::http {
 
@@ -20,7 +21,8 @@ class ByteBudget {
   }
   void give_back(std::size_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
 
-  void begin_wait() { waiting_.fetch_add(1, std::memory_order_relaxed); }
+  /// @returns how many wait, with this one.
+  std::size_t begin_wait() { return waiting_.fetch_add(1, std::memory_order_relaxed) + 1; }
   void end_wait() { waiting_.fetch_sub(1, std::memory_order_relaxed); }
 
   std::size_t used() const { return used_.load(std::memory_order_relaxed); }
@@ -31,6 +33,43 @@ class ByteBudget {
   const std::size_t limit_;
   std::atomic<std::size_t> used_{0};
   std::atomic<std::size_t> waiting_{0};
+};
+
+/// Bytes that were taken from a budget; the destructor gives them back.
+class ByteShare {
+ public:
+  ByteShare() = default;
+  ByteShare(ByteBudget& budget, std::size_t bytes) : budget_(&budget), bytes_(bytes) {}
+  ByteShare(ByteShare&& other) noexcept
+      : budget_(std::exchange(other.budget_, nullptr)), bytes_(other.bytes_) {}
+  ByteShare& operator=(ByteShare&& other) noexcept {
+    std::swap(budget_, other.budget_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+  }
+  ~ByteShare() {
+    if (budget_ != nullptr) budget_->give_back(bytes_);
+  }
+
+  bool is_wanted() const { return budget_ != nullptr && budget_->is_short(); }
+
+ private:
+  ByteBudget* budget_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+/// Two budgets, so that no body waits for bytes that a waiting body holds: a body whose length is
+/// unknown takes up to kPart from `parts`, then its whole limit from `wholes` at once. Whoever
+/// holds of `wholes` waits for nothing, so that all who wait for it are served in the end, and then
+/// those who wait for `parts`.
+struct BodyBudgets {
+  static constexpr std::size_t kPart = std::size_t{1} << 20;
+
+  ByteBudget wholes;
+  ByteBudget parts{16 * kPart};
+
+  std::size_t used() const { return wholes.used() + parts.used(); }
+  bool is_short() const { return wholes.is_short() || parts.is_short(); }
 };
 
 }  // namespace fitgauge::http

@@ -19,12 +19,15 @@ const Refusal kTimedOut{408, ErrorCode::RequestTimeout, "The request took too lo
 
 }  // namespace
 
+const Refusal Connection::kCrowded{503, ErrorCode::Overloaded,
+                                   "Too many large bodies arrive at once; try again."};
+
 Connection::Connection(IoThread& thread, Peer peer)
     : thread_(thread),
       peer_(std::move(peer)),
       output_(thread.output()),
       exchange_(thread.shared().routes, thread.shared().hooks, peer_),
-      body_(thread.shared().budget) {
+      body_(thread.shared().budgets) {
   deadline_ = thread_.now() + thread_.shared().options.header_timeout;
 }
 
@@ -264,7 +267,7 @@ void Connection::linger() { deadline_ = std::min(thread_.now() + kLinger, reques
 void Connection::close() noexcept {
   if (phase_ == Phase::Closed) return;
   const auto self = shared_from_this();
-  if (phase_ == Phase::Budget) thread_.shared().budget.end_wait();
+  if (phase_ == Phase::Budget) body_.lacking().end_wait();
   const bool in_handler = phase_ == Phase::InHandler;
   phase_ = Phase::Closed;
   close_socket();
@@ -296,17 +299,17 @@ void Connection::check_deadline(Tick now) {
       case Phase::ReadingBody:
       case Phase::FillingBody: {
         // A thread that was busy for a second has bytes to read of a client that has not stalled.
-        const bool gives_way = body_.holds_budget() && thread_.shared().budget.is_short() &&
-                               now - last_body_byte_ >= kStalled && !has_unread();
+        const bool gives_way =
+            body_.is_wanted() && now - last_body_byte_ >= kStalled && !has_unread();
         if (now < request_deadline_ && !gives_way) return;
         refuse(kTimedOut);
         return advance();
       }
       case Phase::Budget: {
         if (now - wait_begun_ < thread_.shared().options.request_timeout) return;
-        thread_.shared().budget.end_wait();
+        body_.lacking().end_wait();
         phase_ = body_phase();
-        refuse({503, ErrorCode::Overloaded, "Too many large bodies arrive at once; try again."});
+        refuse(kCrowded);
         return advance();
       }
       case Phase::Piece: return beat(now);

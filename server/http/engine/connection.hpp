@@ -231,6 +231,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void take_piece(std::string_view bytes, bool is_last);
   void beat(Tick now);
 
+  static const Refusal kCrowded;
+
   IoThread& thread_;
   Peer peer_;
   Phase phase_ = Phase::Opening;

@@ -9,6 +9,8 @@
 namespace fitgauge::http {
 namespace {
 
+/// Bodies of unknown length that wait for memory; another one is refused at once.
+constexpr std::size_t kMostWaiting = 2;
 constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
 
 }  // namespace
@@ -90,9 +92,13 @@ bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
   switch (outcome) {
     case BodyReader::Outcome::Ok: return phase_ != Phase::FillingBody || admit_body();
     case BodyReader::Outcome::NoBudget:
+      if (body_.lacking().begin_wait() > kMostWaiting && body_phase() == Phase::ReadingBody) {
+        body_.lacking().end_wait();
+        refuse(kCrowded);
+        return true;
+      }
       phase_ = Phase::Budget;
       wait_begun_ = thread_.now();
-      thread_.shared().budget.begin_wait();
       return false;
     case BodyReader::Outcome::TooLarge: refuse(exchange_.body_too_large()); return true;
     case BodyReader::Outcome::Malformed:
@@ -105,15 +111,16 @@ bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
 std::size_t Connection::bytes_waited_for() const {
   if (phase_ != Phase::Budget) return 0;
   return std::max(static_cast<std::size_t>(head_.content_length.value_or(0)),
-                  2 * body_.bytes().size());
+                  body_.bytes().size() + 1);
 }
 
 void Connection::retry_budget() {
   guarded([&] {
+    ByteBudget* const waited_for = &body_.lacking();
     const BodyReader::Outcome outcome =
         body_phase() == Phase::FillingBody ? body_.reserve(body_left_) : body_.add(pending_piece_);
     if (outcome == BodyReader::Outcome::NoBudget) return;
-    thread_.shared().budget.end_wait();
+    waited_for->end_wait();
     phase_ = body_phase();
     last_body_byte_ = thread_.now();
     request_deadline_ += thread_.now() - wait_begun_;  // the wait was not the client's doing

@@ -114,7 +114,7 @@ void IoThread::update_clock() {
 void IoThread::sweep() {
   update_clock();
   for_each_connection([this](Connection& connection) { connection.check_deadline(now_); });
-  if (shared_.budget.is_short()) admit_waiting();
+  if (shared_.budgets.is_short()) admit_waiting();
   bound_unsent();
 }
 

@@ -101,12 +101,12 @@ struct ServerShared {
       : options(std::move(given)),
         routes(std::move(table)),
         hooks(std::move(callbacks)),
-        budget(options.body_budget) {}
+        budgets{.wholes = ByteBudget(options.body_budget)} {}
 
   const ServerOptions options;
   const RouteTable routes;
   const ServerHooks hooks;
-  ByteBudget budget;
+  BodyBudgets budgets;
   Gate connections;
   std::atomic<bool> stopping{false};
 };
