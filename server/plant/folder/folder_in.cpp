@@ -1,6 +1,5 @@
 #include "plant/folder/folder_in.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/inotify.h>
@@ -8,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -16,6 +14,8 @@
 #include <span>
 #include <utility>
 
+#include "base/descriptor.hpp"
+#include "base/folder.hpp"
 #include "base/guarded.hpp"
 #include "base/text.hpp"
 #include "base/thread.hpp"
@@ -23,37 +23,13 @@
 #include "plant/folder/file_rows.hpp"
 #include "plant/folder/file_taking.hpp"
 #include "plant/folder/resting_file.hpp"
-#include "plant/folder/whole_file.hpp"
-#include "plant/lsv2/link/descriptor.hpp"
 
 namespace fitgauge::connections {
 namespace {
 
-namespace fs = std::filesystem;
-using control_link::Descriptor;
-
 constexpr int kStopSliceMs = 100;  ///< how soon a stop is seen
 constexpr std::size_t kInotifyBuffer = 16'384;
 constexpr int kWaitsForDescription = 6;  ///< looks that a DFX waits for its DFD
-
-std::string because() { return std::strerror(errno); }
-
-/// NAME, NAME.1, NAME.2 and so on: the first that the folder does not have.
-std::string free_name(const std::string& name, const fs::path& folder) {
-  std::error_code failure;
-  std::string free = name;
-  for (int number = 1; fs::exists(fs::symlink_status(folder / free, failure)); ++number) {
-    free = fmt::format("{}.{}", name, number);
-  }
-  return free;
-}
-
-/// Nothing gives way for it: this connection alone writes to the folder. @returns why it stays.
-std::optional<std::string> move_to(const fs::path& from, const fs::path& to) {
-  if (std::rename(from.c_str(), to.c_str()) == 0) return std::nullopt;
-  return fmt::format("{} cannot be moved to {}: {}", from.filename().string(), to.string(),
-                     because());
-}
 
 class FolderIn final : public Worker {
  public:
@@ -78,13 +54,15 @@ class FolderIn final : public Worker {
   void wait(const std::stop_token& stop, std::chrono::milliseconds most);
   /// Takes what is at rest. @returns why not.
   std::optional<std::string> look(const std::stop_token& stop);
-  std::optional<std::string> take(const std::string& name, Seen& seen);
+  std::optional<std::string> take(const Folder& folder, const std::string& name, Seen& seen);
   /// The DFD of a DFX: empty while it has to be waited for. @errors it is not there.
   Result<std::string> description_of(const std::string& name, const Seen& seen);
   /// Of files that are taken. @returns why one stays, until the next look.
-  std::optional<std::string> move_away(const std::vector<std::string>& names) const;
+  static std::optional<std::string> move_away(const Folder& folder,
+                                              const std::vector<std::string>& names);
   /// @param names of the file, and of its description where it has one
-  std::optional<std::string> fail(const std::vector<std::string>& names, const Error& error);
+  std::optional<std::string> fail(const Folder& folder, const std::vector<std::string>& names,
+                                  const Error& error);
   bool is_wanted(const std::string& name) const;
 
   const FolderInOptions options_;
@@ -148,31 +126,25 @@ bool FolderIn::is_wanted(const std::string& name) const {
 }
 
 std::optional<std::string> FolderIn::look(const std::stop_token& stop) {
-  std::error_code failure;
-  fs::directory_iterator entries(options_.folder, failure);
-  if (failure) {
-    return fmt::format("{} cannot be read: {}", options_.folder.string(), failure.message());
-  }
+  const auto folder = Folder::open(options_.folder);
+  if (!folder) return folder.error().message;
   std::map<std::string, Seen> now;
   const Time at = std::chrono::steady_clock::now();
   is_restless_ = false;
   std::vector<std::pair<std::int64_t, std::string>> ready;
-  for (const fs::directory_iterator end; entries != end; entries.increment(failure)) {
-    if (failure || now.size() == options_.most_entries) break;
-    const std::string name = entries->path().filename().string();
-    struct stat status {};
-    if (!is_wanted(name) || lstat(entries->path().c_str(), &status) != 0 ||
-        !S_ISREG(status.st_mode)) {
-      continue;
-    }
-    Seen seen{.look = look_of(status), .since = at};
+  const auto listed = folder->list([&](const std::string& name) {
+    const auto status = is_wanted(name) ? folder->look(name) : std::nullopt;
+    if (!status || !S_ISREG(status->st_mode)) return true;
+    Seen seen{.look = look_of(*status), .since = at};
     const auto known = seen_.find(name);
     if (known != seen_.end() && known->second.look == seen.look) seen = known->second;
     const bool is_whole = moved_in_.contains(name) || at - seen.since >= options_.rest;
     if (is_whole) ready.emplace_back(seen.look.changed_ns, name);
     is_restless_ = is_restless_ || !is_whole;
     now.emplace(name, seen);
-  }
+    return now.size() < options_.most_entries;
+  });
+  if (!listed) return listed.error().message;
   seen_ = std::move(now);
   moved_in_.clear();
   std::sort(ready.begin(), ready.end());
@@ -182,7 +154,7 @@ std::optional<std::string> FolderIn::look(const std::stop_token& stop) {
   for (const auto& [time, name] : ready) {
     if (stop.stop_requested()) break;
     if (is_description(name)) continue;  // it goes with its DFX
-    if (auto why = take(name, seen_[name]); why && !first) first = std::move(why);
+    if (auto why = take(*folder, name, seen_[name]); why && !first) first = std::move(why);
   }
   return first;
 }
@@ -204,26 +176,28 @@ Result<std::string> FolderIn::description_of(const std::string& name, const Seen
       fmt::format("its description, {}.dfd, is not in the folder: put both into it", stem)};
 }
 
-std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
+std::optional<std::string> FolderIn::take(const Folder& folder, const std::string& name,
+                                          Seen& seen) {
   std::vector<std::string> names = {name};
   if (is_values_alone(name)) {
     const auto description = description_of(name, seen);
-    if (!description) return fail(names, description.error());
+    if (!description) return fail(folder, names, description.error());
     if (description->empty()) return std::nullopt;
     names.push_back(*description);
   }
-  if (seen.is_taken) return move_away(names);
+  if (seen.is_taken) return move_away(folder, names);
   std::vector<RestingFile> files;
   std::int64_t size = 0;
   for (const std::string& one : names) {
     const Look& look = seen_[one].look;
     size += look.size;
     if (look.size > static_cast<std::int64_t>(options_.most_file_bytes)) {
-      return fail(names, {ErrorCode::BodyTooLarge,
-                          fmt::format("it has more than {} MiB: cut it into several files",
-                                      options_.most_file_bytes >> 20)});
+      return fail(folder, names,
+                  {ErrorCode::BodyTooLarge,
+                   fmt::format("it has more than {} MiB: cut it into several files",
+                               options_.most_file_bytes >> 20)});
     }
-    auto file = RestingFile::open(options_.folder / one, look);
+    auto file = RestingFile::open(folder, one, look);
     if (!file) return file.error().message;
     if (!*file) return std::nullopt;  // taken away since
     files.push_back(**std::move(file));
@@ -232,7 +206,7 @@ std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
       take_file(options_, plant_, name, files[0], files.size() > 1 ? &files[1] : nullptr);
   if (!taken) {
     if (is_of_storage(taken.error())) return taken.error().message;
-    return fail(names, taken.error());
+    return fail(folder, names, taken.error());
   }
   if (!*taken) {
     is_restless_ = true;  // it changes yet: the next look begins anew
@@ -251,38 +225,39 @@ std::optional<std::string> FolderIn::take(const std::string& name, Seen& seen) {
                                                  options_.name, name));
   }
   seen.is_taken = true;
-  return move_away(names);
+  return move_away(folder, names);
 }
 
-std::optional<std::string> FolderIn::move_away(const std::vector<std::string>& names) const {
-  const fs::path done = options_.folder / "done";
-  std::error_code failure;
-  fs::create_directories(done, failure);
+std::optional<std::string> FolderIn::move_away(const Folder& folder,
+                                               const std::vector<std::string>& names) {
+  const auto done = folder.sub("done");
+  if (!done) return fmt::format("{} cannot be moved: {}", names.front(), done.error().message);
   for (const std::string& name : names) {
-    if (auto why = move_to(options_.folder / name, done / free_name(name, done))) return why;
+    if (const auto moved = folder.move(name, *done, name); !moved) return moved.error().message;
   }
   return std::nullopt;
 }
 
-std::optional<std::string> FolderIn::fail(const std::vector<std::string>& names,
+std::optional<std::string> FolderIn::fail(const Folder& folder,
+                                          const std::vector<std::string>& names,
                                           const Error& error) {
-  const fs::path folder = options_.folder / "failed";
-  std::error_code failure;
-  fs::create_directories(folder, failure);
   const std::string& name = names.front();
-  const std::string to = free_name(name, folder);
+  const auto failed = folder.sub("failed");
+  if (!failed) return fmt::format("{} cannot be moved: {}", name, failed.error().message);
+  const std::string to = failed->free_name(name);
   // The text is there before the file is, so that a file in `failed` always has one.
-  if (!write_whole_file(folder / (to + ".error.txt"), told(name, error))) {
-    return fmt::format("{}: cannot write into {}: {}", name, folder.string(), because());
+  if (const auto written = failed->write(to + ".error.txt", told(name, error)); !written) {
+    return fmt::format("{}: {}", name, written.error().message);
   }
   change([](ConnectionState& state) { ++state.unreadable; });
   plant_.tell("file_refused",
               fmt::format("{}: {}: {}", options_.name, name,
                           error.details.empty() ? error.message : error.details.front().message));
-  if (auto why = move_to(options_.folder / name, folder / to)) return why;
+  if (const auto moved = folder.move(name, *failed, to); !moved) return moved.error().message;
   for (const std::string& beside : std::span(names).subspan(1)) {
-    if (auto why = move_to(options_.folder / beside, folder / free_name(beside, folder)))
-      return why;
+    if (const auto moved = folder.move(beside, *failed, beside); !moved) {
+      return moved.error().message;
+    }
   }
   return std::nullopt;
 }
@@ -294,23 +269,17 @@ std::unique_ptr<Worker> make(const FolderInOptions& options, const Plant& plant)
 }
 
 ConnectionTest test_of(const FolderInOptions& options, const Plant&, const std::stop_token&) {
-  std::error_code failure;
-  if (!fs::is_directory(options.folder, failure)) {
-    return {.ok = false, .detail = options.folder.string() + " is no folder"};
-  }
-  for (const char* name : {"done", "failed"}) {
-    const fs::path folder = options.folder / name;
-    fs::create_directories(folder, failure);
-    if (access(folder.c_str(), W_OK | X_OK) != 0) {
-      return {.ok = false,
-              .detail = fmt::format("{} cannot be written: {}", folder.string(), because())};
+  const auto check = [&]() -> Result<void> {
+    const auto folder = Folder::open(options.folder);
+    if (!folder) return folder.error();
+    for (const char* name : {"done", "failed"}) {
+      const auto sub = folder->sub(name);
+      if (!sub) return sub.error();
+      if (const auto writable = sub->check_writable(); !writable) return writable;
     }
-  }
-  if (access(options.folder.c_str(), R_OK | W_OK | X_OK) != 0) {
-    return {.ok = false,
-            .detail = fmt::format("files cannot be moved out of {}: {}", options.folder.string(),
-                                  because())};
-  }
+    return folder->check_writable();
+  }();
+  if (!check) return {.ok = false, .detail = check.error().message};
   return {.ok = true, .detail = "the folder can be read, and files moved in it"};
 }
 

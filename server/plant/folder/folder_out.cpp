@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <vector>
 
 #include "api/measurements/measurement_codec.hpp"
 #include "api/measurements/measurement_dfq.hpp"
 #include "api/measurements/measurement_qif.hpp"
+#include "base/folder.hpp"
 #include "base/text.hpp"
 #include "formats/dfq/dfq_writer.hpp"
-#include "plant/folder/whole_file.hpp"
 #include "plant/follower_settings.hpp"
 #include "plant/kind.hpp"
 #include "record/record.hpp"
@@ -19,7 +17,6 @@
 namespace fitgauge::connections {
 namespace {
 
-namespace fs = std::filesystem;
 /// A folder that others take files of measurements from.
 struct FolderOutOptions {
   FollowerOptions follower{.gather = std::chrono::seconds(60), .plans = true};
@@ -74,7 +71,7 @@ class FolderOut final : public Outlet {
                              std::vector<DeadLetter>& refused) const;
   /// @errors a DFQ or a QIF cannot hold it.
   Result<void> add(File& file, const app::Measurement& measurement) const;
-  fs::path path_of(const File& file) const;
+  std::string name_of(const File& file) const;
 
   const FolderOutOptions options_;
   const Plant& plant_;
@@ -127,22 +124,23 @@ std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements,
   return files;
 }
 
-fs::path FolderOut::path_of(const File& file) const {
+std::string FolderOut::name_of(const File& file) const {
   std::string name = fmt::format("{}-{:012}-{:012}", options_.follower.name, file.first, file.last);
   if (!file.key.empty()) name += "-" + plain(file.key);
   constexpr std::array<std::string_view, 4> kEndings = {".csv", ".ndjson", ".dfq", ".qif"};
   name += kEndings.at(static_cast<std::size_t>(options_.format));
-  return options_.folder / name;
+  return name;
 }
 
 Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::stop_token&) {
   Delivery delivery;
   std::vector<DeadLetter> refused;
+  const auto folder = Folder::open(options_.folder);
+  if (!folder) return {.failure = folder.error().message};
   for (const File& file : files_of(measurements, refused)) {
     if (file.text.empty()) continue;  // nothing of it can be written
-    const fs::path path = path_of(file);
-    if (!write_whole_file(path, file.text)) {
-      delivery.failure = fmt::format("cannot write {}: {}", path.string(), std::strerror(errno));
+    if (const auto written = folder->write(name_of(file), file.text); !written) {
+      delivery.failure = written.error().message;
       return delivery;
     }
     ++delivery.files;
@@ -194,14 +192,13 @@ std::unique_ptr<Outlet> make(const FolderOutOptions& options, const Plant& plant
 
 /// Whether a file can be written there.
 ConnectionTest test_of(const FolderOutOptions& options, const Plant&, const std::stop_token&) {
-  const fs::path path = options.folder / fmt::format(".{}.test", options.follower.name);
-  if (!write_whole_file(path, "fitgauge\n")) {
-    return {.ok = false,
-            .detail = fmt::format("cannot write into {}: {}", options.folder.string(),
-                                  std::strerror(errno))};
+  const std::string name = fmt::format(".{}.test", options.follower.name);
+  const auto folder = Folder::open(options.folder);
+  if (!folder) return {.ok = false, .detail = folder.error().message};
+  if (const auto written = folder->write(name, "fitgauge\n"); !written) {
+    return {.ok = false, .detail = written.error().message};
   }
-  std::error_code failure;
-  fs::remove(path, failure);
+  folder->remove(name);
   return {.ok = true, .detail = "a file can be written"};
 }
 

@@ -1,6 +1,5 @@
 #include "plant/folder/resting_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -30,13 +29,12 @@ Look look_of(const struct stat& status) {
           .inode = status.st_ino};
 }
 
-Result<std::optional<RestingFile>> RestingFile::open(const std::filesystem::path& path,
+Result<std::optional<RestingFile>> RestingFile::open(const Folder& folder, const std::string& name,
                                                      const Look& look) {
-  control_link::Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
-  std::string name = path.filename().string();
-  if (file.get() >= 0) return std::optional(RestingFile(std::move(name), std::move(file), look));
-  if (errno == ENOENT) return std::optional<RestingFile>();
-  return unreadable(name);
+  auto file = folder.read(name);
+  if (!file) return file.error();
+  if (!*file) return std::optional<RestingFile>();
+  return std::optional(RestingFile(name, **std::move(file), look));
 }
 
 Read RestingFile::from_begin() const {

@@ -3,13 +3,14 @@
 #include <sys/stat.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
+#include <string>
 
+#include "base/descriptor.hpp"
 #include "base/digest.hpp"
+#include "base/folder.hpp"
 #include "base/read.hpp"
 #include "base/result.hpp"
-#include "plant/lsv2/link/descriptor.hpp"
 
 namespace fitgauge::connections {
 
@@ -28,8 +29,9 @@ Look look_of(const struct stat& status);
 /// What was read counts when it is_unchanged() afterwards.
 class RestingFile {
  public:
-  /// @returns nothing when it is gone. @errors StorageUnavailable: it cannot be read.
-  static Result<std::optional<RestingFile>> open(const std::filesystem::path& path,
+  /// @returns nothing when it is gone, or another kind of entry. @errors StorageUnavailable: it
+  /// cannot be read.
+  static Result<std::optional<RestingFile>> open(const Folder& folder, const std::string& name,
                                                  const Look& look);
 
   /// The bytes from the begin on. @errors StorageUnavailable. The file outlives it.
@@ -40,11 +42,11 @@ class RestingFile {
   bool is_unchanged() const;
 
  private:
-  RestingFile(std::string name, control_link::Descriptor file, const Look& look)
+  RestingFile(std::string name, Descriptor file, const Look& look)
       : name_(std::move(name)), file_(std::move(file)), look_(look) {}
 
   std::string name_;
-  control_link::Descriptor file_;
+  Descriptor file_;
   Look look_;
 };
 

@@ -225,6 +225,42 @@ class Taking(Folders):
         self.wait(lambda: self.files("done") == ["a.csv"])
         self.assertEqual(len(self.parts(daemon)), 5)
 
+    def test_nothing_is_moved_through_a_link(self):
+        secret = self.root / "secret"
+        secret.mkdir()
+        for name in ("done", "failed"):
+            (self.folder / name).symlink_to(secret)
+        daemon = self.daemon().start()
+        self.connect(daemon)
+        self.drop("a.csv", ROWS)
+        self.drop("bad.csv", "designation\nnothing\n")
+        self.wait(lambda: daemon.get("/v1/connections/cmm").json["state"] == "failing")
+        self.assertIn("links are not followed", daemon.get("/v1/connections/cmm").json["last_error"])
+        self.assertFalse(daemon.post("/v1/connections/cmm/test", None).json["ok"])
+        self.assertEqual((list(secret.iterdir()), self.files()), ([], ["a.csv", "bad.csv"]))
+        for name in ("done", "failed"):
+            (self.folder / name).unlink()
+        self.wait(lambda: (self.files("done"), self.files("failed")) == (["a.csv"], ["bad.csv", "bad.csv.error.txt"]))
+        self.assertEqual(len(self.parts(daemon)), 5)
+
+    def test_a_fifo_holds_nothing_up(self):
+        """Finding 2 of the review: a connection hung for ever, and the service no longer ended."""
+        daemon = self.daemon().start()
+        out = self.root / "out"
+        out.mkdir()
+        os.mkfifo(out / "..out.test.part")
+        os.mkfifo(out / ".out-000000000001-000000000001.csv.part")
+        os.mkfifo(self.folder / "a.csv")
+        self.connect(daemon)
+        answer = daemon.request("PUT", "/v1/connections/out", {
+            "kind": "folder_out", "folder": str(out), "every_s": 1, "start": "beginning"})
+        self.assertEqual(answer.status, 201, answer)
+        self.assertTrue(daemon.post("/v1/connections/out/test", None).json["ok"])
+        daemon.measure({"designation": "25 H7", "measured_mm": 25.01})
+        self.wait(lambda: (out / "out-000000000001-000000000001.csv").is_file())
+        self.assertEqual(daemon.get("/v1/connections/cmm").json["state"], "ok")
+        self.assertEqual(daemon.stop(timeout=10), 0)
+
     def test_no_folder_beside_those_allowed(self):
         daemon = self.daemon().start()
         os.symlink("/etc", self.root / "link")

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "plant/lsv2/link/descriptor.hpp"
+#include "base/descriptor.hpp"
 #include "plant/lsv2/link/link_server.hpp"
 
 namespace fitgauge::control_link {

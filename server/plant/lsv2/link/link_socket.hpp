@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "plant/lsv2/link/descriptor.hpp"
+#include "base/descriptor.hpp"
 #include "plant/lsv2/link/link_failure.hpp"
 #include "plant/lsv2/link/telegram.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "plant/lsv2/link/answers.hpp"
-#include "plant/lsv2/link/descriptor.hpp"
+#include "base/descriptor.hpp"
 #include "plant/lsv2/link/link_server.hpp"
 
 using namespace fitgauge;

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace fitgauge::control_link {
+namespace fitgauge {
 
 /// Owns a file descriptor; -1 is none.
 class Descriptor {
@@ -17,13 +17,14 @@ class Descriptor {
     return *this;
   }
   ~Descriptor() {
-    if (fd_ >= 0) close(fd_);
+    if (fd_ >= 0) ::close(fd_);
   }
 
   int get() const { return fd_; }
+  bool is_open() const { return fd_ >= 0; }
 
  private:
   int fd_ = -1;
 };
 
-}  // namespace fitgauge::control_link
+}  // namespace fitgauge

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/descriptor.hpp"
+#include "base/result.hpp"
+
+namespace fitgauge {
+
+/// A folder that others may write into, held by its descriptor. A name in it is looked up once and
+/// never followed as a link. Nothing here waits: a FIFO or a device with the name of a file is no
+/// file. All errors are StorageUnavailable and name the path and the cause.
+class Folder {
+ public:
+  static Result<Folder> open(const std::filesystem::path& path);
+  /// A folder in this one, created if there is none. @errors also when the name is a link.
+  Result<Folder> sub(const std::string& name) const;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Calls `visit` for the names of all entries until it returns false.
+  Result<void> list(const std::function<bool(const std::string& name)>& visit) const;
+  /// What the name is: a link itself, not its target. @returns none without an entry.
+  std::optional<struct stat> look(const std::string& name) const;
+  /// A regular file, to read. @returns none when there is no entry or another kind of entry.
+  Result<std::optional<Descriptor>> read(const std::string& name) const;
+
+  /// Writes `.NAME.part`, syncs it to disk and renames it, so that others see a whole file or none.
+  Result<void> write(const std::string& name, std::string_view text) const;
+  /// Moves a file into another folder under a name that is free: NAME, NAME.1, NAME.2 and so on.
+  Result<void> move(const std::string& name, const Folder& to, const std::string& as) const;
+  /// NAME, NAME.1, NAME.2 and so on: the first name without an entry.
+  std::string free_name(const std::string& name) const;
+  void remove(const std::string& name) const;
+
+  /// Whether entries can be created and removed.
+  Result<void> check_writable() const;
+
+ private:
+  Folder(Descriptor descriptor, std::filesystem::path path)
+      : descriptor_(std::move(descriptor)), path_(std::move(path)) {}
+
+  Error failed(std::string_view doing, const std::string& name) const;
+
+  Descriptor descriptor_;
+  std::filesystem::path path_;
+};
+
+}  // namespace fitgauge
