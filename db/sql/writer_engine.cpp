@@ -67,11 +67,12 @@ milliseconds MaintenancePace::patience(Time now) const {
 }
 
 Writer::Engine::Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
-                       sql::OpenSession open)
+                       sql::OpenSession open, std::function<void()> check)
     : options_(options),
       clock_(clock),
       health_(health),
       open_(std::move(open)),
+      check_(std::move(check)),
       queue_(options.queue_limit) {
   session();
   thread_ = Thread("the writer", [this](const auto&) { run(); });
@@ -98,13 +99,15 @@ void Writer::Engine::run() {
   begin_retention();
   Jobs jobs;
   while (true) {
-    if (jobs.empty()) jobs = queue_.take_all(patience());
+    if (jobs.empty()) jobs = queue_.take_all(std::min(patience(), kProbeInterval));
     if (jobs.empty() && queue_.is_finished()) break;
     const bool had_jobs = !jobs.empty();
     if (had_jobs) commit(jobs);
     if (session_) session_->tidy_up(counters_);
-    if (failing_ && !had_jobs) probe();
-    if (!failing_ && (!had_jobs || pace_.is_due(MaintenancePace::Clock::now()))) maintain();
+    if (!had_jobs) failing_ ? probe() : look();
+    const auto now = MaintenancePace::Clock::now();
+    const bool is_due = had_jobs ? pace_.is_due(now) : pace_.patience(now) == milliseconds(0);
+    if (!failing_ && is_due && options_.access == Access::Serve) maintain();
   }
   session_.reset();
 }
@@ -140,6 +143,7 @@ std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
   std::optional<Error> error;
   try {
     const auto begin = MaintenancePace::Clock::now();
+    if (check_) check_();
     session().begin_writing();
     // Where several daemons write, it was waited for: what has come meanwhile goes with it.
     if (!options_.commit_each) {
@@ -225,8 +229,7 @@ Error Writer::Engine::bug_of(const std::exception& thrown) {
 }
 
 milliseconds Writer::Engine::patience() const {
-  const bool damaged = health_.health().state == HealthState::Damaged;
-  if (failing_ && !damaged) return kProbeInterval;
+  if (failing_ || options_.access != Access::Serve) return kProbeInterval;
   return pace_.patience(MaintenancePace::Clock::now());
 }
 
@@ -240,6 +243,16 @@ void Writer::Engine::begin_retention() {
     session().begin_reading();
     retention_.time(steady_time(), session().stores());
     session().commit();
+  } catch (const StorageFailure& failure) {
+    fail(failure.error());
+  }
+}
+
+/// Finds out, while there is nothing to write, whether what would be written to is still there.
+void Writer::Engine::look() {
+  if (!check_ || health_.health().state == HealthState::Damaged) return;
+  try {
+    check_();
   } catch (const StorageFailure& failure) {
     fail(failure.error());
   }
@@ -267,6 +280,7 @@ void Writer::Engine::maintain() {
 void Writer::Engine::probe() {
   if (health_.health().state == HealthState::Damaged) return;
   try {
+    if (check_) check_();
     session().probe();
     succeed();
   } catch (const StorageFailure& failure) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -57,8 +58,10 @@ class Writer::Engine {
   using WriteJob = Job<Stores>;
 
   /// Opens a session, so that a start on a database that cannot be opened fails.
+  /// @param check throws a StorageFailure when what the session writes to is not the database's any
+  /// more; called before each transaction and once a second.
   Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
-         sql::OpenSession open);
+         sql::OpenSession open, std::function<void()> check = {});
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
   ~Engine();
@@ -90,6 +93,7 @@ class Writer::Engine {
   std::chrono::milliseconds patience() const;
   SteadyTime steady_time() const;
   void begin_retention();
+  void look();
   void maintain();
   void probe();
   void succeed();
@@ -100,6 +104,7 @@ class Writer::Engine {
   const Clock& clock_;
   HealthMonitor& health_;
   const sql::OpenSession open_;
+  const std::function<void()> check_;
   JobQueue<WriteJob> queue_;
   WriterCounters counters_;
   std::mutex under_way_mutex_;

@@ -1,8 +1,11 @@
 #include "db/sqlite/connection.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "db/sql/statement.hpp"
+#include "db/sqlite/data_directory.hpp"
 #include "db/sqlite/measurement_table.hpp"
 #include "db/sqlite/prepared.hpp"
 #include "db/sqlite/row_digest.hpp"
@@ -31,10 +34,27 @@ void configure_library() {
   static_cast<void>(configured);
 }
 
+/// A connection makes a log and its index beside the file. In a folder that it may not write to it
+/// reads the file alone, unless there is a log to read as well: then somebody may have it open.
+bool is_at_rest(const std::filesystem::path& file) {
+  const auto is_there = [&file](const char* suffix) {
+    struct stat status {};
+    return ::stat((file.string() + suffix).c_str(), &status) == 0 && status.st_size > 0;
+  };
+  return ::access(folder_of(file).c_str(), W_OK) != 0 && !is_there("-wal") && !is_there("-shm");
+}
+
 SQLite::Database open(const std::filesystem::path& file, Mode mode) {
   configure_library();
   try {
-    return {file.string(), flags_of(mode), kBusyMilliseconds};
+    if (mode != Mode::Read || !is_at_rest(file)) {
+      return {file.string(), flags_of(mode), kBusyMilliseconds};
+    }
+    std::string uri = "file:";
+    for (const char c : std::filesystem::absolute(file).string()) {
+      c == '%' || c == '?' || c == '#' ? uri += fmt::format("%{:02X}", c) : uri += c;
+    }
+    return {uri + "?immutable=1", flags_of(mode) | SQLite::OPEN_URI, kBusyMilliseconds};
   } catch (const SQLite::Exception& failure) {
     throw_failure(nullptr, failure.getExtendedErrorCode(), "opening " + file.string());
   }

@@ -15,32 +15,14 @@
 #include <system_error>
 #include <utility>
 
+#include "base/descriptor.hpp"
 #include "db/sqlite/migrator.hpp"
 
 namespace fitgauge::store {
 namespace {
 
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  Descriptor(const std::filesystem::path& path, int flags)
-      : value_(::open(path.c_str(), flags | O_CLOEXEC, 0640)) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (value_ >= 0) ::close(value_);
-  }
-
-  bool is_open() const { return value_ >= 0; }
-  int get() const { return value_; }
-  int release() { return std::exchange(value_, -1); }
-
- private:
-  int value_;
-};
-
-std::filesystem::path folder_of(const std::filesystem::path& file) {
-  return file.has_parent_path() ? file.parent_path() : ".";
+Descriptor open_file(const std::filesystem::path& path, int flags) {
+  return Descriptor(::open(path.c_str(), flags | O_CLOEXEC, 0640));
 }
 
 Error system_error(std::string_view doing, const std::filesystem::path& path) {
@@ -71,6 +53,10 @@ std::uint32_t application_id_of(const Header& header) {
 
 }  // namespace
 
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
+}
+
 Result<DirectoryLock> DirectoryLock::acquire(const std::filesystem::path& directory) {
   std::error_code failure;
   std::filesystem::create_directories(directory, failure);
@@ -79,7 +65,7 @@ Result<DirectoryLock> DirectoryLock::acquire(const std::filesystem::path& direct
     return system_error("create the data directory", directory);
   }
   const std::filesystem::path file = directory / "fitgauge.lock";
-  Descriptor descriptor(file, O_RDWR | O_CREAT);
+  Descriptor descriptor = open_file(file, O_RDWR | O_CREAT);
   if (!descriptor.is_open() || !give_to_owner_of_folder(descriptor, file)) {
     return system_error("write to the data directory:", file);
   }
@@ -90,18 +76,29 @@ Result<DirectoryLock> DirectoryLock::acquire(const std::filesystem::path& direct
                              "directory",
                              directory.string())};
   }
-  return DirectoryLock(descriptor.release());
+  struct stat status {};
+  if (::fstat(descriptor.get(), &status) != 0) return system_error("look at", file);
+  return DirectoryLock(std::move(descriptor), FileIdentity{file, status.st_dev, status.st_ino});
 }
 
-DirectoryLock::DirectoryLock(DirectoryLock&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-DirectoryLock::~DirectoryLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+Result<FileIdentity> FileIdentity::of(const std::filesystem::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return system_error("look at", file);
+  return FileIdentity{file, status.st_dev, status.st_ino};
 }
 
-Result<void> inspect_file(const std::filesystem::path& file) {
-  const Descriptor descriptor(file, O_RDWR);
+Result<void> FileIdentity::check() const {
+  const auto now = of(path_);
+  if (now && now->device_ == device_ && now->inode_ == inode_) return {};
+  return Error{
+      ErrorCode::StorageUnavailable,
+      fmt::format("{} was {} while the service had it open: nothing more is stored. Put the "
+                  "file back, or end the service and start it again",
+                  path_.string(), now ? "replaced" : "removed")};
+}
+
+Result<void> inspect_file(const std::filesystem::path& file, Access access) {
+  const Descriptor descriptor = open_file(file, access == Access::Serve ? O_RDWR : O_RDONLY);
   if (!descriptor.is_open()) return system_error("open", file);
   Header header{};
   const ssize_t size = ::pread(descriptor.get(), header.data(), header.size(), 0);
@@ -132,7 +129,7 @@ void close_to_others(const std::filesystem::path& database) {
 }
 
 Result<void> reserve_name(const std::filesystem::path& file) {
-  const Descriptor descriptor(file, O_WRONLY | O_CREAT | O_EXCL);
+  const Descriptor descriptor = open_file(file, O_WRONLY | O_CREAT | O_EXCL);
   if (descriptor.is_open() && give_to_owner_of_folder(descriptor, file)) return {};
   return system_error("create", file);
 }
@@ -147,10 +144,10 @@ Result<void> rename_to_new(const std::filesystem::path& from, const std::filesys
 }
 
 Result<void> sync_file(const std::filesystem::path& file) {
-  const Descriptor content(file, O_RDONLY);
+  const Descriptor content = open_file(file, O_RDONLY);
   if (!content.is_open() || ::fsync(content.get()) != 0) return system_error("write", file);
   const std::filesystem::path parent = folder_of(file);
-  const Descriptor directory(parent, O_RDONLY | O_DIRECTORY);
+  const Descriptor directory = open_file(parent, O_RDONLY | O_DIRECTORY);
   if (!directory.is_open() || ::fsync(directory.get()) != 0) return system_error("write", parent);
   return {};
 }

@@ -1,10 +1,35 @@
 #pragma once
 
-#include <filesystem>
+#include <sys/types.h>
 
+#include <filesystem>
+#include <utility>
+
+#include "base/descriptor.hpp"
 #include "base/result.hpp"
+#include "db/store/open_options.hpp"
 
 namespace fitgauge::store {
+
+/// `.` for a name alone.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
+/// Which file a path named when it was opened.
+class FileIdentity {
+ public:
+  /// @errors StorageUnavailable
+  static Result<FileIdentity> of(const std::filesystem::path& file);
+  FileIdentity(std::filesystem::path path, dev_t device, ino_t inode)
+      : path_(std::move(path)), device_(device), inode_(inode) {}
+
+  /// Whether the path names the same file. @errors StorageUnavailable: it was removed or replaced.
+  Result<void> check() const;
+
+ private:
+  std::filesystem::path path_;
+  dev_t device_;
+  ino_t inode_;
+};
 
 /// The lock that keeps a second daemon out of a data directory; released when destroyed, also by a
 /// kill.
@@ -14,21 +39,22 @@ class DirectoryLock {
   /// @errors DatabaseInUse; StorageUnavailable when the directory cannot be made or written.
   static Result<DirectoryLock> acquire(const std::filesystem::path& directory);
 
-  DirectoryLock(DirectoryLock&& other) noexcept;
-  DirectoryLock& operator=(DirectoryLock&&) = delete;
-  ~DirectoryLock();
+  /// Whether the folder still has the file that is locked. @errors as FileIdentity::check().
+  Result<void> check() const { return file_.check(); }
 
  private:
-  explicit DirectoryLock(int descriptor) : descriptor_(descriptor) {}
+  DirectoryLock(Descriptor descriptor, FileIdentity file)
+      : descriptor_(std::move(descriptor)), file_(std::move(file)) {}
 
-  int descriptor_;
+  Descriptor descriptor_;
+  FileIdentity file_;
 };
 
 /// Looks at the first bytes of an existing database without opening it as one: SQLite would take an
 /// empty file for a new database. Called before any connection to the file is open (closing a
 /// descriptor releases the locks SQLite holds).
-/// @errors DatabaseForeign; StorageUnavailable when it cannot be read and written.
-Result<void> inspect_file(const std::filesystem::path& file);
+/// @errors DatabaseForeign; StorageUnavailable when it cannot be read, nor written by who serves.
+Result<void> inspect_file(const std::filesystem::path& file, Access access);
 
 /// Takes a file and what SQLite keeps beside it from everybody but its owner and group: an older
 /// version made them with the umask alone. One that is another's stays as it is.

@@ -1,7 +1,11 @@
 #include "db/sqlite/database.hpp"
 
+#include <unistd.h>
+
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "db/sql/read_pool_engine.hpp"
 #include "db/sql/writer_engine.hpp"
@@ -20,9 +24,18 @@ namespace {
 /// and so checkpoints.
 class WriterSession final : public Session {
  public:
-  WriterSession(const OpenOptions& options, const Clock& clock)
-      : Session(options, clock, Mode::Write), checkpointer_(options) {
+  using Check = std::function<Result<void>()>;
+
+  /// @param check whether the files are still the ones that were opened.
+  WriterSession(const OpenOptions& options, const Clock& clock, Mode mode, Check check)
+      : Session(options, clock, mode), check_(std::move(check)), checkpointer_(options) {
     checkpointer_.install(connection);
+  }
+  /// The last connection that closes removes the log by its name, which may be another database's.
+  ~WriterSession() override {
+    if (!check_()) {
+      sqlite3_db_config(connection.handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    }
   }
 
   void tidy_up(WriterCounters& counters) override {
@@ -31,8 +44,15 @@ class WriterSession final : public Session {
   }
 
  private:
+  const Check check_;
   Checkpointer checkpointer_;
 };
+
+/// Whether a command beside the daemon can only read: the folder is on a read-only file system, or
+/// another user's.
+bool is_read_only(const OpenOptions& options) {
+  return options.access == Access::Attach && ::access(options.directory.c_str(), W_OK) != 0;
+}
 
 /// Destroyed from the last member to the first: the writer closes after the readers, and so
 /// checkpoints; the lock goes last.
@@ -43,11 +63,22 @@ class FileDatabase final : public Database {
         options_(chosen),
         clock_(time),
         file_(chosen.directory / kDatabaseFile),
+        identity_(identity_of(file_)),
         monitor_(chosen.health_changed),
-        writer_engine_(chosen, time, monitor_,
-                       [this] { return std::make_unique<WriterSession>(options_, clock_); }),
+        writer_engine_(
+            chosen, time, monitor_,
+            [this]() -> std::unique_ptr<sql::Session> {
+              require_own_files();
+              const Mode mode = is_read_only(options_) ? Mode::Read : Mode::Write;
+              return std::make_unique<WriterSession>(options_, clock_, mode,
+                                                     [this] { return check_files(); });
+            },
+            [this] { require_own_files(); }),
         reader_engine_(chosen, monitor_,
-                       [this] { return std::make_unique<Session>(options_, clock_, Mode::Read); }),
+                       [this] {
+                         require_own_files();
+                         return std::make_unique<Session>(options_, clock_, Mode::Read);
+                       }),
         writer_(writer_engine_),
         readers_(reader_engine_) {
     const bool too_large_for_the_start =
@@ -67,12 +98,19 @@ class FileDatabase final : public Database {
     writer_engine_.stop();
   }
 
-  Health health() const override { return monitor_.health(); }
+  /// Looks at the files as well: a file that was removed is noticed while nobody writes.
+  Health health() const override {
+    const Health known = monitor_.health();
+    if (known.state == HealthState::Damaged) return known;
+    const auto own = check_files();
+    return own ? known : Health{HealthState::WritesFailing, own.error().message};
+  }
   const WriterCounters& writer_counters() const override { return writer_engine_.counters(); }
   std::size_t writer_queue() const override { return writer_engine_.queued(); }
   std::size_t reader_queue() const override { return reader_engine_.queued(); }
 
   Result<void> backup(const std::filesystem::path& file) const override {
+    if (const auto own = check_files(); !own) return own;
     return copy_database(file_, file);
   }
 
@@ -86,10 +124,26 @@ class FileDatabase final : public Database {
   }
 
  private:
+  static FileIdentity identity_of(const std::filesystem::path& file) {
+    auto identity = FileIdentity::of(file);
+    if (!identity) throw StorageFailure(identity.error());
+    return *std::move(identity);
+  }
+
+  /// Whether lock and database are still the ones that were opened.
+  Result<void> check_files() const {
+    if (const auto own = lock_ ? lock_->check() : Result<void>(); !own) return own;
+    return identity_.check();
+  }
+  void require_own_files() const {
+    if (const auto own = check_files(); !own) throw StorageFailure(own.error());
+  }
+
   std::optional<DirectoryLock> lock_;
   const OpenOptions options_;
   const Clock& clock_;
   const std::filesystem::path file_;
+  const FileIdentity identity_;
   HealthMonitor monitor_;
   Writer::Engine writer_engine_;
   ReadPool::Engine reader_engine_;

@@ -150,7 +150,7 @@ Result<void> prepare_or_throw(const OpenOptions& options, std::span<const sqlite
     if (options.access == Access::Serve) return create_file(file, known, now_ns);
     return unavailable(fmt::format("{} does not exist; start fitgauged once", file.string()));
   }
-  if (Result<void> ours = inspect_file(file); !ours) return ours;
+  if (Result<void> ours = inspect_file(file, options.access); !ours) return ours;
   if (options.access == Access::Serve) {
     close_to_others(file);
     roll_back_interrupted_change(file);

@@ -297,8 +297,12 @@ void LogService::sign() {
   // note.
   if (keys.size() > 1) text += next_key_line(signers_.front().verifier());
   head->note = tlog::sign_note(text, keys);
-  if (const auto kept = replace_file(options_.directory / kCheckpointFile, head->note, false);
-      !kept) {
+  // A folder that is another's by now gets no checkpoint of this log.
+  if (const auto health = database_.health(); health.state == store::HealthState::WritesFailing) {
+    tell("log_checkpoint_not_kept", health.reason);
+  } else if (const auto kept =
+                 replace_file(options_.directory / kCheckpointFile, head->note, false);
+             !kept) {
     tell("log_checkpoint_not_kept", kept.error().message);
   } else if (signers_.size() > 1) {
     // The hand-over from the old key is kept: the new one signs alone from now on.

@@ -1,6 +1,7 @@
 """A disk that is full, read-only or failing: 503, reads go on, nothing acknowledged is lost, and the
 service recovers by itself."""
 
+import contextlib
 import http.client
 import os
 import pathlib
@@ -107,6 +108,65 @@ class FullDisk(FaultTest):
         self.assertTrue(line.startswith("fitgauged: "), line)
 
 
+@unittest.skipUnless(can_mount(), "needs root and tmpfs mounts")
+class NoInodes(FaultTest):
+    def test_a_start_without_a_free_inode_says_so(self):
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-inodes-"))
+        self.addCleanup(shutil.rmtree, folder, ignore_errors=True)
+        subprocess.run(["mount", "-t", "tmpfs", "-o", "nr_inodes=40", "none", folder], check=True)
+        self.addCleanup(subprocess.run, ["umount", "-l", folder], check=True)
+        daemon = self.make_daemon(data=folder / "data")
+        daemon.start()
+        self.assertEqual(daemon.stop(), 0)
+        with contextlib.suppress(OSError):
+            for number in range(40):
+                (folder / str(number)).write_text("")
+        daemon.spawn()
+        self.assertEqual(daemon.process.wait(PATIENCE), 1)
+        self.assertIn("No space left on device", daemon.log.strip().splitlines()[-1])
+
+
+class Removed(FaultTest):
+    """Finding 5 of the review: the service answered 201 for a database that was not there."""
+
+    def assert_refuses(self, daemon, name, word):
+        """From the first request on, without waiting."""
+        self.assert_unavailable(daemon.measure(PART), name, word)
+        self.assertEqual(daemon.get("/readyz").status, 503)
+        self.assertIn(word, daemon.get("/readyz").json["detail"])
+
+    def test_a_database_that_is_removed(self):
+        for name in ("fitgauge.db", "fitgauge.lock"):
+            with self.subTest(name):
+                daemon = self.make_daemon().start()
+                self.assertEqual(daemon.measure(PART).status, 201)
+                (daemon.data / name).rename(daemon.folder / name)
+                self.assert_refuses(daemon, name, "removed")
+                # The same file in its place is the database again.
+                (daemon.folder / name).rename(daemon.data / name)
+                self.wait_until_stored(daemon)
+                self.assertEqual(daemon.get("/readyz").status, 200)
+                self.assertEqual(daemon.stop(), 0)
+                self.assertEqual(daemon.command("verify").returncode, 0)
+
+    def test_nothing_is_written_into_the_folder_of_another(self):
+        first = self.make_daemon().start()
+        self.assertEqual(first.measure(PART).status, 201)
+        for file in first.data.iterdir():
+            file.unlink()
+        second = self.make_daemon(data=first.data).start()
+        self.assertEqual(second.measure(PART).status, 201)
+        first.wait_for_log("fitgauge.lock was replaced")  # also without a request
+        self.assert_refuses(first, "fitgauge.lock", "replaced")
+        self.assertEqual(first.command("backup", str(first.folder / "copy.db")).returncode, 0)  # of the other
+        self.assertEqual(first.stop(), 0)
+        self.assertEqual(second.measure(PART).status, 201)
+        self.assertEqual(len(second.stored()), 2)
+        self.assertEqual(second.stop(), 0)
+        verified = second.command("verify")
+        self.assertEqual(verified.returncode, 0, verified)
+
+
 class ReadOnly(FaultTest):
     @unittest.skipUnless(can_mount(), "needs root and tmpfs mounts")
     def test_a_directory_that_becomes_read_only(self):
@@ -124,6 +184,15 @@ class ReadOnly(FaultTest):
         self.assertEqual(second.process.wait(PATIENCE), 1)
         line, = second.log.strip().splitlines()
         self.assertIn("Read-only", line)
+        # A copy on a medium that nobody can write to is checked and copied where it is.
+        verified = second.command("verify")
+        self.assertEqual((verified.returncode, verified.stderr), (0, ""), verified)
+        copy = self.make_daemon()
+        copy.data.mkdir(parents=True)
+        copied = second.command("backup", str(copy.database))
+        self.assertEqual(copied.returncode, 0, copied)
+        copy.start()
+        self.assertEqual(len(copy.stored()), 1)
 
     def test_a_directory_that_cannot_be_made(self):
         daemon = self.make_daemon()
