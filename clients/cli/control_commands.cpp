@@ -9,6 +9,7 @@
 #include "cli/address.hpp"
 #include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
+#include "cli/output_file.hpp"
 #include "plant/lsv2/link/link_client.hpp"
 #include "plant/lsv2/link/virtual_names.hpp"
 

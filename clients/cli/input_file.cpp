@@ -11,7 +11,6 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <utility>
 
 namespace fitgauge::cli {
@@ -101,19 +100,6 @@ Outcome<void> may_replace(const std::string& path, bool force) {
     if (std::getline(std::cin, line) && (line == "y" || line == "Y")) return {};
   }
   return Failure{ExitCode::LocalFile, path + ": is there already; --force replaces it"};
-}
-
-Outcome<void> write_file(const std::string& path, std::string_view bytes) {
-  if (path == "-") {
-    std::fwrite(bytes.data(), 1, bytes.size(), stdout);
-    return {};
-  }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"),
-                                                             &std::fclose);
-  if (!file) return failed(path, "write it");
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-  if (!written || std::fflush(file.get()) != 0) return failed(path, "write it");
-  return {};
 }
 
 }  // namespace fitgauge::cli

@@ -48,7 +48,4 @@ Outcome<std::string> read_file(const std::string& path);
 /// @errors LocalFile when nobody says yes.
 Outcome<void> may_replace(const std::string& path, bool force);
 
-/// Writes a file in one piece, or standard output for `-`. @errors LocalFile
-Outcome<void> write_file(const std::string& path, std::string_view bytes);
-
 }  // namespace fitgauge::cli

@@ -8,6 +8,7 @@
 #include "cli/gauge_command.hpp"
 #include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
+#include "cli/output_file.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
 

@@ -1,7 +1,5 @@
 #include "cli/record_commands.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 
 #include "base/length.hpp"
@@ -9,43 +7,13 @@
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
 #include "cli/json_object.hpp"
+#include "cli/output_file.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
 #include "cli/watch_command.hpp"
 
 namespace fitgauge::cli {
 namespace {
-
-/// Where a stream goes: a file, or standard output.
-class Output {
- public:
-  explicit Output(const std::string& path)
-      : path_(path), file_(is_standard() ? stdout : std::fopen(path.c_str(), "wb")) {}
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
-  ~Output() {
-    if (file_ != nullptr && !is_standard()) std::fclose(file_);
-  }
-
-  bool write(std::string_view bytes) {
-    good_ = good_ && file_ != nullptr &&
-            std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
-    return good_;
-  }
-  /// Whether all was written. @errors LocalFile
-  Outcome<ExitCode> finish() {
-    if (good_ && file_ != nullptr && std::fflush(file_) == 0) return ExitCode::Good;
-    return Failure{ExitCode::LocalFile, (is_standard() ? "standard output" : path_) +
-                                            ": cannot be written, or only in part"};
-  }
-
- private:
-  bool is_standard() const { return path_.empty() || path_ == "-"; }
-
-  const std::string path_;
-  std::FILE* file_;
-  bool good_ = true;
-};
 
 /// Sends it again until it is answered, under one key.
 Outcome<Answer> post_once(const Context& context, std::string target, std::string body) {
@@ -112,13 +80,15 @@ Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query) {
 Outcome<ExitCode> run_export(const Context& context, const RecordQuery& query) {
   const std::string usual = context.json ? "ndjson" : "csv";
   const std::string& format = query.format.empty() ? usual : query.format;
-  Output output(query.output);
+  OutputFile output(query.output);
   const auto answer = context.client.stream(
       {.target = record_target("/v1/measurements", query,
                                {{"format", format}, {"time_zone", query.time_zone}})},
       [&output](std::string_view piece) { return output.write(piece); });
   const auto good = expect_ok(answer, context.client.url());
-  return good ? output.finish() : good.error();
+  if (!good) return good.error();
+  if (const auto written = output.finish(); !written) return written.error();
+  return ExitCode::Good;
 }
 
 Outcome<ExitCode> run_summary(const Context& context, const RecordQuery& query) {

@@ -5,6 +5,7 @@
 #include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
 #include "cli/nc_commands.hpp"
+#include "cli/output_file.hpp"
 #include "cli/problem.hpp"
 #include "cli/retry.hpp"
 

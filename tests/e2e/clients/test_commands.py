@@ -234,6 +234,23 @@ class Records(ClientTest):
         self.assertEqual((self.client.folder / "all.ndjson").read_text().count("SN-7"), 3)
         self.assert_fails(5, "export", "-o", "no/such/folder.csv")
 
+        # Whatever fails, a file that was there stays as it is, and nothing is left beside it.
+        folder = self.client.folder
+        (folder / "keep.csv").write_text("precious")
+        (folder / "keep.csv").chmod(0o640)
+        before = sorted(folder.iterdir())
+        self.assert_fails(7, "export", "--verdict", "foo", "-o", "keep.csv")
+        self.assert_fails(6, "--server", "http://127.0.0.1:1", "export", "-o", "keep.csv")
+        self.assert_fails(7, "export", "--verdict", "foo", "-o", "new.csv")
+        self.assertEqual((folder / "keep.csv").read_text(), "precious")
+        self.assertEqual(sorted(folder.iterdir()), before)
+        (folder / "link.csv").symlink_to("keep.csv")
+        self.assert_runs(0, "export", "-o", "link.csv")
+        self.assertTrue((folder / "link.csv").is_symlink())
+        self.assertIn("SN-7", (folder / "keep.csv").read_text())
+        self.assertEqual((folder / "keep.csv").stat().st_mode & 0o777, 0o640)
+        self.assert_runs(0, "export", "-o", "/dev/null")
+
         self.assertIn("bore-A: 3 values, 2 good, 0 rework, 1 reject", self.assert_runs(0, "summary"))
         self.assertIn("SN-8: 1 values", self.assert_runs(0, "summary", "--group-by", "part_id"))
         self.assertIn("mean 25.005 mm", self.assert_runs(0, "summary", "--verdict", "good", "--part-id", "SN-7"))
