@@ -77,15 +77,14 @@ class Queue extends EventTarget {
     return this.#add({ path, body, shown, ...(timed && { typedAt: Date.now() }) });
   }
 
-  /** A note to a value that was taken over before. @param of its key */
-  addNote(of, body, shown) {
-    return this.#add({ of, body, shown });
+  /** A note to a value. @param of its key; @param id of its record, where it has one; @param key of the note: one of the same key is the same */
+  addNote({ of, id, key, body, shown }) {
+    return this.#add({ of, id, body, shown }, key);
   }
 
-  #add(content) {
+  #add(content, key = randomText()) {
     // Names sort in the order of typing, also those of one millisecond.
     this.#lastTime = Math.max(this.#lastTime + 1, Date.now());
-    const key = randomText();
     const name = `${PREFIX}${String(this.#lastTime).padStart(15, '0')}.${key}`;
     const entry = { name, key, ...content };
     this.#keep(entry);
@@ -135,9 +134,11 @@ class Queue extends EventTarget {
   }
 
   /** Where an entry goes: a note to the record that its value has become, through this window or another. */
-  #path({ path, of }) {
+  #path({ path, of, id: known }) {
     if (path) return path;
-    const id = this.#ids.get(of) ?? readJson(KEPT_IDS, []).find(([key]) => key === of)?.[1];
+    const id = known ?? this.#ids.get(of) ?? readJson(KEPT_IDS, []).find(([key]) => key === of)?.[1];
+    // Another window has still to send the value.
+    if (!id && storedKeys(PREFIX).some((name) => name.endsWith(`.${of}`))) throw new Problem(409, { code: 'idempotency.in_progress' });
     if (!id) throw new Problem(404, { code: 'measurement.unknown' });
     return url(['measurements', id, 'notes']);
   }

@@ -1,11 +1,12 @@
-/** What is measured at a part, in order: the plan of a part number, which of its characteristics is next, and how each was. */
+/** What is measured at a part, in order: the plan of a part number, and which of its characteristics is next. */
 
-import { getJson, url } from '../api.js';
+import { getJson, PATIENCE_MS, url } from '../api.js';
 import { connection } from '../connection.js';
 import { h, refill } from '../dom.js';
 import { designationText } from '../designation.js';
 import { mmText, nmFromMm, nmFromUm, umText } from '../exact.js';
-import { explain, number, signed, t, timeOfDay } from '../i18n.js';
+import { date, dateTime, explain, number, signed, t, timeOfDay } from '../i18n.js';
+import { randomText } from '../queue.js';
 import { readJson, store } from '../stored.js';
 import { limitsText, verdictShape } from '../verdict.js';
 import { held } from './held.js';
@@ -54,11 +55,12 @@ async function planOf(part) {
 
 export class Plan {
   /**
+   * @param ledger the values and their state
    * @param onStep is told that another characteristic is next; @param onChoose takes a part number, or '' for none
    * @param machine whose samples these are; @param subject the part that is measured; @param leaving ends it
    */
-  constructor({ onStep, onChoose, machine, subject, leaving }) {
-    this.onStep = onStep;
+  constructor({ ledger, onStep, onChoose, machine, subject, leaving }) {
+    Object.assign(this, { ledger, onStep });
     this.subjectNow = subject;
     this.samples = new Samples({ machine, leaving, onChange: () => this.#renew() });
     leaving.addEventListener('abort', () => clearTimeout(this.timer));
@@ -146,19 +148,36 @@ export class Plan {
     this.note.textContent = missing.length ? t('plan.missing', { part: this.subject || t('part.none'), names: missing.join(', ') }) : '';
     this.subject = this.subjectNow();
     this.#clear();
+    this.#sayMeasured();
     this.#goTo(this.#open ?? this.#next(0));
   }
 
   /** Whether a characteristic is due at this part, and how far its sample is: {due, at, size, parts, until}. */
   #standing(at) {
     const counted = this.plan.characteristics.indexOf(this.samples.counted);
-    return this.samples.standing(this.plan.characteristics[at], this.subject, !this.#isBetween && this.taken[counted]);
+    return this.samples.standing(this.plan.characteristics[at], this.subject, !this.#isBetween && this.#isTaken(counted));
+  }
+
+  /** The value in force of a characteristic at this part; undefined where there is none. */
+  #valueOf(at) {
+    const one = this.plan?.characteristics[at];
+    return one && this.ledger.inForce(this.part, this.subject, this.round, one.name);
+  }
+
+  /** Whether a characteristic has its value: of a sample in a row, the last. */
+  #isTaken(at) {
+    const value = this.#valueOf(at);
+    return value !== undefined && !value.partial;
+  }
+
+  get #isBegun() {
+    return this.plan?.characteristics.some((_, at) => this.#isTaken(at)) ?? false;
   }
 
   /** The first that is due and not measured, from one on. */
   #next(from) {
     const { length } = this.plan?.characteristics ?? [];
-    return Array.from({ length }, (_, i) => (from + i) % length).find((at) => !this.taken[at] && this.#standing(at).due);
+    return Array.from({ length }, (_, i) => (from + i) % length).find((at) => !this.#isTaken(at) && this.#standing(at).due);
   }
 
   /** Where parts have no names a sample that was begun goes on first. */
@@ -168,12 +187,12 @@ export class Plan {
   }
 
   #isMeasured(at) {
-    return this.taken[at] && !this.#isBetween;
+    return this.#isTaken(at) && !this.#isBetween;
   }
 
   /** Whether the next value is of the next part, which has no name. */
   get #isBetween() {
-    return this.finished && !this.subject && this.taken.some(Boolean);
+    return this.finished && !this.subject && this.#isBegun;
   }
 
   /** Where the next part begins, which has no name. */
@@ -211,8 +230,7 @@ export class Plan {
   /** Why no value is taken before somebody says what is measured; '' where that is known. */
   get reason() {
     if (!this.finished) return '';
-    const measured = this.taken.some(Boolean);
-    if (measured) return this.subject ? t('plan.finished_first', { part: this.subject }) : this.#idle;
+    if (this.#isBegun) return this.subject ? t('plan.finished_first', { part: this.subject }) : this.#idle;
     return t('plan.nothing_first');
   }
 
@@ -223,13 +241,46 @@ export class Plan {
 
   #clear() {
     this.at = 0;
-    this.verdicts = [];
-    this.taken = [];
+    /** Tells the parts apart that have no names. */
+    this.round = randomText();
   }
 
   /** The names of what was not measured at a part that was begun. */
   get missing() {
-    return this.taken.some(Boolean) ? this.plan.characteristics.filter((_, i) => !this.taken[i] && this.#standing(i).due).map(({ name }) => name) : [];
+    return this.#isBegun ? this.plan.characteristics.filter((_, i) => !this.#isTaken(i) && this.#standing(i).due).map(({ name }) => name) : [];
+  }
+
+  /** Says when a part was measured that comes again, and lets it be measured anew. */
+  #sayMeasured() {
+    const { plan, subject } = this;
+    const at = plan && subject && this.ledger.lastAt(this.part, subject);
+    if (at) return this.#offerAgain(this.#measuredText(at));
+    return plan && subject && this.#askMeasured();
+  }
+
+  /** Another station may have measured it: that is said, and changes nobody's step. */
+  async #askMeasured() {
+    const { plan, subject } = this;
+    const asked = await getJson(url(['measurements'], { part_id: subject, sort: 'newest', limit: 20 }), { timeout: PATIENCE_MS, asks: false }).catch(() => null);
+    const found = asked?.measurements.find((record) => plan.characteristics.some(({ name }) => name === record.characteristic));
+    if (!found || this.plan !== plan || this.subject !== subject || this.ledger.lastAt(this.part, subject)) return;
+    this.note.textContent = [this.note.textContent, this.#measuredText(found.measured_at, found.machine)].filter(Boolean).join(' ');
+  }
+
+  #measuredText(at, machine) {
+    const then = new Date(at);
+    const when = date(then) === date(connection.now()) ? timeOfDay(then) : dateTime(then);
+    return t('plan.measured', { part: this.subject, time: [when, machine].filter(Boolean).join(' · ') });
+  }
+
+  #offerAgain(text) {
+    refill(this.note, this.note.textContent, ' ', text, ' ', h('button', { type: 'button', onclick: () => this.#again() }, t('plan.again')));
+  }
+
+  #again() {
+    this.ledger.again(this.part, this.subject);
+    this.note.textContent = '';
+    this.#goTo(this.#next(0));
   }
 
   /** Goes on where this window was with this part. @returns whether it was there */
@@ -237,50 +288,52 @@ export class Plan {
     const kept = readJson(KEPT_STATE, {}, 'session');
     const subject = this.subjectNow();
     if (kept.part !== this.part || kept.subject !== subject || !this.plan.characteristics[kept.at]) return false;
-    Object.assign(this, { subject, verdicts: kept.verdicts, taken: kept.taken });
+    Object.assign(this, { subject, round: kept.round });
     this.go(kept.at, kept.finished);
     this.#renew();
     return true;
   }
 
-  /** A value of the current characteristic is on its way: the next one that is due and has none. */
-  step() {
+  /** What the next value belongs to: {plan, round, reaction, catalogue}. Without a name the next part begins with it. */
+  begun() {
+    if (!this.plan) return {};
+    if (this.#isBetween) {
+      const { at } = this;
+      this.#clear();
+      Object.assign(this, { at, finished: false });
+    }
+    const { reaction, catalogue } = this.current;
+    return { plan: this.part, round: this.subject ? undefined : this.round, reaction, catalogue };
+  }
+
+  /** A value of the current characteristic is on its way: the next one that is due and has none. @param key of the value */
+  step(key) {
     if (!this.plan) return;
     const { at, subject } = this;
-    if (this.#isBetween) {
-      this.#clear();
-      this.finished = false;
-    }
     // Without names of parts a sample is measured in a row.
-    if (!subject && this.#standing(at).at > 0) return this.go(at);
-    this.taken[at] = true;
+    if (!subject && this.#standing(at).at > 0) {
+      this.ledger.goesOn(key);
+      return this.go(at);
+    }
     const next = this.#next(at + 1);
     if (next !== undefined) return this.go(next);
     this.finished = true;
-    return this.go(subject ? 0 : Math.max(this.#nextRound, 0), true);
+    return this.go(subject ? at : Math.max(this.#nextRound, 0), true);
   }
 
-  /** A value of a characteristic was not stored: it is still to be measured. */
-  refused(name) {
-    const at = this.plan?.characteristics.findIndex((one) => one.name === name) ?? -1;
-    if (at < 0) return;
-    this.taken[at] = false;
-    if (this.finished) this.go(at);
+  /** A value has changed: what is not measured after all is due again. @param elsewhere whether another tab has it */
+  changed({ shown }, elsewhere) {
+    if (!this.plan || shown.plan !== this.part) return;
+    const at = this.plan.characteristics.findIndex(({ name }) => name === shown.characteristic);
+    const isHere = shown.round === undefined || shown.round === this.round;
+    if (this.finished && at >= 0 && isHere && (this.subject || shown.round) && !this.#isTaken(at) && this.#standing(at).due) this.go(at);
     else this.#draw();
-  }
-
-  /** Notes how a characteristic was, by its name. */
-  judged(name, verdict) {
-    const at = this.plan?.characteristics.findIndex((one) => one.name === name) ?? -1;
-    if (at < 0) return;
-    this.verdicts[at] = verdict;
-    this.#draw();
-    this.#keep();
+    if (elsewhere && this.subject && at === this.at && !this.finished && this.#isTaken(at)) this.#sayMeasured();
   }
 
   #keep() {
-    const { part, subject, at, finished, verdicts, taken } = this;
-    store(KEPT_STATE, JSON.stringify({ part, subject, at, finished, verdicts, taken }), 'session');
+    const { part, subject, at, finished, round } = this;
+    store(KEPT_STATE, JSON.stringify({ part, subject, at, finished, round }), 'session');
   }
 
   go(at, finished = false) {
@@ -299,19 +352,20 @@ export class Plan {
     this.select.value = this.part;
     const list = this.plan?.characteristics ?? [];
     const all = list.map((_, i) => this.#standing(i));
+    const verdicts = list.map((_, i) => this.#valueOf(i)).map((value) => value && this.ledger.verdictOf(value));
     const text = list.length ? this.#progressText(all) : '';
     if (this.progress.textContent !== text) this.progress.textContent = text;
     refill(this.tiles, list.map((one, i) => h('li', h('button', {
       type: 'button', class: all[i].due || this.#isMeasured(i) ? '' : 'not-due', 'aria-current': i === this.at && !this.finished && 'step', onclick: () => this.go(i),
-    }, this.verdicts[i] ? [verdictShape(this.verdicts[i]), h('span.unseen', t(`verdict.${this.verdicts[i]}`))] : null,
+    }, verdicts[i] ? [verdictShape(verdicts[i]), h('span.unseen', t(`verdict.${verdicts[i]}`))] : null,
     h('span', one.name), h('span.aside', sizeText(one)), this.#whenText(one, all[i], i)))));
     this.tiles.querySelector('[aria-current]')?.scrollIntoView?.({ block: 'nearest', inline: 'nearest' });
     this.#wake(all);
   }
 
   #progressText(all) {
-    const due = all.map((_, i) => i).filter((i) => this.taken[i] || all[i].due || (i === this.at && !this.finished));
-    const count = this.taken.filter(Boolean).length;
+    const due = all.map((_, i) => i).filter((i) => this.#isTaken(i) || all[i].due || (i === this.at && !this.finished));
+    const count = all.filter((_, i) => this.#isTaken(i)).length;
     if (!this.finished) return [t('plan.progress', { at: due.indexOf(this.at) + 1, count: due.length }), this.#sampleText(all[this.at])].filter(Boolean).join(' · ');
     return count === all.length ? t('plan.finished', { count }) : count ? t('plan.finished_due', { count }) : t('plan.nothing_due');
   }

@@ -1,12 +1,14 @@
 /** The values of this station, the newest first, with what became of each. */
 
+import { designationText } from '../designation.js';
 import { h } from '../dom.js';
 import { number, t, time } from '../i18n.js';
 import { LaterStore, readJson, store } from '../stored.js';
-import { distanceText, measuredText, noteText, verdictMark, verdictShape } from '../verdict.js';
+import { distanceText, limitsText, measuredText, noteText, verdictMark, verdictShape } from '../verdict.js';
 
 const MOST = 100;
 const KEPT = 'recent';
+const TAKEN = ['waiting', 'judged', 'open', 'done'];
 
 /** What was judged by the limits held is no record yet: it says both. */
 const waitingMark = (state, { verdict }) => (verdict && state === 'waiting'
@@ -14,66 +16,55 @@ const waitingMark = (state, { verdict }) => (verdict && state === 'waiting'
   : h('span.mark-of', verdictShape('waiting'), t(`recent.${state}`)));
 
 export class Recent {
-  /** @param onCorrect takes the record to correct, and what of it: `measured_mm` or `part_id`; @param leaving ends it */
-  constructor({ onCorrect, leaving }) {
-    this.onCorrect = onCorrect;
-    this.kept = new LaterStore(() => store(KEPT, JSON.stringify(this.rows), 'session'), leaving);
-    this.rows = readJson(KEPT, [], 'session');
+  /** @param ledger the values and their state; @param onCorrect takes the record to correct, and what of it: `measured_mm` or `part_id`; @param leaving ends it */
+  constructor({ ledger, onCorrect, leaving }) {
+    Object.assign(this, { ledger, onCorrect });
+    this.kept = new LaterStore(() => store(KEPT, JSON.stringify(this.keys), 'session'), leaving);
+    this.keys = readJson(KEPT, [], 'session').filter((key) => ledger.get(key));
     this.list = h('ol');
     this.element = h('section.recent', { 'aria-labelledby': 'recent-title' },
       h('h2', { id: 'recent-title' }, t('recent.title')), this.list);
-    this.list.append(...this.rows.map((row) => this.#item(row)));
-    this.element.hidden = this.rows.length === 0;
+    this.list.append(...this.keys.map((key) => this.#item(ledger.get(key))));
+    this.element.hidden = this.keys.length === 0;
   }
 
   /** The last value that was taken: its record, null while it is not stored, undefined where there is none. */
   get last() {
-    const row = this.rows.find(({ state, corrected }) => ['stored', 'waiting'].includes(state) && !corrected);
-    return row && (row.record ?? null);
+    const value = this.keys.map((key) => this.ledger.get(key)).find((each) => each && TAKEN.includes(this.ledger.stateOf(each)));
+    return value && (value.record ?? null);
   }
 
-  /** @param row {key, state: waiting | stored | refused | dropped, shown, record, reason} */
-  set(row) {
-    const at = this.rows.findIndex((other) => other.key === row.key);
-    if (at >= 0) {
-      this.rows[at] = { note: this.rows[at].note, ...row };
-      this.#redraw(at);
-    } else {
-      this.rows.unshift(row);
-      this.list.prepend(this.#item(row));
-    }
-    const corrected = row.record ? this.rows.findIndex((other) => other.record && other.record.id === row.record.correction_of) : -1;
-    if (corrected >= 0) {
-      this.rows[corrected].corrected = true;
-      this.#redraw(corrected);
-    }
-    for (; this.rows.length > MOST; this.rows.pop()) this.list.lastElementChild.remove();
+  /** A value of this window: the newest. */
+  add(key) {
+    if (this.keys.includes(key)) return;
+    this.keys.unshift(key);
+    this.list.prepend(this.#item(this.ledger.get(key)));
+    for (; this.keys.length > MOST; this.keys.pop()) this.list.lastElementChild.remove();
     this.element.hidden = false;
     this.kept.changed();
   }
 
-  /** Shows what was noted about a value. */
-  noted(key, note) {
-    const at = this.rows.findIndex((other) => other.key === key);
-    if (at < 0) return;
-    this.rows[at].note = note;
-    this.#redraw(at);
-    this.kept.changed();
+  /** A value has changed: it, those that it corrects and what was said of them. */
+  draw({ key, root }) {
+    this.keys.forEach((each, at) => {
+      const value = this.ledger.get(each);
+      if (value && (each === key || each === root || (root && value.root === root) || value.root === key)) this.list.children[at].replaceWith(this.#item(value));
+    });
   }
 
-  #redraw(at) {
-    this.list.children[at].replaceWith(this.#item(this.rows[at]));
-  }
-
-  #item(row) {
-    const { shown, record, state } = row;
-    return h('li', { class: row.corrected ? 'corrected' : state },
+  #item(value) {
+    const { shown, record, state } = value;
+    const now = this.ledger.stateOf(value);
+    const isOld = now === 'corrected' || now === 'moved';
+    const said = this.ledger.said(value);
+    const { part_id, characteristic, designation } = { ...shown, ...record };
+    const what = designation ? designationText(designation) : shown.limits && limitsText(shown.limits);
+    return h('li', { class: isOld ? 'corrected' : state },
       record ? verdictMark(record.verdict) : waitingMark(state, shown),
       h('span.figure', record ? measuredText(record) : number(shown.measured)),
-      h('span.aside', [(record ?? shown).part_id, record?.designation ?? shown.designation, time(new Date(shown.at)),
-        row.corrected && t('recent.corrected')].filter(Boolean).join(' · ')),
-      h('span.aside', record ? distanceText(record) : row.reason ?? ''), row.note && h('span.aside.noted', noteText(row.note)),
-      state === 'stored' && !row.corrected && h('span.fix',
+      h('span.aside', [part_id, characteristic, what, time(new Date(shown.at)), isOld && t(`recent.${now}`)].filter(Boolean).join(' · ')),
+      h('span.aside', record ? distanceText(record) : value.reason ?? ''), said.done && h('span.aside.noted', noteText(said)),
+      state === 'stored' && !isOld && h('span.fix',
         this.#fix(record, 'measured_mm', 'recent.correct'), this.#fix(record, 'part_id', 'recent.correct_part')));
   }
 

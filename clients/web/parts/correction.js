@@ -3,6 +3,7 @@
 import { url } from '../api.js';
 import { field, h } from '../dom.js';
 import { Decimal, LARGEST_NM, nmFromMm, parseMeasured } from '../exact.js';
+import { ledger } from '../gauge/ledger.js';
 import { isFar } from '../gauge/reading.js';
 import { number, t } from '../i18n.js';
 import { measuredText } from '../verdict.js';
@@ -51,7 +52,7 @@ export function correct(record) {
       field(t('entry.label'), value), field(t('field.part_id'), part), field(t('correct.reason'), reason), note,
       h('p.actions', h('button.primary', { type: 'submit' }, t('correct.store')),
         h('button', { type: 'button', onclick: () => dialog.close('') }, t('confirm.cancel')))));
-  const order = orderOf(dialog, url(['measurements', record.id, 'corrections']), note, 'corrected');
+  const order = orderOf(dialog, url(['measurements', record.id, 'corrections']), note, 'corrected', (made) => ledger.told(made));
   document.body.append(dialog);
   dialog.showModal();
   value.select();

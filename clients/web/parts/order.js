@@ -8,11 +8,11 @@ import { randomText } from '../queue.js';
 const TIMEOUT_MS = 10000;
 
 /**
- * @param note takes why it was refused; @param done what the dialog closes with. Until there is an answer nothing closes it:
+ * @param note takes why it was refused; @param done what the dialog closes with; @param onDone takes what the service has made of it. Until there is an answer nothing closes it:
  *   whoever has given it up would not know that it was stored.
  * @returns takes the body and posts it; one that is posted again after an answer was lost is the same order
  */
-export function orderOf(dialog, path, note, done) {
+export function orderOf(dialog, path, note, done, onDone = () => {}) {
   let last = {};
   for (const type of ['click', 'submit', 'cancel']) {
     dialog.addEventListener(type, (event) => {
@@ -27,7 +27,8 @@ export function orderOf(dialog, path, note, done) {
     dialog.ariaBusy = 'true';
     note.textContent = '';
     try {
-      await request('POST', path, { body, timeout: TIMEOUT_MS, headers: { 'Content-Type': 'application/json', 'Idempotency-Key': `"${last.key}"` } });
+      const answer = await request('POST', path, { body, timeout: TIMEOUT_MS, headers: { 'Content-Type': 'application/json', 'Idempotency-Key': `"${last.key}"` } });
+      onDone(await answer.json());
       dialog.close(done);
     } catch (problem) {
       note.textContent = explain(problem);

@@ -12,6 +12,7 @@ import { Entry } from '../gauge/entry.js';
 import { FIELDS } from '../gauge/fields.js';
 import { forgetAtHand, limitsOf } from '../gauge/held.js';
 import { Job } from '../gauge/job.js';
+import { ledger } from '../gauge/ledger.js';
 import { NumberPad } from '../gauge/number_pad.js';
 import { Panel } from '../gauge/panel.js';
 import { ownLimits, Plan } from '../gauge/plan.js';
@@ -21,7 +22,7 @@ import { SerialGauge } from '../gauge/serial.js';
 import { soundChoice } from '../gauge/sound.js';
 import { explain, t } from '../i18n.js';
 import { isKept } from '../kept_page.js';
-import { queue } from '../queue.js';
+import { queue, randomText } from '../queue.js';
 import { go, remember } from '../route.js';
 
 /** Most answers come sooner: then what the page cannot judge itself replaces the last verdict without a gap. */
@@ -34,7 +35,7 @@ export function mount(main, route) {
   /** Why no value is taken now; '' where one is. */
   const reason = () => reactions.reason || (plan.loading ? t('entry.busy') : '') || plan.reason;
   const badge = new Badge();
-  const reactions = new Reactions({ onDone: () => entry.focus(), onNote: (said) => note(said) });
+  const reactions = new Reactions({ ledger, operator: () => job.options.operator, onDone: () => entry.focus() });
   const entry = new Entry({
     job: () => (reason() ? { reason: reason() } : job.current()),
     prefixes: () => job.prefixes.texts,
@@ -45,9 +46,11 @@ export function mount(main, route) {
     isName: (text) => plan.knows(text),
     onTyped: () => { if (stepped) next(); },
     onOpen: (typed) => panel.open(typed),
-    onDropped: (text) => recent.set({
-      key: `dropped-${performance.now()}`, state: 'dropped', shown: shownOf(text), reason: t('recent.dropped_why'),
-    }),
+    onDropped: (text) => {
+      const key = `dropped-${randomText()}`;
+      ledger.dropped(key, shownOf(text), t('recent.dropped_why'));
+      recent.add(key);
+    },
   });
   const pad = new NumberPad(entry.input);
   const serial = new SerialGauge({ onValue: (text) => entry.take(text), onUnread: (reason) => entry.unread(reason), leaving: leaving.signal });
@@ -56,11 +59,12 @@ export function mount(main, route) {
     onChange: (another) => jobChanged(another), onDone: () => entry.focus(),
     onReading: (text, ended) => (ended ? entry.take(text) : entry.hold(text)),
   });
-  const recent = new Recent({ onCorrect: (record, what) => entry.correct(record, what), leaving: leaving.signal });
+  const recent = new Recent({ ledger, onCorrect: (record, what) => entry.correct(record, what), leaving: leaving.signal });
   const arrivals = new Arrivals(leaving.signal);
   const unkept = h('p.unkept', { role: 'status' });
 
   const plan = new Plan({
+    ledger,
     onStep: (one) => job.follow(one, ownLimits(one)), onChoose: (part) => choosePlan(part),
     machine: () => job.options.machine, subject: () => job.part, leaving: leaving.signal,
   });
@@ -138,35 +142,31 @@ export function mount(main, route) {
   function post({ text, correcting }) {
     if (correcting) return correct(correcting, text);
     const subgroup = plan.sample;
-    send(url(['measurements']), bodyOf(text, subgroup), { ...shownOf(text), subgroup, reaction: plan.current?.reaction, catalogue: plan.current?.catalogue }, true);
     stepped = Boolean(plan.current);
-    plan.step();
+    plan.step(send(url(['measurements']), bodyOf(text, subgroup), { ...shownOf(text), subgroup, ...plan.begun() }));
     return undefined;
   }
 
-  /** What was said about a value goes after it, and stands in the list at once. */
-  function note({ key, measured, cause, measure }) {
-    const said = { cause, measure };
-    recent.noted(key, said);
-    queue.addNote(key, toJson({ ...said, operator: job.options.operator || undefined }), { measured, at: connection.now() });
-  }
-
+  /** @param fields what else it corrects; the page judges a correction by the limits of its record */
   function correct(record, measured, fields = {}) {
-    const { part_id, characteristic, designation } = { ...record, ...fields };
-    const shown = { measured, part_id, characteristic, designation, at: connection.now() };
+    const { part_id, characteristic, designation, rule = 'simple' } = { ...record, ...fields };
+    const verdict = rule === 'simple' ? judge(nmFromMm(measured), record) : null;
+    const shown = { measured, part_id, characteristic, designation, at: connection.now(), limits: record, verdict };
     const body = { measured_mm: new Decimal(measured), ...fields, reason: t('correction.reason') };
-    send(url(['measurements', record.id, 'corrections']), body, shown, false);
+    send(url(['measurements', record.id, 'corrections']), body, shown, record);
   }
 
-  function send(path, body, shown, timed) {
-    const { key } = queue.add(path, toJson(body), { ...shown, late: !connection.up }, timed);
+  /** @param of the record that it corrects, which has its time already @returns its key */
+  function send(path, body, shown, of) {
+    const { key } = queue.add(path, toJson(body), { ...shown, late: !connection.up }, !of);
     panel.begin(key);
     if (shown.verdict) panel.waiting(shown, !connection.up);
-    recent.set({ key, state: 'waiting', shown });
-    reactions.judged(key, shown, shown.verdict);
+    ledger.taken(key, shown, of);
+    recent.add(key);
     setTimeout(() => {
       if (panel.of === key && queue.values.some((waiting) => waiting.key === key)) panel.waiting(shown, !connection.up, true);
     }, GAP_MS);
+    return key;
   }
 
   const { signal } = leaving;
@@ -174,10 +174,8 @@ export function mount(main, route) {
   entry.takeKeys(signal);
   addEventListener('strayline', ({ detail: { text, burst } }) => entry.take(text, burst), { signal });
   queue.addEventListener('stored', ({ detail: { entry: { key, shown }, record } }) => {
-    recent.set({ key, state: 'stored', shown, record });
+    recent.add(key);
     plan.samples.take(record);
-    if ((record.part_id ?? '') === job.part) plan.judged(record.characteristic, record.verdict);
-    reactions.judged(key, shown, record.verdict);
     if (shown.late) arrivals.stored(record);
     // A verdict that comes late is no verdict of what is gauged now. What was not seen and is not good is shown all the same.
     const isSeen = record.verdict === 'good' || record.verdict === shown.verdict;
@@ -186,12 +184,16 @@ export function mount(main, route) {
   }, { signal });
   queue.addEventListener('refused', ({ detail: { entry: { key, of, shown }, problem } }) => {
     const reason = explain(problem);
-    recent.set({ key, state: 'refused', shown, reason });
-    if (of) return entry.unread(t('note.refused', { reason }));
-    reactions.refused(key);
-    if ((shown.part_id ?? '') === job.part) plan.refused(shown.characteristic);
-    if (shown.late) arrivals.refused(key, shown, explain(problem));
-    else panel.refused(shown, explain(problem));
+    // The note of a value that was refused goes to the one in its place.
+    if (of) return ledger.get(of)?.state === 'refused' ? undefined : entry.unread(t('note.refused', { reason }));
+    recent.add(key);
+    if (shown.late) arrivals.refused(key, shown, reason);
+    else panel.refused(shown, reason);
+  }, { signal });
+  ledger.addEventListener('change', ({ detail: { value, elsewhere } }) => {
+    recent.draw(value);
+    reactions.draw();
+    plan.changed(value, elsewhere);
   }, { signal });
   function sayUnkept() {
     unkept.textContent = connection.up || (isKept() && queue.isKept) ? '' : t(isKept() ? 'gauge.unstored' : 'gauge.unkept');
@@ -222,7 +224,11 @@ export function mount(main, route) {
   remember('gauge');
   job.start(leaving.signal);
   follow(leaving.signal, ({ type, data }) => {
-    if (type === 'measurement.recorded') plan.samples.told(JSON.parse(data));
+    if (type === 'measurement.recorded') {
+      const record = JSON.parse(data);
+      ledger.told(record);
+      plan.samples.told(record);
+    }
     if (type === 'resync') plan.samples.renew();
     if (type !== 'table.changed' && type !== 'resync') return;
     forgetAtHand();

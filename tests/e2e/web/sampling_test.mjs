@@ -222,7 +222,7 @@ describe('a sample', () => {
     await measure(page, daemon, '25.004', '25.005');
     const again = await openIn(page.context(), daemon, '#/gauge?plan=PARTS&part_id=SN-3'); // another tab
     pages.push(again);
-    await tile(again, 'sampled', 'every 5th part · value 3 of 3 · at the next part');
+    await tile(again, 'sampled', 'every 5th part · value 3 of 3');
     await measured('SN-4', '25.006', '25.007');
     await measured('SN-5', '25.008');
     await progress(page, '1 measured, no more is due');

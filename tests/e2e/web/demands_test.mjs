@@ -1,0 +1,161 @@
+/** What a value demands is one state: done, corrected and moved values are asked about once, and leave no tile behind. */
+
+import assert from 'node:assert/strict';
+import { before, beforeEach, describe, it } from 'node:test';
+
+import { close, open, openIn } from './support/browser.mjs';
+import { eventually } from './support/eventually.mjs';
+import { hold } from './support/hold.mjs';
+import { known, scan } from './support/scanner.mjs';
+import { begin, browser, daemon, storedSince } from './support/stage.mjs';
+
+describe('what a value demands', () => {
+  let page;
+
+  before(async () => {
+    await daemon.send('PUT', '/v1/catalogues/turning', { causes: ['Insert worn', 'Wrong offset'], measures: ['Insert changed', 'Part scrapped'] });
+    await daemon.send('PUT', '/v1/plans/4711-A', { characteristics: [
+      { name: 'bore-A', designation: '25 H7', catalogue: 'turning' }, { name: 'bore-B', designation: '40 H8' }, { name: 'length', nominal_mm: 120, feature: 'shaft', upper_um: 300, lower_um: -300 }] });
+  });
+  beforeEach(begin);
+
+  const station = async (part) => {
+    page = await open(browser, daemon, `#/gauge?plan=4711-A${part ? `&part_id=${part}` : ''}`);
+    await page.waitForSelector('.tiles-of-plan li');
+    await known(page);
+    await page.waitForSelector('.echo .figures');
+  };
+  const line = (text) => scan(page, text);
+  const verdict = (word, of = ':not([data-provisional])') => page.waitForSelector(`.verdict[data-verdict="${word}"]${of}`);
+  const marks = () => page.$$eval('.tiles-of-plan li', (all) => all.map((tile) => tile.querySelector('.shape')?.dataset.verdict));
+  const hasMarks = (...wanted) => eventually(async () => assert.deepEqual(await marks(), wanted));
+  const isUp = () => page.waitForSelector('.link[data-state="up"]');
+  const say = async (...texts) => { for (const text of texts) await page.click(`.choices-of >> text=${text}`); };
+  const notes = async () => (await daemon.stored('history=all&notes=shown')).slice(-(await storedSince()).length)
+    .map((record) => [record.measured_mm, ...(record.notes ?? []).map((note) => [note.cause, note.measure])]);
+
+  it('is asked once over an outage, and over an answer that takes longer than two taps', async () => {
+    await station('SN-1');
+    await daemon.stop();
+    await line('25.03');
+    await say('Insert worn', 'Insert changed');
+    await daemon.start();
+    await isUp();
+    await page.waitForSelector('.recent .stored');
+    assert.ok(await page.isHidden('.reactions'));
+    await page.click('.arrived button');
+    const release = await hold(page, '**/v1/measurements');
+    await page.click('.tiles-of-plan li:first-child button');
+    await page.waitForSelector('.echo .figures');
+    await line('25.04');
+    await say('Wrong offset', 'Part scrapped');
+    await release();
+    await isUp();
+    await eventually(async () => assert.deepEqual(await notes(), [[25.03, ['Insert worn', 'Insert changed']], [25.04, ['Wrong offset', 'Part scrapped']]]));
+    assert.ok(await page.isHidden('.reactions'));
+    page.errors.length = 0;
+    await close(page);
+  });
+
+  it('moves with a part that is corrected: its characteristic is due again', async () => {
+    await station('SN-8003');
+    await line('25.01');
+    await verdict('good');
+    await page.click('.recent .fix button:last-child');
+    await line('SN-8004');
+    await page.waitForSelector('.recent li.corrected');
+    assert.match(await page.textContent('.recent li.corrected'), /of another part/);
+    await hasMarks(undefined, undefined, undefined);
+    await line('40.01');
+    await line('120.1');
+    await page.waitForFunction(() => document.querySelector('.tiles-of-plan [aria-current]')?.textContent.includes('bore-A'));
+    await hasMarks(undefined, 'good', 'good');
+    await line('25.012');
+    await page.waitForFunction(() => document.querySelector('.progress')?.textContent === 'All 3 measured');
+    const inForce = (await daemon.stored('part_id=SN-8003')).map(({ characteristic, measured_mm }) => [characteristic, measured_mm]);
+    assert.deepEqual(inForce, [['bore-B', 40.01], ['length', 120.1], ['bore-A', 25.012]]);
+    await close(page);
+  });
+
+  it('moves with a part that is corrected when all was measured', async () => {
+    await station('SN-8005');
+    for (const value of ['25.01', '40.01', '120.1']) await line(value);
+    await page.waitForFunction(() => document.querySelector('.progress')?.textContent === 'All 3 measured');
+    // The size above the verdict is the size that was judged.
+    await verdict('good');
+    assert.match(await page.textContent('.echo'), /119\.700 to 120\.300/);
+    await page.waitForFunction(() => document.querySelectorAll('.recent .stored .fix').length === 3);
+    await page.click('.recent li:last-child .fix button:last-child');
+    await line('SN-8006');
+    await page.waitForFunction(() => document.querySelector('.tiles-of-plan [aria-current]')?.textContent.includes('bore-A'));
+    await hasMarks(undefined, 'good', 'good');
+    await close(page);
+  });
+
+  it('is of the value in force: a correction asks for a cause, or asks no more for one', async () => {
+    await station('SN-5');
+    await line('25.012');
+    await verdict('good');
+    await page.waitForSelector('.recent .stored .fix');
+    await page.keyboard.press('Control+z');
+    await line('25.040');
+    await page.waitForSelector('.reactions .catalogue');
+    await say('Insert worn', 'Insert changed');
+    await page.waitForFunction(() => document.querySelector('.recent .stored .noted'));
+    await isUp();
+    await page.keyboard.press('Control+z'); // what was said of it holds for its correction
+    await line('25.030');
+    await page.waitForFunction(() => document.querySelector('.recent .stored .figure')?.textContent === '25.030');
+    assert.ok(await page.isHidden('.reactions'));
+    assert.match(await page.textContent('.recent .stored'), /Insert worn → Insert changed/);
+    await isUp();
+    await eventually(async () => assert.deepEqual(await notes(), [[25.012], [25.04, ['Insert worn', 'Insert changed']], [25.03, ['Insert worn', 'Insert changed']]]));
+    await line('SN-6');
+    await known(page);
+    await line('25.05');
+    await page.waitForSelector('.reactions .catalogue');
+    await page.waitForSelector('.recent li:first-child.stored .fix');
+    await page.keyboard.press('Control+z');
+    await line('25.003');
+    await page.waitForSelector('.reactions', { state: 'hidden' });
+    await line('40.01'); // the station is free again
+    await hasMarks('good', 'good', undefined);
+    await close(page);
+  });
+
+  it('names the characteristic in the list, with the limits of a drawing', async () => {
+    await station('SN-7');
+    for (const value of ['25.01', '40.01', '120.1']) await line(value);
+    await page.waitForFunction(() => document.querySelectorAll('.recent .stored').length === 3);
+    assert.deepEqual(await page.$$eval('.recent li .aside:nth-of-type(3)', (all) => all.map((each) => each.textContent.replace(/ · \d\d:\d\d:\d\d$/, ''))),
+      ['SN-7 · length · 119.700 to 120.300 mm', 'SN-7 · bore-B · Ø 40 H8', 'SN-7 · bore-A · Ø 25 H7']);
+    await close(page);
+  });
+
+  it('says that a part was measured, here, in another tab and at another station', async () => {
+    await station('SN-9');
+    for (const value of ['25.01', '40.01', '120.1']) await line(value);
+    await line('SN-10');
+    await known(page);
+    await line('SN-9');
+    await page.waitForFunction(() => /SN-9 was measured at \d\d:\d\d/.test(document.querySelector('.of-plan')?.textContent));
+    await hasMarks('good', 'good', 'good');
+    await line('25.012');
+    assert.match(await page.textContent('#entry-note'), /All of SN-9 is measured.*Nothing is stored/);
+    await page.click('.of-plan button'); // after rework it is measured anew
+    await hasMarks(undefined, undefined, undefined);
+    await page.keyboard.press('Escape');
+    const other = await openIn(page.context(), daemon, '#/gauge?plan=4711-A&part_id=SN-9');
+    await other.waitForSelector('.tiles-of-plan li');
+    await known(other);
+    await line('25.011');
+    await other.waitForFunction(() => /SN-9 was measured at/.test(document.querySelector('.of-plan')?.textContent) && document.querySelector('.tiles-of-plan .shape'));
+    assert.deepEqual(other.errors, []);
+    await other.close();
+    await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.013', part_id: 'SN-11', characteristic: 'bore-A', machine: 'M2' });
+    await line('SN-11');
+    await page.waitForFunction(() => /SN-11 was measured at .*M2/.test(document.querySelector('.of-plan')?.textContent));
+    assert.match(await page.textContent('.tiles-of-plan [aria-current]'), /bore-A/, 'nobody measures another characteristic unawares');
+    await close(page);
+  });
+});

@@ -1,0 +1,78 @@
+/** The state of every value against a model: drawn sequences of values, answers, outages, reloads, corrections and tabs. */
+
+import assert from 'node:assert/strict';
+import { describe, it } from 'node:test';
+
+import { Ledger } from '../../../clients/web/gauge/ledger.js';
+import { Desk } from './support/desk.mjs';
+
+const SEQUENCES = process.env.TESTS_DEEP ? 10000 : 300;
+const STEPS = 40;
+
+/** Runs one sequence. @throws with its seed and steps where the record and the screen differ */
+function run(seed, Kind) {
+  const desk = new Desk(seed, Kind);
+  try {
+    for (let i = 0; i < STEPS; ++i) desk.step();
+    desk.settle();
+  } catch (problem) {
+    problem.message = `seed ${seed}, ${desk.steps.join(' ')}: ${problem.message}`;
+    throw problem;
+  }
+  return desk;
+}
+
+/** How many of the first sequences find a difference in a ledger that is wrong. */
+const found = (Kind) => Array.from({ length: 100 }, (_, seed) => seed).filter((seed) => {
+  try {
+    run(seed, Kind);
+    return false;
+  } catch (problem) {
+    if (problem instanceof assert.AssertionError) return true;
+    throw problem;
+  }
+}).length;
+
+describe('the ledger', () => {
+  it(`agrees with the record in ${SEQUENCES} sequences`, () => {
+    let done = 0;
+    let corrected = 0;
+    for (let seed = 0; seed < SEQUENCES; ++seed) {
+      const desk = run(seed);
+      done += desk.said.size;
+      corrected += desk.service.records.filter((record) => record.correction_of).length;
+    }
+    assert.ok(done > SEQUENCES && corrected > SEQUENCES, `${done} reactions done, ${corrected} corrections`);
+  });
+
+  it('is found out where it forgets what a correction is of', () => {
+    assert.ok(found(class extends Ledger { taken(key, shown) { super.taken(key, shown); } }) > 10);
+  });
+
+  it('is found out where it forgets what was done', () => {
+    assert.ok(found(class extends Ledger { said(value) { return { ...super.said(value), cause: undefined }; } done() {} }) > 10);
+  });
+
+  it('is found out where a refused correction stays', () => {
+    assert.ok(found(class extends Ledger { refused() {} }) > 10);
+  });
+
+  it('is found out where it does not hear of another tab', () => {
+    assert.ok(found(class extends Ledger { hear() {} }) > 10);
+  });
+
+  it('keeps what is not done when it forgets the oldest', () => {
+    const desk = new Desk(1);
+    const [{ ledger }] = desk.tabs;
+    const shown = { measured: '25', plan: 'P', part_id: 'SN', characteristic: 'bore', reaction: 'Stop', at: 0 };
+    ledger.taken('first', { ...shown, verdict: 'reject' });
+    ledger.stored('first', shown, { id: 'r', verdict: 'reject' });
+    for (let i = 0; i < 1000; ++i) {
+      ledger.taken(`k${i}`, { ...shown, verdict: 'good' });
+      ledger.stored(`k${i}`, shown, { id: `r${i}`, verdict: 'good' });
+    }
+    assert.equal(ledger.get('k0'), undefined);
+    assert.deepEqual(ledger.open.map(({ key }) => key), ['first']);
+    assert.ok(Object.keys(desk.storage).filter((name) => name.startsWith('fitgauge.value.')).length <= 400);
+  });
+});
