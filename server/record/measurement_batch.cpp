@@ -53,6 +53,7 @@ Result<void> decode_json(std::string_view body, const BatchContext& context,
     if (row == kMostRows) return false;
     reader.begin(row++);
     read_row(item, reader, batch);
+    if (!errors.empty()) batch.rows.clear();  // none is stored
     take_full(batch, context, errors);
     return true;
   });
@@ -173,7 +174,9 @@ Result<void> decode_measurements(std::string_view body, std::string_view media_t
   if (media_type == "text/csv") return decode_csv(body, context, batch);
   if (media_type == "application/x-ndjson") return decode_ndjson(body, context, batch);
   FieldErrors errors;
+  if (context.is_exact) return decode_json(body, context, batch);
   if (read_body_fast(body, context, batch, errors)) return finish(errors);
+  if (batch.has_too_many) return too_many_rows();
   batch.wants_whole = batch.is_begun;
   if (batch.wants_whole) return Error{ErrorCode::RequestInvalid, "the body is to be read whole"};
   return decode_json(body, context, batch);

@@ -24,6 +24,7 @@ struct MeasurementBatch {
   /// The fast reader had delivered rows before it met an error or an escaped key. The caller
   /// discards them and decodes the whole body without `take`.
   bool wants_whole = false;
+  bool has_too_many = false;  ///< more than kMostRows
 
   /// Keeps a text that the body has in another form.
   std::string_view keep(std::string_view text) {
@@ -44,6 +45,8 @@ struct BatchContext {
   const GaugeBook* gauges = nullptr;         ///< those in use; null: none
   /// Takes rows away as soon as there are kRowsAtATime, while none was wrong.
   std::function<void(std::vector<app::Measurement>)> take{};
+  /// Finds every error in its place, also with `take`.
+  bool is_exact = false;
 };
 
 /// For the readers of each format, after every row: lets `take` have the rows when there are

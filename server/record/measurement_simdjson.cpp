@@ -120,7 +120,8 @@ bool read_array(std::string_view body, ondemand::document& document, Measurement
   std::size_t row = 0;
   for (auto element : array) {
     ondemand::object object;
-    if (row == kMostRows || element.get_object().get(object) != simdjson::SUCCESS) return false;
+    batch.has_too_many = row == kMostRows;
+    if (batch.has_too_many || element.get_object().get(object) != simdjson::SUCCESS) return false;
     reader.begin(row++);
     if (!read_fields(object, reader, batch)) return false;
     if (row == 1) make_room(body, document, context, batch);

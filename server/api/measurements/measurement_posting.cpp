@@ -77,6 +77,14 @@ Result<void> judge_while_recording(const SharedPosting& posting) {
       posting->services.measurements.record_while_reading(read, posting->scope, rendering);
   // The exact reader runs outside the job, so the writer is free for other requests meanwhile.
   if (batch.wants_whole) {
+    // Mostly for an error: it is found without holding the rows, which take more than the body.
+    BatchContext context = context_of(*posting, *basis);
+    context.is_exact = true;
+    context.take = [](const std::vector<app::Measurement>&) {};
+    batch = {};
+    const auto judged = decode_measurements(request.body(), request.media_type(), context, batch);
+    if (!judged) return judged.error();
+    batch = {};
     judge_and_record(posting);
     return {};
   }
