@@ -4,15 +4,19 @@ import { forgetKey, getJson, keyInUse, url, useKey } from '../api.js';
 import { h, refill } from '../dom.js';
 import { explain, t } from '../i18n.js';
 import { queue } from '../queue.js';
+import { forget, readStored, store } from '../stored.js';
 
 const KEY = /^fg_[0-9a-f]{64}$/;
 /** Enough of a key to tell it from others, too little to use it. */
 const SHOWN = 7;
+const KEPT_NAME = 'key-name';
 
 export const isBadge = (text) => KEY.test(text);
 
 export class Badge {
-  constructor() {
+  /** @param onIn is told that somebody has logged in */
+  constructor({ onIn }) {
+    this.onIn = onIn;
     this.element = h('p.badge', { role: 'status' });
     this.draw();
   }
@@ -20,7 +24,9 @@ export class Badge {
   /** From here on everything is done with this key, if it is valid. Values that wait are sent with the one before. */
   async take(key) {
     if (queue.size && keyInUse()) return this.draw(t('badge.waiting', { count: queue.size }));
+    if (key !== keyInUse()) forget(KEPT_NAME, 'session');
     useKey(key);
+    this.onIn();
     try {
       await getJson(url(['plans']), { asks: false });
       queue.send();
@@ -30,16 +36,25 @@ export class Badge {
     }
   }
 
+  /** The name of the key in use, as a record has it. */
+  named(caller) {
+    if (!keyInUse() || !caller || caller === readStored(KEPT_NAME, 'session')) return;
+    store(KEPT_NAME, caller, 'session');
+    this.draw();
+  }
+
   draw(problem = '') {
     const key = keyInUse();
+    const name = readStored(KEPT_NAME, 'session');
     this.element.classList.toggle('wrong', problem !== '');
-    refill(this.element, problem, key && h('span', t('badge.in', { key: key.slice(0, SHOWN) })),
+    refill(this.element, problem, key && h('span', name ? t('badge.name', { name, key: key.slice(0, SHOWN) }) : t('badge.in', { key: key.slice(0, SHOWN) })),
       key && h('button.quiet', { type: 'button', onclick: () => this.#out() }, t('badge.out')));
   }
 
   #out() {
     if (queue.size) return this.draw(t('badge.waiting', { count: queue.size }));
     forgetKey();
+    forget(KEPT_NAME, 'session');
     return this.draw();
   }
 }

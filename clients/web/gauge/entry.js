@@ -1,5 +1,5 @@
 /**
- * The one door for keys: whatever is typed or scanned outside another field comes here whole, and is
+ * The one door for keys: whatever is scanned into any field, or typed outside another field, comes here whole, and is
  * read at Enter, Tab or CR LF. An Enter with nothing new typed is the second of a pair (CR LF, a
  * bouncing key) for 300 ms.
  */
@@ -8,26 +8,37 @@ import { designationText } from '../designation.js';
 import { h } from '../dom.js';
 import { LARGEST_NM, mmText, nmFromMm, parseMeasured } from '../exact.js';
 import { number, t } from '../i18n.js';
+import { forget, readStored, store } from '../stored.js';
 import { isBadge } from './badge.js';
-import { BurstWatch, isFar, isReading, readLine } from './reading.js';
+import { BURST_GAP_MS, BurstWatch, gaugeValue, isFar, isReading, mmOfInches, readLine, scannerTest } from './reading.js';
 
 const SECOND_ENTER_MS = 300;
 /** Where characters are typed: what is chosen or ticked takes none of a gauge's. */
 const FIELDS = 'input:not([type="checkbox"], [type="radio"]), textarea, dialog, [contenteditable]';
+/** The fields of the station besides this one: a scan into any of them comes here. */
+const OTHERS = '.station :is(input[type="text"], textarea)';
+const FEWEST_KEYS = 3;
+const KEPT = 'typed';
+/** After such a pause another line begins in a field; a scan that stutters within it is whole, and typed. */
+const PAUSE_MS = 500;
 
 export class Entry {
   /**
    * @param job gives {nominal_nm, limits} or a reason why nothing can be gauged: {reason}
+   * @param gauged gives the same, also where no value is taken now; @param isSize whether a field is that of the size
    * @param prefixes gives what stands before a scan of each field: {part_id: 'P:', …}
    * @param onValue takes {text, correcting}: the exact decimal, and the record it corrects
-   * @param onJob takes a designation, and resolves to whether there is such a one, undefined where nobody can say; @param onField takes (name, text, correcting)
+   * @param onJob takes a designation and whether it was scanned, and resolves to whether there is such a one, undefined where nobody can say
+   * @param onField takes (name, text, correcting); @param isName whether a field of that name is of the job
    * @param onBadge takes a key that was scanned
-   * @param isName tells whether a text names something known, such as a plan; @param onTyped is told of the first character
-   * @param onOpen takes what was typed and is not taken as it is
+   * @param isKnown tells whether a text names something known, such as a plan; @param onTyped is told of the first character
+   * @param onOpen takes what was typed and is not taken as it is, and why; @param onAsk takes {text, question, choices}, null once it is answered
+   * @param onCorrecting takes the record that the next line corrects and what of it, null once it is corrected or left
+   * @param onTest takes what a scanner has made of the test code
    * @param onDropped takes the decimal of a value that was asked about and not kept
    */
-  constructor({ job, prefixes, onValue, onJob, onField, onBadge, isName, onTyped, onOpen, onDropped }) {
-    Object.assign(this, { job, prefixes, onValue, onJob, onField, onBadge, isName, onTyped, onOpen, onDropped });
+  constructor(door) {
+    Object.assign(this, door);
     this.lastEnter = -Infinity;
     this.asked = null;
     this.correcting = null;
@@ -39,20 +50,29 @@ export class Entry {
     });
     this.label = h('label.label', { for: 'value' }, t('entry.label'));
     this.note = h('p.note', { id: 'entry-note', role: 'alert' });
-    this.choices = h('p.actions', { hidden: true });
-    this.element = h('form.entry', { novalidate: true, onsubmit: (event) => this.#enter(event) },
+    this.element = h('form.entry', { id: 'entry', novalidate: true, onsubmit: (event) => this.#enter(event) },
       this.label,
       h('div.line', this.input, h('span.unit', { 'aria-hidden': 'true' }, 'mm'),
         h('button.primary', { type: 'submit' }, t('entry.judge'))),
-      this.note, this.choices);
+      this.note);
   }
 
   focus() {
     this.input.focus();
   }
 
+  /** What was typed and not ended before a reload is there again, and is not stored. */
+  resume() {
+    const typed = readStored(KEPT, 'session');
+    if (!typed) return;
+    this.input.value = typed;
+    this.input.select(); // the next line replaces it
+    this.#say(t('entry.resumed', { typed }));
+  }
+
   /** Sends the keys of the page here that no other field takes. */
   takeKeys(signal) {
+    document.addEventListener('keydown', (event) => this.#watchOthers(event), { signal, capture: true });
     document.addEventListener('keydown', (event) => {
       const writes = event.key.length === 1 && event.key !== ' ' && !event.ctrlKey && !event.altKey && !event.metaKey;
       if (!writes || event.target.closest?.(FIELDS)) return;
@@ -60,6 +80,52 @@ export class Entry {
       this.focus();
       this.#follow(event);
     }, { signal, capture: true });
+  }
+
+  /** A line that came into another field as fast as a scanner types: the field is as it was, and the line comes here. */
+  #watchOthers(event) {
+    const field = event.target.closest?.(OTHERS);
+    const gap = event.timeStamp - (this.scan?.last ?? -Infinity);
+    if (!field || field === this.input) {
+      this.scan = null;
+    } else if (event.key.length === 1 && !event.ctrlKey && !event.metaKey) {
+      if (gap > PAUSE_MS || this.scan?.field !== field) this.scan = { field, before: field.named ?? field.value, text: '', isFast: true };
+      else if (gap > BURST_GAP_MS) this.scan.isFast = false;
+      Object.assign(this.scan, { text: this.scan.text + event.key, last: event.timeStamp });
+    } else if (['Enter', 'Tab'].includes(event.key) && this.scan?.isFast && this.scan.text.length >= FEWEST_KEYS) {
+      const { before, text } = this.scan;
+      const read = readLine(text, { burst: true, prefixes: this.prefixes() });
+      this.scan = null;
+      if (this.isSize(field) && ['job', 'nothing'].includes(read.kind)) return;
+      event.preventDefault();
+      event.stopPropagation();
+      field.value = before;
+      // The second Enter of its pair comes here.
+      this.lastEnter = event.timeStamp;
+      this.unchanged = true;
+      this.focus();
+      this.#scanned(field.name, text.trim(), read, event.getModifierState('CapsLock'));
+    }
+  }
+
+  /** A scan into the field of a name names it, unless it says what else it is. */
+  #scanned(name, text, read, caps) {
+    const isElse = !this.isName(name) || isBadge(text) || this.isKnown(text) || caps || ['error', 'inches', 'test'].includes(read.kind) || (read.kind === 'field' && read.name !== name);
+    if (isElse) return this.take(text, true);
+    if (this.named(text, true) === null) return undefined;
+    if (read.kind === 'doubt') return this.#doubt(text, read.text, name);
+    return this.onField(name, read.kind === 'field' ? read.text : text);
+  }
+
+  /**
+   * The name that a text is in the place of one; null where it is a value, which is judged, or held until Enter where its
+   * line was not ended. @param isWords whether no number is such a name
+   */
+  named(text, ended, isWords = false) {
+    if (!isReading(text, this.gauged()) && !(isWords && gaugeValue(text) !== null)) return text;
+    if (ended) this.take(text);
+    else this.hold(text);
+    return null;
   }
 
   /** Says why what a gauge sent is no value; what is typed meanwhile stays. */
@@ -93,6 +159,7 @@ export class Entry {
   correct(record, what = 'measured_mm') {
     this.#reset();
     this.correcting = { record, what };
+    this.onCorrecting(record, what);
     this.label.textContent = what === 'measured_mm'
       ? t('entry.correcting', { mm: number(mmText(nmFromMm(record.measured_mm))) })
       : t('entry.correcting_part', { part: record.part_id ?? t('part.none') });
@@ -112,7 +179,7 @@ export class Entry {
     this.lastEnter = now;
     if (this.unchanged) {
       if (second) return undefined;
-      if (this.asked) return this.#accept(this.asked);
+      if (this.asked) return this.asked.safe();
     }
     this.unchanged = true;
     return this.#read();
@@ -126,22 +193,25 @@ export class Entry {
     // A scanner's 25H7 comes as 25h7 then: another thing.
     if (burst && this.caps && parseMeasured(typed) === null) return this.#refuse(t('entry.caps'));
     if (this.correcting?.what === 'part_id') return this.#correctPart(typed);
-    if (!this.correcting && parseMeasured(typed) === null && this.isName(typed)) return this.#finish(() => this.onField('part_id', typed));
+    if (!this.correcting && parseMeasured(typed) === null && this.isKnown(typed)) return this.#finish(() => this.onField('part_id', typed));
     const read = readLine(typed, { burst, prefixes: this.prefixes() });
     if (read.kind === 'value') return this.#judge(read.text);
+    if (['error', 'inches'].includes(read.kind)) return this.#refuse(t(`entry.${read.kind}`, { typed }));
+    if (read.kind === 'test') return this.#finish(() => this.onTest(scannerTest(typed)));
     if (this.correcting) return this.#refuse(t('entry.malformed', { typed }));
-    if (read.kind === 'job') return this.#adopt(read);
+    if (read.kind === 'job') return this.#adopt(read, burst);
+    if (read.kind === 'doubt') return this.#doubt(typed, read.text, read.name);
     if (read.kind === 'field') return this.#finish(() => this.onField(read.name, read.text));
     return this.#refuse(t('entry.malformed', { typed }));
   }
 
   /** `25.013in` is written like a size and a class, the number of a part like a thread: the service knows whether there is one. */
-  async #adopt({ text, name }) {
+  async #adopt({ text, name }, scanned) {
     // What is typed until it is known is another line.
     this.#finish(() => {});
     this.adopting = true;
     this.element.setAttribute('aria-busy', true);
-    const known = await this.onJob(text);
+    const known = await this.onJob(text, scanned);
     this.adopting = false;
     this.element.removeAttribute('aria-busy');
     if (known) return;
@@ -185,33 +255,66 @@ export class Entry {
   }
 
   /** Far outside lie a wrong class, a lost point, a gauge in inches, and the number of a part. */
-  #ask(text, { limits, nominal_nm: nominal }) {
-    this.asked = text;
-    this.element.classList.add('asking');
-    this.onOpen(this.input.value.trim());
+  #ask(text, job) {
+    const { limits, nominal_nm: nominal } = job;
     const typed = this.input.value.trim();
-    this.#say(t('entry.ask', { mm: number(text), nominal: limits?.designation ? designationText(limits.designation).replace('Ø ', '') : number(mmText(nominal, 0)) }));
-    const choice = (label, act) => h('button', { type: 'button', onclick: act }, label);
-    this.#offer([
-      choice(t('entry.ask_keep'), () => this.#accept(text)),
-      !this.correcting && choice(t('entry.ask_part', { part: typed }), () => {
-        this.onDropped(text);
-        this.#finish(() => this.onField('part_id', typed));
-      }),
-      choice(t('entry.ask_drop'), () => this.#drop()),
+    const mm = mmOfInches(text);
+    const size = limits?.designation ? designationText(limits.designation) : number(mmText(nominal, 0));
+    this.#question(t('entry.ask', { mm: number(text), size }), text, [
+      { label: t('entry.ask_drop'), act: () => this.#drop() },
+      !isFar(nmFromMm(mm), job) && { label: t('entry.ask_inches', { mm: number(mm) }), act: () => this.#answer(text, () => this.#accept(mm)) },
+      !this.correcting && { label: t('entry.ask_part', { part: typed }), act: () => this.#answer(text, () => this.#finish(() => this.onField('part_id', typed))) },
+      { label: t('entry.ask_keep', { mm: number(text) }), act: () => this.#answer(null, () => this.#accept(text)) },
     ]);
+  }
+
+  /** A scan that may have come through another layout of keys, or is an address. */
+  #doubt(typed, text, name) {
+    this.input.value = typed;
+    this.#question(t('entry.doubt', { part: text }), null, [
+      { label: t('entry.doubt_no'), act: () => this.#drop() },
+      { label: t('entry.ask_part', { part: text }), act: () => this.#answer(null, () => this.#finish(() => this.onField(name, text))) },
+    ]);
+  }
+
+  /** The first choice is the safe one: Enter takes it. @param dropped the value that is not kept then */
+  #question(question, dropped, choices) {
+    const given = choices.filter(Boolean);
+    this.asked = { dropped, safe: given[0].act };
+    this.unchanged = true;
+    this.element.classList.add('asking');
+    this.onAsk({ text: this.input.value.trim(), question, choices: given });
+    this.#say(t('entry.ask_how'));
     this.input.select();
+    this.focus();
+  }
+
+  #answer(dropped, act) {
+    this.asked = null;
+    this.onAsk(null);
+    if (dropped) this.onDropped(dropped);
+    act();
+    this.focus();
   }
 
   #drop() {
-    if (this.asked) this.onDropped(this.asked);
+    this.#withdraw();
     this.#reset();
     this.focus();
   }
 
+  /** A question that nobody answers keeps nothing. */
+  #withdraw() {
+    if (!this.asked) return;
+    const { dropped } = this.asked;
+    this.asked = null;
+    this.onAsk(null);
+    if (dropped) this.onDropped(dropped);
+  }
+
   #refuse(reason) {
     this.element.classList.add('refusing');
-    if (this.input.value.trim()) this.onOpen(this.input.value.trim());
+    if (this.input.value.trim()) this.onOpen(this.input.value.trim(), reason);
     this.#say(reason);
     this.input.select();
     this.#forgetKeys();
@@ -220,10 +323,9 @@ export class Entry {
   #typed() {
     this.unchanged = false;
     if (this.input.value) this.onTyped();
+    if (!/^fg_/.test(this.input.value)) store(KEPT, this.input.value, 'session');
     if (this.input.value === '') this.#forgetKeys();
-    if (this.asked) this.onDropped(this.asked);
-    this.asked = null;
-    this.#offer([]);
+    this.#withdraw();
     this.element.classList.remove('asking', 'refusing');
     this.#say(this.correcting ? t(`entry.correct_how.${this.correcting.what}`) : '');
   }
@@ -252,20 +354,16 @@ export class Entry {
   }
 
   #reset() {
-    this.asked = null;
+    this.#withdraw();
+    if (this.correcting) this.onCorrecting(null);
     this.correcting = null;
     this.unchanged = false;
     this.input.value = '';
+    forget(KEPT, 'session');
     this.#forgetKeys();
-    this.#offer([]);
     this.label.textContent = t('entry.label');
     this.element.classList.remove('asking', 'refusing', 'correcting');
     this.#say('');
-  }
-
-  #offer(choices) {
-    this.choices.replaceChildren(...choices.filter(Boolean));
-    this.choices.hidden = choices.length === 0;
   }
 
   #say(text) {

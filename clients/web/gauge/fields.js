@@ -28,10 +28,10 @@ export function textField(name, onchange, attributes = {}) {
 export class Fields {
   /**
    * @param given {field: text}
-   * @param isReading tells whether a text is a value of the gauge; @param onReading takes it, and whether its line was ended by a key
+   * @param named the door for keys: takes a text and whether its line was ended by a key; gives the name that it is, or null for none
    */
-  constructor(given, { onChange, isReading, onReading }) {
-    Object.assign(this, { onChange, isReading, onReading });
+  constructor(given, { onChange, named }) {
+    Object.assign(this, { onChange, named });
     this.inputs = Object.fromEntries(FIELDS.map((name) => [name, textField(name, () => this.#changed(name), {
       onkeydown: ({ key }) => { this.ended = ['Enter', 'Tab'].includes(key); },
     })]));
@@ -63,14 +63,13 @@ export class Fields {
   /** A gauge that typed into the field of a name has named nothing. */
   #changed(name) {
     const input = this.inputs[name];
-    const text = this.of(name);
-    if (!this.isReading(text)) {
-      input.named = text;
-      this.onChange();
-      return;
-    }
+    const typed = this.of(name);
+    // A value that is judged here belongs to the name that was there.
     input.value = input.named;
-    this.onReading(text, this.ended);
+    const text = this.named(typed, this.ended);
+    if (text === null) return;
+    this.set(name, text);
+    this.onChange();
   }
 
   /** {field: text} of them all. */

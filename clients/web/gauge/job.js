@@ -11,7 +11,6 @@ import { limitsAtHand, limitsOf } from './held.js';
 import { gaugeInUse, gaugeText } from './in_use.js';
 import { designationOf } from './plan.js';
 import { Prefixes } from './prefixes.js';
-import { isReading } from './reading.js';
 import { Rule } from './rule.js';
 
 const ECHO_MS = 150;
@@ -24,9 +23,9 @@ export class Job {
   /**
    * @param choices what else stands among the fields
    * @param onChange is told of every change, with whether another thing is gauged now; @param onDone when Enter ends the typing
-   * @param onReading takes a value that was typed where a name goes, and whether its line was ended
+   * @param named takes a text that was typed where a name goes, and whether its line was ended; gives the name, null for none
    */
-  constructor({ designation, options, choices, onChange, onDone, onReading }) {
+  constructor({ designation, options, choices, onChange, onDone, named }) {
     this.onChange = onChange;
     this.limits = null;
     this.reason = '';
@@ -36,7 +35,7 @@ export class Job {
     });
     this.input.value = designation;
     this.echo = h('p.echo', { id: 'echo', role: 'status' });
-    this.fields = new Fields(options, { onChange: () => this.#changed(), isReading: (text) => isReading(text, this.current()), onReading });
+    this.fields = new Fields(options, { onChange: () => this.#changed(), named });
     this.rule = new Rule(options, { onChange: () => this.#changed(), onRule: () => this.#ruleChanged() });
     this.prefixes = new Prefixes();
     this.side = h('select', { name: 'feature', onchange: () => this.#show(this.read, this.reason) },

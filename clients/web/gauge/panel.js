@@ -4,7 +4,7 @@ import { designationText } from '../designation.js';
 import { h } from '../dom.js';
 import { number, t } from '../i18n.js';
 import { limitStrip } from '../figures/limit_strip.js';
-import { distanceText, measuredText, verdictShape } from '../verdict.js';
+import { distanceText, limitsText, measuredText, verdictShape } from '../verdict.js';
 import { sound } from './sound.js';
 
 /** Long words get a smaller size, so that none is broken. */
@@ -77,6 +77,32 @@ export class Panel {
     ]);
   }
 
+  /** All of a part is measured: the worst of it, with what is not good by its name, as large as the verdict of a value. */
+  part({ part, verdict, bad, count, newest, isStored }) {
+    const { record, shown } = newest.value;
+    const measured = record ? measuredText(record) : number(shown.measured);
+    const names = bad.map((one) => `${one.name} ${t(`verdict.${one.verdict}`)}`);
+    this.#show(verdict, [
+      verdictShape(verdict),
+      h('div.said', word(t(`verdict.${verdict}`)), h('p.measured', [part && t('panel.part', { part }), ...names].filter(Boolean).join(' · ')),
+        !names.length && h('p.distance', t('plan.finished', { count })),
+        h('p.distance', [`${newest.name} ${measured} mm`, names.length && t(`verdict.${newest.verdict}`), record && distanceText(record)].filter(Boolean).join(' · '))),
+    ].filter(Boolean), isStored ? undefined : 'away');
+    this.isOfPart = true;
+  }
+
+  /** The next line corrects a record: the verdict on it gives way, until it is corrected or left. @param what `measured_mm` or `part_id` */
+  correcting(record, what) {
+    const { last } = this;
+    this.#show('correcting', [
+      verdictShape('open'),
+      h('div.said', word(what === 'measured_mm' ? t('panel.correcting', { mm: measuredText(record) }) : t('panel.correcting_part', { part: record.part_id ?? t('part.none') })),
+        about(record), h('p.measured', what === 'measured_mm' ? limitsText(record) : `${measuredText(record)} mm`), h('p.distance', t(`entry.correct_how.${what}`))),
+    ]);
+    this.asking = true;
+    this.missed = last && (() => this.#show(...last));
+  }
+
   refused(shown, reason) {
     this.#show('refused', [
       verdictShape('open'),
@@ -85,17 +111,60 @@ export class Panel {
     ]);
   }
 
-  /** A value was typed that is asked about or not taken: no verdict may stand for it. */
-  open(typed) {
+  /** A line was typed that is not taken: no verdict may stand for it. @param why */
+  open(typed, why) {
     this.of = undefined;
     this.#show('open', [
       verdictShape('open'),
-      h('div.said', word(t('panel.open')), h('p.measured', typed), h('p.distance', t('panel.open_how'))),
+      h('div.said', word(t('panel.open')), h('p.measured', typed), h('p.distance', why)),
+    ]);
+  }
+
+  /** A question about a line: it stays until it is answered, and what became of other values meanwhile is shown then. */
+  ask({ text, question, choices }) {
+    this.of = undefined;
+    this.missed = undefined;
+    this.asking = false;
+    this.#show('open', [
+      h('div.said', h('p.question', question), !question.includes(text) && h('p.measured', text)),
+      h('p.answers', choices.map(({ label, act }, i) => h(i ? 'button' : 'button.primary', { type: 'button', onclick: act }, label))),
+    ]);
+    this.asking = true;
+  }
+
+  /** @returns whether something was missed that is shown now */
+  answered() {
+    const { missed } = this;
+    this.asking = false;
+    this.missed = undefined;
+    missed?.();
+    return missed !== undefined;
+  }
+
+  /** Another size is gauged by a scan, which nobody may have meant. */
+  size(limits) {
+    this.#show('idle', [word(t('panel.size', { size: designationText(limits.designation) })), limitStrip(limits)]);
+  }
+
+  /** How a scanner sends the test code: {before, wrong}. @param field that is named by what stands before it */
+  scanner({ before, wrong }, field) {
+    const said = wrong.map(([wanted, came]) => t('scanner.wrong_key', { wanted: wanted || '–', came: came || '–' }));
+    this.of = undefined;
+    this.#show('open', [
+      verdictShape(wrong.length ? 'rework' : 'good'),
+      h('div.said', word(t(wrong.length ? 'scanner.wrong' : 'scanner.right')), before && h('p.measured', t('scanner.before', { before, field: field ?? t('scanner.no_field') })),
+        h('p.distance', wrong.length ? [...said.slice(0, 3), t('scanner.layout')].join(' · ') : t('scanner.right_how'))),
     ]);
   }
 
   /** @param provisional why it is not stored: `away`, or `storing`, which passes before it can be read out */
   #show(state, children, provisional) {
+    if (this.asking) {
+      this.missed = () => this.#show(state, children, provisional);
+      return;
+    }
+    this.last = [state, children, provisional];
+    this.isOfPart = false;
     this.state = state;
     this.element.dataset.verdict = state;
     if (provisional) this.element.dataset.provisional = provisional;

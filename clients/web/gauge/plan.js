@@ -15,6 +15,7 @@ import { Samples } from './samples.js';
 const KEPT_LIST = 'plans';
 const KEPT_STATE = 'plan-at';
 const LONGEST_SLEEP_MS = 60000;
+const WORST_FIRST = ['reject', 'rework', 'indeterminate', 'good'];
 
 const given = (um) => (um === undefined ? undefined : nmFromUm(um));
 
@@ -237,6 +238,20 @@ export class Plan {
   /** Without a name the next value is of the next part, if something is due there. */
   get #idle() {
     return this.#standing(this.at).due ? '' : t('plan.nothing_first');
+  }
+
+  /** How the part is when all is measured, by its worst value; null before that, and while one has no verdict. */
+  get result() {
+    if (!this.finished || this.subject !== this.subjectNow() || !this.#isBegun) return null;
+    const measured = this.plan.characteristics.map(({ name }, at) => ({ name, value: this.#valueOf(at) })).filter(({ value }) => value)
+      .map(({ name, value }) => ({ name, value, verdict: this.ledger.verdictOf(value) }));
+    const verdict = WORST_FIRST.find((word) => measured.some((each) => each.verdict === word));
+    if (measured.some((each) => !each.verdict)) return null;
+    const newest = measured.reduce((one, other) => (other.value.seq > one.value.seq ? other : one));
+    return {
+      part: this.subject, verdict, bad: measured.filter((each) => each.verdict !== 'good'), count: measured.length, newest,
+      isStored: measured.every(({ value }) => value.record),
+    };
   }
 
   #clear() {

@@ -4,7 +4,7 @@ import { field, h } from '../dom.js';
 import { t } from '../i18n.js';
 import { readJson, store } from '../stored.js';
 import { textField } from './fields.js';
-import { PREFIXES } from './reading.js';
+import { PREFIXES, TEST_CODE } from './reading.js';
 
 const KEPT = 'prefixes';
 
@@ -15,12 +15,18 @@ export class Prefixes {
       if (this.inputs[name]) this.inputs[name].value = prefix;
     }
     this.element = h('fieldset.fields', h('legend.label', t('job.prefixes')),
-      Object.entries(this.inputs).map(([name, input]) => field(t(`field.${name}`), input)));
+      h('p.hint', t('scanner.test'), ' ', h('code', TEST_CODE)), Object.entries(this.inputs).map(([name, input]) => field(t(`field.${name}`), input)));
   }
 
   /** {field: prefix} */
   get texts() {
     return Object.fromEntries(Object.entries(this.inputs).map(([name, input]) => [name, input.value.trim()]));
+  }
+
+  /** The field that a text before a scan names, for people. */
+  fieldOf(before) {
+    const [name] = Object.entries(this.texts).find(([, prefix]) => prefix && prefix.toLowerCase() === before.trim().toLowerCase()) ?? [];
+    return name && t(`field.${name}`);
   }
 
   #keep() {

@@ -13,9 +13,9 @@ const KEPT_CATALOGUE = 'catalogue';
 const PARTS = ['cause', 'measure'];
 
 export class Reactions {
-  /** @param ledger the values and their state; @param operator who says it; @param onDone is told when nothing is left to be done */
-  constructor({ ledger, operator, onDone }) {
-    Object.assign(this, { ledger, operator, onDone });
+  /** @param ledger the values and their state; @param operator who says it; @param named the door for keys, as of a name; @param onDone is told when nothing is left to be done */
+  constructor({ ledger, operator, named, onDone }) {
+    Object.assign(this, { ledger, operator, named, onDone });
     this.element = h('section.reactions', { role: 'alert', 'aria-label': t('reaction.label') });
     this.draw();
   }
@@ -75,8 +75,13 @@ export class Reactions {
 
   /** What the catalogue offers as large as a gloved finger, and a field for what it does not. */
   #choice(value, { part, choices }) {
+    const take = () => {
+      const text = own.value.trim();
+      own.value = '';
+      if (text) this.#say(value, part, this.named(text));
+    };
     const own = h('input', { type: 'text', name: part, maxlength: 200, autocomplete: 'off', 'aria-label': t(`note.${part}`), placeholder: t('reaction.other') });
-    return h('form.catalogue', { onsubmit: (event) => { event.preventDefault(); this.#say(value, part, own.value.trim()); } },
+    return h('form.catalogue', { onsubmit: (event) => { event.preventDefault(); take(); } },
       h('p.label', t(`reaction.${part}`)),
       h('div.choices-of', choices.map((text) => h('button', { type: 'button', onclick: () => this.#say(value, part, text) }, text))),
       h('div.line', own, h('button', { type: 'submit' }, t('reaction.take'))));

@@ -6,12 +6,11 @@
 import { field, h } from '../dom.js';
 import { t } from '../i18n.js';
 import { readStored, store } from '../stored.js';
+import { GAUGE_LINE } from './reading.js';
 
 const KEPT_BAUD = 'serial-baud';
 const KEPT_PATTERN = 'serial-pattern';
 const BAUDS = [1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200];
-/** Plain decimals in mm, and those of Digimatic adapters (01A+0025.013). */
-const PATTERN = '^(?:\\d\\dA)?\\s*([+-]?\\d+(?:[.,]\\d+)?)\\s*(?:mm)?$';
 const LONGEST_LINE = 200;
 /** What begins in a silence of so many ms begins a line: anything else, where reading begins, may be the end of one. */
 const SILENCE_MS = 200;
@@ -32,7 +31,7 @@ export class SerialGauge {
     this.baud = h('select', { name: 'serial_baud', onchange: () => store(KEPT_BAUD, this.baud.value) },
       BAUDS.map((baud) => h('option', { value: baud, selected: String(baud) === (readStored(KEPT_BAUD) ?? '9600') }, String(baud))));
     this.pattern = h('input', { type: 'text', name: 'serial_pattern', autocomplete: 'off', spellcheck: 'false', onchange: () => this.#keepPattern() });
-    this.pattern.value = readStored(KEPT_PATTERN) ?? PATTERN;
+    this.pattern.value = readStored(KEPT_PATTERN) ?? GAUGE_LINE;
     this.button = h('button', { type: 'button', onclick: () => (this.port ? this.#close() : this.#choose()) });
     this.state = h('p.aside', { role: 'status' });
     this.element = h('fieldset.fields', { hidden: !navigator.serial }, h('legend.label', t('serial.title')),
@@ -44,7 +43,7 @@ export class SerialGauge {
   }
 
   #keepPattern() {
-    if (!this.pattern.value.trim()) this.pattern.value = PATTERN;
+    if (!this.pattern.value.trim()) this.pattern.value = GAUGE_LINE;
     store(KEPT_PATTERN, this.pattern.value);
     this.#say(this.#expression() ? '' : t('serial.bad_pattern'));
   }

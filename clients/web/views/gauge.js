@@ -34,18 +34,31 @@ export function mount(main, route) {
   const panel = new Panel();
   /** Why no value is taken now; '' where one is. */
   const reason = () => reactions.reason || (plan.loading ? t('entry.busy') : '') || plan.reason;
-  const badge = new Badge();
-  const reactions = new Reactions({ ledger, operator: () => job.options.operator, onDone: () => entry.focus() });
+  // Who has logged in is the operator: the record names the badge, and no name of the one before.
+  const badge = new Badge({ onIn: () => {
+    job.set('operator', '');
+    next();
+  } });
+  const reactions = new Reactions({ ledger, operator: () => job.options.operator, named: (text) => entry.named(text, true, true), onDone: () => entry.focus() });
   const entry = new Entry({
     job: () => (reason() ? { reason: reason() } : job.current()),
+    gauged: () => job.current(),
+    isSize: (field) => field === job.input,
     prefixes: () => job.prefixes.texts,
     onValue: (value) => post(value),
-    onJob: (designation) => job.adopt(designation),
+    onJob: (designation, scanned) => adopt(designation, scanned),
     onField: (name, text, correcting) => (correcting ? correct(correcting, String(correcting.measured_mm), { [name]: text }) : setField(name, text)),
     onBadge: (key) => badge.take(key),
-    isName: (text) => plan.knows(text),
+    isKnown: (text) => plan.knows(text),
+    isName: (name) => FIELDS.includes(name),
     onTyped: () => { if (stepped) next(); },
-    onOpen: (typed) => panel.open(typed),
+    onOpen: (typed, why) => panel.open(typed, why),
+    onAsk: (question) => {
+      if (question) panel.ask(question);
+      else if (!panel.answered()) next();
+    },
+    onCorrecting: (record, what) => (record ? panel.correcting(record, what) : panel.answered()),
+    onTest: (result) => panel.scanner(result, job.prefixes.fieldOf(result.before)),
     onDropped: (text) => {
       const key = `dropped-${randomText()}`;
       ledger.dropped(key, shownOf(text), t('recent.dropped_why'));
@@ -57,7 +70,7 @@ export function mount(main, route) {
   const job = new Job({
     designation: route.path[0] ?? '', options: route.options, choices: [soundChoice(), pad.choice, serial.element],
     onChange: (another) => jobChanged(another), onDone: () => entry.focus(),
-    onReading: (text, ended) => (ended ? entry.take(text) : entry.hold(text)),
+    named: (text, ended) => entry.named(text, ended),
   });
   const recent = new Recent({ ledger, onCorrect: (record, what) => entry.correct(record, what), leaving: leaving.signal });
   const arrivals = new Arrivals(leaving.signal);
@@ -70,10 +83,25 @@ export function mount(main, route) {
   });
   let stepped = false;
 
+  /** The last value of a part is judged: its verdict gives way to that of the part. */
+  function sayPart() {
+    const result = plan.result;
+    if (result) panel.part(result);
+  }
+
   const next = () => {
     stepped = false;
-    panel.next({ limits: job.limits, part: job.part, step: plan.what, finished: plan.finished });
+    if (plan.result && job.part) return sayPart();
+    return panel.next({ limits: job.limits, part: job.part, step: plan.what, finished: plan.finished });
   };
+
+  /** A scan that changes the size says so: the number of a part may look like one. */
+  async function adopt(designation, scanned) {
+    const before = job.limits?.designation;
+    const known = await job.adopt(designation);
+    if (known && scanned && job.limits?.designation && job.limits.designation !== before) panel.size(job.limits);
+    return known;
+  }
 
   async function choosePlan(part, again) {
     if (!await plan.load(part, again)) return;
@@ -144,6 +172,7 @@ export function mount(main, route) {
     const subgroup = plan.sample;
     stepped = Boolean(plan.current);
     plan.step(send(url(['measurements']), bodyOf(text, subgroup), { ...shownOf(text), subgroup, ...plan.begun() }));
+    if (!connection.up) sayPart();
     return undefined;
   }
 
@@ -176,11 +205,15 @@ export function mount(main, route) {
   queue.addEventListener('stored', ({ detail: { entry: { key, shown }, record } }) => {
     recent.add(key);
     plan.samples.take(record);
+    badge.named(record.caller);
     if (shown.late) arrivals.stored(record);
     // A verdict that comes late is no verdict of what is gauged now. What was not seen and is not good is shown all the same.
     const isSeen = record.verdict === 'good' || record.verdict === shown.verdict;
-    if (!shown.late) panel.judged(record, panel.of !== key && isSeen);
-    else if (!queue.values.length) next();
+    if (!shown.late) {
+      const isOvertaken = panel.of !== key && isSeen;
+      panel.judged(record, isOvertaken);
+      if (!isOvertaken) sayPart();
+    } else if (!queue.values.length) next();
   }, { signal });
   queue.addEventListener('refused', ({ detail: { entry: { key, of, shown }, problem } }) => {
     const reason = explain(problem);
@@ -194,6 +227,9 @@ export function mount(main, route) {
     recent.draw(value);
     reactions.draw();
     plan.changed(value, elsewhere);
+    if (!panel.isOfPart) return;
+    if (plan.result) sayPart();
+    else next();
   }, { signal });
   function sayUnkept() {
     unkept.textContent = connection.up || (isKept() && queue.isKept) ? '' : t(isKept() ? 'gauge.unstored' : 'gauge.unkept');
@@ -222,6 +258,7 @@ export function mount(main, route) {
   main.replaceChildren(h('div.gauge', h('h1.unseen', { tabindex: -1 }, t('view.gauge')),
     h('div.station', plan.element, job.element, pad.element, entry.element, badge.element, unkept, reactions.element, arrivals.element, panel.element), recent.element));
   remember('gauge');
+  entry.resume();
   job.start(leaving.signal);
   follow(leaving.signal, ({ type, data }) => {
     if (type === 'measurement.recorded') {

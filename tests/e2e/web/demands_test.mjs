@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { before, beforeEach, describe, it } from 'node:test';
 
-import { close, open, openIn } from './support/browser.mjs';
+import { close, findings, open, openIn, picture } from './support/browser.mjs';
 import { eventually } from './support/eventually.mjs';
 import { hold } from './support/hold.mjs';
 import { known, scan } from './support/scanner.mjs';
@@ -129,6 +129,43 @@ describe('what a value demands', () => {
     await page.waitForFunction(() => document.querySelectorAll('.recent .stored').length === 3);
     assert.deepEqual(await page.$$eval('.recent li .aside:nth-of-type(3)', (all) => all.map((each) => each.textContent.replace(/ · \d\d:\d\d:\d\d$/, ''))),
       ['SN-7 · length · 119.700 to 120.300 mm', 'SN-7 · bore-B · Ø 40 H8', 'SN-7 · bore-A · Ø 25 H7']);
+    await close(page);
+  });
+
+  it('ends a plan with the verdict of the part, as large as that of a value, with the service and without', async () => {
+    await station('SN-6001');
+    const size = () => page.$eval('.verdict .word', (word) => getComputedStyle(word).fontSize);
+    await line('25.012');
+    await verdict('good');
+    const large = await size();
+    await line('40.05');
+    await verdict('reject');
+    await line('120.1');
+    const says = (source) => page.waitForFunction((text) => new RegExp(text).test(document.querySelector('.verdict').textContent), source);
+    await says('RejectPart SN-6001 · bore-B Rejectlength 120.100 mm · Good');
+    assert.deepEqual([await page.getAttribute('.verdict', 'data-verdict'), await size() <= large], ['reject', true]);
+    await picture(page, 'gauge-part-verdict');
+    await page.waitForFunction(() => document.querySelectorAll('.recent .stored .fix').length === 3);
+    await page.click('.recent li:nth-child(2) .fix button'); // the reject was a slip of the gauge
+    await page.waitForSelector('.verdict[data-verdict="correcting"]');
+    assert.match(await page.textContent('.verdict'), /Correct 40\.050 mm.*SN-6001 · bore-B · Ø 40 H8.*40\.000 to 40\.039/);
+    assert.notEqual(await page.$eval('.verdict', (panel) => getComputedStyle(panel).backgroundColor), 'rgb(166, 15, 34)');
+    assert.deepEqual(await findings(page), []);
+    await page.keyboard.press('Escape');
+    await verdict('reject');
+    await page.click('.recent li:nth-child(2) .fix button');
+    await line('40.01');
+    await says('GoodPart SN-6001All 3 measured');
+    await verdict('good');
+    await daemon.stop();
+    await line('SN-6002');
+    await known(page);
+    for (const value of ['25.012', '40.01', '120.9']) await line(value);
+    await verdict('rework', '[data-provisional="away"]');
+    await says('ReworkPart SN-6002 · length Rework');
+    await daemon.start();
+    await isUp();
+    page.errors.length = 0;
     await close(page);
   });
 

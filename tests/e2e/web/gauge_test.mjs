@@ -164,13 +164,18 @@ describe('the gauging station', () => {
     await typeValue('12.4');
     await page.waitForSelector('.entry.asking');
     await sleep(PAIR_MS);
-    await page.keyboard.press('Enter');
+    await page.keyboard.press('Enter'); // the safe answer
+    await verdict('idle');
+    assert.equal(await page.inputValue('#value'), '');
+    assert.match(await page.textContent('.recent li'), /12\.4.*dropped at the question/);
+    await typeValue('12.4');
+    await page.getByRole('button', { name: 'Store 12.4 mm' }).click();
     await verdict('rework');
     await typeValue('25.126');
     await verdict('reject');
     await typeValue('25.1261');
     await page.waitForSelector('.entry.asking');
-    await page.getByRole('button', { name: 'Drop it' }).click();
+    await page.getByRole('button', { name: 'Do not store' }).click();
     await typeValue('26');
     await page.waitForSelector('.entry.asking');
     assert.deepEqual(await measured(), [12.4, 25.126]);

@@ -56,8 +56,9 @@ describe('a plan', () => {
     await verdict('good');
     await progress('3 of 3');
     await line('30.003');
-    await verdict('indeterminate');
     await progress('All 3 measured');
+    await verdict('reject'); // that of the part
+    assert.match(await page.textContent('.verdict'), /Part SN-00017 · bore-A Reject · journal Indeterminate.*journal 30\.003 mm · Indeterminate/);
     await line('SN-00018');
     await progress('1 of 3');
     assert.equal(await page.$$eval('.tiles-of-plan .shape', (shapes) => shapes.length), 0);
@@ -111,7 +112,8 @@ describe('a plan', () => {
     await progress('2 of 2');
     await page.waitForSelector('.echo .figures');
     await line('25.0192');
-    await verdict('good');
+    await page.waitForFunction(() => /likely 25\.0192 mm · Good/.test(document.querySelector('.verdict').textContent));
+    await verdict('indeterminate'); // that of the part
     assert.deepEqual((await daemon.stored()).slice(before).map(({ rule, coverage_factor, verdict: word }) => [rule, coverage_factor, word]),
       [['guard_band', 3, 'indeterminate'], ['conformance', undefined, 'good']]);
     await close(page);

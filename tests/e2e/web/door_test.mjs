@@ -1,0 +1,144 @@
+/** One door for keys: a scan or a gauge that reaches any field of the station is read whole, and never taken for what it is not. */
+
+import assert from 'node:assert/strict';
+import { before, beforeEach, describe, it } from 'node:test';
+
+import { close, findings, open, picture } from './support/browser.mjs';
+import { sleep } from './support/daemon.mjs';
+import { known, PAIR_MS, scan, typeSlowly } from './support/scanner.mjs';
+import { begin, browser, daemon, storedSince } from './support/stage.mjs';
+
+describe('the door for keys', () => {
+  let page;
+
+  before(async () => {
+    await daemon.send('PUT', '/v1/catalogues/turning', { causes: ['Insert worn'], measures: ['Insert changed'] });
+    await daemon.send('PUT', '/v1/plans/4711-A', { characteristics: [{ name: 'bore-A', designation: '25 H7', catalogue: 'turning' }, { name: 'bore-B', designation: '40 H8' }] });
+  });
+  beforeEach(begin);
+
+  const station = async (fragment = '#/gauge/25H7') => {
+    page = await open(browser, daemon, fragment);
+    await known(page);
+    await page.waitForSelector('.echo .figures');
+    await page.focus('#value');
+  };
+  const part = () => page.inputValue('[name="part_id"]');
+  const notes = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('#entry-note').textContent), text.source);
+  const measured = async () => (await storedSince()).map(({ part_id, measured_mm }) => [part_id, measured_mm]);
+  const asks = async (text) => assert.match(await page.textContent('.verdict .question'), text);
+  const stored = (count) => page.waitForFunction((rows) => document.querySelectorAll('.recent li.stored').length === rows, count);
+
+  it('reads what gauges of Mitutoyo, Mahr, Sylvac and Tesa send, wherever the caret is', async () => {
+    await station('#/gauge/25H7?part_id=SN-1');
+    const lines = ['01A+00025.015', '+025.014', '25.013 mm', '1 +25.012 mm =', '+25.011<'];
+    for (const [i, line] of lines.entries()) {
+      if (i % 2) await page.focus('[name="part_id"]');
+      await scan(page, line);
+      await stored(i + 1);
+    }
+    assert.deepEqual(await measured(), [25.015, 25.014, 25.013, 25.012, 25.011].map((mm) => ['SN-1', mm]));
+    for (const [line, why] of [['ERR3', /error of the gauge.*Nothing is stored/], ['0.98476in', /inches.*Nothing is stored/], ['01A-00025.015', /Nothing is stored/]]) {
+      await page.focus('[name="part_id"]');
+      await scan(page, line);
+      await notes(why);
+      assert.equal(await part(), 'SN-1', line);
+      await page.keyboard.press('Escape');
+    }
+    assert.equal((await measured()).length, lines.length);
+    await close(page);
+  });
+
+  it('takes no scan and no value for a cause', async () => {
+    await station('#/gauge?plan=4711-A&part_id=SN-2');
+    await scan(page, '25.03');
+    await page.waitForSelector('.reactions .catalogue');
+    await page.focus('.reactions input');
+    await scan(page, 'SN-6003');
+    assert.equal(await part(), 'SN-6003');
+    await page.focus('.reactions input');
+    await scan(page, '25.012');
+    await notes(/cause and the measure.*Nothing is stored/);
+    await page.focus('.reactions input');
+    await typeSlowly(page, '25.012'); // a gauge with slow keys, while the next size is 40 H8
+    await notes(/cause and the measure.*Nothing is stored/);
+    assert.equal(await page.inputValue('#value'), '25.012');
+    assert.match(await page.textContent('.reactions .label'), /cause/);
+    await page.focus('.reactions input');
+    await typeSlowly(page, 'Chip in the bore');
+    await page.click('text=Insert changed');
+    await page.waitForSelector('.recent .noted');
+    assert.equal(await page.textContent('.recent .noted'), 'Chip in the bore → Insert changed');
+    await close(page);
+  });
+
+  it('asks about a scan that another layout of keys may have made, and names no part by the kind of a code', async () => {
+    await station();
+    await scan(page, ']C1SN-2010');
+    assert.equal(await part(), 'SN-2010');
+    for (const [i, [text, name]] of [['PÖSN-2006', 'PÖSN-2006'], ['SNß2007', 'SNß2007'], ['https://ex.org/p/SN-2011', 'SN-2011']].entries()) {
+      if (i % 2) await page.focus('[name="part_id"]');
+      await scan(page, `${text}\n`); // the second Enter of a pair is no answer
+      await asks(new RegExp(`Is ${name} the part`));
+      assert.equal(await part(), 'SN-2010');
+      await sleep(PAIR_MS);
+      await page.keyboard.press('Enter');
+      await page.waitForSelector('.verdict[data-verdict="idle"]');
+    }
+    assert.equal(await part(), 'SN-2010');
+    await scan(page, 'https://ex.org/p/SN-2011');
+    await page.click('.answers >> text=Part SN-2011');
+    assert.equal(await part(), 'SN-2011');
+    await page.focus('[name="part_id"]');
+    await scan(page, 'O:WO-17'); // its prefix names another field
+    assert.deepEqual([await part(), await page.inputValue('[name="order"]')], ['SN-2011', 'WO-17']);
+    await close(page);
+  });
+
+  it('says in the panel that a scan has changed the size', async () => {
+    await station();
+    await scan(page, '12A9');
+    await page.waitForFunction(() => document.querySelector('.verdict .word')?.textContent === 'Now Ø 12 A9');
+    await close(page);
+  });
+
+  it('stores nothing far outside by Enter, asks large, and offers inches', async () => {
+    await station('#/gauge/25H7?part_id=SN-3');
+    await page.setViewportSize({ width: 1366, height: 768 });
+    await scan(page, '2009');
+    await asks(/2009 mm is far outside Ø 25 H7. Not stored/);
+    const sizes = await page.$eval('.verdict', (panel) => [parseFloat(getComputedStyle(panel.querySelector('.question')).fontSize),
+      ...[...panel.querySelectorAll('.answers button')].map((button) => button.getBoundingClientRect().height), innerHeight - panel.querySelector('.answers').getBoundingClientRect().bottom]);
+    assert.ok(sizes[0] >= 48 && sizes.slice(1, -1).every((height) => height >= 64) && sizes.at(-1) >= 0, sizes.join());
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'gauge-question');
+    await sleep(PAIR_MS);
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('.verdict[data-verdict="idle"]');
+    await scan(page, '0.98476');
+    await page.click('.answers >> text=Inches: store 25.012904 mm');
+    await stored(1);
+    assert.deepEqual(await measured(), [['SN-3', 25.012904]]);
+    // A verdict that comes late waits for the answer.
+    await scan(page, '2009');
+    await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01' });
+    await asks(/2009 mm/);
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('.verdict[data-verdict="idle"]');
+    await close(page);
+  });
+
+  it('says by a test code whether layout and prefix of a scanner are right', async () => {
+    await station();
+    await scan(page, 'FITGAUGE-TEST:Yz_/+09');
+    assert.match(await page.textContent('.verdict'), /Scanner right/);
+    await scan(page, 'P:FITGAUGE-TEST:Yz_/+09');
+    assert.match(await page.textContent('.verdict'), /Scanner right.*P: \(Part\)/);
+    await page.focus('[name="part_id"]');
+    await scan(page, 'FITGAUGEßTESTÖZy?-*09');
+    assert.match(await page.textContent('.verdict'), /Scanner wrong.*- comes as ß · : comes as Ö/);
+    assert.equal(await part(), '');
+    assert.match(await page.textContent('.more'), /FITGAUGE-TEST:Yz_\/\+09/);
+    await close(page);
+  });
+});
