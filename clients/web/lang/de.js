@@ -285,7 +285,6 @@ export default {
   'overview.index': 'Ppk mit 95-%-Intervall',
   'overview.process': 'Prozess',
   'overview.unknown': 'mehrere Maße oder Werte ohne Streuung',
-  'overview.machines': 'Alle Maschinen',
   'overview.characteristics': 'Alle Merkmale',
   'overview.stable': 'Stabil',
   'overview.unstable': 'Nicht stabil',

@@ -285,7 +285,6 @@ export default {
   'overview.index': 'Ppk with its 95 % interval',
   'overview.process': 'Process',
   'overview.unknown': 'several sizes, or values without spread',
-  'overview.machines': 'Every machine',
   'overview.characteristics': 'Every characteristic',
   'overview.stable': 'Stable',
   'overview.unstable': 'Not stable',

@@ -285,7 +285,6 @@ export default {
   'overview.index': 'Ppk con intervallo al 95 %',
   'overview.process': 'Processo',
   'overview.unknown': 'più misure, o valori senza dispersione',
-  'overview.machines': 'Tutte le macchine',
   'overview.characteristics': 'Tutte le caratteristiche',
   'overview.stable': 'Stabile',
   'overview.unstable': 'Non stabile',

@@ -285,7 +285,6 @@ export default {
   'overview.index': 'Ppk met 95 %-interval',
   'overview.process': 'Proces',
   'overview.unknown': 'meerdere maten, of waarden zonder spreiding',
-  'overview.machines': 'Alle machines',
   'overview.characteristics': 'Alle kenmerken',
   'overview.stable': 'Stabiel',
   'overview.unstable': 'Niet stabiel',

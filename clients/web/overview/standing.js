@@ -9,15 +9,19 @@ export const LAST = 100;
 
 /** {count, verdicts, ppk: {value, lower, upper} or undefined, stable: undefined where the values tell nothing} */
 export async function standingOf(filter, signal) {
-  const [{ measurements }, figures] = await Promise.all([
-    getJson(url(['measurements'], { ...filter, last: LAST }), { signal }), figuresOf(filter, signal)]);
+  const { measurements } = await getJson(url(['measurements'], { ...filter, last: LAST }), { signal });
+  const figures = hasSpread(measurements) ? await figuresOf(filter, signal) : null;
   return {
     count: measurements.length, verdicts: countVerdicts(measurements.map((record) => ({ record }))),
     ppk: figures?.ppk?.value == null ? undefined : figures.ppk, stable: figures?.stable,
   };
 }
 
-/** Null where the values have no figures: too few, without spread, or of several sizes. */
+/** Only two different deviations from one size make figures. */
+const hasSpread = (records) => new Set(records.map((record) => record.deviation_um)).size > 1
+  && new Set(records.map((record) => [record.nominal_mm, record.upper_limit_mm, record.lower_limit_mm].join())).size === 1;
+
+/** Null where the values have no figures all the same. */
 async function figuresOf(filter, signal) {
   try {
     return await getJson(url(['measurements', 'capability'], { ...filter, last: LAST, subgroups: 'ignore' }), { signal });

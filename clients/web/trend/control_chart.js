@@ -14,8 +14,8 @@ const VALUES = 300;
 const SPREAD = 98;
 const GAP = 36;
 const AXIS = 46;
-const LEFT = 58;
-const RIGHT = 56;
+const LEFT = 74;
+const RIGHT = 92;
 /** Of the outermost points from the edge. */
 const INSET = 12;
 const HISTOGRAM = 150;
@@ -23,8 +23,10 @@ const HISTOGRAM = 150;
 const WIDE = 620;
 const LETTERING = 13;
 /** Of labels from each other: of times, of control limits, of the numbers of rules. */
-const APART = { time: 150, control: 12, rules: 18 };
+const APART = { time: 150, control: 14, rules: 18, beyond: 70 };
 const LONGEST_PART = 18;
+/** Of the range, so many parts from its edge are a mark beyond it. */
+const EDGE = 30;
 
 /** The inside of a sheet of A4 in CSS pixels (Letter is wider), and how many dots each of them has in print. */
 export const PAPER = { width: 650, dots: 4 };
@@ -41,7 +43,11 @@ const RING = 'M-9 0a9 9 0 1 0 18 0a9 9 0 1 0-18 0';
 const DOT = 'M-2.5 0a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0';
 
 export const umOf = (value) => number(umText(Math.round(value * 100) * 10));
-const clamped = (value, { low, high }) => Math.min(Math.max(value, low), high);
+/** Within the range; what lies beyond it is seen whole at its edge. */
+function clamped(value, { low, high }) {
+  const inset = (high - low) / EDGE;
+  return Math.min(Math.max(value, low + inset), high - inset);
+}
 
 /** A chart that is drawn once and then moves: `show` draws another stretch of it. */
 export class ControlChart {
@@ -101,6 +107,8 @@ export class ControlChart {
     const { points, range, colours, dots, rules } = this;
     const row = { scale: 'nm', data: points.map(({ deviation }) => clamped(deviation, range)) };
     this.row = row;
+    this.firsts = firstsOf(rules);
+    this.beyond = points.flatMap(({ deviation }, i) => (deviation > range.high || deviation < range.low ? [i] : []));
     const of = (verdict) => points.flatMap(({ record }, i) => (record.verdict === verdict ? [i] : []));
     const sides = points[0].members ? [] : ['upper', 'lower'].filter((side) => Number.isFinite(range[side]));
     const limits = [range.upper, range.lower].filter(Number.isFinite);
@@ -110,14 +118,14 @@ export class ControlChart {
       series: [
         ...sides.map((side) => stepped({ scale: 'nm', data: points.map((point) => point[side]) }, dots, { stroke: colours.ink, width: 1.5 })),
         { ...row, stroke: colours.edge, width: dots },
-        marked(row, RING, [...rules.keys()], dots, { stroke: colours.ink, width: 1.75 }),
+        marked(row, RING, this.firsts, dots, { stroke: colours.ink, width: 1.75 }),
         ...Object.entries(MARKS).map(([verdict, shape]) => marked(row, shape, of(verdict), dots, {
           always: verdict !== 'good', fill: colours[verdict], stroke: verdict === 'rework' ? colours.ink : colours.sheet })),
       ],
       axes: [
         ...(own ? this.#controlLines('nm', own, NM_PER_UM, (range.high - range.low) / VALUES) : []),
         line('nm', target, colours.good, 1, [10, 3, 2, 3]),
-        axis({ scale: 'nm', side: 3, size: LEFT, splits: [range.high, ...limits, ...target], values: ['µm', ...[...limits, ...target].map((value) => signed(umText(value)))] }),
+        axis({ scale: 'nm', side: 3, size: LEFT, splits: [range.high, ...limits, ...target], values: ['µm', ...limits.map((value) => `${value === range.upper ? 'U' : 'L'} ${signed(umText(value))}`), ...target.map((value) => `T ${signed(umText(value))}`)] }),
         axis({ scale: 'nm', side: 1, size: RIGHT }),
       ],
     };
@@ -145,11 +153,12 @@ export class ControlChart {
   /** Centre and control limits with their values at the right; none over another. @param unit of the scale in a µm */
   #controlLines(scale, { centre, upper_limit: upper, lower_limit: lower }, unit, perPixel) {
     const { axis, line } = axes(this.dots, this.font, this.colours.soft);
-    const values = [centre, upper, lower].filter((value) => value !== null).map((value) => value * unit);
-    const free = values.filter((value, i) => values.slice(0, i).every((other) => Math.abs(other - value) > APART.control * perPixel));
+    const named = [['CL', centre], ['UCL', upper], ['LCL', lower]].filter(([, value]) => value !== null).map(([name, value]) => ({ name, value: value * unit }));
+    const values = named.map(({ value }) => value);
+    const free = named.filter(({ value }, i) => values.slice(0, i).every((other) => Math.abs(other - value) > APART.control * perPixel));
     const { focus } = this.colours;
     return [line(scale, values.slice(0, 1), focus, 1.25), line(scale, values.slice(1), focus, 1.25, [6, 4]),
-      axis({ scale, side: 1, splits: free, values: free.map((value) => umOf(value / unit)) })];
+      axis({ scale, side: 1, splits: free.map(({ value }) => value), values: free.map(({ name, value }) => `${name} ${umOf(value / unit)}`) })];
   }
 
   /** Time and part. */
@@ -173,10 +182,15 @@ export class ControlChart {
     ctx.save();
     Object.assign(ctx, { font: plot.axes[0].font[0], textAlign: 'center', textBaseline: 'alphabetic', lineJoin: 'round', strokeStyle: colours.sheet, fillStyle: colours.ink, lineWidth: 3 * size });
     ctx.setLineDash([]);
-    for (const [i, x] of inSight(plot, rules.keys(), APART.rules * size)) {
-      const text = [[...rules.get(i)].join(','), x, plot.valToPos(row.data[i], 'nm', true) - 13 * size];
+    const write = (...text) => {
       ctx.strokeText(...text);
       ctx.fillText(...text);
+    };
+    for (const [i, x] of inSight(plot, this.firsts, APART.rules * size)) write([...rules.get(i)].join(','), x, plot.valToPos(row.data[i], 'nm', true) - 13 * size);
+    // What lies beyond the edge: an arrow with how far.
+    for (const [i, x] of inSight(plot, this.beyond, APART.beyond * size)) {
+      const isHigh = this.points[i].deviation > this.range.high;
+      write(`${isHigh ? '▲' : '▼'} ${signed(umText(Math.round(this.points[i].deviation)))}`, x, plot.valToPos(row.data[i], 'nm', true) + (isHigh ? 22 : -14) * size);
     }
     const x = picked === null ? NaN : plot.valToPos(picked, 'x', true);
     if (x >= bbox.left && x <= bbox.left + bbox.width) {
@@ -186,6 +200,12 @@ export class ControlChart {
     }
     ctx.restore();
   }
+}
+
+/** Of points that break the same rules one after the other, the first. */
+function firstsOf(rules) {
+  const textOf = (i) => [...rules.get(i) ?? []].join();
+  return [...rules.keys()].filter((i) => textOf(i) !== textOf(i - 1));
 }
 
 /** {index: rules broken there}, in order, of the chart of the location. */

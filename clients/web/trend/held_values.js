@@ -13,7 +13,7 @@ export class HeldValues {
   /** Stored while the list was read: they may not be in it. */
   #meanwhile = [];
 
-  /** @param of {characteristic, size, count}: '' for every characteristic, and for the size measured last */
+  /** @param of {bar, characteristic, size, count}: the filter bar, '' for every characteristic, and for the size measured last */
   constructor(of, leaving) {
     Object.assign(this, of);
     this.leaving = leaving;
@@ -56,7 +56,7 @@ export class HeldValues {
 
   /** A drawing's own limits have no designation that the service could look for. */
   get #filter() {
-    return { characteristic: this.characteristic, designation: this.size.includes('/') ? '' : this.size };
+    return { ...this.bar.query, characteristic: this.characteristic, designation: this.size.includes('/') ? '' : this.size };
   }
 
   /** A record that was just stored. @returns whether it belongs to what is shown, and was not there */
@@ -66,7 +66,7 @@ export class HeldValues {
   }
 
   #add(record) {
-    const isOther = this.characteristic && record.characteristic !== this.characteristic;
+    const isOther = (this.characteristic && record.characteristic !== this.characteristic) || !this.bar.has(record);
     if (isOther || this.#records.some(({ id, correction_of: old }) => id === record.id || old === record.id)) return false;
     this.sizes.add(sizeOf(record));
     this.size ||= sizeOf(record);

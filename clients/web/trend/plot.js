@@ -14,7 +14,7 @@ document.adoptedStyleSheets = [...document.adoptedStyleSheets, rules];
 
 /** The colours that style sheets give an element now: light or dark, the system's where it forces them, or of paper. */
 export function coloursOf(element) {
-  const probe = element.appendChild(h('i.probe'));
+  const probe = element.appendChild(h('i.colour-of'));
   const colours = Object.fromEntries(COLOURS.map((name) => {
     probe.style.color = `var(--${name})`;
     return [name, getComputedStyle(probe).color];

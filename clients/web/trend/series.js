@@ -5,6 +5,9 @@ import { VERDICTS } from '../verdict.js';
 
 /** Values farther out than this many tolerances are drawn at the edge. */
 const FARTHEST = 3;
+/** A few values, one in so many, that lie beyond half a tolerance outside do not flatten the others: they are at the edge too. */
+const FEW = 30;
+const OUTSIDE = 0.5;
 
 /** What a record was measured against: a size and class, or the limits of a drawing. */
 export const sizeOf = (record) => record.designation
@@ -54,7 +57,11 @@ export function rangeOf(points, others = []) {
   const lower = least(points.map((point) => point.lower));
   const limits = [lower, upper].filter(Number.isFinite);
   const tolerance = Math.max(limits.length === 2 ? upper - lower : Math.abs(limits[0]), 1);
-  const near = [...points.map(({ deviation }) => deviation), ...others].map((deviation) => Math.min(Math.max(deviation, lower - FARTHEST * tolerance), upper + FARTHEST * tolerance));
+  const isOut = ({ deviation }) => deviation > upper + OUTSIDE * tolerance || deviation < lower - OUTSIDE * tolerance;
+  const out = points.filter(isOut).length;
+  const isFew = out > 0 && out <= points.length / FEW;
+  const most = (isFew ? OUTSIDE : FARTHEST) * tolerance;
+  const near = [...points.map(({ deviation }) => deviation), ...others].map((deviation) => Math.min(Math.max(deviation, lower - most), upper + most));
   const high = greatest([...limits, ...near]);
   const low = least([...limits, ...near]);
   const margin = Math.max((high - low) / 12, 1);

@@ -3,6 +3,7 @@
 import { getJson, url } from '../api.js';
 import { field, h, refill } from '../dom.js';
 import { follow } from '../events.js';
+import { FilterBar } from '../filter_bar.js';
 import { explain, number, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { bySeverity, isDoubtful, LAST, standingOf } from '../overview/standing.js';
@@ -18,7 +19,7 @@ export function mount(main, route) {
   const leaving = new AbortController();
   const latest = new Latest(leaving.signal);
   const plan = h('select', { id: 'overview-plan', onchange: () => load() });
-  const machine = h('select', { id: 'overview-machine', onchange: () => load() });
+  const bar = new FilterBar(route.options, () => load());
   const note = h('p.note', { role: 'alert' });
   const rows = h('tbody');
   const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('view.overview') },
@@ -30,31 +31,28 @@ export function mount(main, route) {
   let reading = Promise.resolve();
 
   main.replaceChildren(h('div.desk.overview', h('h1.unseen', { tabindex: -1 }, t('view.overview')),
-    h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('plan.label'), plan), field(t('field.machine'), machine)),
+    h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('plan.label'), plan), bar.element),
     note, h('p.aside', t('overview.what', { count: LAST, fewest: FEWEST })), empty, table));
 
   async function offer() {
-    const [{ plans }, { groups }] = await Promise.all([getJson(url(['plans']), { signal: leaving.signal }),
-      getJson(url(['measurements', 'summary'], { group_by: 'machine' }), { signal: leaving.signal })]);
-    const choices = (select, none, values, chosen) => {
-      const all = [...new Set([...values, chosen].filter(Boolean))];
-      refill(select, h('option', { value: '' }, none), all.map((value) => h('option', { value, selected: value === chosen }, value)));
-    };
-    choices(plan, t('overview.characteristics'), plans.map(({ part }) => part), route.options.plan);
-    choices(machine, t('overview.machines'), groups.map((group) => group.machine), route.options.machine);
+    bar.offer(leaving.signal);
+    const { plans } = await getJson(url(['plans']), { signal: leaving.signal });
+    const chosen = route.options.plan;
+    refill(plan, h('option', { value: '' }, t('overview.characteristics')), [...new Set([...plans.map(({ part }) => part), chosen].filter(Boolean))]
+      .map((value) => h('option', { value, selected: value === chosen }, value)));
   }
 
   /** The names to be shown: those of the plan, or all there are values of. */
   async function namesOf(signal) {
     if (plan.value) return (await getJson(url(['plans', plan.value]), { signal })).characteristics.map(({ name }) => name);
-    const { groups } = await getJson(url(['measurements', 'summary'], { group_by: 'characteristic', machine: machine.value }), { signal });
+    const { groups } = await getJson(url(['measurements', 'summary'], { ...bar.query, group_by: 'characteristic' }), { signal });
     return groups.map(({ characteristic }) => characteristic).filter(Boolean);
   }
 
   const load = () => { reading = read(); return reading; };
 
   async function read() {
-    go({ view: 'overview', options: { plan: plan.value, machine: machine.value } }, { refine: true });
+    go({ view: 'overview', options: { plan: plan.value, ...bar.options } }, { refine: true });
     table.toggleAttribute('data-settled', false);
     try {
       await latest.run(async (signal) => {
@@ -69,7 +67,7 @@ export function mount(main, route) {
     }
   }
 
-  const standingsOf = (names, signal) => Promise.all(names.map((name) => standingOf({ characteristic: name, machine: machine.value }, signal)));
+  const standingsOf = (names, signal) => Promise.all(names.map((name) => standingOf({ ...bar.query, characteristic: name }, signal)));
 
   function draw() {
     const sorted = [...standings].sort(([, one], [, other]) => bySeverity(one, other));
@@ -82,8 +80,9 @@ export function mount(main, route) {
   function arrived(event) {
     if (event.type === 'resync') return load();
     if (event.type !== 'measurement.recorded') return null;
-    const { characteristic, machine: where } = JSON.parse(event.data);
-    if (!characteristic || (machine.value && machine.value !== where) || (plan.value && !standings.has(characteristic))) return null;
+    const record = JSON.parse(event.data);
+    const { characteristic } = record;
+    if (!characteristic || !bar.has(record) || (plan.value && !standings.has(characteristic))) return null;
     changed.add(characteristic);
     timer ||= setTimeout(renew, GATHER_MS);
     return null;
@@ -113,7 +112,7 @@ export function mount(main, route) {
 
   function row(name, standing) {
     return h('tr',
-      h('th', { scope: 'row' }, h('a', { href: fragment({ view: 'trend', options: { characteristic: name } }) }, name)),
+      h('th', { scope: 'row' }, h('a', { href: fragment({ view: 'trend', options: { ...bar.options, characteristic: name } }) }, name)),
       h('td.number', String(standing.count)), h('td', counts(standing)), h('td', indexOf(standing)), h('td', processOf(standing)));
   }
 }

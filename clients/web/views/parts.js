@@ -4,6 +4,7 @@ import { getJson, url } from '../api.js';
 import { designationText } from '../designation.js';
 import { field, h } from '../dom.js';
 import { downloadLink } from '../download.js';
+import { FilterBar } from '../filter_bar.js';
 import { date, dateTime, explain, signed, t, time } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
@@ -13,27 +14,20 @@ import { note } from '../parts/note.js';
 import { runRow } from '../parts/run_row.js';
 import { limitsText, measuredText, noteText, verdictMark, VERDICTS } from '../verdict.js';
 
-const FIELDS = ['part_id', 'order', 'characteristic', 'machine', 'operator', 'cause'];
-const DAYS = ['from', 'to'];
+const FIELDS = ['part_id', 'characteristic', 'cause'];
 const PAGE = 50;
 /** What the service writes a list as, by its `format`. */
 const FORMS = { csv: 'CSV', xlsx: 'Excel', dfq: 'Q-DAS', qif: 'QIF' };
 /** Of the times in a workbook. */
 const ZONE = Intl.DateTimeFormat().resolvedOptions().timeZone ?? '';
 
-/** When a day begins here, or the day after. */
-function beginOf(day, later = 0) {
-  const [year, month, date] = day.split('-').map(Number);
-  return day && new Date(year, month - 1, date + later).toISOString();
-}
-
 export function mount(main, route) {
   const leaving = new AbortController();
   const latest = new Latest(leaving.signal);
   const inputs = Object.fromEntries(FIELDS.map((name) => [name,
     h('input', { type: 'text', name, autocomplete: 'off', spellcheck: 'false', onchange: () => search() })]));
-  for (const name of DAYS) inputs[name] = h('input', { type: 'date', name, onchange: () => search() });
-  for (const name of [...FIELDS, ...DAYS]) inputs[name].value = route.options[name] ?? '';
+  const bar = new FilterBar(route.options, () => search());
+  for (const name of FIELDS) inputs[name].value = route.options[name] ?? '';
   const verdict = h('select', { name: 'verdict', onchange: () => search() }, ['', ...VERDICTS].map((word) =>
     h('option', { value: word, selected: word === (route.options.verdict ?? '') }, word ? t(`verdict.${word}`) : t('parts.any'))));
   const corrected = h('input', { type: 'checkbox', checked: route.options.history === 'all', onchange: () => search() });
@@ -55,17 +49,17 @@ export function mount(main, route) {
 
   main.replaceChildren(h('div.desk.parts', h('h1.unseen', { tabindex: -1 }, t('view.parts')),
     h('form.line', { onsubmit: (event) => { event.preventDefault(); search(); } },
-      FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict), DAYS.map((name) => field(t(`field.${name}`), inputs[name])),
+      FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict), bar.element,
       h('label.choice', corrected, h('span', t('parts.history'))),
       h('button.unseen', { type: 'submit', tabindex: -1 }, t('parts.search'))),
     h('p.actions', Object.values(exported)), certificate.element, said, table, h('p.actions', more)));
 
   /** As the address has it. */
-  const options = () => ({ ...filter(), source: '', ...Object.fromEntries(DAYS.map((name) => [name, inputs[name].value])) });
-  /** As the service takes it: the last day is among those shown. What runs have measured belongs to the history of a part. */
+  const options = () => ({ ...filter(), source: '', from: '', to: '', ...bar.options });
+  /** As the service takes it. What runs have measured belongs to the history of a part. */
   const filter = () => ({
     source: inputs.part_id.value.trim() ? 'all' : '',
-    from: beginOf(inputs.from.value), to: beginOf(inputs.to.value, 1), ...Object.fromEntries(FIELDS.map((name) => [name, inputs[name].value.trim()])), verdict: verdict.value, history: corrected.checked ? 'all' : '',
+    ...bar.query, ...Object.fromEntries(FIELDS.map((name) => [name, inputs[name].value.trim()])), verdict: verdict.value, history: corrected.checked ? 'all' : '',
   });
 
   function search() {
@@ -118,6 +112,7 @@ export function mount(main, route) {
     if (await note(record)) search();
   }
 
+  bar.offer(leaving.signal);
   search();
   return () => {
     leaving.abort();

@@ -4,6 +4,7 @@ import { getJson, url } from '../api.js';
 import { designationText } from '../designation.js';
 import { field, h, refill } from '../dom.js';
 import { follow } from '../events.js';
+import { FilterBar } from '../filter_bar.js';
 import { explain, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { go } from '../route.js';
@@ -27,8 +28,9 @@ export function mount(main, route) {
   const leaving = new AbortController();
   const computing = new Latest(leaving.signal);
   const { options } = route;
+  const bar = new FilterBar(options, () => { frozen = null; load(); });
   const values = new HeldValues({
-    characteristic: options.characteristic ?? '', size: options.designation ?? '', count: Number(options.count) || 100,
+    bar, characteristic: options.characteristic ?? '', size: options.designation ?? '', count: Number(options.count) || 100,
   }, leaving.signal);
   const select = (name, onchange) => h('select', { id: `trend-${name}`, onchange });
   const characteristic = select('characteristic', () => { values.choose(characteristic.value); frozen = null; load(); });
@@ -57,7 +59,7 @@ export function mount(main, route) {
   kindField.hidden = true;
   main.replaceChildren(h('div.desk.trend', h('h1.unseen', { tabindex: -1 }, t('view.trend')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('field.characteristic'), characteristic),
-      field(t('job.designation'), designation), field(t('trend.count'), count), kindField),
+      field(t('job.designation'), designation), field(t('trend.count'), count), kindField, bar.element),
     note, h('div.sums', tiles, indices),
     h('div.sheet', chart.element, chart.stretch.element, detail, figured,
       h('div.line.rules', h('span.label', t('trend.rules')), rules.map((input, i) => h('label.choice', input, h('span', t(`trend.rule.${RULES[i]}`)))), freeze)),
@@ -112,7 +114,7 @@ export function mount(main, route) {
     go({
       view: 'trend',
       options: {
-        characteristic: values.characteristic, designation: values.size, count: values.count, kind: kind.value === 'i_mr' ? '' : kind.value,
+        characteristic: values.characteristic, designation: values.size, count: values.count, ...bar.options, kind: kind.value === 'i_mr' ? '' : kind.value,
         rules: chosenRules().join(''), ...(frozen && { centre: frozen.centre, sd: frozen.standard_deviation }),
       },
     }, { refine: true });
@@ -186,6 +188,7 @@ export function mount(main, route) {
   characteristic.append(option('', t('trend.all'), true));
   offerOne(options.characteristic);
   characteristic.value = values.characteristic;
+  bar.offer(leaving.signal);
   Promise.all([offer(), load()]).catch((problem) => { if (!leaving.signal.aborted) note.textContent = explain(problem); })
     .then(() => follow(leaving.signal, arrived));
   return () => {

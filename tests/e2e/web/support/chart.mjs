@@ -44,7 +44,7 @@ export const leastLettering = (page) => page.$eval('.control-chart canvas', (can
 export const marksOf = (page, name) => page.evaluate((variable) => {
   const canvas = document.querySelector('.control-chart canvas');
   const probe = document.querySelector('.trend figure').appendChild(document.createElement('i'));
-  probe.className = 'probe';
+  probe.className = 'colour-of';
   probe.style.color = `var(--${variable})`;
   const [r, g, b] = getComputedStyle(probe).color.match(/\d+/g).map(Number);
   probe.remove();

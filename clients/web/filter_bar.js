@@ -1,0 +1,86 @@
+/** Of which values a view is: machine, order, operator and time, in the address of Trend, Overview and Parts alike. */
+
+import { getJson, url } from './api.js';
+import { connection } from './connection.js';
+import { field, h, refill } from './dom.js';
+import { t } from './i18n.js';
+
+const NAMES = ['machine', 'order', 'operator'];
+const DAYS = ['from', 'to'];
+const PERIODS = ['today', 'yesterday', 'shift'];
+/** Hours at which shifts begin, on the clock of the wall. */
+const SHIFTS = [6, 14, 22];
+const MOST_OFFERED = 200;
+
+/** When a day begins here, or the hour of a day so many days later. */
+const momentOf = (date, days = 0, hour = 0) => new Date(date.getFullYear(), date.getMonth(), date.getDate() + days, hour);
+
+function dayOf(text, later = 0) {
+  const [year, month, day] = text.split('-').map(Number);
+  return text ? momentOf(new Date(year, month - 1, day), later).toISOString() : '';
+}
+
+/** [from, to] of a period at a moment; the last one may be open. */
+export function periodOf(period, now) {
+  if (period === 'today') return [momentOf(now), null];
+  if (period === 'yesterday') return [momentOf(now, -1), momentOf(now)];
+  const begun = SHIFTS.filter((hour) => hour <= now.getHours()).at(-1);
+  return [begun === undefined ? momentOf(now, -1, SHIFTS.at(-1)) : momentOf(now, 0, begun), null];
+}
+
+export class FilterBar {
+  /** @param options of the address; @param onChange is told of another choice */
+  constructor(options, onChange) {
+    this.inputs = Object.fromEntries([
+      ...NAMES.map((name) => [name, h('input', { type: 'text', name, list: `filter-${name}`, autocomplete: 'off', spellcheck: 'false', onchange: onChange })]),
+      ...DAYS.map((name) => [name, h('input', { type: 'date', name, onchange: () => this.#choose('', onChange) })]),
+    ]);
+    for (const [name, input] of Object.entries(this.inputs)) input.value = options[name] ?? '';
+    this.period = PERIODS.includes(options.period) ? options.period : '';
+    this.lists = NAMES.map((name) => h('datalist', { id: `filter-${name}` }));
+    this.chips = PERIODS.map((period) => h('button', { type: 'button', onclick: () => this.#choose(this.period === period ? '' : period, onChange) }, t(`period.${period}`)));
+    this.names = NAMES.map((name) => field(t(`field.${name}`), this.inputs[name]));
+    this.time = h('div.period', h('div.chips', this.chips), DAYS.map((name) => field(t(`field.${name}`), this.inputs[name])));
+    this.element = [this.names, this.time, this.lists];
+    this.#press();
+  }
+
+  #choose(period, onChange) {
+    this.period = period;
+    if (period) for (const name of DAYS) this.inputs[name].value = '';
+    this.#press();
+    onChange();
+  }
+
+  #press() {
+    this.chips.forEach((chip, i) => chip.setAttribute('aria-pressed', PERIODS[i] === this.period));
+  }
+
+  /** Asks which names there are. */
+  offer(signal) {
+    NAMES.forEach((name, i) => getJson(url(['measurements', 'summary'], { group_by: name }), { signal, asks: false }).then(({ groups }) =>
+      refill(this.lists[i], groups.map((group) => group[name]).filter(Boolean).slice(0, MOST_OFFERED).map((value) => h('option', { value }))), () => {}));
+  }
+
+  get #names() {
+    return Object.fromEntries(NAMES.map((name) => [name, this.inputs[name].value.trim()]));
+  }
+
+  /** As the address has it. */
+  get options() {
+    return { ...this.#names, period: this.period, ...Object.fromEntries(DAYS.map((name) => [name, this.inputs[name].value])) };
+  }
+
+  /** As the service takes it: the last day is among those shown. */
+  get query() {
+    const [from, to] = this.period ? periodOf(this.period, connection.now()).map((at) => at?.toISOString() ?? '') : [dayOf(this.inputs.from.value), dayOf(this.inputs.to.value, 1)];
+    return { ...this.#names, from, to };
+  }
+
+  /** Whether a record that has just come is of it. */
+  has(record) {
+    const { from, to, ...names } = this.query;
+    const at = new Date(record.measured_at);
+    return Object.entries(names).every(([name, value]) => !value || record[name] === value) && (!from || at >= new Date(from)) && (!to || at < new Date(to));
+  }
+}

@@ -1,0 +1,60 @@
+/** One filter bar for Trend, Overview and Parts: what is shown in one is shown in the next. */
+
+import assert from 'node:assert/strict';
+import { before, describe, it } from 'node:test';
+
+import { periodOf } from '../../../clients/web/filter_bar.js';
+import { close, hashOf, open, picture } from './support/browser.mjs';
+import { untilPoints } from './support/chart.mjs';
+import { browser, daemon } from './support/stage.mjs';
+
+describe('the filter bar', () => {
+  before(async () => {
+    const at = (days) => new Date(Date.now() - days * 86400000).toISOString();
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 40 }, (_, i) => ({
+      designation: '25 H7', measured_mm: `25.0${10 + i % 7}`, part_id: `SN-${i}`, characteristic: 'bore-A',
+      machine: i < 30 ? 'M1' : 'M2', operator: 'Kim', order: 'WO-1', measured_at: at(i < 20 ? 9 : 0) })));
+    // Too few, and without spread: nobody asks for figures of these.
+    await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', characteristic: 'lone', machine: 'M2' });
+  });
+
+  it('goes from the overview of a machine to the chart of that machine', async () => {
+    const page = await open(browser, daemon, '#/overview?machine=M2');
+    const refused = [];
+    page.on('response', (answer) => answer.status() >= 400 && refused.push(answer.url()));
+    await page.waitForSelector('.overview .scroll[data-settled]');
+    assert.equal(await page.inputValue('[name="machine"]'), 'M2');
+    await page.click('.overview tbody >> text=bore-A');
+    await untilPoints(page, 10);
+    assert.match(hashOf(page), /machine=M2/);
+    await daemon.send('POST', '/v1/measurements', [{ designation: '25 H7', measured_mm: '25.01', characteristic: 'bore-A', machine: 'M1' }, { designation: '25 H7', measured_mm: '25.012', characteristic: 'bore-A', machine: 'M2' }]);
+    await untilPoints(page, 11);
+    await page.fill('[name="machine"]', '');
+    await page.press('[name="machine"]', 'Tab');
+    await untilPoints(page, 42);
+    await picture(page, 'trend-filtered');
+    assert.deepEqual(refused, []);
+    await close(page);
+  });
+
+  it('has today and this shift at a touch, in the address', async () => {
+    const page = await open(browser, daemon, '#/trend?characteristic=bore-A');
+    await untilPoints(page, 42);
+    await page.click('.chips >> text=Yesterday');
+    await page.waitForSelector('.empty');
+    assert.match(hashOf(page), /period=yesterday/);
+    await page.click('.chips >> text=Yesterday');
+    await untilPoints(page, 42);
+    await page.evaluate(() => { location.hash = '#/parts?period=yesterday'; });
+    await page.waitForFunction(() => /Nothing was measured/.test(document.querySelector('.parts .note')?.textContent));
+    assert.equal(await page.getAttribute('.chips >> text=Yesterday', 'aria-pressed'), 'true');
+    await close(page);
+  });
+
+  it('knows when a day and a shift begin, also over midnight', () => {
+    const at = (hour, day = 10) => new Date(2026, 4, day, hour, 30);
+    assert.deepEqual(periodOf('today', at(7)), [new Date(2026, 4, 10), null]);
+    assert.deepEqual(periodOf('yesterday', at(7)), [new Date(2026, 4, 9), new Date(2026, 4, 10)]);
+    assert.deepEqual([5, 6, 14, 23].map((hour) => periodOf('shift', at(hour))[0]), [new Date(2026, 4, 9, 22), new Date(2026, 4, 10, 6), new Date(2026, 4, 10, 14), new Date(2026, 4, 10, 22)]);
+  });
+});
