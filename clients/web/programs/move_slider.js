@@ -14,25 +14,50 @@ export class MoveSlider {
     this.said = h('output');
     this.slider = h('input', { type: 'range', min: 0, max: trace.length - 1, 'aria-label': t('programs.move'), oninput: () => this.#show() });
     this.slider.value = trace.length - 1;
-    this.element = h('div.moves', this.slider, this.said);
+    const button = (sign, name, find) => h('button', { type: 'button', 'aria-label': t(name), title: t(name), onclick: () => this.#go(find()) }, sign);
+    this.element = h('div.moves', h('div.steps', button('«', 'programs.block_back', () => this.#block(-1)), button('‹', 'programs.step_back', () => this.#at - 1), this.slider,
+      button('›', 'programs.step', () => this.#at + 1), button('»', 'programs.block', () => this.#block(1))), this.said);
+    this.#say(trace.at(trace.length - 1));
+  }
+
+  get #at() {
+    return Number(this.slider.value);
+  }
+
+  #go(at) {
+    this.slider.value = Math.min(Math.max(at, 0), this.trace.length - 1);
+    this.#show();
+  }
+
+  /** The first move of the next block, or of the block before. @param way 1 or -1 */
+  #block(way) {
+    const blockOf = (i) => JSON.stringify([this.trace.at(i).program, this.trace.at(i).line]);
+    const isInside = (i) => i >= 0 && i < this.trace.length;
+    const own = blockOf(this.#at);
+    let at = this.#at + way;
+    while (isInside(at) && blockOf(at) === own) at += way;
+    if (way < 0) while (isInside(at - 1) && blockOf(at - 1) === blockOf(at)) at -= 1;
+    return at;
   }
 
   /** Goes to the first move that a line of a program commands; another time to the next one. */
   toLine(program, line) {
     const isOf = (path) => fileName(path).toLowerCase() === fileName(program).toLowerCase();
-    const after = this.trace.indexOf(line, isOf, Number(this.slider.value) + 1);
+    const after = this.trace.indexOf(line, isOf, this.#at + 1);
     const found = after >= 0 ? after : this.trace.indexOf(line, isOf);
     if (found < 0) return;
-    this.slider.value = found;
-    this.#show();
+    this.#go(found);
   }
 
   #show() {
-    const at = Number(this.slider.value);
-    const move = this.trace.at(at);
-    const contact = move.contact_mm && `${t('programs.kind.contact')} ${place(move.contact_mm)}`;
-    this.said.textContent = [t('programs.move_of', { at: at + 1, count: this.trace.length }), `${fileName(move.program)} ${t('programs.line', { line: move.line })}`,
-      t(`programs.kind.${move.kind}`), place(move.end_mm), move.kind !== 'rapid' && `F ${number(String(move.feed_mm_min))}`, contact].filter(Boolean).join(' · ');
+    const move = this.trace.at(this.#at);
+    this.#say(move);
     this.onMove(move);
+  }
+
+  #say(move) {
+    const contact = move.contact_mm && `${t('programs.kind.contact')} ${place(move.contact_mm)}`;
+    this.said.textContent = [t('programs.move_of', { at: this.#at + 1, count: this.trace.length }), `${fileName(move.program)} ${t('programs.line', { line: move.line })}`,
+      t(`programs.kind.${move.kind}`), place(move.end_mm), move.kind !== 'rapid' && `F ${number(String(move.feed_mm_min))}`, contact].filter(Boolean).join(' · ');
   }
 }

@@ -2,11 +2,11 @@
 
 import { get, getJson, url } from '../api.js';
 import { h } from '../dom.js';
-import { mmText, NM_PER_MM } from '../exact.js';
+import { mmText, NM_PER_MM, NM_PER_UM, umText } from '../exact.js';
 import { pathView, prepareSpace } from '../figures/path_view.js';
 import { Trace } from '../figures/trace.js';
-import { explain, number, t } from '../i18n.js';
-import { verdictMark } from '../verdict.js';
+import { explain, number, signed, t } from '../i18n.js';
+import { limitsText, verdictMark } from '../verdict.js';
 import { fileName } from './disk.js';
 import { logFrame } from './log_frame.js';
 import { MoveSlider } from './move_slider.js';
@@ -31,15 +31,19 @@ export async function runReport(run, { onMoves, onMove }) {
   ].filter(Boolean);
 }
 
+const NUMBERS = new Set(['programs.nominal', 'programs.measured', 'parts.deviation']);
+const hasLimits = (size) => size.upper_limit_mm !== undefined || size.lower_limit_mm !== undefined;
+
 /** Equally many decimals in a column. */
 const millimetres = (value) => `${number(mmText(Math.round(value * NM_PER_MM)))} mm`;
 
 function measured(measurements) {
   const rows = measurements.flatMap(({ cycle, sizes }) => sizes.map((size) => h('tr', h('td', String(cycle)), h('td', size.characteristic),
-    h('td', millimetres(size.nominal_mm)), h('td', millimetres(size.measured_mm)), h('td', size.verdict ? verdictMark(size.verdict) : ''))));
-  const head = ['programs.cycle', 'field.characteristic', 'programs.nominal', 'programs.measured', 'trend.verdict'];
+    h('td.number', millimetres(size.nominal_mm)), h('td', hasLimits(size) ? limitsText(size) : '–'), h('td.number', millimetres(size.measured_mm)),
+    h('td.number', `${signed(umText(Math.round(size.deviation_um * NM_PER_UM)))} µm`), h('td', size.verdict ? verdictMark(size.verdict) : ''))));
+  const head = ['programs.cycle', 'field.characteristic', 'programs.nominal', 'parts.limits', 'programs.measured', 'parts.deviation', 'trend.verdict'];
   return h('div.wide', { tabindex: 0, role: 'region', 'aria-label': t('programs.measurements') }, h('table', h('caption', t('programs.measurements')),
-    h('thead', h('tr', head.map((name) => h('th', { scope: 'col' }, t(name))))), h('tbody', rows)));
+    h('thead', h('tr', head.map((name) => h('th', { scope: 'col', class: NUMBERS.has(name) && 'number' }, t(name))))), h('tbody', rows)));
 }
 
 async function drawPath(run, place, { onMoves, onMove }) {

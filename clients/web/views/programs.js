@@ -32,7 +32,7 @@ export function mount(main, route) {
     h('button', { type: 'button', onclick: () => attempt(checkCurrent) }, t('programs.check')),
     h('button', { type: 'button', onclick: () => attempt(remove) }, t('programs.delete')));
   const program = h('div.program', h('div.line', title, actions), source.element, form.element);
-  const examples = h('p.line', EXAMPLES.map((one) => h('button', { type: 'button', onclick: () => attempt(() => tryOut(one)) },
+  const examples = h('p.actions', EXAMPLES.map((one) => h('button', { type: 'button', onclick: () => attempt(() => tryOut(one)) },
     h('strong', one.name), h('span.aside', t(`example.${one.name}`)))));
   const nothing = h('section.empty', h('p', t('programs.pick')), h('h2', t('example.title')), h('p', t('example.how')), examples);
 

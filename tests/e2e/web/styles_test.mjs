@@ -1,0 +1,77 @@
+/** No style sheet hides what a view shows, and every view has the room it needs: found by computed styles. */
+
+import assert from 'node:assert/strict';
+import { before, describe, it } from 'node:test';
+
+import { close, open } from './support/browser.mjs';
+import { browser, daemon } from './support/stage.mjs';
+
+/** What is there for the eye at another time: on paper, for screen readers, or where a folder is opened. */
+const ELSEWHERE = '.printed, .skip, .unseen, datalist, option, script, style, template, details:not([open]) > *, dialog:not([open]), source, .colour-of';
+
+/** Elements that a style sheet hides, though no attribute does. */
+const hidden = (page) => page.evaluate((elsewhere) => {
+  const isShown = (element) => !element.closest(`[hidden], ${elsewhere}`);
+  const says = (element) => [...element.childNodes].some((child) => !child.hidden) || ['path', 'circle', 'rect', 'line', 'canvas', 'input'].includes(element.localName);
+  return [...document.querySelectorAll('main *')].filter((element) => isShown(element) && says(element)).filter((element) => {
+    const { display, visibility } = getComputedStyle(element);
+    return display === 'none' || visibility === 'hidden';
+  }).map((element) => element.outerHTML.slice(0, 90));
+}, ELSEWHERE);
+
+describe('the style sheets', () => {
+  before(async () => {
+    await daemon.send('PUT', '/v1/plans/4711-A', { characteristics: [{ name: 'bore-A', designation: '25 H7' }, { name: 'bore-B', designation: '40 H8' }] });
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 30 }, (_, i) => ({
+      designation: '25 H7', measured_mm: `25.0${10 + i % 7}`, part_id: `SN-${i}`, characteristic: 'bore-A', machine: i % 2 ? 'M1' : 'M2', operator: 'Kim' })));
+  });
+
+  it('show every move of a program that probes, in the drawing and in its legend', async () => {
+    const page = await open(browser, daemon, '#/programs');
+    await page.click('text=8255');
+    await page.waitForSelector('.path');
+    if (await page.$('.switch >> text=As a drawing')) await page.click('.switch >> text=As a drawing');
+    await page.waitForSelector('.path-view path.probe');
+    assert.deepEqual(await hidden(page), []);
+    const looks = await page.$$eval('path.probe', (all) => all.map((path) => [getComputedStyle(path).display, getComputedStyle(path).stroke !== 'none']));
+    assert.ok(looks.length >= 3 && looks.every(([display, stroke]) => display !== 'none' && stroke), JSON.stringify(looks));
+    // The run says why it is good, and is gone through by block.
+    assert.match(await page.textContent('.report table'), /Limits.*Deviation/);
+    assert.match(await page.textContent('.moves output'), /\S/);
+    await page.click('.steps button:first-child');
+    await page.click('.steps button:last-child');
+    await close(page);
+  });
+
+  const VIEWS = {
+    'gauge?plan=4711-A&part_id=SN-1': '.tiles-of-plan li', 'fit/25H7/g6': '.zones', 'trend?characteristic=bore-A': '.control-chart',
+    overview: '.scroll[data-settled]', parts: '.records tbody tr', tables: '.grid tbody tr', connections: '.connections form',
+  };
+  for (const [view, drawn] of Object.entries(VIEWS)) {
+    it(`hide nothing of ${view.split('?')[0]}`, async () => {
+      const page = await open(browser, daemon, `#/${view}`);
+      await page.waitForSelector(drawn);
+      assert.deepEqual(await hidden(page), []);
+      await close(page);
+    });
+  }
+
+  it('leave the width of the list to the panel before the first value', async () => {
+    const page = await open(browser, daemon, '#/gauge/25H7', { viewport: { width: 1366, height: 768 } });
+    await page.waitForSelector('.echo .figures');
+    assert.equal(await page.$eval('.verdict', (panel) => Math.round(panel.getBoundingClientRect().right)), 1366);
+    await close(page);
+  });
+
+  it('have every view of the bar in sight at 1024 in Italian, and what is done with a record at 1366', async () => {
+    const page = await open(browser, daemon, '#/parts', { viewport: { width: 1024, height: 768 }, locale: 'it-IT' });
+    await page.waitForSelector('.records tbody tr');
+    const ends = () => page.$eval('#views', (nav) => [nav.scrollWidth, nav.clientWidth]);
+    const [whole, seen] = await ends();
+    assert.ok(whole <= seen, `${whole} in ${seen}`);
+    await page.setViewportSize({ width: 1366, height: 768 });
+    const right = await page.$$eval('.records tbody tr:first-child .quiet', (all) => all.map((button) => button.getBoundingClientRect().right));
+    assert.ok(right.length === 2 && right.every((x) => x <= 1366), right.join());
+    await close(page);
+  });
+});
