@@ -9,17 +9,16 @@ import { enterKey } from './key_dialog.js';
 import { queue } from './queue.js';
 import { currentRoute, lastOf, remember } from './route.js';
 import { forget, readStored, store } from './stored.js';
-import { mount as connections } from './views/connections.js';
 import { mount as fit } from './views/fit.js';
 import { mount as gauge } from './views/gauge.js';
-import { mount as overview } from './views/overview.js';
 import { mount as parts } from './views/parts.js';
-import { mount as tables } from './views/tables.js';
 
-/** Behind the state of the connection stand those to the world outside. */
-const VIEWS = { gauge, fit, overview, parts, tables, connections };
-/** Those with libraries of their own come when they are opened. */
-const LATER = { trend: () => import('./views/trend.js'), programs: () => import('./views/programs.js') };
+const VIEWS = { gauge, fit, parts };
+/** Those that no station begins with come when they are opened. */
+const LATER = {
+  trend: () => import('./views/trend.js'), programs: () => import('./views/programs.js'), overview: () => import('./views/overview.js'),
+  tables: () => import('./views/tables.js'), connections: () => import('./views/connections.js'),
+};
 const BAR = ['gauge', 'fit', 'trend', 'overview', 'parts', 'programs', 'tables'];
 const main = document.getElementById('main');
 const printed = document.getElementById('printed');
@@ -42,13 +41,21 @@ async function show() {
   if (moved && !main.contains(document.activeElement)) main.querySelector('h1').focus({ preventScroll: true });
 }
 
-/** A page that stayed open over an update of the service asks for files that are gone: it loads anew, once. */
+/**
+ * A page that stayed open over an update of the service asks for files that are gone: it loads anew, once. While the service is
+ * away it stays at the view it shows: it could not load again.
+ */
 async function later(view) {
   try {
     const { mount } = await LATER[view]();
     forget('reloaded', 'session');
     return mount;
   } catch (problem) {
+    const isUp = await fetch('/livez', { cache: 'no-store' }).then(({ ok }) => ok, () => false);
+    if (!isUp && shown) {
+      location.replace(lastOf(shown));
+      return new Promise(() => {});
+    }
     if (readStored('reloaded', 'session')) throw problem;
     store('reloaded', 'yes', 'session');
     location.reload();
