@@ -24,11 +24,12 @@ struct VerdictWord {
   ExitCode exit_code;
   Colour colour;
 };
-constexpr std::array<VerdictWord, 4> kVerdicts{{
+constexpr std::array<VerdictWord, 5> kVerdicts{{
     {"good", ExitCode::Good, Colour::Green},
     {"rework", ExitCode::Rework, Colour::Yellow},
     {"reject", ExitCode::Reject, Colour::Red},
     {"indeterminate", ExitCode::Indeterminate, Colour::Blue},
+    {"", ExitCode::Good, Colour::Cyan},  // of a value without limits
 }};
 
 Length length_of(const JsonValue& document, std::string_view member) {
@@ -40,6 +41,7 @@ Length length_of(const JsonValue& document, std::string_view member) {
 std::string limits_text(const JsonValue& document) {
   const std::string_view lower = document.text_of("lower_limit_mm");
   const std::string_view upper = document.text_of("upper_limit_mm");
+  if (lower.empty() && upper.empty()) return "no limits";
   if (lower.empty()) return fmt::format("up to {} mm", upper);
   if (upper.empty()) return fmt::format("{} mm or more", lower);
   return fmt::format("{} to {} mm", lower, upper);
@@ -50,6 +52,7 @@ std::string distance_text(const JsonValue& document, std::string_view unit) {
   const Length measured = length_of(document, corrected ? "corrected_mm" : "measured_mm");
   const bool has_upper = !document.text_of("upper_limit_mm").empty();
   const bool has_lower = !document.text_of("lower_limit_mm").empty();
+  if (!has_upper && !has_lower) return "not judged";
   const auto distance_to = [&](bool there, std::string_view name) {
     return there ? measured - length_of(document, name) : kLongest;
   };
@@ -76,7 +79,8 @@ std::string verdict_query(const GaugeOptions& options, const std::string& measur
 }
 
 std::string record_body(const GaugeOptions& options, const std::string& measured) {
-  const bool by_drawing = !options.fields[RowField::Feature].empty();
+  // A number alone is the nominal size of a drawing.
+  const bool by_drawing = parse_length_mm(options.designation, {.decimal_comma = true}).has_value();
   JsonObject body;
   body.add(kRowFields[by_drawing ? RowField::Nominal : RowField::Designation].name,
            options.designation);
@@ -118,7 +122,8 @@ Colour verdict_colour(std::string_view word) {
 std::string format_verdict(const JsonValue& document, const Terminal& terminal) {
   const std::string_view word = document.text_of("verdict");
   const bool explicit_limits = document.text_of("designation").empty();
-  std::string text = terminal.painted(ascii_upper(word), verdict_colour(word));
+  std::string text =
+      terminal.painted(word.empty() ? "UNJUDGED" : ascii_upper(word), verdict_colour(word));
   text += fmt::format("  {} mm  {} ({}): {}\n", document.text_of("measured_mm"),
                       document.text_of(explicit_limits ? "nominal_mm" : "designation"),
                       limits_text(document), distance_text(document, terminal.micrometre()));

@@ -27,7 +27,8 @@ VerdictCounts counts_of(const JsonValue& accepted) {
   return {.good = number_of(verdicts.text_of("good")),
           .rework = number_of(verdicts.text_of("rework")),
           .reject = number_of(verdicts.text_of("reject")),
-          .indeterminate = number_of(verdicts.text_of("indeterminate"))};
+          .indeterminate = number_of(verdicts.text_of("indeterminate")),
+          .unjudged = number_of(verdicts.text_of("unjudged"))};
 }
 
 std::string summary(const VerdictCounts& counts) {
@@ -37,6 +38,7 @@ std::string summary(const VerdictCounts& counts) {
   if (counts.indeterminate > 0) {
     text += fmt::format(", {} indeterminate", grouped(counts.indeterminate));
   }
+  if (counts.unjudged > 0) text += fmt::format(", {} unjudged", grouped(counts.unjudged));
   return text;
 }
 

@@ -76,6 +76,7 @@ VerdictCounts& VerdictCounts::operator+=(const VerdictCounts& other) {
   rework += other.rework;
   reject += other.reject;
   indeterminate += other.indeterminate;
+  unjudged += other.unjudged;
   return *this;
 }
 
@@ -94,6 +95,8 @@ std::optional<MeasureState> parse_state(std::string_view line) {
                        read_count(counts, "rework", state.counts.rework) &&
                        read_count(counts, "reject", state.counts.reject) &&
                        read_count(counts, "indeterminate", state.counts.indeterminate);
+  // A state that an older version has left counts none.
+  if (counts.find("unjudged") != nullptr) read_count(counts, "unjudged", state.counts.unjudged);
   return counted ? std::optional(std::move(state)) : std::nullopt;
 }
 
@@ -109,6 +112,7 @@ std::string format_state(const MeasureState& state) {
                                .add_raw("rework", std::to_string(counts.rework))
                                .add_raw("reject", std::to_string(counts.reject))
                                .add_raw("indeterminate", std::to_string(counts.indeterminate))
+                               .add_raw("unjudged", std::to_string(counts.unjudged))
                                .text())
       .add_raw("complete", state.complete ? "true" : "false")
       .text();

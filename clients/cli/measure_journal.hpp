@@ -14,8 +14,9 @@ struct VerdictCounts {
   std::uint64_t rework = 0;
   std::uint64_t reject = 0;
   std::uint64_t indeterminate = 0;
+  std::uint64_t unjudged = 0;
 
-  std::uint64_t sum() const { return good + rework + reject + indeterminate; }
+  std::uint64_t sum() const { return good + rework + reject + indeterminate + unjudged; }
   VerdictCounts& operator+=(const VerdictCounts& other);
   friend bool operator==(const VerdictCounts&, const VerdictCounts&) = default;
 };

@@ -67,9 +67,7 @@ void add_gauge(CLI::App& app, Action& chosen) {
     const RowField& field = api::kRowFields.at(i);
     const auto option = gauge->add_option(option_name(field.name), options->fields.at(i),
                                           std::string(field.meaning));
-    if (i == RowField::Upper || i == RowField::Lower) {
-      option->needs(gauge->get_option("--feature"));
-    } else if (i < RowField::Uncertainty || i >= RowField::Kept) {
+    if (i < RowField::Uncertainty || i >= RowField::Kept) {
       option->needs(record);
     }
   }

@@ -24,6 +24,7 @@ export function verdictShape(verdict) {
 
 /** A small verdict for lists: shape and word. */
 export function verdictMark(verdict) {
+  if (!verdict) return h('span.mark-of', t('verdict.unjudged'));
   return h('span.mark-of', { 'data-verdict': verdict }, verdictShape(verdict), t(`verdict.${verdict}`));
 }
 
@@ -31,6 +32,7 @@ export function verdictMark(verdict) {
 export function distanceText(record) {
   const measured = nmFromMm(record.corrected_mm ?? record.measured_mm);
   const [lower, upper] = boundsOf(record);
+  if (lower === -Infinity && upper === Infinity) return '';
   const toUpper = upper - measured;
   const toLower = measured - lower;
   const limit = Math.abs(toUpper) <= Math.abs(toLower) ? 'upper' : 'lower';
@@ -45,6 +47,7 @@ export const noteText = ({ cause, measure, text }) => [[cause, measure].filter(B
 /** "25.000 to 25.021 mm" with equally many decimals. */
 export function limitsText(limits) {
   const [lower, upper] = boundsOf(limits);
+  if (lower === -Infinity && upper === Infinity) return '–';
   if (upper === Infinity) return `≥ ${number(mmText(lower))} mm`;
   if (lower === -Infinity) return `≤ ${number(mmText(upper))} mm`;
   const places = Math.max(...[lower, upper].map((nm) => mmText(nm).split('.')[1].length));

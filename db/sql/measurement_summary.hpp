@@ -36,7 +36,7 @@ class MeasurementSummary {
  private:
   struct Group {
     ExactStatistics statistics;
-    std::array<std::int64_t, 4> verdicts{};  ///< by Verdict, Good first
+    std::array<std::int64_t, 5> verdicts{};  ///< by Verdict, Good first
   };
 
   void look_at_filter();

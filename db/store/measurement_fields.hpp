@@ -39,6 +39,8 @@ void for_each_field(Row&& row, Field&& field) {
   field("number", row.number);
   field("corrected_origin", row.corrected_origin);
   field("corrected_number", row.corrected_number);
+  field("quantity", row.quantity);
+  field("form_nm", row.form);
   app::for_each_plain(
       [&](const app::MeasurementField& plain, auto member) { field(plain.column, row.*member); });
 }

@@ -12,15 +12,40 @@ namespace fitgauge::store {
 // The codes are stored: never change one, never use one again.
 enum class Source : std::uint8_t { Gauge = 1, Simulation = 2 };
 enum class Feature : std::uint8_t { Hole = 1, Shaft = 2 };
-enum class Basis : std::uint8_t { Iso286 = 1, Custom = 2, Explicit = 3, Standard = 4 };
-enum class Verdict : std::uint8_t { Good = 1, Rework = 2, Reject = 3, Indeterminate = 4 };
+/// None has no limits, Bare no nominal size either.
+enum class Basis : std::uint8_t {
+  Iso286 = 1,
+  Custom = 2,
+  Explicit = 3,
+  Standard = 4,
+  None = 5,
+  Bare = 6
+};
+enum class Verdict : std::uint8_t {
+  Good = 1,
+  Rework = 2,
+  Reject = 3,
+  Indeterminate = 4,
+  Unjudged = 5
+};
+enum class Quantity : std::uint8_t {
+  Diameter = 1,
+  Width = 2,
+  PitchDiameter = 3,
+  Position = 4,
+  Distance = 5,
+  Radius = 6,
+  Chamfer = 7,
+  Deviation = 8
+};
 enum class Rule : std::uint8_t { Simple = 1, GuardBand = 2, Conformance = 3 };
 
 // The greatest code of each: one that is read may not be above it.
 constexpr Source last_of(Source) { return Source::Simulation; }
 constexpr Feature last_of(Feature) { return Feature::Shaft; }
-constexpr Basis last_of(Basis) { return Basis::Standard; }
-constexpr Verdict last_of(Verdict) { return Verdict::Indeterminate; }
+constexpr Basis last_of(Basis) { return Basis::Bare; }
+constexpr Verdict last_of(Verdict) { return Verdict::Unjudged; }
+constexpr Quantity last_of(Quantity) { return Quantity::Deviation; }
 constexpr Rule last_of(Rule) { return Rule::Conformance; }
 
 /// One measurement as it is stored. Lengths in nm, times in ns since 1970 (UTC), scaled numbers in
@@ -32,10 +57,11 @@ struct MeasurementRow : app::MeasurementFields {
   std::int64_t measured_at_ns = 0;
   std::int64_t received_at_ns = 0;
 
-  std::int64_t nominal_nm = 0;
-  std::optional<std::string_view> tolerance_class{};  ///< none when the basis is Explicit
+  std::optional<Quantity> quantity{};                 ///< none in rows before there were several
+  std::int64_t nominal_nm = 0;                        ///< 0 when the basis is Bare
+  std::optional<std::string_view> tolerance_class{};  ///< none when the basis is none of a standard
   Feature feature = Feature::Hole;
-  std::int64_t upper_deviation_nm = 0;          ///< of a drawing without that limit: 2e15
+  std::int64_t upper_deviation_nm = 0;          ///< without that limit: 2e15
   std::int64_t lower_deviation_nm = 0;          ///< and here -2e15
   std::optional<std::int64_t> size_over_nm{};   ///< the step of the standard tolerance
   std::optional<std::int64_t> size_up_to_nm{};  ///< both or neither

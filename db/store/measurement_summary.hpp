@@ -14,7 +14,7 @@ namespace fitgauge::store {
 struct SummaryGroup {
   std::optional<std::string> value{};  ///< none: the rows without the field
   std::int64_t count = 0;
-  std::array<std::int64_t, 4> verdicts{};              ///< by Verdict, Good first
+  std::array<std::int64_t, 5> verdicts{};              ///< by Verdict, Good first
   std::string mean_mm{};                               ///< to 1e-12 mm, shortest decimal
   std::optional<std::string> standard_deviation_mm{};  ///< of n - 1; none for a single value
   std::int64_t min_nm = 0;

@@ -42,6 +42,7 @@ schema::Fields selection_field();
 inline std::string verdict_words() {
   return schema::words({"good", "rework", "reject", "indeterminate"});
 }
+std::string quantity_words();
 inline std::string feature_words() { return schema::words({"hole", "shaft"}); }
 inline std::string rule_words() { return schema::words({"simple", "guard_band", "conformance"}); }
 inline std::string source_words() { return schema::words({"gauge", "simulation"}); }

@@ -10,8 +10,8 @@ void members(V& v, LogFilter& filter) {
   for (std::size_t i = 0; i < app::kTextFilters.size(); ++i) {
     v.optional(app::kTextFilters[i], filter.query.texts[i], "The same text");
   }
-  v.optional("verdict", filter.verdicts, SomeOf{{"good", "rework", "reject", "indeterminate"}},
-             "One of these");
+  v.optional("verdict", filter.verdicts,
+             SomeOf{{"good", "rework", "reject", "indeterminate", "unjudged"}}, "One of these");
   using From = LogFilter::From;
   v.optional(
       "source", filter.from,

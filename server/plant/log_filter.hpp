@@ -14,7 +14,8 @@ struct LogFilter {
   LogFilter() { query.history = true; }
 
   app::MeasurementQuery query{};  ///< of all but verdicts; corrections too
-  std::set<std::string, std::less<>> verdicts{"good", "rework", "reject", "indeterminate"};
+  std::set<std::string, std::less<>> verdicts{"good", "rework", "reject", "indeterminate",
+                                              "unjudged"};
   enum class From : std::uint8_t { Gauge, Simulation, All } from = From::Gauge;
 
   bool takes(const app::Measurement& measurement) const;

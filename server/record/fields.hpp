@@ -40,11 +40,19 @@ struct MeasurementFields {
   std::optional<std::int64_t> part_expansion_uncertainty{};
   std::optional<std::int64_t> scale_expansion_uncertainty{};
 
-  std::optional<std::int64_t> offset{};  ///< a correction made before this part, in nm
+  std::optional<std::int64_t> offset{};              ///< a correction made before this part, in nm
+  std::optional<std::int64_t> degrees_of_freedom{};  ///< of the uncertainty, in millionths
+  std::optional<std::string_view> size_operator{};   ///< of ISO 14405-1: LP, GG
+  std::optional<std::string_view> envelope{};        ///< `required`
+  std::optional<std::string_view> go_gauge{};        ///< `passes` or `fails`, of the envelope
 
-  std::optional<std::string_view> caller{};              ///< name of the API key that stored it
-  std::optional<std::int64_t> run_id{};                  ///< the run of a simulated measurement
-  std::optional<std::int64_t> cycle{};                   ///< number of its measuring cycle
+  std::optional<std::string_view> caller{};       ///< name of the API key that stored it
+  std::optional<std::int64_t> run_id{};           ///< the run of a simulated measurement
+  std::optional<std::int64_t> cycle{};            ///< number of its measuring cycle
+  std::optional<std::int64_t> points{};           ///< that it touched
+  std::optional<std::int64_t> start_angle{};      ///< of the first, in millionths of a degree
+  std::optional<std::int64_t> diameter_factor{};  ///< of its scatter over that of a touch, in 1e-6
+  std::optional<std::int64_t> form{};             ///< deviation of form that they show, in nm
   std::optional<std::string_view> correction_reason{};   ///< of a correction, and of no other
   std::optional<std::string_view> uncertainty_budget{};  ///< of the gauge, if it gave u
   std::optional<std::string_view> calibration_due{};     ///< of the gauge, as given, if overdue
@@ -78,6 +86,10 @@ inline constexpr Accepted kThermalUncertainty{
     .most = gauging::kLargestUncertainty, .range = "lies from 0 to 1000", .is_thermal = true};
 inline constexpr Accepted kOffset{
     .least = -1'000'000'000, .most = 1'000'000'000, .range = "lies from -1000000 to 1000000"};
+inline constexpr Accepted kDegreesOfFreedom{
+    .least = 1'000'000, .most = 1'000'000'000'000, .range = "lies from 1 to 1000000"};
+inline constexpr Accepted kSizeOperator{.longest = 8};
+inline constexpr Accepted kEnvelopeWord{.longest = 16};
 inline constexpr Accepted kNotGiven{};
 
 /// One of MeasurementFields, wherever it is read, written, stored and described.
@@ -157,11 +169,23 @@ inline constexpr MeasurementField kMeasurementFields[] = {
     {"scale_expansion_uncertainty_um_per_m_k", &Of::scale_expansion_uncertainty, 6,
      "scale_expansion_uncertainty", 52, kThermalUncertainty, "Of the scale's expansion"},
 
+    {"degrees_of_freedom", &Of::degrees_of_freedom, 6, "degrees_of_freedom", 56, kDegreesOfFreedom,
+     "Of uncertainty_um, 1 to 1000000; without end when absent"},
+
     {"offset_um", &Of::offset, 3, "offset_nm", 54, kOffset,
      "Correction of the machine that was made before this part, -1000000 to 1000000"},
+    {"size_operator", &Of::size_operator, "size_operator", 57, kSizeOperator,
+     "Of ISO 14405-1; LP, two-point, when absent"},
+    {"envelope", &Of::envelope, "envelope", 58, kEnvelopeWord,
+     "required: the size has the modifier (E) of ISO 14405-1"},
+    {"go_gauge", &Of::go_gauge, "go_gauge", 59, kEnvelopeWord,
+     "passes or fails: the GO gauge, which verifies the envelope"},
 
     {"caller", &Of::caller, "caller", 32, kNotGiven, {}, 10},
     {"cycle", &Of::cycle, 0, "cycle", 34, kNotGiven},
+    {"points", &Of::points, 0, "points", 61, kNotGiven},
+    {"start_angle_deg", &Of::start_angle, 6, "start_angle", 62, kNotGiven},
+    {"diameter_factor", &Of::diameter_factor, 6, "diameter_factor", 63, kNotGiven},
     {"reason", &Of::correction_reason, "correction_reason", 36, kNotGiven},
     {"uncertainty", &Of::uncertainty_budget, "uncertainty_budget", 46, kNotGiven},
     {"calibration_due", &Of::calibration_due, "calibration_due", 47, kNotGiven},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -17,8 +18,9 @@ struct GaugeInUse {
   /// Of the budget, whose figures are in µm, rounded up to the nanometre; none where there is no
   /// such budget any more.
   std::optional<Length> standard_uncertainty{};
-  std::string calibration_due{};  ///< as it was given
-  Timestamp due{};                ///< the same; a date lasts to its end in UTC
+  std::optional<std::int64_t> degrees_of_freedom{};  ///< of the budget, in millionths
+  std::string calibration_due{};                     ///< as it was given
+  Timestamp due{};                                   ///< the same; a date lasts to its end in UTC
 
   bool is_overdue(Timestamp at) const { return due < at; }
 };

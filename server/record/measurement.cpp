@@ -57,6 +57,7 @@ std::string_view word(LimitsBasis basis) {
     case LimitsBasis::Custom: return "custom";
     case LimitsBasis::Explicit: return "explicit";
     case LimitsBasis::Standard: return "standard";
+    case LimitsBasis::None: return "none";
   }
   return "";
 }
@@ -80,6 +81,7 @@ KeptMeasurement::KeptMeasurement(const Measurement& measurement) : measurement_(
 
 void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
                   const iso286::ToleranceTables& tables) {
+  if (!measurement.quantity) measurement.quantity = gauging::Quantity::Diameter;
   measurement.nominal_size = limits.nominal_size.length();
   measurement.class_name = tables.class_name(limits.class_id);
   measurement.feature = limits.feature;
@@ -90,7 +92,17 @@ void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
   measurement.table_revision = tables.revision().id;
 }
 
+gauging::Quantity quantity_of(const standards::DesignatedLimits& limits) {
+  if (!limits.feature_is_open) return gauging::Quantity::PitchDiameter;
+  switch (limits.tolerance_class.front()) {
+    case 'R': return gauging::Quantity::Radius;
+    case 'C': return gauging::Quantity::Chamfer;
+    default: return gauging::Quantity::Distance;
+  }
+}
+
 void apply_limits(Measurement& measurement, const standards::DesignatedLimits& limits) {
+  if (!measurement.quantity) measurement.quantity = quantity_of(limits);
   measurement.nominal_size = limits.nominal;
   measurement.class_name = limits.tolerance_class;
   measurement.feature = limits.feature;
@@ -101,6 +113,8 @@ void apply_limits(Measurement& measurement, const standards::DesignatedLimits& l
 }
 
 void apply_limits(Measurement& measurement, const Measurement& other) {
+  if (!measurement.quantity) measurement.quantity = other.quantity;
+  measurement.has_nominal = other.has_nominal;
   measurement.nominal_size = other.nominal_size;
   measurement.class_name = other.class_name;
   measurement.feature = other.feature;
@@ -111,32 +125,45 @@ void apply_limits(Measurement& measurement, const Measurement& other) {
   measurement.revision_number = other.revision_number;
 }
 
+void apply_no_limits(Measurement& measurement, std::optional<Length> nominal) {
+  measurement.basis = LimitsBasis::None;
+  measurement.has_nominal = nominal.has_value();
+  measurement.nominal_size = nominal.value_or(Length());
+  measurement.deviations = {.upper = kNoLimit, .lower = -kNoLimit};
+}
+
 void judge(Measurement& measurement) {
-  measurement.result =
-      gauging::gauge(measurement.feature, measurement.upper_limit(), measurement.lower_limit(),
-                     measurement.decisive(), measurement.rule);
+  if (!measurement.is_judged()) {
+    measurement.result = {.verdict = gauging::Verdict::Unjudged, .excess = {}};
+    return;
+  }
+  const gauging::Beyond beyond = measurement.quantity
+                                     ? gauging::Beyond(*measurement.quantity, measurement.feature)
+                                     : gauging::Beyond(measurement.feature);
+  measurement.result = gauging::gauge(beyond, measurement.upper_limit(), measurement.lower_limit(),
+                                      measurement.decisive(), measurement.rule);
+  // Too much material: a hole can be widened, a shaft turned down.
+  if (measurement.has_failed_envelope() && measurement.result.verdict != gauging::Verdict::Reject) {
+    measurement.result.verdict = gauging::Verdict::Rework;
+  }
   if (measurement.rule.kind() != gauging::DecisionRule::Kind::Conformance) return;
   measurement.conformance = gauging::conformance_figures(
       {.upper = measurement.upper_limit(), .lower = measurement.lower_limit()},
-      measurement.decisive(), measurement.rule.standard_uncertainty(),
+      measurement.decisive(), measurement.rule.uncertainty(),
       measurement.rule.probability().value());
 }
 
 void judge_size(Measurement& measurement, const CycleSize& size) {
-  const SizeLimits limits = size.limits.value_or(SizeLimits{.upper = kLongest, .lower = -kLongest});
-  measurement.nominal_size = size.nominal;
-  measurement.feature = !size.is_position              ? size.feature
-                        : size.measured > limits.upper ? iso286::Feature::Hole
-                                                       : iso286::Feature::Shaft;
-  measurement.deviations = {.upper = limits.upper - size.nominal,
-                            .lower = limits.lower - size.nominal};
-  measurement.basis = LimitsBasis::Explicit;
+  measurement.quantity = size.quantity;
+  measurement.feature = size.feature;
   measurement.measured = size.measured;
-  if (!size.limits) {
-    // Nothing judges it: an uncertainty as wide as its limits makes it indeterminate.
-    measurement.rule = gauging::DecisionRule::guard_band(kLongest).value();
-    measurement.standard_uncertainty = kLongest;
-    measurement.coverage_factor = measurement.rule.coverage_factor();
+  if (size.limits) {
+    measurement.basis = LimitsBasis::Explicit;
+    measurement.nominal_size = size.nominal.value_or(size.measured);
+    measurement.deviations = {.upper = size.limits->upper - measurement.nominal_size,
+                              .lower = size.limits->lower - measurement.nominal_size};
+  } else {
+    apply_no_limits(measurement, size.nominal);
   }
   judge(measurement);
 }

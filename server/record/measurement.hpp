@@ -23,8 +23,8 @@ class Origins;
 /// Who measured: a gauge at a part, or the simulated machine.
 enum class Source : std::uint8_t { Gauge, Simulation };
 /// Where the limits come from: a class of the tables, a column of the shop's own, the drawing, or a
-/// designation of another standard.
-enum class LimitsBasis : std::uint8_t { Iso286, Custom, Explicit, Standard };
+/// designation of another standard; None: a value that nothing judges.
+enum class LimitsBasis : std::uint8_t { Iso286, Custom, Explicit, Standard, None };
 
 std::string_view word(Source source);
 std::string_view word(LimitsBasis basis);
@@ -32,6 +32,10 @@ std::optional<Source> source_from_word(std::string_view text);
 
 inline constexpr int kTemperatureDecimals = 6;  ///< of a degree Celsius, as Measurement counts them
 inline constexpr int kPicometreDecimals = 6;    ///< of a micrometre
+
+inline constexpr std::string_view kEnvelopeRequired = "required";
+inline constexpr std::string_view kGoPasses = "passes";  ///< of go_gauge
+inline constexpr std::string_view kGoFails = "fails";
 
 /// The deviation of a limit that a drawing does not have: beyond every length.
 inline constexpr Length kNoLimit = Length::nanometres(2 * kLongest.count());
@@ -55,13 +59,16 @@ struct Measurement : MeasurementFields {
   Timestamp measured_at;
   Timestamp received_at;
 
+  /// None in records of versions that stored diameters and positions alike.
+  std::optional<gauging::Quantity> quantity;
+  bool has_nominal = true;  ///< a value without limits may have none
   Length nominal_size;
-  std::optional<std::string_view> class_name;  ///< none when the basis is Explicit
+  std::optional<std::string_view> class_name;  ///< none when the basis is Explicit or None
   iso286::Feature feature = iso286::Feature::Hole;
   iso286::LimitDeviations deviations;
   std::optional<iso286::NominalSizeRange> size_range;
   LimitsBasis basis = LimitsBasis::Iso286;
-  std::string_view table_revision;  ///< of the standard's numbers; empty when the basis is Explicit
+  std::string_view table_revision;  ///< of the standard's numbers; empty without a class
   std::optional<std::int64_t> revision_number;  ///< of table_revision, once number_revisions has it
 
   Length measured;
@@ -77,6 +84,7 @@ struct Measurement : MeasurementFields {
   std::optional<Elsewhere> corrected_elsewhere;  ///< where that one is of another folder
   std::optional<std::int64_t> corrected_by;      ///< known where one measurement was asked for
   std::string_view corrected_by_origin{};        ///< empty: that of this one
+  bool has_unknown_gauge = false;  ///< while it is judged: others are registered, this one is not
   /// Another correction of the same record was made apart from this one. Known as corrected_by, and
   /// in lists.
   bool conflict = false;
@@ -84,6 +92,13 @@ struct Measurement : MeasurementFields {
 
   Length upper_limit() const { return nominal_size + deviations.upper; }
   Length lower_limit() const { return nominal_size + deviations.lower; }
+  bool is_judged() const { return basis != LimitsBasis::None; }
+  /// Whether it says that it is a hole or a shaft.
+  bool has_feature() const {
+    return !quantity || (gauging::has_feature(*quantity) && (is_judged() || cycle.has_value()));
+  }
+  /// A GO gauge found material beyond the envelope of perfect form at the maximum-material size.
+  bool has_failed_envelope() const { return envelope && go_gauge == kGoFails; }
   bool has_upper_limit() const { return deviations.upper < kNoLimit; }
   bool has_lower_limit() const { return -kNoLimit < deviations.lower; }
   /// What is compared with the limits.
@@ -109,14 +124,20 @@ class KeptMeasurement {
 void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
                   const iso286::ToleranceTables& tables);
 
+/// `M10-6H` is a pitch diameter, `R2 ISO 2768-m` a radius, `25 ISO 2768-m` a distance.
+gauging::Quantity quantity_of(const standards::DesignatedLimits& limits);
+
 /// Takes the limits of a designation of another standard.
 void apply_limits(Measurement& measurement, const standards::DesignatedLimits& limits);
 
 /// Takes the limits that stand in another measurement, as they were applied there.
 void apply_limits(Measurement& measurement, const Measurement& other);
 
-/// Judges the value by the limits and the rule that stand in the record.
-/// @pre a rule of conformance can accept some value
+/// Takes the nominal size, if there is one, and no limits.
+void apply_no_limits(Measurement& measurement, std::optional<Length> nominal);
+
+/// Judges the value by the limits and the rule that stand in the record; without limits it is
+/// unjudged. @pre a rule of conformance can accept some value
 void judge(Measurement& measurement);
 
 struct SizeLimits {
@@ -126,14 +147,14 @@ struct SizeLimits {
 
 /// A size, or the position of a centre, as a measuring cycle tells it.
 struct CycleSize {
+  gauging::Quantity quantity = gauging::Quantity::Diameter;
   iso286::Feature feature = iso286::Feature::Hole;
-  bool is_position = false;  ///< out of its limits it is scrap on either side
-  Length nominal;
+  std::optional<Length> nominal;
   Length measured;
   std::optional<SizeLimits> limits{};
 };
 
-/// Takes the size with the limits of its drawing and judges it; without limits it is indeterminate.
+/// Takes the size with the limits of its drawing and judges it; without limits it is unjudged.
 void judge_size(Measurement& measurement, const CycleSize& size);
 
 /// The ids of measurements and runs as the outside sees them, opaque: `m17-5f0c9a3e77d21b40`. The

@@ -19,6 +19,7 @@ struct RowField {
     Feature,
     Upper,
     Lower,
+    Quantity,
     Labels,
     MeasuredAt = Labels + app::kLabels.size(),
     Uncertainty,
@@ -26,11 +27,12 @@ struct RowField {
     Rule,
     Probability,
     Thermal,
-    Kept = Thermal + app::kThermalFields.size(),  ///< decides nothing, as the labels
+    DegreesOfFreedom = Thermal + app::kThermalFields.size(),
+    Kept,  ///< decides nothing, as the labels, or only of a record
     Count = Thermal + app::kGivenFields.size() - app::kLabels.size(),
   };
 
-  enum class Kind : std::uint8_t { Length, Decimal, Text, Time, Feature, Rule };
+  enum class Kind : std::uint8_t { Length, Decimal, Text, Time, Feature, Quantity, Rule };
 
   std::string_view name{};
   Kind kind = Kind::Text;
@@ -43,22 +45,27 @@ struct RowField {
 inline constexpr std::array<RowField, RowField::Count> kRowFields = [] {
   std::array<RowField, RowField::Count> fields = {{
       {"measured_mm", RowField::Kind::Length, 0,
-       "Measured value, above 0 to 100000000; rounded to 1 nm"},
+       "Measured value, above 0 to 100000000; a position, distance or deviation from -100000000; "
+       "rounded to 1 nm"},
       {"nominal_mm", RowField::Kind::Length, 0, "Nominal size"},
       {"tolerance_class", RowField::Kind::Text, 64, "H7, g6 or a column of the shop's own"},
       {"designation", RowField::Kind::Text, 64,
-       "25 H7, M10-6H or 25 ISO 2768-m; a comma may mark decimals"},
-      {"feature", RowField::Kind::Feature, 16, "Of a drawing's own limits"},
+       "25 H7, 25 H7(E), M10-6H or 25 ISO 2768-m; a comma may mark decimals"},
+      {"feature", RowField::Kind::Feature, 16,
+       "Of a drawing's own limits of a diameter, width or pitch diameter"},
       {"upper_um", RowField::Kind::Length, 0, "Upper deviation of a drawing's own limits"},
       {"lower_um", RowField::Kind::Length, 0, "Lower deviation of a drawing's own limits"},
+      {"quantity", RowField::Kind::Quantity, 16,
+       "As the designation says, else diameter; given, the value may do without limits"},
   }};
   fields[RowField::MeasuredAt] = {
       "measured_at", RowField::Kind::Time, 64,
       "With an offset or Z, kept in UTC; when it was received, if absent"};
   fields[RowField::Uncertainty] = {"uncertainty_um", RowField::Kind::Length, 0,
                                    "Standard uncertainty u, from 0"};
-  fields[RowField::Coverage] = {"coverage_factor", RowField::Kind::Decimal, 0,
-                                "k, above 0 to 100; 2 when absent"};
+  fields[RowField::Coverage] = {
+      "coverage_factor", RowField::Kind::Decimal, 0,
+      "k, above 0 to 100; t(0.9545, degrees_of_freedom) when absent, 2 without them"};
   fields[RowField::Rule] = {"rule", RowField::Kind::Rule, 16, "Decision rule; simple when absent"};
   fields[RowField::Probability] = {"probability", RowField::Kind::Decimal, 0,
                                    "Of conformance, from 0.5 to below 1; 0.95 when absent"};
@@ -71,5 +78,6 @@ inline constexpr std::array<RowField, RowField::Count> kRowFields = [] {
   }
   return fields;
 }();
+static_assert(kRowFields[RowField::DegreesOfFreedom].name == "degrees_of_freedom");
 
 }  // namespace fitgauge::api

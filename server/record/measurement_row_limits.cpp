@@ -9,6 +9,20 @@
 // How a row says its limits: a designation, a class with its nominal size, or those of a drawing.
 
 namespace fitgauge::api {
+namespace {
+
+bool is_nominal(Length nominal, gauging::Quantity quantity) {
+  const bool is_above =
+      gauging::is_signed(quantity) ? nominal >= -kLargestMeasured : nominal > Length();
+  return is_above && nominal <= kLargestMeasured;
+}
+
+std::string nominal_range(gauging::Quantity quantity) {
+  return fmt::format("nominal_mm of a {} is {} and at most 100000000", word(quantity),
+                     gauging::is_signed(quantity) ? "at least -100000000" : "above 0");
+}
+
+}  // namespace
 
 void MeasurementRowReader::take_limits(const app::Measurement& other) {
   app::apply_limits(draft_.measurement, other);
@@ -34,6 +48,7 @@ void MeasurementRowReader::resolve_limits() {
     return;
   }
   if (by_designation) return resolve_designation();
+  if (ways == 0 && given(RowField::Quantity)) return resolve_none();
   if (!given(RowField::Nominal)) {
     report(ErrorCode::FieldMissing, kRowFields[RowField::Nominal].name,
            "nominal_mm is required, or a designation");
@@ -41,7 +56,32 @@ void MeasurementRowReader::resolve_limits() {
   if (by_drawing) return resolve_explicit();
   if (by_class) return resolve_class();
   report(ErrorCode::FieldMissing, kRowFields[RowField::Class].name,
-         "tolerance_class is required, or feature with upper_um, lower_um or both");
+         "tolerance_class is required, or feature with upper_um, lower_um or both; a value without "
+         "limits has a quantity");
+}
+
+void MeasurementRowReader::take_quantity(gauging::Quantity of_class, bool has_others) {
+  if (!draft_.quantity || *draft_.quantity == of_class) return;
+  const bool is_size =
+      *draft_.quantity <= gauging::Quantity::Width;  // of a slot, a key, or between two faces
+  if (has_others && is_size) return;
+  report(ErrorCode::FieldConflict, kRowFields[RowField::Quantity].name,
+         fmt::format("the limits are those of a {}: leave quantity out", word(of_class)));
+}
+
+void MeasurementRowReader::refuse_feature(gauging::Quantity quantity) {
+  report(ErrorCode::FieldConflict, kRowFields[RowField::Feature].name,
+         fmt::format("a {} is no hole or shaft: leave feature out", word(quantity)));
+}
+
+/// A value that nothing judges.
+void MeasurementRowReader::resolve_none() {
+  if (!draft_.quantity) return;
+  if (draft_.nominal && !is_nominal(*draft_.nominal, *draft_.quantity)) {
+    report(ErrorCode::LengthOutOfRange, kRowFields[RowField::Nominal].name,
+           nominal_range(*draft_.quantity));
+  }
+  app::apply_no_limits(draft_.measurement, draft_.nominal);
 }
 
 bool MeasurementRowReader::is_open_designation() const {
@@ -54,8 +94,17 @@ bool MeasurementRowReader::is_open_class() const {
 void MeasurementRowReader::take_limits(Result<standards::DesignatedLimits> limits,
                                        std::string_view field) {
   if (!limits) return report(limits.error().code, field, limits.error().message);
-  if (limits->feature_is_open && draft_.feature) limits->feature = *draft_.feature;
-  app::apply_limits(draft_.measurement, *limits);
+  const gauging::Quantity quantity = app::quantity_of(*limits);
+  const bool is_linear = quantity == gauging::Quantity::Distance;
+  take_quantity(quantity, is_linear);
+  app::Measurement& m = draft_.measurement;
+  if (draft_.feature && !is_linear) refuse_feature(quantity);
+  if (draft_.feature) {
+    limits->feature = *draft_.feature;
+    if (!m.quantity) m.quantity = gauging::Quantity::Diameter;
+    if (m.quantity == quantity) refuse_feature(quantity);
+  }
+  app::apply_limits(m, *limits);
 }
 
 Result<iso286::ClassId> MeasurementRowReader::find_class(std::string_view name) {
@@ -70,6 +119,7 @@ Result<iso286::ClassId> MeasurementRowReader::find_class(std::string_view name) 
 void MeasurementRowReader::take_limits(const Result<iso286::LimitsOfSize>& limits,
                                        std::string_view field) {
   if (limits) {
+    take_quantity(gauging::Quantity::Diameter, true);
     app::apply_limits(draft_.measurement, *limits, tables_);
   } else {
     report(limits.error().code, field, limits.error().message);
@@ -108,39 +158,46 @@ void MeasurementRowReader::resolve_designation() {
   }
   const auto designation = iso286::parse_designation(*draft_.designation);
   if (!designation) return report(designation.error().code, field, designation.error().message);
+  if (designation->has_envelope) draft_.measurement.envelope = app::kEnvelopeRequired;
   const auto id = find_class(designation->class_name);
   if (!id) return report(id.error().code, field, id.error().message);
   take_limits(tables_.limits_of_size(designation->nominal_size, *id), field);
 }
 
 void MeasurementRowReader::resolve_explicit() {
-  if (!given(RowField::Feature)) {
+  const gauging::Quantity quantity = draft_.quantity.value_or(gauging::Quantity::Diameter);
+  const bool has_feature = gauging::has_feature(quantity);
+  if (!has_feature && given(RowField::Feature)) {
+    refuse_feature(quantity);
+  } else if (has_feature && !given(RowField::Feature)) {
     report(ErrorCode::FieldMissing, kRowFields[RowField::Feature].name,
            "feature is required beside the limits of a drawing");
   }
   const bool one_given = given(RowField::Upper) || given(RowField::Lower);
   if (!one_given) {
     report(ErrorCode::FieldMissing, kRowFields[RowField::Upper].name,
-           "upper_um is required beside feature, or lower_um, or both");
+           "upper_um is required beside feature, or lower_um, or both; a value without limits has "
+           "a quantity and no feature");
   }
-  if (!draft_.nominal || !draft_.feature || !one_given || draft_.failed) return;
+  if (!draft_.nominal || !one_given || draft_.failed) return;
   const Length upper = draft_.upper.value_or(app::kNoLimit);
   const Length lower = draft_.lower.value_or(-app::kNoLimit);
   app::Measurement& m = draft_.measurement;
-  if (*draft_.nominal <= Length() || *draft_.nominal > kLargestMeasured) {
+  if (!is_nominal(*draft_.nominal, quantity)) {
     report(ErrorCode::LengthOutOfRange, kRowFields[RowField::Nominal].name,
-           "nominal_mm is above 0 and at most 100000000");
+           nominal_range(quantity));
   }
   if (upper < lower) {
     report(ErrorCode::LimitsInvalid, kRowFields[RowField::Upper].name,
            "upper_um is below lower_um");
-  } else if (draft_.lower && *draft_.nominal + lower <= Length()) {
+  } else if (!gauging::is_signed(quantity) && draft_.lower && *draft_.nominal + lower <= Length()) {
     report(ErrorCode::LimitsInvalid, kRowFields[RowField::Lower].name,
            "the lower limit would be 0 or less");
   }
   m.basis = app::LimitsBasis::Explicit;
   m.nominal_size = *draft_.nominal;
-  m.feature = *draft_.feature;
+  m.quantity = quantity;
+  m.feature = draft_.feature.value_or(m.feature);
   m.deviations = {.upper = upper, .lower = lower};
 }
 

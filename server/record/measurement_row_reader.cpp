@@ -81,14 +81,7 @@ bool MeasurementRowReader::field(std::string_view name, const RawValue& value) {
 void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
   app::Measurement& m = draft_.measurement;
   switch (field) {
-    case RowField::Measured:
-      if (const auto measured = length(field, value, false, true)) {
-        m.measured = *measured;
-        if (const auto checked = check_measured(*measured); !checked) {
-          report(checked.error().code, kRowFields[field].name, checked.error().message);
-        }
-      }
-      break;
+    case RowField::Measured: draft_.measured = length(field, value, false, true); break;
     case RowField::Nominal: draft_.nominal = length(field, value, false); break;
     case RowField::Class: draft_.class_name = text(field, value); break;
     case RowField::Designation: draft_.designation = text(field, value); break;
@@ -97,6 +90,15 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
         draft_.feature = iso286::feature_from_word(*given_word);
         if (!draft_.feature) {
           report(ErrorCode::FieldInvalid, kRowFields[field].name, "feature is hole or shaft");
+        }
+      }
+      break;
+    case RowField::Quantity:
+      if (const auto given_word = text(field, value)) {
+        draft_.quantity = gauging::quantity_from_word(*given_word);
+        if (!draft_.quantity) {
+          report(ErrorCode::FieldInvalid, kRowFields[field].name,
+                 fmt::format("quantity is {}", fmt::join(gauging::kQuantityWords, ", ")));
         }
       }
       break;
@@ -235,11 +237,13 @@ void MeasurementRowReader::apply_gauge() {
     m.calibration_due = other->calibration_due;
     if (needs && !m.standard_uncertainty) {
       m.standard_uncertainty = other->standard_uncertainty;
+      m.degrees_of_freedom = other->degrees_of_freedom;
       m.uncertainty_budget = other->uncertainty_budget;
     }
   }
   if (context_.gauges == nullptr || !m.gauge) return;
   const GaugeInUse* gauge = find_gauge(*m.gauge);
+  m.has_unknown_gauge = gauge == nullptr && !context_.gauges->empty();
   if (gauge == nullptr) return;
   if (draft_.gauge_of == nullptr && gauge->is_overdue(m.measured_at)) {
     m.calibration_due = gauge->calibration_due;
@@ -247,6 +251,7 @@ void MeasurementRowReader::apply_gauge() {
   if (needs && !m.standard_uncertainty && !given(RowField::Uncertainty) &&
       gauge->standard_uncertainty) {
     m.standard_uncertainty = gauge->standard_uncertainty;
+    m.degrees_of_freedom = gauge->degrees_of_freedom;
     m.uncertainty_budget = gauge->budget;
   }
 }
@@ -255,10 +260,8 @@ void MeasurementRowReader::apply_gauge() {
 void MeasurementRowReader::apply_rule() {
   app::Measurement& m = draft_.measurement;
   draft_.rule.standard_uncertainty = m.standard_uncertainty;
-  if (m.standard_uncertainty && m.added_uncertainty) {
-    draft_.rule.standard_uncertainty =
-        gauging::combined_uncertainty(*m.standard_uncertainty, *m.added_uncertainty);
-  }
+  draft_.rule.added_uncertainty = m.added_uncertainty;
+  draft_.rule.degrees_of_freedom = m.degrees_of_freedom;
   const auto rule = make_rule(draft_.rule);
   if (!rule) {
     const std::string_view field = kRowFields[RowField::Uncertainty].name;
@@ -291,12 +294,62 @@ void MeasurementRowReader::apply_correction() {
   m.added_uncertainty = (*correction)->added_uncertainty(*m.corrected);
 }
 
+void MeasurementRowReader::refuse_rule_without_limits() {
+  for (const std::size_t field :
+       {RowField::Uncertainty, RowField::Coverage, RowField::Rule, RowField::Probability}) {
+    if (!given(field)) continue;
+    report(ErrorCode::FieldConflict, kRowFields[field].name,
+           fmt::format("{} decides by limits, and none are given: give nominal_mm with "
+                       "tolerance_class, designation, or upper_um or lower_um",
+                       kRowFields[field].name));
+  }
+}
+
+/// What ISO 14405-1 says of a size, and of no other quantity.
+void MeasurementRowReader::apply_size() {
+  app::Measurement& m = draft_.measurement;
+  const bool is_size = m.quantity && gauging::has_feature(*m.quantity);
+  const std::pair<std::string_view, const std::optional<std::string_view>*> given_words[] = {
+      {"size_operator", &m.size_operator}, {"envelope", &m.envelope}, {"go_gauge", &m.go_gauge}};
+  for (const auto& [name, value] : given_words) {
+    if (*value && m.quantity && !is_size) {
+      report(ErrorCode::FieldConflict, name,
+             fmt::format("{} belongs to a size, not to a {}", name, word(*m.quantity)));
+    }
+  }
+  if (m.envelope && m.envelope != app::kEnvelopeRequired) {
+    report(ErrorCode::FieldInvalid, "envelope", "envelope is required, or left out");
+  }
+  if (m.go_gauge && m.go_gauge != app::kGoPasses && m.go_gauge != app::kGoFails) {
+    report(ErrorCode::FieldInvalid, "go_gauge", "go_gauge is passes or fails");
+  } else if (m.go_gauge && !m.envelope) {
+    report(ErrorCode::FieldMissing, "envelope",
+           "go_gauge verifies an envelope: give envelope required, or a designation with (E)");
+  }
+  if (is_size && !m.size_operator) m.size_operator = "LP";
+}
+
 const app::Measurement* MeasurementRowReader::end() {
   app::Measurement& m = draft_.measurement;
   if (!given(RowField::Measured)) {
     report(ErrorCode::FieldMissing, kRowFields[RowField::Measured].name, "measured_mm is required");
   }
+  if (draft_.quantity) m.quantity = draft_.quantity;
   if (!draft_.has_limits) resolve_limits();
+  if (draft_.measured) {
+    m.measured = *draft_.measured;
+    const auto checked =
+        check_measured(m.measured, m.quantity.value_or(gauging::Quantity::Diameter));
+    if (!checked) {
+      report(checked.error().code, kRowFields[RowField::Measured].name, checked.error().message);
+    }
+  }
+  if (!m.is_judged()) refuse_rule_without_limits();
+  apply_size();
+  if (m.degrees_of_freedom && !m.standard_uncertainty && !given(RowField::Uncertainty)) {
+    report(ErrorCode::FieldMissing, kRowFields[RowField::Uncertainty].name,
+           "degrees_of_freedom are those of uncertainty_um, which is missing");
+  }
   if (!given(RowField::MeasuredAt)) m.measured_at = context_.received_at;
   apply_gauge();
   if (draft_.rule.kind != gauging::DecisionRule::Kind::Simple && !m.standard_uncertainty &&
@@ -307,7 +360,7 @@ const app::Measurement* MeasurementRowReader::end() {
                        word(draft_.rule.kind)));
   }
   if (!draft_.failed) apply_correction();
-  if (!draft_.failed) apply_rule();
+  if (!draft_.failed && m.is_judged()) apply_rule();
   if (draft_.failed) return nullptr;
   m.received_at = context_.received_at;
   m.caller = context_.caller;

@@ -63,10 +63,12 @@ class MeasurementRowReader {
   struct Draft {
     app::Measurement measurement{};
     std::uint64_t given = 0;  ///< a bit a field
+    std::optional<Length> measured{};
     std::optional<Length> nominal{};
     std::optional<std::string_view> class_name{};
     std::optional<std::string_view> designation{};
     std::optional<iso286::Feature> feature{};
+    std::optional<gauging::Quantity> quantity{};
     std::optional<Length> upper{};
     std::optional<Length> lower{};
     RuleWords rule{};
@@ -96,6 +98,12 @@ class MeasurementRowReader {
   void resolve_class();
   void resolve_designation();
   void resolve_explicit();
+  void resolve_none();
+  /// Reports a quantity that a class of limits is not for.
+  void take_quantity(gauging::Quantity of_class, bool has_others);
+  void refuse_feature(gauging::Quantity quantity);
+  void refuse_rule_without_limits();
+  void apply_size();
   void take_limits(const Result<iso286::LimitsOfSize>& limits, std::string_view field);
   void take_limits(Result<standards::DesignatedLimits> limits, std::string_view field);
   bool is_open_designation() const;

@@ -32,7 +32,8 @@ bool same_times(const Measurement& a, const Measurement& b) {
 
 bool same_limits(const Measurement& a, const Measurement& b) {
   const auto limits = [](const Measurement& m) {
-    return std::tie(m.nominal_size, m.class_name, m.deviations, m.size_range, m.basis);
+    return std::tie(m.has_nominal, m.nominal_size, m.class_name, m.deviations, m.size_range,
+                    m.basis);
   };
   return limits(a) == limits(b);
 }
@@ -51,6 +52,7 @@ class MemberText {
   void decimal(std::int64_t value, int scale) { begin().decimal(value, scale); }
   void billionths(std::int64_t value) { begin().billionths(value); }
   void truth() { begin().raw("true"); }
+  void null() { begin().raw("null"); }
 
   void designation(const Measurement& m) {
     if (!m.class_name) return;

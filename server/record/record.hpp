@@ -24,7 +24,7 @@ class RecordWriter {
   void append(const Measurement& measurement);
 
  private:
-  static constexpr std::size_t kMostMembers = 64;
+  static constexpr std::size_t kMostMembers = 80;
   /// Where a part of the record before stands.
   struct Place {
     std::size_t at = 0;

@@ -46,6 +46,7 @@ struct MemberValue {
   }
   void billionths(std::optional<std::int64_t> value) { value ? out.billionths(*value) : void(); }
   void truth(bool value) { value ? out.truth() : void(); }
+  void null() { out.null(); }
 };
 template <class Out>
 MemberValue(Out&) -> MemberValue<Out>;
@@ -62,6 +63,13 @@ constexpr std::optional<T> if_so(bool there, T value) {
 }
 inline std::optional<std::int64_t> figure(M m, std::int64_t gauging::ConformanceFigures::*of) {
   return m.conformance ? std::optional((*m.conformance).*of) : std::nullopt;
+}
+
+/// The envelope that is required: as the GO gauge found it.
+inline std::string_view envelope_result(M m) {
+  if (!m.envelope) return "";
+  if (!m.go_gauge) return "not_verified";
+  return m.has_failed_envelope() ? "failed" : "verified";
 }
 
 /// Members that are more than one of MeasurementFields.
@@ -82,9 +90,14 @@ inline constexpr std::tuple kComputed = {
                    if (m.coverage_factor) to.decimal(m.coverage_factor->millionths(), 6);
                  }},
     RecordMember{"designation", 0, [](M m, auto to) { to.out.designation(m); }, kLimits},
-    RecordMember{"deviation_um", 15, [](M m, auto to) { to.um(m.decisive() - m.nominal_size); }},
-    RecordMember{"excess_um", 17, [](M m, auto to) { to.um(m.result.excess); }},
-    RecordMember{"feature", 7, [](M m, auto to) { to.word(word(m.feature)); }},
+    RecordMember{"deviation_um", 15, [](M m, auto to) { to.um(if_so(m.has_nominal, m.decisive() - m.nominal_size)); }},
+    RecordMember{"envelope_result", 60, [](M m, auto to) { to.word(envelope_result(m)); }},
+    RecordMember{"excess_um", 17, [](M m, auto to) { to.um(if_so(m.is_judged(), m.result.excess)); }},
+    RecordMember{"feature", 7, [](M m, auto to) { to.word(m.has_feature() ? word(m.feature) : ""); }},
+    RecordMember{"form_um", 64, [](M m, auto to) {
+      if (m.form) return to.um(Length::nanometres(*m.form));
+      if (m.points) to.null();
+    }},
     RecordMember{
         "guard_band_um", 39,
         [](M m, auto to) { to.billionths(figure(m, &gauging::ConformanceFigures::guard_band)); }},
@@ -96,13 +109,14 @@ inline constexpr std::tuple kComputed = {
                  [](M m, auto to) { to.mm(if_so(m.has_lower_limit(), m.lower_limit())); }, kLimits},
     RecordMember{"measured_at", 3, [](M m, auto to) { to.time(m.measured_at); }, kTimes},
     RecordMember{"measured_mm", 14, [](M m, auto to) { to.mm(m.measured); }},
-    RecordMember{"nominal_mm", 5, [](M m, auto to) { to.mm(m.nominal_size); }, kLimits},
+    RecordMember{"nominal_mm", 5, [](M m, auto to) { to.mm(if_so(m.has_nominal, m.nominal_size)); }, kLimits},
     RecordMember{"probability", 37,
                  [](M m, auto to) {
                    if (m.conformance) to.decimal(m.rule.probability().millionths(), 6);
                  }},
+    RecordMember{"quantity", 55, [](M m, auto to) { to.word(m.quantity ? word(*m.quantity) : ""); }},
     RecordMember{"received_at", 4, [](M m, auto to) { to.time(m.received_at); }, kTimes},
-    RecordMember{"rule", 18, [](M m, auto to) { to.word(word(m.rule.kind())); }},
+    RecordMember{"rule", 18, [](M m, auto to) { to.word(m.is_judged() ? word(m.rule.kind()) : ""); }},
     RecordMember{"run_id", 33,
                  [](M m, auto to) { to.word(m.run_id ? run_id_text(*m.run_id, m.origin) : ""); }},
     RecordMember{"size_range_mm", 0, [](M m, auto to) { to.out.size_range(m); }, kLimits},
@@ -120,7 +134,7 @@ inline constexpr std::tuple kComputed = {
                  kLimits},
     RecordMember{"upper_limit_mm", 10,
                  [](M m, auto to) { to.mm(if_so(m.has_upper_limit(), m.upper_limit())); }, kLimits},
-    RecordMember{"verdict", 16, [](M m, auto to) { to.word(word(m.result.verdict)); }},
+    RecordMember{"verdict", 16, [](M m, auto to) { to.word(m.is_judged() ? word(m.result.verdict) : ""); }},
 };
 
 template <std::size_t I>

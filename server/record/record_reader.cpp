@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/decimal.hpp"
-#include "metrology/gauging/reference_temperature.hpp"
+#include "record/verdict_codec.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -31,7 +31,7 @@ class Record {
 
   std::optional<std::int64_t> decimal(std::string_view name, int scale) {
     const JsonValue* value = json_.find(name);
-    if (value == nullptr) return std::nullopt;
+    if (value == nullptr || value->is(JsonValue::Kind::Null)) return std::nullopt;
     return taken(name, parse_decimal(value->text, {.scale = scale, .exponent = true}));
   }
 
@@ -113,13 +113,21 @@ void read_ids(Record& record, Measurement& m) {
 }
 
 void read_limits(Record& record, const JsonValue& json, Measurement& m) {
+  if (const auto said = record.text("quantity")) {
+    m.quantity = record.required("quantity", gauging::quantity_from_word(*said));
+  }
+  const std::string_view basis = record.text("basis").value_or("");
+  if (basis == word(app::LimitsBasis::None)) {
+    app::apply_no_limits(m, record.mm("nominal_mm"));
+    m.feature = iso286::feature_from_word(record.text("feature").value_or("")).value_or(m.feature);
+    return;
+  }
   m.nominal_size = record.required("nominal_mm", record.mm("nominal_mm"));
   m.class_name = record.text("tolerance_class");
   const auto feature = iso286::feature_from_word(record.text("feature").value_or(""));
-  m.feature = record.required("feature", feature);
+  if (m.has_feature()) m.feature = record.required("feature", feature);
   m.deviations = {.upper = record.um("upper_deviation_um").value_or(app::kNoLimit),
                   .lower = record.um("lower_deviation_um").value_or(-app::kNoLimit)};
-  const std::string_view basis = record.text("basis").value_or("");
   if (basis == word(app::LimitsBasis::Custom)) {
     m.basis = app::LimitsBasis::Custom;
   } else if (basis == word(app::LimitsBasis::Explicit)) {
@@ -145,20 +153,18 @@ void read_rule(Record& record, Measurement& m) {
     m.coverage_factor =
         record.taken("coverage_factor", gauging::CoverageFactor::from_millionths(*k));
   }
-  using Kind = gauging::DecisionRule::Kind;
-  const Length u = gauging::combined_uncertainty(m.standard_uncertainty.value_or(Length()),
-                                                 m.added_uncertainty.value_or(0));
   const auto kind = gauging::rule_from_word(record.text("rule").value_or(""));
-  if (record.required("rule", kind) == Kind::GuardBand) {
-    const auto rule =
-        gauging::DecisionRule::guard_band(u, m.coverage_factor.value_or(gauging::CoverageFactor()));
-    m.rule = record.required("rule", record.taken("rule", rule));
-  } else if (kind == Kind::Conformance) {
-    const auto p = gauging::ConformanceProbability::from_millionths(
-        record.decimal("probability", 6).value_or(0));
-    if (!p) return record.wrong("probability");
-    m.rule =
-        record.required("rule", record.taken("rule", gauging::DecisionRule::conformance(u, *p)));
+  if (!m.is_judged()) return;
+  const auto rule = make_rule(
+      {.kind = record.required("rule", kind),
+       .standard_uncertainty = m.standard_uncertainty,
+       .coverage_millionths =
+           m.coverage_factor ? std::optional(m.coverage_factor->millionths()) : std::nullopt,
+       .probability_millionths = record.decimal("probability", 6),
+       .degrees_of_freedom = m.degrees_of_freedom,
+       .added_uncertainty = m.added_uncertainty});
+  m.rule = record.required("rule", record.taken("rule", rule));
+  if (m.rule.kind() == gauging::DecisionRule::Kind::Conformance) {
     m.conformance = gauging::ConformanceFigures{
         .probability = record.required("conformance_probability",
                                        record.decimal("conformance_probability", kBillionths)),
@@ -175,6 +181,7 @@ void read_plain(Record& record, Measurement& m) {
       m.*field.number = record.decimal(field.name, field.scale);
     }
   }
+  m.form = record.decimal("form_um", kUmDecimals);
 }
 
 }  // namespace
@@ -193,10 +200,10 @@ Result<Measurement> read_record(const JsonValue& json, TextArena& texts) {
   m.corrected = record.mm("corrected_mm");
   read_rule(record, m);
   const auto verdict = gauging::verdict_from_word(record.text("verdict").value_or(""));
-  if (!verdict) record.wrong("verdict");
+  if (m.is_judged() != verdict.has_value()) record.wrong("verdict");
   if (record.error()) return *record.error();
   m.result = gauging::gauge(m.feature, m.upper_limit(), m.lower_limit(), m.decisive());
-  m.result.verdict = *verdict;
+  m.result.verdict = verdict.value_or(gauging::Verdict::Unjudged);
   return m;
 }
 

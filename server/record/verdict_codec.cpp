@@ -1,8 +1,11 @@
 #include "record/verdict_codec.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "base/json/applicable.hpp"
+#include "metrology/gauging/reference_temperature.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -13,13 +16,32 @@ constexpr std::array<Applicable, 2> kRuleMembers = {{
     {"probability", "conformance"},
 }};
 
+using KnownU = gauging::KnownUncertainty;
+
+/// √(u² + added²) with ν (u_c / u)⁴ degrees of freedom.
+KnownU known_of(const RuleWords& words) {
+  const Length given = words.standard_uncertainty.value_or(Length());
+  KnownU known(gauging::combined_uncertainty(given, words.added_uncertainty.value_or(0)));
+  if (!words.degrees_of_freedom) return known;
+  constexpr double kPicometres = 1000;
+  const double u = static_cast<double>(given.count()) * kPicometres;
+  const double ratio = static_cast<double>(words.added_uncertainty.value_or(0)) / u;
+  const double widened = given == Length() ? 1 : 1 + ratio * ratio;
+  known.degrees_of_freedom =
+      static_cast<double>(*words.degrees_of_freedom) / 1e6 * widened * widened;
+  return known;
+}
+
 }  // namespace
 
-Result<void> check_measured(Length measured) {
-  if (measured > Length() && measured <= kLargestMeasured) return {};
-  return Error{ErrorCode::LengthOutOfRange, "a measured value is above 0 and at most " +
-                                                format_mm(kLargestMeasured) + " mm, not " +
-                                                format_mm(measured)};
+Result<void> check_measured(Length measured, gauging::Quantity quantity) {
+  const bool is_signed = gauging::is_signed(quantity);
+  const bool is_above = is_signed ? measured >= -kLargestMeasured : measured > Length();
+  if (is_above && measured <= kLargestMeasured) return {};
+  return Error{ErrorCode::LengthOutOfRange,
+               fmt::format("a measured {} is {} and at most {} mm, not {}", word(quantity),
+                           is_signed ? "at least -100000000" : "above 0",
+                           format_mm(kLargestMeasured), format_mm(measured))};
 }
 
 Result<void> check_uncertainty(Length uncertainty) {
@@ -29,9 +51,15 @@ Result<void> check_uncertainty(Length uncertainty) {
 
 Result<gauging::DecisionRule> make_rule(const RuleWords& words) {
   using Kind = gauging::DecisionRule::Kind;
+  if (words.kind == Kind::Simple && !words.probability_millionths) return gauging::DecisionRule();
+  const KnownU known = known_of(words);
   gauging::CoverageFactor factor;
-  if (words.coverage_millionths) {
-    const auto given = gauging::CoverageFactor::from_millionths(*words.coverage_millionths);
+  std::optional<std::int64_t> millionths = words.coverage_millionths;
+  if (!millionths && words.kind == Kind::GuardBand && words.degrees_of_freedom) {
+    millionths = gauging::coverage_millionths(known.degrees_of_freedom);
+  }
+  if (millionths) {
+    const auto given = gauging::CoverageFactor::from_millionths(*millionths);
     if (!given) return given.error();
     factor = *given;
   }
@@ -58,15 +86,14 @@ Result<gauging::DecisionRule> make_rule(const RuleWords& words) {
     return Error{ErrorCode::RuleInvalid, "rule " + std::string(word(words.kind)) +
                                              " needs uncertainty_um, the standard uncertainty"};
   }
-  return words.kind == Kind::GuardBand
-             ? gauging::DecisionRule::guard_band(*words.standard_uncertainty, factor)
-             : gauging::DecisionRule::conformance(*words.standard_uncertainty, probability);
+  return words.kind == Kind::GuardBand ? gauging::DecisionRule::guard_band(known.u, factor)
+                                       : gauging::DecisionRule::conformance(known, probability);
 }
 
 Result<void> check_acceptance(const gauging::DecisionRule& rule,
                               const gauging::ConformanceLimits& limits) {
   if (rule.kind() != gauging::DecisionRule::Kind::Conformance ||
-      gauging::guard_band_factor(limits.upper - limits.lower, rule.standard_uncertainty(),
+      gauging::guard_band_factor(limits.upper - limits.lower, rule.uncertainty(),
                                  rule.probability().value())) {
     return {};
   }
@@ -89,20 +116,23 @@ void write_verdict_members(JsonWriter& json, Length nominal_size, const Measured
       .member_um("excess_um", result.excess);
 }
 
-void write_rule_members(JsonWriter& json, const gauging::DecisionRule& rule,
-                        std::optional<Length> given, const gauging::ConformanceLimits& limits,
-                        Length measured) {
+void write_rule_members(JsonWriter& json, const gauging::DecisionRule& rule, const RuleWords& words,
+                        const gauging::ConformanceLimits& limits, Length measured) {
   using Kind = gauging::DecisionRule::Kind;
   if (rule.kind() == Kind::Simple) return;
   const Length u = rule.standard_uncertainty();
-  json.member("rule", word(rule.kind())).member_um("uncertainty_um", given.value_or(u));
+  json.member("rule", word(rule.kind()))
+      .member_um("uncertainty_um", words.standard_uncertainty.value_or(u));
+  if (words.degrees_of_freedom) {
+    json.key("degrees_of_freedom").decimal(*words.degrees_of_freedom, 6);
+  }
   if (rule.kind() == Kind::GuardBand) {
     json.key("coverage_factor").raw(format(rule.coverage_factor()));
     return;
   }
   json.key("probability").raw(format(rule.probability()));
-  const auto figures =
-      gauging::conformance_figures(limits, measured, u, rule.probability().value());
+  const auto figures = gauging::conformance_figures(limits, measured, rule.uncertainty(),
+                                                    rule.probability().value());
   if (!figures) return;  // check_acceptance has refused it
   json.key("conformance_probability").decimal(figures->probability, 9);
   json.key("guard_band_um").decimal(figures->guard_band, 9);

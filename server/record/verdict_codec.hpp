@@ -13,18 +13,25 @@ namespace fitgauge::api {
 /// The largest measured value: 100 km.
 inline constexpr Length kLargestMeasured = Length::millimetres(100'000'000);
 
-/// @errors LengthOutOfRange unless 0 < measured <= kLargestMeasured.
-Result<void> check_measured(Length measured);
+/// @errors LengthOutOfRange unless 0 < measured <= kLargestMeasured; a position, distance or
+///   deviation lies from -kLargestMeasured on.
+Result<void> check_measured(Length measured,
+                            gauging::Quantity quantity = gauging::Quantity::Diameter);
 /// @errors LengthOutOfRange where it is negative.
 Result<void> check_uncertainty(Length uncertainty);
 
 /// A decision rule as it is written, in the query as in a body.
 struct RuleWords {
   gauging::DecisionRule::Kind kind = gauging::DecisionRule::Kind::Simple;
-  std::optional<Length> standard_uncertainty{};
+  std::optional<Length> standard_uncertainty{};  ///< as given
   std::optional<std::int64_t> coverage_millionths{};
   std::optional<std::int64_t> probability_millionths{};
+  std::optional<std::int64_t> degrees_of_freedom{};  ///< in millionths
+  std::optional<std::int64_t> added_uncertainty{};   ///< by the correction to 20 °C, in pm
 };
+/// The rule decides with the uncertainty that the correction to 20 °C is added to, and with its
+/// effective degrees of freedom (JCGM 100:2008, G.4.1): those that are added are without end. A
+/// guard band without a factor has t(0.9545, ν), 2 without degrees of freedom.
 /// @errors RuleInvalid when a guard band or conformance has no uncertainty, or a number is none of
 ///   the rule's.
 Result<gauging::DecisionRule> make_rule(const RuleWords& words);
@@ -46,11 +53,11 @@ struct MeasuredSize {
 void write_verdict_members(JsonWriter& json, Length nominal_size, const MeasuredSize& measured,
                            const gauging::GaugingResult& result);
 
-/// Writes the rule with its numbers: uncertainty_um, coverage_factor of a guard band, probability,
-/// conformance_probability and guard_band_um of conformance; nothing for the simple rule.
-/// @param given of uncertainty_um; the rule has it with what a correction adds
-void write_rule_members(JsonWriter& json, const gauging::DecisionRule& rule,
-                        std::optional<Length> given, const gauging::ConformanceLimits& limits,
-                        Length measured);
+/// Writes the rule with its numbers: uncertainty_um, degrees_of_freedom, coverage_factor of a guard
+/// band, probability, conformance_probability and guard_band_um of conformance; nothing for the
+/// simple rule.
+/// @param words as given; the rule has the uncertainty with what a correction adds
+void write_rule_members(JsonWriter& json, const gauging::DecisionRule& rule, const RuleWords& words,
+                        const gauging::ConformanceLimits& limits, Length measured);
 
 }  // namespace fitgauge::api

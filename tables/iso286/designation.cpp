@@ -25,11 +25,23 @@ std::string_view without_diameter_sign(std::string_view text) {
   return text;
 }
 
+/// Takes `(E)` or `Ⓔ` off the end. @returns whether it was there.
+bool take_envelope(std::string_view& text) {
+  for (const std::string_view sign : {std::string_view("(E)"), std::string_view("\xE2\x92\xBA")}) {
+    if (!text.ends_with(sign)) continue;
+    text = text.substr(0, text.size() - sign.size());
+    text = text.substr(0, text.find_last_not_of(' ') + 1);
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Result<Designation> parse_designation(std::string_view text) {
   constexpr std::string_view kRemedy = "is not a nominal size and a tolerance class such as 25 H7";
-  const std::string_view body = without_diameter_sign(text);
+  std::string_view body = without_diameter_sign(text);
+  const bool has_envelope = take_envelope(body);
   const auto* const letter = std::find_if(body.begin(), body.end(), is_ascii_letter);
   const auto split = static_cast<std::size_t>(letter - body.begin());
   const std::string_view name = body.substr(split);
@@ -42,7 +54,7 @@ Result<Designation> parse_designation(std::string_view text) {
     return malformed(ErrorCode::DesignationMalformed, text, kRemedy);
   }
   if (!size) return size.error();
-  return Designation{*size, std::string(name)};
+  return Designation{*size, std::string(name), has_envelope};
 }
 
 Result<FitDesignation> parse_fit_designation(std::string_view text) {
@@ -56,6 +68,7 @@ Result<FitDesignation> parse_fit_designation(std::string_view text) {
 Result<FitDesignation> parse_fit_designation(std::string_view hole, std::string_view shaft_class) {
   auto designation = parse_designation(hole);
   if (!designation) return designation.error();
+  take_envelope(shaft_class);
   if (!is_class_name(shaft_class)) {
     return malformed(ErrorCode::FitMalformed, shaft_class,
                      "is not the tolerance class of a shaft such as g6");

@@ -14,9 +14,11 @@ namespace fitgauge::iso286 {
 struct Designation {
   NominalSize nominal_size;
   std::string class_name;
+  bool has_envelope = false;  ///< the modifier Ⓔ of ISO 14405-1
 };
 
-/// Reads `25H7`, `25 H7`, `Ø25H7`, `⌀25 h7`, `25,5g6`. There are no exponents: `25e8` is class e8.
+/// Reads `25H7`, `25 H7`, `Ø25H7`, `⌀25 h7`, `25,5g6`, `25H7(E)`, `25 H7 Ⓔ`. There are no
+/// exponents: `25e8` is class e8.
 /// @errors DesignationMalformed, LengthTooFine, SizeOutOfRange.
 Result<Designation> parse_designation(std::string_view text);
 
@@ -27,7 +29,7 @@ struct FitDesignation {
   std::string shaft_class;
 };
 
-/// Reads `25H7/g6`, with or without blanks around the stroke.
+/// Reads `25H7/g6`, with or without blanks around the stroke, each part with or without Ⓔ.
 /// @errors FitMalformed, also for two holes, two shafts or the shaft first; those of
 ///   parse_designation.
 Result<FitDesignation> parse_fit_designation(std::string_view text);

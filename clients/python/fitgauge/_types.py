@@ -16,18 +16,31 @@ FeatureWord = Literal["hole", "shaft"]
 RunStatus = Literal["queued", "running", "completed", "stopped", "failed", "limit_exceeded", "cancelled"]
 
 
-class VerdictCounts(TypedDict):
+class _VerdictCounts(TypedDict):
     good: int
     rework: int
     reject: int
     indeterminate: int
 
 
-class Accepted(TypedDict):
+class VerdictCounts(_VerdictCounts, total=False):
+    unjudged: int
+
+
+class AcceptedWarnings(TypedDict):
+    code: str
+    detail: str
+
+
+class _Accepted(TypedDict):
     accepted: int
     first_id: str
     last_id: str
     verdicts: VerdictCounts
+
+
+class Accepted(_Accepted, total=False):
+    warnings: List[AcceptedWarnings]
 
 
 class _Correction(TypedDict):
@@ -42,6 +55,7 @@ class Correction(_Correction, total=False):
     feature: FeatureWord
     upper_um: Size
     lower_um: Size
+    quantity: Literal["diameter", "width", "pitch_diameter", "position", "distance", "radius", "chamfer", "deviation"]
     part_id: str
     characteristic: str
     order: str
@@ -67,7 +81,11 @@ class Correction(_Correction, total=False):
     scale_temperature_uncertainty_c: Size
     part_expansion_uncertainty_um_per_m_k: Size
     scale_expansion_uncertainty_um_per_m_k: Size
+    degrees_of_freedom: Size
     offset_um: Size
+    size_operator: str
+    envelope: str
+    go_gauge: str
 
 
 class _FieldError(TypedDict):
@@ -176,6 +194,7 @@ class Fit(TypedDict):
     type: Literal["clearance", "transition", "interference"]
     max_clearance_um: Decimal
     min_clearance_um: Decimal
+    assumes_envelope: bool
     statistical: FitStatistical
     formula: str
     clause: str
@@ -200,24 +219,25 @@ class Note(_Note, total=False):
     caller: str
 
 
+class MeasurementWarnings(TypedDict):
+    code: str
+    detail: str
+
+
 class _Measurement(TypedDict):
     id: str
     source: Literal["gauge", "simulation"]
     measured_at: str
     received_at: str
-    nominal_mm: Decimal
-    feature: FeatureWord
-    basis: Literal["iso286", "custom", "explicit", "standard"]
+    basis: Literal["iso286", "custom", "explicit", "standard", "none"]
     measured_mm: Decimal
-    deviation_um: Decimal
-    verdict: VerdictWord
-    excess_um: Decimal
-    rule: RuleWord
 
 
 class Measurement(_Measurement, total=False):
     designation: str
+    nominal_mm: Decimal
     tolerance_class: str
+    feature: FeatureWord
     upper_deviation_um: Decimal
     lower_deviation_um: Decimal
     upper_limit_mm: Decimal
@@ -225,6 +245,9 @@ class Measurement(_Measurement, total=False):
     tolerance_um: Decimal
     size_range_mm: MeasurementSizeRangeMm
     table_revision: str
+    deviation_um: Decimal
+    verdict: VerdictWord
+    excess_um: Decimal
     part_id: str
     characteristic: str
     order: str
@@ -237,6 +260,7 @@ class Measurement(_Measurement, total=False):
     subgroup: str
     uncertainty_um: Decimal
     coverage_factor: Decimal
+    rule: RuleWord
     probability: Decimal
     temperature_c: Decimal
     scale_temperature_c: Decimal
@@ -248,7 +272,11 @@ class Measurement(_Measurement, total=False):
     scale_temperature_uncertainty_c: Decimal
     part_expansion_uncertainty_um_per_m_k: Decimal
     scale_expansion_uncertainty_um_per_m_k: Decimal
+    degrees_of_freedom: Number
     offset_um: Decimal
+    size_operator: str
+    envelope: str
+    go_gauge: str
     corrected_mm: Decimal
     added_uncertainty_um: Decimal
     conformance_probability: Decimal
@@ -256,6 +284,12 @@ class Measurement(_Measurement, total=False):
     uncertainty: str
     calibration_due: str
     calibration_overdue: bool
+    quantity: Literal["diameter", "width", "pitch_diameter", "position", "distance", "radius", "chamfer", "deviation"]
+    envelope_result: Literal["verified", "not_verified", "failed"]
+    points: int
+    start_angle_deg: Decimal
+    diameter_factor: Number
+    form_um: Union[Decimal, None]
     caller: str
     run_id: str
     cycle: int
@@ -264,6 +298,7 @@ class Measurement(_Measurement, total=False):
     corrected_by: str
     conflict: bool
     notes: List[Note]
+    warnings: List[MeasurementWarnings]
 
 
 class _NewMeasurement(TypedDict):
@@ -277,6 +312,7 @@ class NewMeasurement(_NewMeasurement, total=False):
     feature: FeatureWord
     upper_um: Size
     lower_um: Size
+    quantity: Literal["diameter", "width", "pitch_diameter", "position", "distance", "radius", "chamfer", "deviation"]
     part_id: str
     characteristic: str
     order: str
@@ -302,7 +338,11 @@ class NewMeasurement(_NewMeasurement, total=False):
     scale_temperature_uncertainty_c: Size
     part_expansion_uncertainty_um_per_m_k: Size
     scale_expansion_uncertainty_um_per_m_k: Size
+    degrees_of_freedom: Size
     offset_um: Size
+    size_operator: str
+    envelope: str
+    go_gauge: str
 
 
 class RunFiles(TypedDict):
@@ -430,6 +470,7 @@ class Verdict(_Verdict, total=False):
     added_uncertainty_um: Decimal
     rule: RuleWord
     uncertainty_um: Decimal
+    degrees_of_freedom: Number
     coverage_factor: Decimal
     probability: Decimal
     conformance_probability: Decimal

@@ -18,6 +18,7 @@ export default {
   'verdict.rework': 'Nacharbeit',
   'verdict.reject': 'Ausschuss',
   'verdict.indeterminate': 'Unbestimmt',
+  'verdict.unjudged': 'Nicht beurteilt',
   'feature.hole': 'Bohrung',
   'feature.shaft': 'Welle',
   'limits.range': '{lower} bis {upper} mm',

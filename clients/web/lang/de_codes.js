@@ -22,6 +22,7 @@ export default {
   'error.plan.unknown': 'Für diese Teilenummer gibt es keinen Plan.',
   'error.catalogue.unknown': 'Einen solchen Katalog von Ursachen gibt es nicht.',
   'error.limits.invalid': 'Die Grenzen widersprechen sich.',
+  'error.limits.none': 'Die Werte haben keine Grenzen.',
   'error.limits.mixed': 'Die Werte haben verschiedene Grenzen.',
   'error.storage.unavailable': 'Der Speicher ist nicht erreichbar.',
   'error.storage.busy': 'Der Speicher ist ausgelastet. Gleich noch einmal versuchen.',

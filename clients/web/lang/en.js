@@ -18,6 +18,7 @@ export default {
   'verdict.rework': 'Rework',
   'verdict.reject': 'Reject',
   'verdict.indeterminate': 'Indeterminate',
+  'verdict.unjudged': 'Not judged',
   'feature.hole': 'hole',
   'feature.shaft': 'shaft',
   'limits.range': '{lower} to {upper} mm',

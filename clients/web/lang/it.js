@@ -18,6 +18,7 @@ export default {
   'verdict.rework': 'Ripresa',
   'verdict.reject': 'Scarto',
   'verdict.indeterminate': 'Indeterminato',
+  'verdict.unjudged': 'Non giudicato',
   'feature.hole': 'foro',
   'feature.shaft': 'albero',
   'limits.range': 'da {lower} a {upper} mm',

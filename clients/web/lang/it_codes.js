@@ -22,6 +22,7 @@ export default {
   'error.plan.unknown': 'Per questo codice pezzo non c’è un piano.',
   'error.catalogue.unknown': 'Non esiste un catalogo di cause con questo nome.',
   'error.limits.invalid': 'I limiti si contraddicono.',
+  'error.limits.none': 'I valori non hanno limiti.',
   'error.limits.mixed': 'I valori hanno limiti diversi.',
   'error.storage.unavailable': 'L’archivio non è raggiungibile.',
   'error.storage.busy': 'L’archivio è occupato. Riprovare tra poco.',

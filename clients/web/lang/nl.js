@@ -18,6 +18,7 @@ export default {
   'verdict.rework': 'Nabewerken',
   'verdict.reject': 'Afkeur',
   'verdict.indeterminate': 'Onbepaald',
+  'verdict.unjudged': 'Niet beoordeeld',
   'feature.hole': 'gat',
   'feature.shaft': 'as',
   'limits.range': '{lower} tot {upper} mm',

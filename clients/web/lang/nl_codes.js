@@ -22,6 +22,7 @@ export default {
   'error.plan.unknown': 'Voor dit onderdeelnummer is er geen plan.',
   'error.catalogue.unknown': 'Zo’n catalogus van oorzaken is er niet.',
   'error.limits.invalid': 'De grenzen spreken elkaar tegen.',
+  'error.limits.none': 'De waarden hebben geen grenzen.',
   'error.limits.mixed': 'De waarden hebben verschillende grenzen.',
   'error.storage.unavailable': 'De opslag is niet bereikbaar.',
   'error.storage.busy': 'De opslag is bezet. Probeer het zo dadelijk opnieuw.',

@@ -14,12 +14,16 @@
 namespace fitgauge::api {
 namespace {
 
-/// `25 H7`, `M10-6H`, of a drawing's own limits `25 hole`.
+/// `25 H7`, `M10-6H`, of a drawing's own limits `25 hole`, `-50 position`, without them `diameter`.
 std::string size_text(const app::Measurement& m) {
-  if (!m.class_name) return fmt::format("{} {}", format_mm(m.nominal_size), word(m.feature));
   std::string text;
-  standards::append_designation(text, m.nominal_size, *m.class_name);
-  return text;
+  if (m.class_name) {
+    standards::append_designation(text, m.nominal_size, *m.class_name);
+  } else {
+    if (m.has_nominal) text = format_mm(m.nominal_size) + ' ';
+    text += m.has_feature() ? word(m.feature) : word(*m.quantity);
+  }
+  return m.envelope ? text + " (E)" : text;
 }
 
 /// Millimetres with three decimals or more, so that the eye compares the numbers of a line.
@@ -33,6 +37,7 @@ std::string mm_text(Length length) {
 }
 
 std::string limits_text(const app::Measurement& m) {
+  if (!m.is_judged()) return "no limits";
   if (!m.has_lower_limit()) return fmt::format("up to {}", mm_text(m.upper_limit()));
   if (!m.has_upper_limit()) return fmt::format("from {}", mm_text(m.lower_limit()));
   return fmt::format("{} to {}", mm_text(m.lower_limit()), mm_text(m.upper_limit()));
@@ -68,16 +73,19 @@ std::string measured_text(const app::Measurement& m) {
 
 std::string rule_text(const app::Measurement& m) {
   const Length u = m.rule.standard_uncertainty();
+  const std::string degrees =
+      m.degrees_of_freedom ? fmt::format(", \u03bd {}", format_decimal(*m.degrees_of_freedom, 6))
+                           : "";
   switch (m.rule.kind()) {
     case gauging::DecisionRule::Kind::Simple: return "";
     case gauging::DecisionRule::Kind::GuardBand:
-      return fmt::format("guard band, u {} \u00b5m, k {}", format_um(u),
-                         format(m.rule.coverage_factor()));
+      return fmt::format("guard band, u {} \u00b5m, k {}{}", format_um(u),
+                         format(m.rule.coverage_factor()), degrees);
     case gauging::DecisionRule::Kind::Conformance: break;
   }
   const std::int64_t found = m.conformance ? m.conformance->probability : 0;
-  return fmt::format("conformance {}, found {}, u {} \u00b5m", format(m.rule.probability()),
-                     format_decimal(found, 9), format_um(u));
+  return fmt::format("conformance {}, found {}, u {} \u00b5m{}", format(m.rule.probability()),
+                     format_decimal(found, 9), format_um(u), degrees);
 }
 
 /// `2026-11-22 08:00:00Z`
@@ -109,7 +117,7 @@ void CertificateDraft::add(const app::Measurement& m) {
                     .size = size_text(m),
                     .limits = limits_text(m),
                     .measured = measured_text(m),
-                    .deviation = format_um(m.decisive() - m.nominal_size),
+                    .deviation = m.has_nominal ? format_um(m.decisive() - m.nominal_size) : "",
                     .verdict = std::string(word(m.result.verdict)),
                     .rule = rule_text(m),
                     .gauge = std::string(m.gauge.value_or("")),
@@ -143,7 +151,7 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
   if (!order_.company.empty()) json.member("company", order_.company);
   if (!order_.customer.empty()) json.member("customer", order_.customer);
   json.member("made_at", format_rfc3339(made_at)).member("count", std::uint64_t{count_});
-  write_verdict_counts(json, verdicts_[0], verdicts_[1], verdicts_[2], verdicts_[3]);
+  write_verdict_counts(json, verdicts_);
   json.key("gauges").begin_array();
   for (const auto& [name, gauge] : gauges_) {
     json.begin_object().member("name", name);
@@ -158,8 +166,13 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
 }
 
 std::string CertificateDraft::summary() const {
-  return fmt::format("{} measured values: {} good, {} rework, {} reject, {} indeterminate.", count_,
-                     verdicts_[0], verdicts_[1], verdicts_[2], verdicts_[3]);
+  std::string text = fmt::format("{} measured values", count_);
+  for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+    const auto verdict = static_cast<gauging::Verdict>(i);
+    if (verdict == gauging::Verdict::Unjudged && verdicts_[i] == 0) continue;
+    text += fmt::format("{} {} {}", i == 0 ? ":" : ",", verdicts_[i], word(verdict));
+  }
+  return text + '.';
 }
 
 std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoint) const {

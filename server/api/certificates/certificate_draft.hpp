@@ -8,6 +8,7 @@
 #include "formats/certificate/certificate.hpp"
 #include "record/measurement.hpp"
 #include "service/measurements/gauges_in_use.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 
@@ -48,8 +49,8 @@ class CertificateDraft {
   CertificateOrder order_;
   std::size_t count_ = 0;
   std::size_t bytes_ = 0;
-  std::array<std::int64_t, 4> verdicts_{};  ///< by gauging::Verdict
-  std::string records_;                     ///< JSON, with commas between them
+  app::VerdictTally verdicts_{};
+  std::string records_;  ///< JSON, with commas between them
   std::vector<certificate::Line> lines_;
   std::vector<std::string> overdue_;  ///< of each line: when its gauge was due; empty: it was not
   std::map<std::string, GaugeInUse> gauges_;  ///< those that were used

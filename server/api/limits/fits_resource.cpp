@@ -42,7 +42,8 @@ void write_fit_members(JsonWriter& json, const iso286::Fit& fit, std::string_vie
   write_limits(json, fit.shaft, tables);
   json.member("type", word(fit.kind()))
       .member_um("max_clearance_um", fit.max_clearance())
-      .member_um("min_clearance_um", fit.min_clearance());
+      .member_um("min_clearance_um", fit.min_clearance())
+      .member("assumes_envelope", true);
   write_formula(json, "fit");
   write_statistical(json, fit, stored);
 }

@@ -2,6 +2,10 @@
 
 namespace fitgauge::api {
 
+std::string quantity_words() {
+  return schema::words({gauging::kQuantityWords.begin(), gauging::kQuantityWords.end()});
+}
+
 using schema::Others;
 
 schema::Fields limits_fields() {
@@ -124,6 +128,8 @@ void add_limits_schemas(Schemas& schemas) {
       {"type", schema::words({"clearance", "transition", "interference"}), ""},
       {"max_clearance_um", schema::number(), "ES - ei; negative: interference"},
       {"min_clearance_um", schema::number(), "EI - es; negative: interference"},
+      {"assumes_envelope", schema::boolean(),
+       "True: form counts too unless both sizes have the modifier (E) of ISO 14405-1"},
       {"statistical", statistical, "Sizes independent; centred but where stored"},
   };
   const schema::Fields fit = fit_members + formula_fields();
@@ -139,6 +145,7 @@ void add_limits_schemas(Schemas& schemas) {
        "temperature or expansion is given; the rule decides with both"},
       {"rule", rule_words(), "Where it is not simple"},
       {"uncertainty_um", schema::number(), "Standard uncertainty u of the rule"},
+      {"degrees_of_freedom", schema::number(), "Of uncertainty_um, where they were given"},
       {"coverage_factor", schema::number(), "k of guard_band"},
       {"probability", schema::number(0.5, 1), "Of conformance: what a good part has at least"},
       {"conformance_probability", schema::number(0, 1), "Of the part, to 1e-9"},

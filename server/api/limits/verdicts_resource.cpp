@@ -33,6 +33,7 @@ Result<std::optional<ThermalCorrection>> correction_of(const http::Request& requ
 /// The limits of a designation, of whatever standard.
 struct Limits {
   iso286::Feature feature = iso286::Feature::Hole;
+  gauging::Quantity quantity = gauging::Quantity::Diameter;
   Length nominal;
   gauging::ConformanceLimits of;
   std::string etag;
@@ -47,13 +48,17 @@ Result<Limits> limits_of(const http::Request& request, const iso286::ToleranceTa
     if (const auto feature = request.text("feature"); feature && limits->feature_is_open) {
       limits->feature = *iso286::feature_from_word(*feature);
     }
-    return Limits{.feature = limits->feature,
-                  .nominal = limits->nominal,
-                  .of = {limits->upper_limit(), limits->lower_limit()},
-                  .etag = etag_of(*limits->standard),
-                  .write_members = [limits = *limits](JsonWriter& json) {
-                    write_limits_members(json, limits);
-                  }};
+    const gauging::Quantity quantity = app::quantity_of(*limits);
+    const bool is_distance = quantity == gauging::Quantity::Distance;
+    return Limits{
+        .feature = limits->feature,
+        .quantity = is_distance && request.text("feature") ? gauging::Quantity::Diameter : quantity,
+        .nominal = limits->nominal,
+        .of = {limits->upper_limit(), limits->lower_limit()},
+        .etag = etag_of(*limits->standard),
+        .write_members = [limits = *limits](JsonWriter& json) {
+          write_limits_members(json, limits);
+        }};
   }
   const auto designation = iso286::parse_designation(text);
   if (!designation) return designation.error();
@@ -90,25 +95,25 @@ Result<http::Response> verdict(const http::Request& request,
   if (given) {
     if (const auto checked = check_uncertainty(*given); !checked) return checked.error();
   }
-  const auto uncertainty = given ? std::optional(gauging::combined_uncertainty(
-                                       *given, measured.added_uncertainty.value_or(0)))
-                                 : std::nullopt;
   const auto kind = gauging::rule_from_word(request.text("rule").value_or("simple"));
-  const auto rule = make_rule({.kind = *kind,
-                               .standard_uncertainty = uncertainty,
-                               .coverage_millionths = request.integer("coverage_factor"),
-                               .probability_millionths = request.integer("probability")});
+  const RuleWords words{.kind = *kind,
+                        .standard_uncertainty = given,
+                        .coverage_millionths = request.integer("coverage_factor"),
+                        .probability_millionths = request.integer("probability"),
+                        .degrees_of_freedom = request.integer("degrees_of_freedom"),
+                        .added_uncertainty = measured.added_uncertainty};
+  const auto rule = make_rule(words);
   if (!rule) return rule.error();
   if (const auto checked = check_acceptance(*rule, limits->of); !checked) return checked.error();
 
-  const auto result = gauging::gauge(limits->feature, limits->of.upper, limits->of.lower,
-                                     measured.decisive(), *rule);
+  const auto result = gauging::gauge({limits->quantity, limits->feature}, limits->of.upper,
+                                     limits->of.lower, measured.decisive(), *rule);
   std::string body;
   JsonWriter json(body);
   json.begin_object();
   limits->write_members(json);
   write_verdict_members(json, limits->nominal, measured, result);
-  write_rule_members(json, *rule, given, limits->of, measured.decisive());
+  write_rule_members(json, *rule, words, limits->of, measured.decisive());
   json.end_object();
   http::Response response(200, "application/json", std::move(body));
   response.etag = limits->etag;
@@ -150,8 +155,8 @@ void add_verdicts_routes(std::vector<http::Route>& routes, const Services& servi
                       .description = "25H7, M10-6H, 25 ISO 2768-m"},
                      {.name = "feature",
                       .type = http::Words{{"hole", "shaft"}},
-                      .description = "Of a general tolerance, which does not say it: shaft, an "
-                                     "outside dimension, when absent"},
+                      .description = "Of a general tolerance, which does not say it: a distance, "
+                                     "whose rejects are on both sides, when absent"},
                      {.name = "measured_mm",
                       .type = http::LengthIn{.round_to_nearest = true},
                       .required = true,
@@ -164,7 +169,13 @@ void add_verdicts_routes(std::vector<http::Route>& routes, const Services& servi
                       .description = "u; required by guard_band and conformance"},
                      {.name = "coverage_factor",
                       .type = http::Decimal{.scale = 6, .min = 1, .max = 100'000'000},
-                      .description = "k of guard_band; 2 when absent"},
+                      .description = "k of guard_band; t(0.9545, degrees_of_freedom) when absent, "
+                                     "2 without them"},
+                     {.name = "degrees_of_freedom",
+                      .type = http::Decimal{.scale = 6,
+                                            .min = app::kDegreesOfFreedom.least,
+                                            .max = app::kDegreesOfFreedom.most},
+                      .description = "Of uncertainty_um; without end when absent"},
                      {.name = "probability",
                       .type = http::Decimal{.scale = 6, .min = 500'000, .max = 999'999},
                       .description = "Of conformance, at least 0.5; 0.95 when absent"}},

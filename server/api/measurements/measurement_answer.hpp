@@ -6,11 +6,27 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "api/wire/request_facts.hpp"
+#include "base/json/json_writer.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
+
+/// A remark beside what is stored, never in its leaf.
+struct Warning {
+  std::string_view code;
+  std::string detail;
+};
+
+/// What a measured value is stored in spite of: an acceptance zone that is empty, an uncertainty
+/// above a tenth of the tolerance that the simple rule does not see, a gauge that is not registered
+/// while others are.
+std::vector<Warning> warnings_of(const app::Measurement& measurement);
+
+/// Writes `"warnings":[{code, detail}]`; nothing without any.
+void write_warnings(JsonWriter& json, std::span<const Warning> warnings);
 
 /// The 201 to stored measurements, in the form the client prefers: the record of one, the records
 /// of all, their number with the counts of verdicts, or nothing.
@@ -27,6 +43,8 @@ class MeasurementAnswer final : public app::Rendering {
   app::Answer finish() override;
 
  private:
+  void end_with_warnings();
+  void warn_of(const app::Measurement& measurement);
   bool lists_records() const { return !single_ && wanted_ == Preference::Representation; }
 
   const Preference wanted_;
@@ -36,7 +54,8 @@ class MeasurementAnswer final : public app::Rendering {
   std::string first_id_;
   std::string last_id_;
   std::int64_t count_ = 0;
-  std::array<std::int64_t, 4> verdicts_{};
+  app::VerdictTally verdicts_{};
+  std::vector<Warning> warnings_;
 };
 
 }  // namespace fitgauge::api

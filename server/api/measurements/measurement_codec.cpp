@@ -26,6 +26,7 @@ class CsvLine {
   void decimal(std::int64_t value, int scale) { append_decimal(out_, value, scale); }
   void billionths(std::int64_t value) { append_decimal(out_, value, 9); }
   void truth() { out_ += "true"; }
+  void null() {}
 
  private:
   std::string& out_;
@@ -52,15 +53,14 @@ void append_measurement_csv(std::string& out, const app::Measurement& measuremen
   out += "\r\n";
 }
 
-void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rework,
-                          std::int64_t reject, std::int64_t indeterminate) {
-  json.key("verdicts")
-      .begin_object()
-      .member("good", good)
-      .member("rework", rework)
-      .member("reject", reject)
-      .member("indeterminate", indeterminate)
-      .end_object();
+void write_verdict_counts(JsonWriter& json, const app::VerdictTally& verdicts) {
+  json.key("verdicts").begin_object();
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    const auto verdict = static_cast<gauging::Verdict>(i);
+    if (verdict == gauging::Verdict::Unjudged && verdicts[i] == 0) continue;
+    json.member(word(verdict), verdicts[i]);
+  }
+  json.end_object();
 }
 
 std::string summary_json(std::string_view group_by, std::span<const app::MeasurementGroup> groups) {
@@ -77,7 +77,7 @@ std::string summary_json(std::string_view group_by, std::span<const app::Measure
       json.null();
     }
     json.member("count", group.count);
-    write_verdict_counts(json, group.good, group.rework, group.reject, group.indeterminate);
+    write_verdict_counts(json, group.verdicts);
     json.key("mean_mm").raw(group.mean_mm);
     json.key("standard_deviation_mm").raw(group.standard_deviation_mm.value_or("null"));
     json.member_mm("min_mm", group.min).member_mm("max_mm", group.max).end_object();

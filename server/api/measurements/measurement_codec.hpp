@@ -13,9 +13,8 @@ namespace fitgauge::api {
 std::string measurement_csv_header();
 void append_measurement_csv(std::string& out, const app::Measurement& measurement);
 
-/// Writes `"verdicts":{…}`.
-void write_verdict_counts(JsonWriter& json, std::int64_t good, std::int64_t rework,
-                          std::int64_t reject, std::int64_t indeterminate);
+/// Writes `"verdicts":{…}`; `unjudged` where there are any.
+void write_verdict_counts(JsonWriter& json, const app::VerdictTally& verdicts);
 
 /// `{"groups":[…]}`, each named by the field it is grouped by.
 std::string summary_json(std::string_view group_by, std::span<const app::MeasurementGroup> groups);

@@ -18,8 +18,8 @@ namespace fitgauge::api {
 namespace {
 
 constexpr std::size_t kLongestReason = 2000;
-constexpr std::array<std::string_view, 6> kLimitsFields = {
-    "designation", "nominal_mm", "tolerance_class", "feature", "upper_um", "lower_um"};
+constexpr std::array<std::string_view, 7> kLimitsFields = {
+    "designation", "nominal_mm", "tolerance_class", "quantity", "feature", "upper_um", "lower_um"};
 
 constexpr std::array<std::string_view, 2> kGaugeFields = {"gauge", "measured_at"};
 /// A field of the original, and one that replaces it if the correction names it.
@@ -58,20 +58,35 @@ bool names_any(const JsonValue& body, std::span<const std::string_view> fields) 
                      [&](std::string_view field) { return body.find(field) != nullptr; });
 }
 
+/// The correction says that the value is no hole or shaft.
+bool is_without_feature(const JsonValue& body) {
+  const JsonValue* quantity = body.find("quantity");
+  const auto said =
+      quantity == nullptr ? std::nullopt : gauging::quantity_from_word(quantity->text);
+  return said && !gauging::has_feature(*said);
+}
+
 /// A correction that names no limits keeps those that were applied; one that names some takes the
 /// others over.
 void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
                       const app::Measurement& original) {
   if (!names_any(body, kLimitsFields)) return reader.take_limits(original);
   if (body.find("designation") != nullptr) return;
-  offer(reader, "nominal_mm", format_mm(original.nominal_size));
+  if (original.has_nominal) offer(reader, "nominal_mm", format_mm(original.nominal_size));
+  if (!original.class_name && original.quantity) {
+    offer(reader, "quantity", word(*original.quantity));
+  }
   if (body.find("tolerance_class") != nullptr) return;
   const bool by_drawing = names_any(body, std::span(kLimitsFields).last(3));
   if (!by_drawing && original.class_name) {
-    if (standards::is_class(*original.class_name)) offer(reader, "feature", word(original.feature));
+    if (standards::is_class(*original.class_name) && original.has_feature()) {
+      offer(reader, "feature", word(original.feature));
+    }
     return offer(reader, "tolerance_class", original.class_name);
   }
-  offer(reader, "feature", word(original.feature));
+  if (original.has_feature() && original.is_judged() && !is_without_feature(body)) {
+    offer(reader, "feature", word(original.feature));
+  }
   if (original.has_upper_limit()) offer(reader, "upper_um", format_um(original.deviations.upper));
   if (original.has_lower_limit()) offer(reader, "lower_um", format_um(original.deviations.lower));
 }
@@ -83,7 +98,11 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
     const bool is_replaced = std::ranges::any_of(kReplaced, [&](const Replaced& pair) {
       return pair.field == field.name && body.find(pair.by) != nullptr;
     });
-    if (is_replaced) continue;
+    // Those of a budget come with its uncertainty.
+    const bool is_of_budget =
+        field.number == &app::MeasurementFields::degrees_of_freedom &&
+        (original.uncertainty_budget || body.find("uncertainty_um") != nullptr);
+    if (is_replaced || is_of_budget) continue;
     if (field.text != nullptr) {
       offer(reader, field.name, original.*field.text);
     } else if (const auto& number = original.*field.number) {
@@ -91,7 +110,7 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
     }
   }
   offer(reader, "measured_at", format_rfc3339(original.measured_at));
-  offer(reader, "rule", word(original.rule.kind()));
+  if (original.is_judged()) offer(reader, "rule", word(original.rule.kind()));
   // The gauge said then what it says now, unless another or another time is meant.
   if (!names_any(body, kGaugeFields)) reader.take_gauge(original);
   if (original.standard_uncertainty && !original.uncertainty_budget) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/decimal.hpp"
 #include "metrology/gauging/reference_temperature.hpp"
 
 namespace fitgauge::api {
@@ -21,6 +22,10 @@ std::string rule_of(const app::Measurement& m) {
                               *m.standard_uncertainty, m.added_uncertainty.value_or(0))));
   }
   if (m.coverage_factor) say("coverage_factor", format(*m.coverage_factor));
+  if (m.degrees_of_freedom) say("degrees_of_freedom", format_decimal(*m.degrees_of_freedom, 6));
+  if (m.size_operator && m.size_operator != "LP") say("size_operator", *m.size_operator);
+  if (m.envelope) say("envelope", *m.envelope);
+  if (m.go_gauge) say("go_gauge", *m.go_gauge);
   if (m.conformance) say("probability", format(m.rule.probability()));
   return rule;
 }
@@ -34,11 +39,14 @@ Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
   const std::string rule = rule_of(m);
   aqdef::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
   value.measured = m.decisive();
-  value.nominal = m.nominal_size;
+  if (m.has_nominal) value.nominal = m.nominal_size;
   if (m.has_upper_limit()) value.limits.upper = m.upper_limit();
   if (m.has_lower_limit()) value.limits.lower = m.lower_limit();
   value.class_name = m.class_name.value_or("");
-  value.is_hole = m.feature == iso286::Feature::Hole;
+  if (m.has_feature()) value.feature = word(m.feature);
+  if (m.quantity && (m.quantity != gauging::Quantity::Diameter || !m.is_judged())) {
+    value.quantity = word(*m.quantity);
+  }
   value.rule = rule;
   value.part_id = m.part_id.value_or("");
   value.characteristic = m.characteristic.value_or("");

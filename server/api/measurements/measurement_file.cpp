@@ -61,6 +61,7 @@ class SheetRow {
   void decimal(std::int64_t value, int scale) { cell().decimal(value, scale); }
   void billionths(std::int64_t value) { cell().decimal(value, 9); }
   void truth() { cell().text("true"); }
+  void null() {}
 
  private:
   workbook::Workbook& cell() {

@@ -168,7 +168,7 @@ std::vector<http::Parameter> measurement_filter_parameters(std::string_view pref
       {.name = "designation", .description = "`25 H7`, `M10-6H`, `25 ISO 2768-m`"},
       {.name = "run_id", .description = "Of this run, whatever the source where source is absent"},
       {.name = "verdict",
-       .type = http::Words{{"good", "rework", "reject", "indeterminate"}},
+       .type = http::Words{{"good", "rework", "reject", "indeterminate", "unjudged"}},
        .description = "Only this verdict"},
       {.name = "source",
        .type = http::Words{{"gauge", "simulation", "all"}},

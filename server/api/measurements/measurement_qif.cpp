@@ -10,6 +10,7 @@ qif::Status status_of(gauging::Verdict verdict) {
     case gauging::Verdict::Good: return qif::Status::Pass;
     case gauging::Verdict::Rework: return qif::Status::Rework;
     case gauging::Verdict::Reject: return qif::Status::Fail;
+    case gauging::Verdict::Unjudged: return qif::Status::Undefined;
     case gauging::Verdict::Indeterminate: break;
   }
   return qif::Status::Indeterminate;
@@ -49,11 +50,12 @@ Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& m) {
   }
   qif::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
   value.measured = m.measured;
-  value.nominal = m.nominal_size;
+  if (m.has_nominal) value.nominal = m.nominal_size;
   if (m.has_upper_limit()) value.upper = m.upper_limit();
   if (m.has_lower_limit()) value.lower = m.lower_limit();
   value.class_name = m.class_name.value_or("");
-  value.is_hole = m.feature == iso286::Feature::Hole;
+  value.quantity = m.quantity.value_or(gauging::Quantity::Diameter);
+  if (m.has_feature()) value.feature = word(m.feature);
   value.status = status_of(m.result.verdict);
   value.uncertainty = m.standard_uncertainty;
   value.part_id = m.part_id;

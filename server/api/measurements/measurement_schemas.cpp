@@ -23,6 +23,7 @@ std::string given_json(const RowField& field) {
     case RowField::Kind::Text: return schema::text(field.longest);
     case RowField::Kind::Time: return schema::time();
     case RowField::Kind::Feature: return feature_words();
+    case RowField::Kind::Quantity: return quantity_words();
     case RowField::Kind::Rule: return schema::words({"simple", "guard_band", "conformance"});
   }
   return {};
@@ -50,10 +51,23 @@ schema::Fields echoed_fields() {
   for (std::size_t i = RowField::Labels; i < RowField::Count; ++i) {
     const RowField& field = kRowFields.at(i);
     if (i == RowField::MeasuredAt) continue;
-    fields.push_back({std::string(field.name), stored_json(field), std::string(field.meaning),
-                      i == RowField::Rule});
+    fields.push_back(
+        {std::string(field.name), stored_json(field), std::string(field.meaning), false});
   }
   return fields;
+}
+
+/// What an answer to a stored value says beside it.
+schema::Fields warnings_field() {
+  const std::string warning = schema::object(
+      {{"code", schema::text(), "rule.no_acceptance, uncertainty.large, gauge.unknown"},
+       {"detail", schema::text(), "What it is of, and what to do"}});
+  return {{"warnings", schema::array(warning), "Of the answer that stores it, no part of a record",
+           false}};
+}
+
+std::string basis_of_records() {
+  return schema::words({"iso286", "custom", "explicit", "standard", "none"});
 }
 
 schema::Fields record_fields() {
@@ -75,6 +89,15 @@ schema::Fields record_fields() {
       {"calibration_due", schema::text(),
        "Of a gauge in use whose calibration was overdue when it measured: since when"},
       {"calibration_overdue", schema::boolean(), "True where it was; else it is not there"},
+      {"quantity", quantity_words(), "What it is; absent in records of older versions"},
+      {"envelope_result", schema::words({"verified", "not_verified", "failed"}),
+       "Where the envelope is required: what the GO gauge says of it"},
+      {"points", schema::count(), "Of a cycle: how many it touched"},
+      {"start_angle_deg", schema::number(), "Of a cycle: where the first of them lies"},
+      {"diameter_factor", schema::number(),
+       "Of a cycle: standard deviation of the diameter over that of a touch"},
+      {"form_um", schema::null_or(schema::number()),
+       "Of a cycle: the form that its points show; null where they are too few"},
       {"caller", schema::text(), "The name of the key that stored it"},
       {"run_id", schema::text(), "Of a simulation: the run"},
       {"cycle", schema::count(), "Of a simulation: the measuring cycle"},
@@ -87,20 +110,22 @@ schema::Fields record_fields() {
   });
   schema::Fields limits = limits_fields();
   for (schema::Field& field : limits) {
-    // A drawing may have one of the two.
-    if (field.name.find("er_limit") != std::string::npos ||
-        field.name.find("deviation") != std::string::npos || field.name == "tolerance_um") {
-      field.required = false;
-    }
+    // A drawing may have one of the two, a value none; a position is no hole or shaft.
+    field.required = field.name == "basis";
+    if (field.name == "basis") field.json = basis_of_records();
   }
-  return origin + limits + verdict_fields() + echoed_fields() + links;
+  schema::Fields verdict = verdict_fields();
+  for (schema::Field& field : verdict) field.required = field.name == "measured_mm";
+  return origin + limits + verdict + echoed_fields() + links;
 }
 
 std::string verdict_counts() {
-  return schema::object({{"good", schema::count(), ""},
-                         {"rework", schema::count(), ""},
-                         {"reject", schema::count(), ""},
-                         {"indeterminate", schema::count(), ""}});
+  return schema::object(
+      {{"good", schema::count(), ""},
+       {"rework", schema::count(), ""},
+       {"reject", schema::count(), ""},
+       {"indeterminate", schema::count(), ""},
+       {"unjudged", schema::count(), "Without limits; where there are any", false}});
 }
 
 /// The field the groups are of comes first, by its own name.
@@ -141,8 +166,8 @@ void add_measurement_schemas(Schemas& schemas) {
   add_request_schemas(schemas);
   const schema::Fields notes = {
       {"notes", schema::array(schema::ref("Note")), "Of lists with notes=shown", false}};
-  schemas.push_back(
-      {"Measurement", schema::object(record_fields() + notes, Others::Allowed, kRecord)});
+  schemas.push_back({"Measurement", schema::object(record_fields() + notes + warnings_field(),
+                                                   Others::Allowed, kRecord)});
   schemas.push_back(
       {"Proof",
        schema::object({{"index", schema::count(), "Of the leaf, from 0"},
@@ -209,16 +234,19 @@ void add_measurement_schemas(Schemas& schemas) {
   schemas.push_back(
       {"Accepted",
        schema::object(
-           {{"accepted", schema::count(), "How many were stored"},
-            {"first_id", schema::text(), ""},
-            {"last_id", schema::text(), ""},
-            {"verdicts", schema::ref("VerdictCounts"), ""}},
+           schema::Fields{{"accepted", schema::count(), "How many were stored"},
+                          {"first_id", schema::text(), ""},
+                          {"last_id", schema::text(), ""},
+                          {"verdicts", schema::ref("VerdictCounts"), ""}} +
+               warnings_field(),
            Others::Allowed,
            R"({"accepted":3,"first_id":"m2-5f0c9a3e77d21b40","last_id":"m4-5f0c9a3e77d21b40",)"
            R"("verdicts":{"good":2,"rework":0,"reject":1,"indeterminate":0}})")});
   schemas.push_back(
       {"Measurements",
-       schema::object({{"measurements", schema::array(schema::ref("Measurement")), ""}})});
+       schema::object(
+           schema::Fields{{"measurements", schema::array(schema::ref("Measurement")), ""}} +
+           warnings_field())});
   schemas.push_back(
       {"Recorded", schema::any_of({schema::ref("Measurement"), schema::ref("Accepted"),
                                    schema::ref("Measurements")})});

@@ -52,7 +52,7 @@ void VerdictCounts::take(const Result<app::ListPage>& page, const Counts& counts
   }
   if (last > 0) position_ = last;
   for (std::size_t source = 0; source < kSources; ++source) {
-    for (std::size_t verdict = 0; verdict < kVerdicts; ++verdict) {
+    for (std::size_t verdict = 0; verdict < gauging::kVerdicts; ++verdict) {
       counts_[source][verdict] += counts[source][verdict];
     }
   }
@@ -62,7 +62,7 @@ void VerdictCounts::write(Exposition& out) const {
   const std::lock_guard lock(mutex_);
   out.counter("fitgauge_measurements_total", "Measurements recorded, by source and verdict");
   for (std::size_t source = 0; source < kSources; ++source) {
-    for (std::size_t verdict = 0; verdict < kVerdicts; ++verdict) {
+    for (std::size_t verdict = 0; verdict < gauging::kVerdicts; ++verdict) {
       out.sample(static_cast<double>(counts_[source][verdict]),
                  {{"source", word(static_cast<app::Source>(source))},
                   {"verdict", word(static_cast<gauging::Verdict>(verdict))}});

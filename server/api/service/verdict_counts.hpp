@@ -27,8 +27,7 @@ class VerdictCounts : public std::enable_shared_from_this<VerdictCounts> {
 
  private:
   static constexpr std::size_t kSources = 2;
-  static constexpr std::size_t kVerdicts = 4;
-  using Counts = std::array<std::array<std::uint64_t, kVerdicts>, kSources>;
+  using Counts = std::array<std::array<std::uint64_t, gauging::kVerdicts>, kSources>;
 
   void take(const Result<app::ListPage>& page, const Counts& counts, std::int64_t last);
 

@@ -82,6 +82,12 @@ Result<void> ValueSelection::add(const app::MeasuredRun& run) {
     return Error{ErrorCode::FiguresLimit, "the selection takes more time or memory than it may"};
   }
   const Limits limits{run.lower_limit, run.upper_limit};
+  if (!limits.lower && !limits.upper) {
+    return Error{ErrorCode::LimitsNone,
+                 fmt::format("{} has no limits, which figures are against: select values that were "
+                             "judged, by verdict or characteristic",
+                             app::measurement_id_text(run.values.front().id, run.origin))};
+  }
   if (!limits_) limits_ = limits;
   if (limits != *limits_) {
     return Error{

@@ -77,6 +77,7 @@ int status_of(ErrorCode code) {
     case ErrorCode::RuleInvalid:
     case ErrorCode::RuleNoAcceptance:
     case ErrorCode::LimitsInvalid:
+    case ErrorCode::LimitsNone:
     case ErrorCode::LimitsMixed:
     case ErrorCode::StatisticsTooFew:
     case ErrorCode::StatisticsZeroSpread:

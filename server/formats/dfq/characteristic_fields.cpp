@@ -9,13 +9,15 @@
 #include "base/text.hpp"
 #include "formats/dfq/measurement_csv.hpp"
 #include "formats/dfq/measurement_places.hpp"
+#include "metrology/gauging/quantity.hpp"
 
 namespace fitgauge::aqdef {
 namespace {
 
 /// What the user field of a characteristic may say of its measurements.
-constexpr std::array<std::string_view, 5> kUserFields = {"feature", "rule", "uncertainty_um",
-                                                         "coverage_factor", "probability"};
+constexpr std::array<std::string_view, 10> kUserFields = {
+    "feature",     "quantity",           "rule",          "uncertainty_um", "coverage_factor",
+    "probability", "degrees_of_freedom", "size_operator", "envelope",       "go_gauge"};
 
 constexpr std::size_t kMostBytes = std::size_t{8} << 20;  ///< of the texts of all prepared
 
@@ -53,7 +55,10 @@ std::string MeasurementCsv::reason_against(const Characteristic& characteristic)
   const std::string_view nominal = description.text(characteristic, k::kNominal);
   if (nominal.empty()) return "it has no nominal value (K2101)";
   const auto size = parse_length(nominal, LengthUnit::Millimetre);
-  if (size && *size <= Length()) return "its nominal value (K2101) is not above 0";
+  const auto quantity =
+      gauging::quantity_from_word(user_text(description, characteristic, "quantity"));
+  if (size && *size <= Length() && !(quantity && gauging::is_signed(*quantity)))
+    return "its nominal value (K2101) is not above 0";
   const bool is_toleranced = std::any_of(kTolerances.begin(), kTolerances.end(), [&](int number) {
     return description.find(characteristic, number) != nullptr;
   });
@@ -79,7 +84,8 @@ Result<void> MeasurementCsv::prepare_size(const Characteristic& characteristic,
   }
   if (read->limits.upper) made.fields[kUpper] = format_um(*read->limits.upper - read->nominal);
   if (read->limits.lower) made.fields[kLower] = format_um(*read->limits.lower - read->nominal);
-  if (made.fields[kFeature].empty()) {
+  const auto quantity = gauging::quantity_from_word(made.fields[kQuantity]);
+  if (made.fields[kFeature].empty() && (!quantity || gauging::has_feature(*quantity))) {
     return at_line(characteristic.line,
                    fmt::format("describes characteristic {} by limits, and a DFQ does not say "
                                "whether it is a hole or a shaft: set feature, or write its class "

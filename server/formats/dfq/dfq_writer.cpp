@@ -144,15 +144,17 @@ DfqWriter::Fields DfqWriter::part_fields(const OutgoingValue& value, const Comme
 }
 
 DfqWriter::Fields DfqWriter::characteristic_fields(const OutgoingValue& value) {
-  const std::string nominal = format_mm(value.nominal);
+  const std::string nominal = value.nominal ? format_mm(*value.nominal) : std::string();
   const auto split = letters_and_grade(value.class_name);
   std::string name(value.characteristic);
-  if (name.empty()) name = fmt::format("{} {}", nominal, value.class_name);
+  if (name.empty()) {
+    name =
+        fmt::format("{} {}", nominal, value.class_name.empty() ? value.quantity : value.class_name);
+  }
   name = trim(name);
-  Fields fields = {{k::kNumber, std::string(cut(name, 20))},
-                   {k::kDescription, name},
-                   {k::kType, "0"},
-                   {k::kNominal, nominal}};
+  Fields fields = {
+      {k::kNumber, std::string(cut(name, 20))}, {k::kDescription, name}, {k::kType, "0"}};
+  if (value.nominal) fields.emplace_back(k::kNominal, nominal);
   if (split) {
     fields.emplace_back(k::kToleranceClass, split->first);
     fields.emplace_back(k::kToleranceGrade, split->second);
@@ -160,8 +162,8 @@ DfqWriter::Fields DfqWriter::characteristic_fields(const OutgoingValue& value) {
   const auto& [upper, lower] = value.limits;
   if (lower) fields.emplace_back(k::kLowerLimit, format_mm(*lower));
   if (upper) fields.emplace_back(k::kUpperLimit, format_mm(*upper));
-  if (lower) fields.emplace_back(k::kLowerAllowance, format_mm(*lower - value.nominal));
-  if (upper) fields.emplace_back(k::kUpperAllowance, format_mm(*upper - value.nominal));
+  if (lower) fields.emplace_back(k::kLowerAllowance, format_mm(*lower - *value.nominal));
+  if (upper) fields.emplace_back(k::kUpperAllowance, format_mm(*upper - *value.nominal));
   fields.emplace_back(k::kLowerLimitType, lower ? "1" : "0");
   fields.emplace_back(k::kUpperLimitType, upper ? "1" : "0");
   fields.emplace_back(k::kUnit, "mm");
@@ -170,7 +172,10 @@ DfqWriter::Fields DfqWriter::characteristic_fields(const OutgoingValue& value) {
     if (!user.empty()) user += ';';
     user += what;
   };
-  if (value.class_name.empty()) say(fmt::format("feature={}", value.is_hole ? "hole" : "shaft"));
+  if (value.class_name.empty() && !value.feature.empty()) {
+    say(fmt::format("feature={}", value.feature));
+  }
+  if (!value.quantity.empty()) say(fmt::format("quantity={}", value.quantity));
   if (!value.class_name.empty() && !split) say(fmt::format("class={}", value.class_name));
   if (!value.rule.empty()) say(std::string(value.rule));
   if (user.empty()) return fields;

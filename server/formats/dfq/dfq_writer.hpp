@@ -26,11 +26,12 @@ struct OutgoingValue {
   std::int64_t number = 0;    ///< of its id
   Timestamp measured_at{};
   Length measured{};  ///< what was judged
-  Length nominal{};
+  std::optional<Length> nominal{};
   SizeLimits limits{};
   std::string_view class_name{};  ///< empty: the limits are those of a drawing
-  bool is_hole = true;
-  std::string_view rule{};  ///< `rule=guard_band;uncertainty_um=0.8`, or empty
+  std::string_view feature{};     ///< `hole` or `shaft`; empty: it is none
+  std::string_view quantity{};    ///< empty: a diameter
+  std::string_view rule{};        ///< `rule=guard_band;uncertainty_um=0.8`, or empty
   std::string_view part_id{};
   std::string_view characteristic{};
   std::string_view order{};

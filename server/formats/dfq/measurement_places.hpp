@@ -20,6 +20,7 @@ inline constexpr std::size_t kMeasured = place_of("measured_mm");
 inline constexpr std::size_t kNominal = place_of("nominal_mm");
 inline constexpr std::size_t kClass = place_of("tolerance_class");
 inline constexpr std::size_t kFeature = place_of("feature");
+inline constexpr std::size_t kQuantity = place_of("quantity");
 inline constexpr std::size_t kUpper = place_of("upper_um");
 inline constexpr std::size_t kLower = place_of("lower_um");
 inline constexpr std::size_t kPartId = place_of("part_id");

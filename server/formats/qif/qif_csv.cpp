@@ -20,8 +20,17 @@ constexpr std::size_t kUncertainty = aqdef::place_of("uncertainty_um");
 constexpr std::string_view kEnding = "CharacteristicMeasurement";
 /// What is measured between two points of a surface, as a gauge for sizes does.
 constexpr std::array kSizes = {
-    "Diameter"sv, "SphericalDiameter"sv, "Width"sv, "Thickness"sv, "Length"sv, "Height"sv,
-    "Depth"sv,    "DistanceBetween"sv};
+    "Diameter"sv, "SphericalDiameter"sv, "Width"sv,  "Thickness"sv,       "Length"sv, "Height"sv,
+    "Depth"sv,    "DistanceBetween"sv,   "Radius"sv, "LinearCoordinate"sv};
+
+/// The quantity of a kind, beside what the document says of its feature. A length that is no hole
+/// and no shaft is a distance.
+std::string_view quantity_of(std::string_view kind, bool has_feature) {
+  if (kind == "Radius") return "radius";
+  if (kind == "LinearCoordinate") return "position";
+  if (kind.ends_with("Diameter")) return "diameter";
+  return has_feature ? "width" : "distance";
+}
 
 }  // namespace
 
@@ -113,6 +122,7 @@ Result<void> QifRows::Converter::read_tolerance(const Definitions::Item& item, s
     }
     return {};
   }
+  fill(aqdef::kQuantity, definition->quantity);
   if (*upper) fields_[aqdef::kUpper] = format_um(**upper - *target);
   if (*lower) fields_[aqdef::kLower] = format_um(**lower - *target);
   fill(aqdef::kFeature, definition->feature);
@@ -192,6 +202,11 @@ Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t 
   for (const auto& [name, text] : item->attributes) set_field(fields_, name, text);
   for (const auto& [name, text] : element.named_attributes()) set_field(fields_, name, text);
   if (const auto read = read_tolerance(*item, line); !read) return read.error();
+  if (fields_[aqdef::kClass].empty()) {
+    std::string_view kind = element.name();
+    kind.remove_suffix(kEnding.size());
+    fill(aqdef::kQuantity, std::string(quantity_of(kind, !fields_[aqdef::kFeature].empty())));
+  }
   if (const auto read = read_value(element, line); !read) return read.error();
   if (const auto read = read_time(element, line); !read) return read.error();
   fill(aqdef::kPartId, definitions_.part(element.text("ActualComponentId")));

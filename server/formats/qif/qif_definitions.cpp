@@ -84,6 +84,7 @@ void Definitions::take(std::string_view list, const Element& element) {
     for (const auto& [name, text] : element.named_attributes()) {
       if (name == "tolerance_class") definition.class_name = text;
       if (name == "feature") definition.feature = text;
+      if (name == "quantity") definition.quantity = text;
     }
   } else if (list == "FeatureDefinitions") {
     const std::string side = element.text("InternalExternal");

@@ -47,6 +47,7 @@ class Definitions {
     bool is_limit = false;  ///< else they are deviations
     std::string class_name{};
     std::string feature{};
+    std::string quantity{};
     std::string name{};
   };
 

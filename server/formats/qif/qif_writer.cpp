@@ -24,7 +24,8 @@ std::string attributes(const Texts& texts) {
 
 /// Of a part or of all results: QIF has no word for a verdict that is open.
 std::string_view inspection_word(Status status) {
-  return status == Status::Indeterminate ? "UNKNOWN" : word(status);
+  const bool is_open = status == Status::Indeterminate || status == Status::Undefined;
+  return is_open ? "UNKNOWN" : word(status);
 }
 
 /// The text as a token: no blanks around it, and single ones inside.
@@ -52,6 +53,22 @@ std::string qpid_of(const OutgoingValue& value) {
                      digits.substr(12, 4), digits.substr(16, 4), digits.substr(20));
 }
 
+/// What QIF calls a characteristic of that quantity: of a chamfer its length, of a deviation a
+/// coordinate along the surface's normal. ThreadCharacteristic has no value of the pitch diameter.
+std::string_view characteristic_of(gauging::Quantity quantity) {
+  switch (quantity) {
+    case gauging::Quantity::Width: return "Width";
+    case gauging::Quantity::Radius: return "Radius";
+    case gauging::Quantity::Position:
+    case gauging::Quantity::Deviation: return "LinearCoordinate";
+    case gauging::Quantity::Distance:
+    case gauging::Quantity::Chamfer: return "Length";
+    case gauging::Quantity::Diameter:
+    case gauging::Quantity::PitchDiameter: break;
+  }
+  return "Diameter";
+}
+
 Result<void> check(std::string_view name, std::string_view text) {
   if (is_xml_text(text)) return {};
   return Error{ErrorCode::FieldInvalid,
@@ -65,40 +82,46 @@ std::string_view word(Status status) {
     case Status::Pass: return "PASS";
     case Status::Rework: return "REWORK";
     case Status::Indeterminate: return "INDETERMINATE";
+    case Status::Undefined: return "UNDEFINED";
     case Status::Fail: break;
   }
   return "FAIL";
 }
 
 std::uint32_t QifWriter::item_of(const OutgoingValue& value) {
-  Texts of_definition = {{"feature", value.is_hole ? "hole" : "shaft"}};
+  Texts of_definition;
+  if (!value.feature.empty()) of_definition.emplace_back("feature", value.feature);
+  if (value.quantity != gauging::Quantity::Diameter) {
+    of_definition.emplace_back("quantity", word(value.quantity));
+  }
   if (!value.class_name.empty()) {
     of_definition.emplace_back("tolerance_class", std::string(value.class_name));
   }
   const std::string definition = attributes(of_definition) + tolerance(value);
-  const std::string nominal = format_mm(value.nominal);
+  const std::string_view kind = characteristic_of(value.quantity);
+  const std::string nominal =
+      value.nominal ? fmt::format("<TargetValue>{}</TargetValue>", format_mm(*value.nominal)) : "";
   const std::string name(value.characteristic.value_or(""));
   const auto [known, is_new] =
-      items_.try_emplace(fmt::format("{}\n{}\n{}", definition, nominal, name), 0);
+      items_.try_emplace(fmt::format("{}\n{}\n{}\n{}", kind, definition, nominal, name), 0);
   if (!is_new) return known->second;
   const std::uint32_t first = last_id_ + 1;
   last_id_ += 3;
   known->second = last_id_;
-  definitions_ += fmt::format(
-      "<DiameterCharacteristicDefinition id=\"{}\">{}</DiameterCharacteristicDefinition>\n", first,
-      definition);
+  definitions_ +=
+      fmt::format("<{0}CharacteristicDefinition id=\"{1}\">{2}</{0}CharacteristicDefinition>\n",
+                  kind, first, definition);
   nominals_ += fmt::format(
-      "<DiameterCharacteristicNominal id=\"{}\"><CharacteristicDefinitionId>{}"
-      "</CharacteristicDefinitionId><TargetValue>{}</TargetValue></"
-      "DiameterCharacteristicNominal>\n",
-      first + 1, first, nominal);
+      "<{0}CharacteristicNominal id=\"{1}\"><CharacteristicDefinitionId>{2}"
+      "</CharacteristicDefinitionId>{3}</{0}CharacteristicNominal>\n",
+      kind, first + 1, first, nominal);
   const std::string plain = token(name);
   Texts of_item;
   if (plain != name) of_item.emplace_back("characteristic", name);
   item_texts_ += fmt::format(
-      "<DiameterCharacteristicItem id=\"{}\">{}{}<CharacteristicNominalId>{}"
-      "</CharacteristicNominalId></DiameterCharacteristicItem>\n",
-      last_id_, attributes(of_item),
+      "<{0}CharacteristicItem id=\"{1}\">{2}{3}<CharacteristicNominalId>{4}"
+      "</CharacteristicNominalId></{0}CharacteristicItem>\n",
+      kind, last_id_, attributes(of_item),
       plain.empty() ? "" : fmt::format("<Name>{}</Name>", xml_text(plain)), first + 1);
   return last_id_;
 }
@@ -127,11 +150,11 @@ Result<void> QifWriter::add(const OutgoingValue& value) {
       value.uncertainty ? fmt::format(" combinedUncertainty=\"{}\"", format_mm(*value.uncertainty))
                         : std::string();
   measurement_texts_ += fmt::format(
-      "<DiameterCharacteristicMeasurement id=\"{}\">{}<Status><CharacteristicStatusEnum>{}"
-      "</CharacteristicStatusEnum></Status><CharacteristicItemId>{}</CharacteristicItemId>"
-      "<TimeStamp>{}</TimeStamp>{}<Value{}>{}</Value></DiameterCharacteristicMeasurement>\n",
-      ++last_id_, attributes(fields), word(value.status), item, format_rfc3339(value.measured_at),
-      part, uncertainty, format_mm(value.measured));
+      "<{0}CharacteristicMeasurement id=\"{1}\">{2}<Status><CharacteristicStatusEnum>{3}"
+      "</CharacteristicStatusEnum></Status><CharacteristicItemId>{4}</CharacteristicItemId>"
+      "<TimeStamp>{5}</TimeStamp>{6}<Value{7}>{8}</Value></{0}CharacteristicMeasurement>\n",
+      characteristic_of(value.quantity), ++last_id_, attributes(fields), word(value.status), item,
+      format_rfc3339(value.measured_at), part, uncertainty, format_mm(value.measured));
   worst_ = std::max(worst_, value.status);
   ++measurements_;
   return {};

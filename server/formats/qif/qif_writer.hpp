@@ -11,11 +11,12 @@
 #include "base/clock.hpp"
 #include "base/length.hpp"
 #include "base/result.hpp"
+#include "metrology/gauging/quantity.hpp"
 
 namespace fitgauge::qif {
 
 /// As CharacteristicStatusEnum says it.
-enum class Status : std::uint8_t { Pass, Rework, Indeterminate, Fail };
+enum class Status : std::uint8_t { Pass, Undefined, Rework, Indeterminate, Fail };
 std::string_view word(Status status);
 
 /// A measurement on its way into a document.
@@ -24,11 +25,12 @@ struct OutgoingValue {
   std::int64_t number = 0;    ///< of its id
   Timestamp measured_at{};
   Length measured{};
-  Length nominal{};
+  std::optional<Length> nominal{};
   std::optional<Length> upper{};  ///< limits of size
   std::optional<Length> lower{};
   std::string_view class_name{};  ///< empty: the limits are those of a drawing
-  bool is_hole = true;
+  gauging::Quantity quantity = gauging::Quantity::Diameter;
+  std::string_view feature{};  ///< `hole` or `shaft`; empty: it is none
   Status status = Status::Pass;
   std::optional<Length> uncertainty{};  ///< standard
   std::optional<std::string_view> part_id{};

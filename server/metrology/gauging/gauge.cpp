@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "base/decimal.hpp"
-#include "metrology/gauging/conformance.hpp"
 
 namespace fitgauge::gauging {
 namespace {
@@ -15,36 +14,26 @@ constexpr int kFactorScale = 6;
 constexpr std::array kRuleWords = {std::string_view("simple"), std::string_view("guard_band"),
                                    std::string_view("conformance")};
 
-using iso286::Feature;
-
 /// A guard band k·u in millionths of a nanometre needs more than 64 bits.
 __extension__ using Wide = __int128;
 
-constexpr Verdict above(Feature feature) {
-  return feature == Feature::Hole ? Verdict::Reject : Verdict::Rework;
-}
-
-constexpr Verdict below(Feature feature) {
-  return feature == Feature::Hole ? Verdict::Rework : Verdict::Reject;
-}
-
 /// Lengths and guard band in millionths of a nanometre.
-Verdict verdict(Feature feature, Wide upper, Wide lower, Wide measured, Wide guard) {
+Verdict verdict(const Beyond& beyond, Wide upper, Wide lower, Wide measured, Wide guard) {
   if (measured >= lower + guard && measured <= upper - guard) return Verdict::Good;
-  if (measured > upper + guard) return above(feature);
-  if (measured < lower - guard) return below(feature);
+  if (measured > upper + guard) return beyond.above;
+  if (measured < lower - guard) return beyond.below;
   return Verdict::Indeterminate;
 }
 
 /// By the probability of conformance; outside, the nearer limit tells rework from reject.
-Verdict conformance_verdict(Feature feature, const ConformanceLimits& limits, Length measured,
+Verdict conformance_verdict(const Beyond& beyond, const ConformanceLimits& limits, Length measured,
                             const DecisionRule& rule) {
   const double wanted = rule.probability().value();
-  const Length u = rule.standard_uncertainty();
+  const KnownUncertainty u = rule.uncertainty();
   if (conformance_probability(limits, measured, u) >= wanted) return Verdict::Good;
   if (nonconformance_probability(limits, measured, u) < wanted) return Verdict::Indeterminate;
   const bool nearer_upper = limits.upper - measured < measured - limits.lower;
-  return nearer_upper ? above(feature) : below(feature);
+  return nearer_upper ? beyond.above : beyond.below;
 }
 
 }  // namespace
@@ -91,17 +80,24 @@ std::string format(ConformanceProbability probability) {
   return format_decimal(probability.millionths(), kFactorScale);
 }
 
-Result<DecisionRule> DecisionRule::conformance(Length standard_uncertainty,
+Result<DecisionRule> DecisionRule::conformance(const KnownUncertainty& uncertainty,
                                                ConformanceProbability probability) {
-  if (standard_uncertainty <= Length()) {
+  if (uncertainty.u <= Length()) {
     return Error{ErrorCode::RuleInvalid,
                  "conformance needs a standard uncertainty above 0; without one use rule simple"};
   }
   DecisionRule rule;
   rule.kind_ = Kind::Conformance;
-  rule.standard_uncertainty_ = standard_uncertainty;
+  rule.standard_uncertainty_ = uncertainty.u;
+  rule.degrees_of_freedom_ = uncertainty.degrees_of_freedom;
   rule.probability_ = probability;
   return rule;
+}
+
+bool has_no_acceptance(const DecisionRule& rule, Length tolerance) {
+  return rule.kind() == DecisionRule::Kind::GuardBand &&
+         Wide{2} * rule.standard_uncertainty().count() * rule.coverage_factor().millionths() >
+             Wide{tolerance.count()} * 1'000'000;
 }
 
 std::string_view word(DecisionRule::Kind kind) {
@@ -115,7 +111,7 @@ std::optional<DecisionRule::Kind> rule_from_word(std::string_view text) {
   return std::nullopt;
 }
 
-GaugingResult gauge(Feature feature, Length upper_limit, Length lower_limit, Length measured,
+GaugingResult gauge(const Beyond& beyond, Length upper_limit, Length lower_limit, Length measured,
                     const DecisionRule& rule) {
   assert(lower_limit <= upper_limit);
   constexpr Wide kMillion = 1'000'000;
@@ -127,10 +123,10 @@ GaugingResult gauge(Feature feature, Length upper_limit, Length lower_limit, Len
   if (measured > upper_limit) result.excess = measured - upper_limit;
   if (measured < lower_limit) result.excess = measured - lower_limit;
   if (rule.kind() == DecisionRule::Kind::Conformance) {
-    result.verdict = conformance_verdict(feature, {upper_limit, lower_limit}, measured, rule);
+    result.verdict = conformance_verdict(beyond, {upper_limit, lower_limit}, measured, rule);
     return result;
   }
-  result.verdict = verdict(feature, upper_limit.count() * kMillion, lower_limit.count() * kMillion,
+  result.verdict = verdict(beyond, upper_limit.count() * kMillion, lower_limit.count() * kMillion,
                            measured.count() * kMillion, guard);
   return result;
 }

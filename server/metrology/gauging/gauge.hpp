@@ -7,8 +7,9 @@
 
 #include "base/length.hpp"
 #include "base/result.hpp"
+#include "metrology/gauging/conformance.hpp"
+#include "metrology/gauging/quantity.hpp"
 #include "metrology/gauging/verdict.hpp"
-#include "tables/iso286/feature.hpp"
 
 namespace fitgauge::gauging {
 
@@ -73,13 +74,15 @@ class DecisionRule {
 
   /// By the probability that the true value lies within the limits (JCGM 106:2012, clause 7).
   /// @errors RuleInvalid unless the uncertainty is above 0.
-  static Result<DecisionRule> conformance(Length standard_uncertainty,
+  static Result<DecisionRule> conformance(const KnownUncertainty& uncertainty,
                                           ConformanceProbability probability = {});
 
   constexpr Kind kind() const { return kind_; }
   constexpr Length standard_uncertainty() const { return standard_uncertainty_; }
   constexpr CoverageFactor coverage_factor() const { return coverage_factor_; }
   constexpr ConformanceProbability probability() const { return probability_; }
+  /// Of conformance. @pre Kind::Conformance
+  KnownUncertainty uncertainty() const { return {standard_uncertainty_, degrees_of_freedom_}; }
 
   friend constexpr bool operator==(const DecisionRule&, const DecisionRule&) = default;
 
@@ -88,11 +91,15 @@ class DecisionRule {
   Length standard_uncertainty_;
   CoverageFactor coverage_factor_;
   ConformanceProbability probability_;
+  double degrees_of_freedom_ = kExactly;
 };
 
 /// `simple`, `guard_band` or `conformance`.
 std::string_view word(DecisionRule::Kind kind);
 std::optional<DecisionRule::Kind> rule_from_word(std::string_view text);
+
+/// Whether a guard band on either side leaves no value that is good.
+bool has_no_acceptance(const DecisionRule& rule, Length tolerance);
 
 struct GaugingResult {
   Verdict verdict = Verdict::Good;
@@ -103,13 +110,14 @@ struct GaugingResult {
   friend bool operator==(const GaugingResult&, const GaugingResult&) = default;
 };
 
-/// Judges a measured size. Limits are inclusive: a part exactly on a limit is good. With a guard
+/// Judges a measured value. Limits are inclusive: a part exactly on a limit is good. With a guard
 /// band g = k·u it is good from lower + g to upper - g inclusive, rework or reject beyond lower - g
 /// or upper + g, and indeterminate between; all compared exactly. By conformance it is good where
 /// the probability of conformance reaches the rule's, rework or reject where that of nonconformance
 /// does, and indeterminate between.
+/// @param beyond verdicts on the two sides, which a feature implies
 /// @pre lower_limit <= upper_limit, and no length is beyond ±kLongest
-GaugingResult gauge(iso286::Feature feature, Length upper_limit, Length lower_limit,
-                    Length measured, const DecisionRule& rule = {});
+GaugingResult gauge(const Beyond& beyond, Length upper_limit, Length lower_limit, Length measured,
+                    const DecisionRule& rule = {});
 
 }  // namespace fitgauge::gauging

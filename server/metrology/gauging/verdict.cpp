@@ -6,8 +6,8 @@
 namespace fitgauge::gauging {
 namespace {
 
-constexpr std::array kWords = {std::string_view("good"), std::string_view("rework"),
-                               std::string_view("reject"), std::string_view("indeterminate")};
+constexpr std::array<std::string_view, kVerdicts> kWords = {"good", "rework", "reject",
+                                                            "indeterminate", "unjudged"};
 
 }  // namespace
 

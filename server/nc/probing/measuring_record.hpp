@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -7,8 +8,7 @@
 #include <vector>
 
 #include "base/length.hpp"
-#include "metrology/gauging/verdict.hpp"
-#include "tables/iso286/feature.hpp"
+#include "metrology/gauging/quantity.hpp"
 
 namespace fitgauge::probing {
 
@@ -28,7 +28,7 @@ struct MeasuredSize {
   Length nominal{};
   Length measured{};
   std::optional<Limits> limits{};             ///< nothing when the block switches the check off
-  std::optional<gauging::Verdict> verdict{};  ///< nothing where the cycle does not judge
+  std::optional<gauging::Verdict> verdict{};  ///< nothing without limits
 };
 
 /// What the number of points lets one say about the form of a circular feature.
@@ -37,13 +37,28 @@ struct Form {
   std::string reason{};                 ///< which deviations stay invisible
   std::optional<double> residual_mm{};  ///< largest distance of a point from the fitted circle
   double diameter_factor = 1;  ///< standard deviation of the diameter over that of one touch
+  std::size_t points = 0;
+  double start_angle_deg = 0;  ///< of the first point, from the main axis
+  /// Range of the points' distances from the centre: a lower bound of the roundness. Nothing of
+  /// three points, which always lie on a circle.
+  std::optional<Length> deviation{};
 };
+
+/// What a value of a cycle is.
+constexpr gauging::Quantity quantity_of(int cycle, bool is_position) {
+  using gauging::Quantity;
+  if (is_position || cycle == 427) return Quantity::Position;
+  if (cycle == 444) return Quantity::Deviation;
+  const bool is_width = (cycle >= 408 && cycle <= 411) || (cycle >= 423 && cycle <= 426);
+  return is_width ? Quantity::Width : Quantity::Diameter;
+}
 
 /// The outcome of a measuring cycle, kept with the run.
 struct MeasuringRecord {
   std::uint16_t cycle = 0;
   std::vector<MeasuredSize> sizes{};          ///< sizes, then positions; none for 0 and 1
-  std::optional<gauging::Verdict> verdict{};  ///< of the whole cycle; nothing without status
+  bool has_status = false;                    ///< its verdict is that of the run until the next
+  std::optional<gauging::Verdict> verdict{};  ///< of the whole cycle; nothing without limits
   std::optional<Form> form{};                 ///< of circular features
 };
 

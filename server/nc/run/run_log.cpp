@@ -96,10 +96,10 @@ void RunLog::take(RunResult& result) {
   result.messages = std::move(messages_);
   result.measurements = std::move(measurements_);
   for (const Measurement& measurement : result.measurements) {
-    // A cycle without a status (0, 1, 420, 431) leaves the last verdict; 444 always sets Q183, and
-    // without a tolerance that is none.
+    // A cycle without a status (0, 1, 420, 431) leaves the last verdict; one without a tolerance
+    // has none.
     const probing::MeasuringRecord& record = measurement.record;
-    if (record.verdict || record.cycle == 444) result.verdict = record.verdict;
+    if (record.has_status) result.verdict = record.verdict;
   }
 }
 

@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "formats/measuring_log/log_words.hpp"
 #include "formats/measuring_log/measuring_log.hpp"
+#include "nc/probing/measuring_record.hpp"
 #include "tables/iso286/designation.hpp"
 
 namespace fitgauge::connections {
@@ -67,10 +68,11 @@ Measurement measurement_of(CollectedLog& log, const MeasuringLog& read, const Lo
   measurement.characteristic = kept(log, value.name);
   if (!read.program.empty()) measurement.operation = kept(log, read.program);
   app::CycleSize size{
+      .quantity = probing::quantity_of(read.cycle, value.role == Role::Position),
       .feature = value.role == Role::Shaft ? iso286::Feature::Shaft : iso286::Feature::Hole,
-      .is_position = value.role == Role::Position,
-      .nominal = *value.nominal,
+      .nominal = value.nominal,
       .measured = value.measured};
+  if (gauging::has_feature(size.quantity)) measurement.size_operator = "GG";
   if (value.upper) size.limits = {.upper = *value.upper, .lower = *value.lower};
   judge_size(measurement, size);
   return measurement;
@@ -83,7 +85,7 @@ std::shared_ptr<CollectedLog> collected(const MeasuringLog& read, const Origin& 
   const bool judges = std::any_of(read.values.begin(), read.values.end(),
                                   [](const LogValue& value) { return value.upper.has_value(); });
   for (const LogValue& value : read.values) {
-    if (judges ? !value.upper.has_value() : !log->measurements.empty()) continue;
+    if (judges && !value.upper) continue;
     if (is_length(value)) {
       log->measurements.push_back(measurement_of(*log, read, value, origin));
     } else {
@@ -160,13 +162,14 @@ Result<std::optional<app::SizeLimits>> drawn_limits(const Fields& fields, Length
 }
 
 Result<void> judge_by_drawing(Measurement& measurement, const Fields& fields) {
-  app::CycleSize size{.nominal = measurement.measured, .measured = measurement.measured};
+  app::CycleSize size;
+  size.measured = measurement.measured;
   if (fields.has("nominal_mm")) {
     const auto nominal = fields.length("nominal_mm");
     if (!nominal) return nominal.error();
     size.nominal = *nominal;
   }
-  const auto limits = drawn_limits(fields, size.nominal);
+  const auto limits = drawn_limits(fields, size.nominal.value_or(measurement.measured));
   if (!limits) return limits.error();
   size.limits = *limits;
   const std::string_view feature = fields.text("feature");

@@ -34,6 +34,7 @@ std::string_view status_of(Verdict verdict) {
     case Verdict::Good: return "PASS";
     case Verdict::Rework: return "REWORK";
     case Verdict::Reject: return "FAIL";
+    case Verdict::Unjudged: return "UNDEFINED";
     case Verdict::Indeterminate: break;
   }
   return "INDETERMINATE";
@@ -66,10 +67,11 @@ std::string head(const Agent& agent, std::string_view kind, std::string_view mor
 Counts counts_of(const std::vector<app::MeasurementGroup>& groups) {
   Counts counts;
   for (const app::MeasurementGroup& group : groups) {
-    counts.good += group.good;
-    counts.rework += group.rework;
-    counts.reject += group.reject;
-    counts.indeterminate += group.indeterminate;
+    const auto [good, rework, reject, indeterminate, unjudged] = group.verdicts;
+    counts.good += good;
+    counts.rework += rework;
+    counts.reject += reject;
+    counts.indeterminate += indeterminate;
   }
   return counts;
 }
@@ -89,7 +91,8 @@ std::string entry_of(const app::Measurement& measurement) {
 std::vector<std::pair<std::string_view, std::string>> cells_of(
     const app::Measurement& measurement) {
   std::vector<std::pair<std::string_view, std::string>> cells = {
-      {"MEASUREMENT_TYPE", "DIAMETER"},
+      {"MEASUREMENT_TYPE",
+       ascii_upper(word(measurement.quantity.value_or(gauging::Quantity::Diameter)))},
       {"MEASUREMENT_UNITS", "MILLIMETER"},
       {"MEASUREMENT_VALUE", format_mm(measurement.measured)},
       {"CHARACTERISTIC_STATUS", std::string(status_of(measurement.result.verdict))}};

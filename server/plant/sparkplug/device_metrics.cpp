@@ -31,10 +31,13 @@ const std::array<DeviceMetric, 17> kDeviceMetrics = {{
     {"verdict", Type::String,
      [](const Measurement& m) { return Value(std::string(word(m.result.verdict))); }},
     {"deviation_um", Type::Double,
-     [](const Measurement& m) { return Value(um(m.decisive() - m.nominal_size)); }},
-    {"excess_um", Type::Double, [](const Measurement& m) { return Value(um(m.result.excess)); }},
+     [](const Measurement& m) {
+       return m.has_nominal ? Value(um(m.decisive() - m.nominal_size)) : Value();
+     }},
+    {"excess_um", Type::Double,
+     [](const Measurement& m) { return m.is_judged() ? Value(um(m.result.excess)) : Value(); }},
     {"nominal_mm", Type::Double,
-     [](const Measurement& m) { return Value(m.nominal_size.to_mm()); }},
+     [](const Measurement& m) { return m.has_nominal ? Value(m.nominal_size.to_mm()) : Value(); }},
     {"upper_limit_mm", Type::Double,
      [](const Measurement& m) {
        return m.has_upper_limit() ? Value(m.upper_limit().to_mm()) : Value();

@@ -20,10 +20,12 @@ std::string_view refusal_of(const Measurement& m) {
                         m.conformance->probability > 1'000'000'000)) {
     return "has a probability that is none";
   }
-  if (!m.cycle && m.measured <= Length()) return "has no size";
+  if (!m.cycle && m.measured <= Length() && !(m.quantity && gauging::is_signed(*m.quantity))) {
+    return "has no size";
+  }
   if (m.deviations.upper < m.deviations.lower) return "has its limits the wrong way round";
-  const bool is_explicit = m.basis == LimitsBasis::Explicit;
-  if (is_explicit == m.class_name.has_value() || is_explicit != m.table_revision.empty()) {
+  const bool is_of_class = m.basis != LimitsBasis::Explicit && m.is_judged();
+  if (is_of_class != m.class_name.has_value() || is_of_class == m.table_revision.empty()) {
     return "says two things of where its limits are from";
   }
   if (m.correction_of.has_value() != m.correction_reason.has_value()) {
@@ -32,6 +34,7 @@ std::string_view refusal_of(const Measurement& m) {
   if (m.conformance.has_value() != (m.rule.kind() == gauging::DecisionRule::Kind::Conformance)) {
     return "has figures of another rule";
   }
+  if (!m.is_judged() && m.standard_uncertainty) return "has an uncertainty of no limits";
   if (m.rule.kind() == gauging::DecisionRule::Kind::GuardBand && !m.coverage_factor) {
     return "has no coverage factor";
   }

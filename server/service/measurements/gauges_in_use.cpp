@@ -3,6 +3,7 @@
 #include <future>
 
 #include "base/json/json_value.hpp"
+#include "record/fields.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/measurements/uncertainty_budget.hpp"
 
@@ -19,12 +20,12 @@ std::string text_of(const JsonValue& body, std::string_view name) {
 // Documents were checked before they were stored; one that cannot be read was altered since, and is
 // as if it were not there.
 
-std::map<std::string, double> combined_of(const Documents& budgets) {
-  std::map<std::string, double> combined;
+std::map<std::string, metrology::CombinedUncertainty> combined_of(const Documents& budgets) {
+  std::map<std::string, metrology::CombinedUncertainty> combined;
   for (const app::NamedDocument& document : budgets) {
     const auto body = parse_json(document.text);
     if (!body) continue;
-    const auto found = combined_standard_uncertainty(*body);
+    const auto found = combined_uncertainty(*body);
     if (found) combined.emplace(document.name, *found);
   }
   return combined;
@@ -42,7 +43,11 @@ GaugeBook book_of(const Documents& gauges, const Documents& budgets) {
     if (!due) continue;
     gauge.due = *due;
     if (const auto found = combined.find(gauge.budget); found != combined.end()) {
-      gauge.standard_uncertainty = rounded_up(found->second);
+      gauge.standard_uncertainty = rounded_up(found->second.combined);
+      const double degrees = found->second.degrees_of_freedom * 1e6;
+      if (degrees <= static_cast<double>(app::kDegreesOfFreedom.most)) {
+        gauge.degrees_of_freedom = static_cast<std::int64_t>(degrees);
+      }
     }
     book.emplace(document.name, std::move(gauge));
   }

@@ -3,8 +3,8 @@
 #include <map>
 #include <utility>
 
-#include "metrology/gauging/reference_temperature.hpp"
 #include "record/origins.hpp"
+#include "record/verdict_codec.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
@@ -25,28 +25,22 @@ iso286::NominalSizeRange range_of(std::int64_t over_nm, std::int64_t up_to_nm) {
 
 static_assert(code_of<store::Source>(Source::Simulation) == store::Source::Simulation);
 static_assert(code_of<store::Feature>(iso286::Feature::Shaft) == store::Feature::Shaft);
-static_assert(code_of<store::Basis>(LimitsBasis::Standard) == store::Basis::Standard);
-static_assert(code_of<store::Verdict>(gauging::Verdict::Indeterminate) ==
-              store::Verdict::Indeterminate);
+static_assert(code_of<store::Basis>(LimitsBasis::None) == store::Basis::None);
+static_assert(code_of<store::Verdict>(gauging::Verdict::Unjudged) == store::Verdict::Unjudged);
+static_assert(code_of<store::Quantity>(gauging::Quantity::Deviation) == store::Quantity::Deviation);
 static_assert(code_of<store::Rule>(gauging::DecisionRule::Kind::Conformance) ==
               store::Rule::Conformance);
 
 /// The rule of a row. @throws boost::system::system_error for numbers that no rule has.
 gauging::DecisionRule rule_of(const store::MeasurementRow& row) {
-  const Length u = gauging::combined_uncertainty(Length::nanometres(row.uncertainty_nm.value_or(0)),
-                                                 row.added_uncertainty.value_or(0));
-  switch (row.rule) {
-    case store::Rule::Simple: return {};
-    case store::Rule::GuardBand:
-      return gauging::DecisionRule::guard_band(
-                 u,
-                 gauging::CoverageFactor::from_millionths(row.coverage_factor.value_or(0)).value())
-          .value();
-    case store::Rule::Conformance: break;
-  }
-  return gauging::DecisionRule::conformance(
-             u,
-             gauging::ConformanceProbability::from_millionths(row.probability.value_or(0)).value())
+  if (row.rule == store::Rule::Simple) return {};
+  const bool is_guarded = row.rule == store::Rule::GuardBand;
+  return api::make_rule({.kind = value_of<gauging::DecisionRule::Kind>(row.rule),
+                         .standard_uncertainty = length_of(row.uncertainty_nm.value_or(0)),
+                         .coverage_millionths = is_guarded ? row.coverage_factor : std::nullopt,
+                         .probability_millionths = row.probability,
+                         .degrees_of_freedom = row.degrees_of_freedom,
+                         .added_uncertainty = row.added_uncertainty})
       .value();
 }
 
@@ -125,6 +119,7 @@ store::MeasurementRow to_store(const Measurement& m) {
   row.source = code_of<store::Source>(m.source);
   row.measured_at_ns = m.measured_at.nanoseconds;
   row.received_at_ns = m.received_at.nanoseconds;
+  if (m.quantity) row.quantity = code_of<store::Quantity>(*m.quantity);
   row.nominal_nm = m.nominal_size.count();
   row.tolerance_class = m.class_name;
   row.feature = code_of<store::Feature>(m.feature);
@@ -134,7 +129,7 @@ store::MeasurementRow to_store(const Measurement& m) {
     row.size_over_nm = m.size_range->over.count();
     row.size_up_to_nm = m.size_range->up_to.count();
   }
-  row.basis = code_of<store::Basis>(m.basis);
+  row.basis = m.has_nominal ? code_of<store::Basis>(m.basis) : store::Basis::Bare;
   row.table_revision = m.revision_number;
   row.measured_nm = m.measured.count();
   row.verdict = code_of<store::Verdict>(m.result.verdict);
@@ -166,6 +161,8 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
   m.source = value_of<Source>(row.source);
   m.measured_at = {row.measured_at_ns};
   m.received_at = {row.received_at_ns};
+  if (row.quantity) m.quantity = value_of<gauging::Quantity>(*row.quantity);
+  m.has_nominal = row.basis != store::Basis::Bare;
   m.nominal_size = Length::nanometres(row.nominal_nm);
   m.class_name = row.tolerance_class;
   m.feature = value_of<iso286::Feature>(row.feature);
@@ -174,7 +171,7 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
   if (row.size_over_nm && row.size_up_to_nm) {
     m.size_range = range_of(*row.size_over_nm, *row.size_up_to_nm);
   }
-  m.basis = value_of<LimitsBasis>(row.basis);
+  m.basis = m.has_nominal ? value_of<LimitsBasis>(row.basis) : LimitsBasis::None;
   m.revision_number = row.table_revision;
   if (row.table_revision) m.table_revision = names.revision_id(*row.table_revision);
   m.measured = Length::nanometres(row.measured_nm);

@@ -46,20 +46,18 @@ Error unknown_cursor() {
 MeasurementGroup measurement_group(store::SummaryGroup group) {
   return {.value = std::move(group.value),
           .count = group.count,
-          .good = group.verdict_count(store::Verdict::Good),
-          .rework = group.verdict_count(store::Verdict::Rework),
-          .reject = group.verdict_count(store::Verdict::Reject),
-          .indeterminate = group.verdict_count(store::Verdict::Indeterminate),
+          .verdicts = group.verdicts,
           .mean_mm = std::move(group.mean_mm),
           .standard_deviation_mm = std::move(group.standard_deviation_mm),
           .min = Length::nanometres(group.min_nm),
           .max = Length::nanometres(group.max_nm)};
 }
 
-/// None for that of a drawing without it, which lies beyond every length.
+/// None for an absent one, which lies beyond every length. Values of cycles without limits had
+/// those of every length in versions that judged them.
 std::optional<Length> limit_of(std::int64_t nanometres) {
   const Length limit = Length::nanometres(nanometres);
-  return -kLongest <= limit && limit <= kLongest ? std::optional(limit) : std::nullopt;
+  return -kLongest < limit && limit < kLongest ? std::optional(limit) : std::nullopt;
 }
 
 bool is_in_conflict(const store::Stores& stores, const store::MeasurementRow& row) {

@@ -93,14 +93,14 @@ struct ReadValues {
   std::vector<MovedValue> moves;  ///< of corrections, to the places of what they replace
 };
 
+/// How many there are of each verdict, by gauging::Verdict.
+using VerdictTally = std::array<std::int64_t, gauging::kVerdicts>;
+
 /// Counts and statistics of one group; texts are exact decimals in mm.
 struct MeasurementGroup {
   std::optional<std::string> value;
   std::int64_t count = 0;
-  std::int64_t good = 0;
-  std::int64_t rework = 0;
-  std::int64_t reject = 0;
-  std::int64_t indeterminate = 0;
+  VerdictTally verdicts{};
   std::string mean_mm;
   std::optional<std::string> standard_deviation_mm;
   Length min;

@@ -215,10 +215,10 @@ Result<UncertaintyBudget> read_uncertainty_budget(const JsonValue& body) {
   return made;
 }
 
-Result<double> combined_standard_uncertainty(const JsonValue& body) {
+Result<metrology::CombinedUncertainty> combined_uncertainty(const JsonValue& body) {
   const auto made = read_uncertainty_budget(body);
   if (!made) return made.error();
-  return made->combined.combined;
+  return made->combined;
 }
 
 }  // namespace fitgauge::api

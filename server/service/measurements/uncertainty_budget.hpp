@@ -29,7 +29,7 @@ std::string uncertainty_budget_schema();
 /// @errors RequestInvalid with every bad field.
 Result<UncertaintyBudget> read_uncertainty_budget(const JsonValue& body);
 
-/// u_c of a budget, in its unit. @errors as above.
-Result<double> combined_standard_uncertainty(const JsonValue& body);
+/// The combined uncertainty of a budget, in its unit. @errors as above.
+Result<metrology::CombinedUncertainty> combined_uncertainty(const JsonValue& body);
 
 }  // namespace fitgauge::api

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/run/run_files.hpp"
@@ -122,8 +123,16 @@ Measurement record_of(const RunReport& report, const interpreter::Measurement& m
   record.cycle = measured.record.cycle;
   std::optional<SizeLimits> limits;
   if (size.limits) limits = {.upper = size.limits->upper, .lower = size.limits->lower};
-  judge_size(record, {.feature = size.feature,
-                      .is_position = size.is_position,
+  const gauging::Quantity quantity = probing::quantity_of(measured.record.cycle, size.is_position);
+  if (gauging::has_feature(quantity)) record.size_operator = "GG";
+  if (const auto& form = measured.record.form; form && quantity == gauging::Quantity::Diameter) {
+    record.points = static_cast<std::int64_t>(form->points);
+    record.start_angle = std::llround(form->start_angle_deg * 1e6);
+    record.diameter_factor = std::llround(form->diameter_factor * 1e6);
+    if (form->deviation) record.form = form->deviation->count();
+  }
+  judge_size(record, {.quantity = quantity,
+                      .feature = size.feature,
                       .nominal = size.nominal,
                       .measured = size.measured,
                       .limits = limits});

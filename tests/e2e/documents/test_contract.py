@@ -135,7 +135,8 @@ class Answers(ContractTest):
         self.expect("findLimits", 200, nominal_mm=25, tolerance_class="g6")
         self.expect("getFit", 200, hole="25H7", shaft="g6")
         self.expect("getFitAsOne", 200, fit="25H7/g6")
-        self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="guard_band", uncertainty_um=1)
+        self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="guard_band", uncertainty_um=1,
+                    degrees_of_freedom=9)
         self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="conformance", uncertainty_um=1,
                     temperature_c=23, part_material="steel", temperature_uncertainty_c=0.1)
         self.expect("getVerdict", 422, designation="25H7", measured_mm=25.02, rule="conformance", uncertainty_um=9)
@@ -187,6 +188,10 @@ class Answers(ContractTest):
         self.expect("putUncertainty", 201, {"contributions": [{"name": "a", "standard_uncertainty": 1}]}, name="ring")
         self.expect("putGaugeInUse", 201, {"uncertainty": "ring", "calibration_due": "2020-03-31"}, name="late")
         self.expect("postMeasurements", 201, {"designation": "25 H7", "measured_mm": 25.01, "rule": "guard_band", "gauge": "late"})
+        enveloped = {"designation": "25 H7(E)", "measured_mm": 25.01, "go_gauge": "passes", "gauge": "another",
+                     "rule": "guard_band", "uncertainty_um": 1, "degrees_of_freedom": 9}
+        self.expect("postMeasurements", 201, enveloped)
+        self.expect("postMeasurements", 201, [enveloped, {"measured_mm": -1, "quantity": "position"}])
         self.expect("getCertificate", 200, headers={"Accept": "application/json"}, order="order")
         self.expect("correctMeasurement", 201, {"measured_mm": 25.012, "reason": "misread"}, id=first)
         self.expect("correctMeasurement", 409, {"measured_mm": 25.012, "reason": "misread"}, id=first)

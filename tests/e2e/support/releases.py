@@ -7,6 +7,7 @@ writes releases/0.1.0.tar.gz: the data folder, and what its daemon answered of i
 
 import io
 import json
+import re
 import sys
 import tarfile
 
@@ -72,10 +73,11 @@ def fill(daemon):
     wrong = post(daemon, "/v1/measurements", {**part, "measured_mm": "25.3"}, Idempotency_Key="once")
     post(daemon, f"/v1/measurements/{wrong['id']}/corrections", {"measured_mm": "25.003", "reason": "misread"})
     post(daemon, f"/v1/measurements/{wrong['id']}/notes", {"cause": "worn insert", "measure": "changed"})
-    daemon.request("PUT", "/v1/files/nc_prog/hole.h", PROGRAM, {"Content-Type": "application/octet-stream"})
-    run = post(daemon, "/v1/runs", {"program": "nc_prog/hole.h", "setup": "m3"})
-    if run["status"] != "completed":
-        raise RuntimeError(run["messages"])
+    for name, program in {"hole": PROGRAM, "free": re.sub(r"(Q2(75|76|79|80)=)\S+", r"\1+0", PROGRAM)}.items():
+        daemon.request("PUT", f"/v1/files/nc_prog/{name}.h", program, {"Content-Type": "application/octet-stream"})
+        run = post(daemon, "/v1/runs", {"program": f"nc_prog/{name}.h", "setup": "m3"})
+        if run["status"] != "completed":
+            raise RuntimeError(run["messages"])
 
 
 def make(name):

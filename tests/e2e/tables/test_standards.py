@@ -25,13 +25,14 @@ class Standards(DaemonTest):
             answer = self.daemon.get(f"/v1/limits/{path}")
             self.assertEqual((answer.status, answer.json["code"]), (status, code), path)
 
-    def test_a_general_tolerance_is_outside_unless_said(self):
+    def test_a_general_tolerance_is_of_a_distance_unless_said(self):
         by_designation = self.limits("/v1/limits/25%20ISO%202768-m")
         self.assertEqual(by_designation, self.limits("/v1/limits?nominal_mm=25&tolerance_class=ISO%202768-m"))
         self.assertEqual((by_designation["lower_limit_mm"], by_designation["upper_limit_mm"]), (24.8, 25.2))
         self.assertEqual(by_designation["size_range_mm"], {"over": 6, "up_to": 30})
         path = "/v1/verdicts/25%20ISO%202768-m?measured_mm=25.3"
-        self.assertEqual(self.limits(path)["verdict"], "rework")
+        self.assertEqual(self.limits(path)["verdict"], "reject")
+        self.assertEqual(self.limits(path + "&feature=shaft")["verdict"], "rework")
         self.assertEqual(self.limits(path + "&feature=hole")["verdict"], "reject")
         self.assertEqual(self.daemon.get("/v1/verdicts/25H7?measured_mm=25&feature=shaft").status, 400)
 

@@ -37,7 +37,7 @@ std::string text_of(const app::Measurement& m) {
 
 /// One record of each kind.
 std::vector<app::Measurement> samples() {
-  std::vector<app::Measurement> rows(11, hole());
+  std::vector<app::Measurement> rows(15, hole());
   rows[1].comment = "\"\\\b\f\n\r\t\x01\x7f \xC3\x98 25 \xF0\x9F\x98\x80";
   rows[1].caller = "press-3";
   rows[1].temperature = -1;
@@ -83,6 +83,31 @@ std::vector<app::Measurement> samples() {
   rows[10].scale_expansion_uncertainty = 0;
   rows[10].added_uncertainty = 1'500'000;  // 1.5 µm, with 2 µm: 2.5 µm
   rows[10].rule = gauging::DecisionRule::conformance(Length::nanometres(2500)).value();
+  using gauging::Quantity;
+  rows[11].quantity = Quantity::Position;
+  rows[11].measured = -Length::micrometres(50'080);
+  app::apply_no_limits(rows[11], -Length::millimetres(50));
+  rows[11].class_name.reset();
+  rows[11].table_revision = {};
+  rows[11].size_range.reset();
+  rows[12] = rows[11];
+  app::apply_no_limits(rows[12], std::nullopt);
+  rows[12].quantity = Quantity::Diameter;
+  rows[12].source = app::Source::Simulation;
+  rows[12].cycle = 421;
+  rows[12].points = 3;
+  rows[12].start_angle = -22'500'000;
+  rows[12].diameter_factor = 1'154'701;
+  rows[12].size_operator = "GG";
+  rows[13].quantity = Quantity::Width;
+  rows[13].envelope = app::kEnvelopeRequired;
+  rows[13].go_gauge = app::kGoFails;
+  rows[13].standard_uncertainty = Length::micrometres(1);
+  rows[13].degrees_of_freedom = 2'500'000;
+  rows[13].rule = gauging::DecisionRule::conformance({Length::micrometres(1), 2.5}).value();
+  rows[14] = rows[12];
+  rows[14].points = 4;
+  rows[14].form = 12'345;
   for (app::Measurement& m : rows) app::judge(m);
   return rows;
 }

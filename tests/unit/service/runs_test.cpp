@@ -110,8 +110,8 @@ TEST_CASE("each judged value of a cycle leaves a record, and nothing unjudged is
   const auto records = measurements_of(report, std::nullopt);
   REQUIRE(records.size() == 5);
   using gauging::Verdict;
-  const std::array verdicts{Verdict::Good, Verdict::Reject, Verdict::Good, Verdict::Indeterminate,
-                            Verdict::Indeterminate};
+  const std::array verdicts{Verdict::Good, Verdict::Reject, Verdict::Good, Verdict::Unjudged,
+                            Verdict::Unjudged};
   const std::array names{"Diameter", "Centre, main axis", "Centre, secondary axis", "Diameter",
                          "1st point"};
   for (std::size_t k = 0; k < records.size(); ++k) {

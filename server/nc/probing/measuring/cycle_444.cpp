@@ -140,7 +140,7 @@ void write_results(CycleHost& host, const ProbedPoint& point) {
 
 MeasuringRecord make_record(const ProbedPoint& point) {
   const MeasuredValue deviation = normal_deviation(point);
-  MeasuringRecord record{.cycle = 444, .verdict = point.verdict};
+  MeasuringRecord record{.cycle = 444, .has_status = true, .verdict = point.verdict};
   record.sizes.push_back({.characteristic = deviation.characteristic,
                           .feature = iso286::Feature::Shaft,
                           .measured = deviation.measured,

@@ -62,18 +62,23 @@ void write_results(CycleHost& host, const std::vector<MeasuredValue>& values) {
 }
 
 MeasuringRecord make_record(const CycleContext& context, const Measurement& measurement) {
-  MeasuringRecord record{.cycle = context.arguments.descriptor().number,
-                         .verdict = worst(measurement.values).verdict(),
-                         .form = measurement.form};
+  const bool is_judged =
+      std::ranges::any_of(measurement.values, [](const auto& value) { return !!value.limits; });
+  MeasuringRecord record{
+      .cycle = context.arguments.descriptor().number,
+      .has_status = true,
+      .verdict = is_judged ? std::optional(worst(measurement.values).verdict()) : std::nullopt,
+      .form = measurement.form};
   for (const MeasuredValue& value : measurement.values) {
     const bool shaft = value.role == ValueRole::ShaftSize;
-    record.sizes.push_back({.characteristic = value.characteristic,
-                            .feature = shaft ? iso286::Feature::Shaft : iso286::Feature::Hole,
-                            .is_position = value.role == ValueRole::Position,
-                            .nominal = value.nominal,
-                            .measured = value.measured,
-                            .limits = value.limits,
-                            .verdict = value.verdict()});
+    record.sizes.push_back(
+        {.characteristic = value.characteristic,
+         .feature = shaft ? iso286::Feature::Shaft : iso286::Feature::Hole,
+         .is_position = value.role == ValueRole::Position,
+         .nominal = value.nominal,
+         .measured = value.measured,
+         .limits = value.limits,
+         .verdict = value.limits ? std::optional(value.verdict()) : std::nullopt});
   }
   std::stable_partition(record.sizes.begin(), record.sizes.end(),
                         [](const MeasuredSize& size) { return !size.is_position; });

@@ -1,6 +1,10 @@
 #include "nc/probing/touch/circle_probing.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <ranges>
+
+#include "nc/probing/measured_value.hpp"
 
 namespace fitgauge::probing {
 
@@ -26,25 +30,36 @@ std::vector<Touch> circle_touches(const CirclePlan& plan) {
   return touches;
 }
 
-CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
-                                   double ball_radius) {
+std::vector<Point2> ball_centres(std::span<const Contact> contacts) {
   std::vector<Point2> centres;
   for (const Contact& contact : contacts) {
     centres.push_back({contact.ball_centre.x, contact.ball_centre.y});
   }
-  auto circle = fit_circle(centres);
+  return centres;
+}
+
+CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
+                                   double ball_radius) {
+  auto circle = fit_circle(ball_centres(contacts));
   if (circle) circle->radius += side == Side::Inside ? ball_radius : -ball_radius;
   return circle;
 }
 
-Form circle_form(std::size_t points, const Circle& circle) {
-  Form form{.diameter_factor = circle.diameter_factor};
+Form circle_form(std::span<const Point2> centres, const Circle& circle, double start_angle) {
+  const std::size_t points = centres.size();
+  Form form{
+      .diameter_factor = circle.diameter_factor, .points = points, .start_angle_deg = start_angle};
   if (points == 3) {
     form.reason =
         "three points always lie on a circle: any form deviation is taken for centre and diameter";
     return form;
   }
   form.residual_mm = circle.residual;
+  const auto distance = [&](const Point2& point) {
+    return std::hypot(point.x - circle.centre.x, point.y - circle.centre.y);
+  };
+  const auto [nearest, farthest] = std::ranges::minmax(centres | std::views::transform(distance));
+  form.deviation = to_length(farthest - nearest);
   form.reason = points == 4 ? "four points show an oval in their residual only: three and five "
                               "lobes move the centre, four lobes change the diameter"
                             : std::to_string(points) +
@@ -73,7 +88,8 @@ CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotio
   if (!contacts) return contacts.error();
   const auto circle = circle_through(*contacts, side, motion.ball_radius());
   if (!circle) return circle.error();
-  return ProbedCircle{*circle, circle_form(contacts->size(), *circle)};
+  return ProbedCircle{*circle,
+                      circle_form(ball_centres(*contacts), *circle, arguments.number(325))};
 }
 
 CycleResult<std::vector<Point2>> probe_hole_centres(ProbingMotion& motion,
@@ -105,7 +121,7 @@ CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, Probing
   if (!holes) return holes.error();
   const auto circle = fit_circle(*holes);
   if (!circle) return circle.error();
-  return ProbedCircle{*circle, circle_form(holes->size(), *circle)};
+  return ProbedCircle{*circle, circle_form(*holes, *circle, arguments.number(291))};
 }
 
 }  // namespace fitgauge::probing

@@ -30,6 +30,8 @@ struct CirclePlan {
 /// without moves between the points.
 std::vector<Touch> circle_touches(const CirclePlan& plan);
 
+std::vector<Point2> ball_centres(std::span<const Contact> contacts);
+
 /// The circle through the ball centres, widened (inside) or narrowed (outside) by the ball's
 /// radius: compensating each touch along its probing direction would be wrong for a hole off its
 /// nominal centre (decision 20).
@@ -37,8 +39,8 @@ std::vector<Touch> circle_touches(const CirclePlan& plan);
 CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
                                    double ball_radius);
 
-/// What that number of points says about roundness, and the circle about its diameter.
-Form circle_form(std::size_t points, const Circle& circle);
+/// What the points say about roundness, and the circle about its diameter.
+Form circle_form(std::span<const Point2> points, const Circle& circle, double start_angle);
 
 struct ProbedCircle {
   Circle circle;  ///< of the surface

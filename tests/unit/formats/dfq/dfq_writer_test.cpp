@@ -16,7 +16,7 @@ OutgoingValue bore(std::int64_t number, std::int64_t nanometres) {
   OutgoingValue value{.origin = "5f0c9a3e77d21b40", .number = number};
   value.measured_at = {1'795'334'400'000'000'000};
   value.nominal = Length::millimetres(25);
-  value.measured = value.nominal + Length::nanometres(nanometres);
+  value.measured = *value.nominal + Length::nanometres(nanometres);
   value.limits = {.upper = Length::nanometres(25'021'000), .lower = value.nominal};
   value.class_name = "H7";
   value.part_id = "SN-1";
@@ -34,7 +34,7 @@ OutgoingValue shaft(std::int64_t number) {
   OutgoingValue value = bore(number, 0);
   value.characteristic = "Seat";
   value.class_name = {};
-  value.is_hole = false;
+  value.feature = "shaft";
   value.nominal = Length::millimetres(8);
   value.measured = Length::nanometres(7'995'500);
   value.limits = {.upper = Length::millimetres(8), .lower = std::nullopt};

@@ -50,7 +50,7 @@ TEST_CASE("what is written is read with the same values") {
   REQUIRE(writer.add(first).has_value());
   OutgoingValue second = value(2, 24'991'000);
   second.class_name = "";
-  second.is_hole = false;
+  second.feature = "shaft";
   second.lower.reset();
   REQUIRE(writer.add(second).has_value());
   const auto read = read_qif(writer.text(), {});

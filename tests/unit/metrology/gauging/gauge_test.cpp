@@ -116,6 +116,54 @@ TEST_CASE("conformance is good, indeterminate or bad by the probability of the t
         doctest::Approx(0.9544997361));
 }
 
+TEST_CASE("an uncertainty that is not well known itself widens the guard band and the tails") {
+  // t(0.9545, v), by mpmath at 30 digits.
+  CHECK(coverage_millionths(2) == 4'526'551);
+  CHECK(coverage_millionths(10) == 2'283'682);
+  CHECK(coverage_millionths(1e6) == 2'000'005);
+  CHECK(coverage_millionths(0.01) == 1'000'000'000'000);
+  const ConformanceLimits limits{mm("25.021"), mm("25")};
+  const KnownUncertainty few(um("1"), 2);
+  CHECK(conformance_probability(limits, mm("25.0189"), few) ==
+        doctest::Approx(0.9133311790544391).epsilon(1e-12));
+  const DecisionRule rule = *DecisionRule::conformance(few);
+  CHECK(hole("25.0189", rule).verdict == Verdict::Indeterminate);
+  CHECK(hole("25.0189", *DecisionRule::conformance(um("1"))).verdict == Verdict::Good);
+  // Where the guard band ends, the probability is just the one asked for.
+  const double factor = *guard_band_factor(um("21"), few, 0.95);
+  CHECK(factor == doctest::Approx(2.9734607729).epsilon(1e-9));
+}
+
+TEST_CASE("a quantity says what becomes of a part beyond its limits") {
+  const auto words = [](Quantity quantity, Feature feature) {
+    const Beyond beyond(quantity, feature);
+    return std::pair(beyond.below, beyond.above);
+  };
+  constexpr std::pair kWidened{Verdict::Rework, Verdict::Reject};
+  constexpr std::pair kTurned{Verdict::Reject, Verdict::Rework};
+  constexpr std::pair kLost{Verdict::Reject, Verdict::Reject};
+  for (const Quantity size : {Quantity::Diameter, Quantity::Width, Quantity::PitchDiameter}) {
+    CHECK(words(size, Feature::Hole) == kWidened);
+    CHECK(words(size, Feature::Shaft) == kTurned);
+  }
+  for (const Quantity edge : {Quantity::Radius, Quantity::Chamfer}) {
+    CHECK(words(edge, Feature::Shaft) == kWidened);
+  }
+  for (const Quantity place : {Quantity::Position, Quantity::Distance, Quantity::Deviation}) {
+    CHECK(words(place, Feature::Hole) == kLost);
+    CHECK(is_signed(place));
+  }
+  for (const std::string_view text : kQuantityWords) CHECK(word(*quantity_from_word(text)) == text);
+  CHECK_FALSE(quantity_from_word("angle"));
+}
+
+TEST_CASE("a guard band that leaves nothing is told from one that leaves a point") {
+  const DecisionRule rule = *DecisionRule::guard_band(um("5.25"));
+  CHECK_FALSE(has_no_acceptance(rule, um("21")));
+  CHECK(has_no_acceptance(rule, um("20.999")));
+  CHECK_FALSE(has_no_acceptance({}, um("0")));
+}
+
 TEST_CASE("an uncertainty too large for the tolerance leaves no value good") {
   CHECK(guard_band_factor(um("21"), um("5.3"), 0.95));
   CHECK_FALSE(guard_band_factor(um("21"), um("5.4"), 0.95));  // 10.5 / 1.96 = 5.357

@@ -1,0 +1,168 @@
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "record/measurement_batch.hpp"
+#include "record/record.hpp"
+#include "tables/iso286/table_data.hpp"
+
+using namespace fitgauge;
+using namespace fitgauge::api;
+
+namespace {
+
+/// The record of an object, or the first complaint: `POINTER CODE`.
+std::string judged(std::string body) {
+  static const auto kTables =
+      iso286::ToleranceTables::make(iso286::compiled_in_tables(), {"test"}).value();
+  const std::size_t size = body.size();
+  body.append(64, '\0');
+  MeasurementBatch batch;
+  const auto decoded =
+      decode_measurements(std::string_view(body).substr(0, size), "application/json",
+                          {.tables = kTables, .received_at = {1'000'000'000}}, batch);
+  if (!decoded) {
+    const Error error = decoded.error();
+    const Error& first = error.details.front();
+    return first.where + ' ' + std::string(id(first.code));
+  }
+  std::string out;
+  app::append_record(out, batch.rows.front());
+  return out;
+}
+
+bool has(const std::string& record, std::string_view text) {
+  return record.find(text) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a value without limits has none, and nothing that follows from them") {
+  const std::string bare = judged(R"({"measured_mm":-50.08,"quantity":"position"})");
+  CHECK(bare.starts_with(R"({"basis":"none","id":)"));
+  CHECK(has(bare, R"("measured_mm":-50.08,"quantity":"position",)"));
+  for (const char* absent : {"limit", "deviation", "nominal", "uncertainty", "rule", "verdict",
+                             "excess", "feature", "tolerance", "size_operator"}) {
+    CAPTURE(absent);
+    CHECK(bare.find(absent) == std::string::npos);
+  }
+  const std::string with_nominal =
+      judged(R"({"measured_mm":25.013,"nominal_mm":25,"quantity":"diameter"})");
+  CHECK(has(with_nominal, R"("basis":"none","deviation_um":13,)"));
+  CHECK(has(with_nominal, R"("nominal_mm":25,)"));
+  CHECK(judged(R"({"measured_mm":25,"quantity":"diameter","rule":"guard_band"})") ==
+        "/rule field.conflict");
+  CHECK(judged(R"({"measured_mm":25,"quantity":"diameter","uncertainty_um":1})") ==
+        "/uncertainty_um field.conflict");
+  CHECK(judged(R"({"measured_mm":25,"quantity":"diameter","feature":"hole"})") ==
+        "/nominal_mm field.missing");
+  CHECK(judged(R"({"measured_mm":25})") == "/nominal_mm field.missing");
+}
+
+TEST_CASE("a designation says its quantity, and what lies beyond its limits") {
+  const auto record = [](const std::string& designation, const char* measured) {
+    return judged(R"({"designation":")" + designation + R"(","measured_mm":)" + measured + "}");
+  };
+  struct Case {
+    const char* designation;
+    const char* measured;
+    const char* quantity;
+    const char* verdict;
+  };
+  for (const Case& one : std::vector<Case>{{"25 H7", "25.03", "diameter", "reject"},
+                                           {"25 h6", "25.03", "diameter", "rework"},
+                                           {"M10-6g", "8", "pitch_diameter", "reject"},
+                                           {"25 ISO 2768-m", "26", "distance", "reject"},
+                                           {"25 ISO 2768-m", "24", "distance", "reject"},
+                                           {"R5 ISO 2768-m", "9", "radius", "reject"},
+                                           {"R5 ISO 2768-m", "1", "radius", "rework"},
+                                           {"C2 ISO 2768-m", "9", "chamfer", "reject"}}) {
+    CAPTURE(one.designation);
+    const std::string found = record(one.designation, one.measured);
+    CHECK(has(found, std::string(R"("quantity":")") + one.quantity + '"'));
+    CHECK(has(found, std::string(R"("verdict":")") + one.verdict + '"'));
+  }
+  CHECK(has(judged(R"({"designation":"25 ISO 2768-m","feature":"hole","measured_mm":24})"),
+            R"("quantity":"diameter")"));
+  CHECK(has(judged(R"({"designation":"8 N9","quantity":"width","measured_mm":7.99})"),
+            R"("quantity":"width")"));
+  CHECK(judged(R"({"designation":"25 H7","quantity":"radius","measured_mm":25})") ==
+        "/quantity field.conflict");
+  CHECK(judged(R"({"designation":"R5 ISO 2768-m","feature":"hole","measured_mm":5})") ==
+        "/feature field.conflict");
+}
+
+TEST_CASE("limits of a drawing have a feature for sizes alone, and a sign for what has one") {
+  const auto drawn = [](const std::string& fields) {
+    return judged(R"({"upper_um":50,"lower_um":-50,)" + fields + "}");
+  };
+  const std::string position =
+      drawn(R"("quantity":"position","nominal_mm":-50,"measured_mm":-50.08)");
+  CHECK(has(position, R"("quantity":"position")"));
+  CHECK(has(position, R"("verdict":"reject")"));
+  CHECK(position.find("feature") == std::string::npos);
+  CHECK(has(drawn(R"("quantity":"deviation","nominal_mm":0,"measured_mm":0)"),
+            R"("verdict":"good")"));
+  CHECK(has(drawn(R"("quantity":"distance","nominal_mm":30,"measured_mm":30.06)"),
+            R"("verdict":"reject")"));
+  CHECK(has(drawn(R"("quantity":"radius","nominal_mm":5,"measured_mm":4.9)"),
+            R"("verdict":"rework")"));
+  CHECK(drawn(R"("quantity":"position","feature":"hole","nominal_mm":1,"measured_mm":1)") ==
+        "/feature field.conflict");
+  CHECK(drawn(R"("quantity":"width","nominal_mm":1,"measured_mm":1)") == "/feature field.missing");
+  CHECK(drawn(R"("quantity":"radius","nominal_mm":-5,"measured_mm":5)") ==
+        "/nominal_mm length.out_of_range");
+  CHECK(drawn(R"("quantity":"radius","nominal_mm":5,"measured_mm":-5)") ==
+        "/measured_mm length.out_of_range");
+  CHECK(drawn(R"("quantity":"position","nominal_mm":5,"measured_mm":-100000001)") ==
+        "/measured_mm length.out_of_range");
+  CHECK(drawn(R"("quantity":"angle","nominal_mm":5,"measured_mm":5)") == "/quantity field.invalid");
+}
+
+TEST_CASE("degrees of freedom count, also with what a correction to 20 degrees adds") {
+  const std::string two = judged(
+      R"({"designation":"25 H7","measured_mm":25.0175,"uncertainty_um":1,"rule":"guard_band",)"
+      R"("degrees_of_freedom":2})");
+  CHECK(has(two, R"("coverage_factor":4.526551,)"));
+  CHECK(has(two, R"("degrees_of_freedom":2,)"));
+  CHECK(has(two, R"("verdict":"indeterminate")"));
+  const std::string given = judged(
+      R"({"designation":"25 H7","measured_mm":25.0175,"uncertainty_um":1,"rule":"guard_band",)"
+      R"("degrees_of_freedom":2,"coverage_factor":2})");
+  CHECK(has(given, R"("coverage_factor":2,)"));
+  CHECK(has(given, R"("verdict":"good")"));
+  const std::string warm =
+      judged(R"({"designation":"25 H7","measured_mm":25.01,"uncertainty_um":1,"rule":"guard_band",)"
+             R"("degrees_of_freedom":2,"temperature_c":20,"part_material":"steel",)"
+             R"("temperature_uncertainty_c":10})");
+  CHECK(has(warm, R"("degrees_of_freedom":2,)"));
+  CHECK_FALSE(has(warm, "4.526551"));
+  CHECK(judged(R"({"designation":"25 H7","measured_mm":25,"degrees_of_freedom":2})") ==
+        "/uncertainty_um field.missing");
+}
+
+TEST_CASE("an envelope is verified by a GO gauge alone") {
+  const auto record = [](const std::string& designation, const char* measured,
+                         const std::string& more) {
+    return judged(R"({"designation":")" + designation + R"(","measured_mm":)" + measured + more +
+                  "}");
+  };
+  for (const char* designation : {"25H7(E)", "25 H7 (E)", "25 H7 \xE2\x92\xBA"}) {
+    CAPTURE(designation);
+    const std::string found = record(designation, "25.01", "");
+    CHECK(has(found, R"("designation":"25 H7",)"));
+    CHECK(has(found, R"("envelope":"required","envelope_result":"not_verified")"));
+    CHECK(has(found, R"("size_operator":"LP")"));
+  }
+  CHECK(has(record("25H7(E)", "25.01", R"(,"go_gauge":"passes")"),
+            R"("envelope_result":"verified")"));
+  const std::string fails = record("25H7(E)", "25.01", R"(,"go_gauge":"fails")");
+  CHECK(has(fails, R"("envelope_result":"failed")"));
+  CHECK(has(fails, R"("verdict":"rework")"));
+  CHECK(has(record("25H7(E)", "25.03", R"(,"go_gauge":"fails")"), R"("verdict":"reject")"));
+  CHECK(has(record("25h6(E)", "24.99", R"(,"go_gauge":"fails")"), R"("verdict":"rework")"));
+  CHECK(record("25H7", "25.01", R"(,"go_gauge":"fails")") == "/envelope field.missing");
+  CHECK(record("25H7(E)", "25.01", R"(,"go_gauge":"sticks")") == "/go_gauge field.invalid");
+  CHECK(record("R5 ISO 2768-m", "5", R"(,"envelope":"required")") == "/envelope field.conflict");
+}
