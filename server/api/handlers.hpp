@@ -42,10 +42,9 @@ inline Error other_state() {
           "the current state has another tag than those of If-Match: read it again without"};
 }
 
-/// Bytes that came from outside, so that a browser neither guesses their type nor runs them.
+/// Bytes that came from outside, so that a browser does not run them.
 inline http::Response foreign_bytes(std::string content_type, std::string bytes) {
   return http::Response(200, std::move(content_type), std::move(bytes))
-      .with("X-Content-Type-Options", "nosniff")
       .with("Content-Security-Policy", "sandbox; default-src 'none'; style-src 'unsafe-inline'");
 }
 

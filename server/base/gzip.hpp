@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/result.hpp"
 
@@ -21,6 +22,8 @@ class GzipWriter {
   ~GzipWriter() { deflateEnd(&stream_); }
 
   void add(std::string_view text) { pack(text, Z_NO_FLUSH); }
+  /// The packed bytes so far; finish() returns those that follow.
+  std::string take() { return std::exchange(packed_, {}); }
   /// All that was added, packed. @post add() must not follow.
   std::string finish();
 

@@ -137,7 +137,7 @@ void append_request_line(std::string& out, LogLevel level, const http::FinishedR
   Line line;
   begin(line, level);
   line.put(R"("request","id":")");
-  line.put_digits<16, 16>(finished.request.id());
+  line.put(finished.request.id_text());  // of characters that need no escape
   line.put(R"(","method":")");
   line.put(finished.method.substr(0, kMostMethod));  // a token: nothing in it needs an escape
   line.put(R"(","route":")");

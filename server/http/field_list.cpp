@@ -23,6 +23,9 @@ int weight(std::string_view text) {
   return std::min(value, 1000);
 }
 
+/// The end of the tag of an answer that was packed on its way.
+constexpr std::string_view kPackedEtagEnd = "-gzip\"";
+
 template <class Matches>
 bool names(std::string_view tags, const Matches& matches) {
   if (trim(tags) == "*") return true;
@@ -73,15 +76,28 @@ int quality(std::string_view parameters) {
   return found;
 }
 
+std::string packed_etag(std::string_view etag) {
+  std::string packed(etag.substr(0, etag.size() - std::min<std::size_t>(etag.size(), 1)));
+  return etag.empty() ? packed : packed.append(kPackedEtagEnd);
+}
+
+std::string plain_etag(std::string_view etag) {
+  if (!etag.ends_with(kPackedEtagEnd)) return std::string(etag);
+  return std::string(etag.substr(0, etag.size() - kPackedEtagEnd.size())) + '"';
+}
+
 bool names_etag_weakly(std::string_view tags, std::string_view etag) {
   const auto opaque = [](std::string_view tag) {
-    return tag.starts_with("W/") ? tag.substr(2) : tag;
+    return plain_etag(tag.starts_with("W/") ? tag.substr(2) : tag);
   };
-  return names(tags, [&](std::string_view tag) { return opaque(tag) == opaque(etag); });
+  return names(tags,
+               [&, wanted = opaque(etag)](std::string_view tag) { return opaque(tag) == wanted; });
 }
 
 bool names_etag_strongly(std::string_view tags, std::string_view etag) {
-  return names(tags, [&](std::string_view tag) { return !tag.starts_with("W/") && tag == etag; });
+  return names(tags, [&, wanted = plain_etag(etag)](std::string_view tag) {
+    return !tag.starts_with("W/") && plain_etag(tag) == wanted;
+  });
 }
 
 }  // namespace fitgauge::http

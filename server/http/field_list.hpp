@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,8 +27,14 @@ NameValue split_parameter(std::string_view part);
 /// is malformed (RFC 9110 section 12.4.2).
 int quality(std::string_view parameters);
 
-/// Whether a list of entity tags, or `*`, names `etag`. If-None-Match compares weakly, so that `W/`
-/// does not count; If-Match strongly, so that a weak tag names nothing (RFC 9110 section 8.8.3.2).
+/// The entity tag of the gzip form of what has `etag`: `"abc"` and `"abc-gzip"`; and back. Both
+/// leave an empty text empty.
+std::string packed_etag(std::string_view etag);
+std::string plain_etag(std::string_view etag);
+
+/// Whether a list of entity tags, or `*`, names `etag` or its other form. If-None-Match compares
+/// weakly, so that `W/` does not count; If-Match strongly, so that a weak tag names nothing (RFC
+/// 9110 section 8.8.3.2).
 bool names_etag_weakly(std::string_view tags, std::string_view etag);
 bool names_etag_strongly(std::string_view tags, std::string_view etag);
 

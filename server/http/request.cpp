@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "http/engine/media_type.hpp"
 #include "http/engine/request_head.hpp"
 #include "http/route.hpp"
 
@@ -67,11 +68,14 @@ std::optional<Timestamp> Request::time(std::string_view name) const {
   return argument_as<Timestamp>(name);
 }
 
-std::string Request::id_text() const { return fmt::format("{:016x}", id_); }
-
 bool Request::is_forwarded() const { return head_->is_forwarded; }
 
 bool Request::is_local() const { return peer_->loopback && !is_forwarded(); }
+
+bool Request::prefers_gzip() const {
+  return head_->has_accept_encoding &&
+         accepted_codings(header_list("Accept-Encoding").value_or("")).prefers_gzip();
+}
 
 bool Request::is_http_1_0() const { return head_->http_1_0; }
 

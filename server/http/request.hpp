@@ -1,6 +1,7 @@
 #pragma once
 
 #include <any>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -74,9 +75,13 @@ class Request {
   /// arguments as they were read (whatever their spelling), and the media type.
   void append_identity(std::string& out) const;
 
-  /// Unique in this process and unlikely elsewhere; 16 hexadecimal digits as text.
+  /// Unique in this process and unlikely elsewhere.
   std::uint64_t id() const { return id_; }
-  std::string id_text() const;
+  /// The client's X-Request-Id if it has 1 to 64 characters of `[A-Za-z0-9._-]`, else id() as 16
+  /// hexadecimal digits.
+  std::string_view id_text() const {
+    return given_id_.empty() ? std::string_view(own_id_.data(), own_id_.size()) : given_id_;
+  }
 
   std::string_view peer_address() const { return peer_->address; }  ///< `127.0.0.1`, `::1`
   /// Has a proxy's field: Forwarded, X-Forwarded-*, Via, X-Real-IP, True-Client-IP,
@@ -90,6 +95,10 @@ class Request {
   /// `https://host:port` or `http://…` as the client addressed it, for comparing Origin. A proxy
   /// that ends TLS says so in X-Forwarded-Proto, which a page of another site cannot send unasked.
   std::string own_origin() const;
+  /// The request's Origin if it is one of ServerOptions::allowed_origins; else empty.
+  std::string_view allowed_origin() const { return allowed_origin_; }
+  /// Whether Accept-Encoding prefers gzip to no coding.
+  bool prefers_gzip() const;
 
   /// The route found, or null where the request was refused before one was.
   const Route* route() const { return route_; }
@@ -110,6 +119,9 @@ class Request {
 
   Method method_ = Method::Other;
   std::uint64_t id_ = 0;
+  std::array<char, 16> own_id_{};
+  std::string_view given_id_;
+  std::string_view allowed_origin_;
   const RequestHead* head_ = nullptr;
   const Peer* peer_ = nullptr;
   const Route* route_ = nullptr;

@@ -25,14 +25,19 @@ struct StreamedBody {
   /// Sent whenever the source has been silent for `heartbeat_interval`; empty for none.
   std::string heartbeat{};
   std::chrono::milliseconds heartbeat_interval = std::chrono::seconds(15);
+  /// The body has no end that a reader waits for: it ends regularly where ServerHooks::may_continue
+  /// says so. Any other breaks off, so that nobody takes it for whole.
+  bool is_endless = false;
 };
 
 /// Bytes of its own, immutable bytes shared with others, or a stream.
 using Body = std::variant<std::string, std::shared_ptr<const std::string>, StreamedBody>;
 
-/// What a handler answers. The engine adds Date, Content-Length or Transfer-Encoding, Connection
-/// and ETag; it leaves the body out for HEAD, and answers 304 by itself when `etag` is set, the
-/// request is GET or HEAD and its If-None-Match names it.
+/// What a handler answers. The engine adds Date, Content-Length or Transfer-Encoding, Connection,
+/// ETag, X-Request-Id, X-Content-Type-Options, Cross-Origin-Resource-Policy and the fields of CORS;
+/// it leaves the body out for HEAD, and answers 304 by itself when `etag` is set, the request is
+/// GET or HEAD and its If-None-Match names it. It packs bodies of more than 1 KiB (is_packable) for
+/// clients that prefer gzip, under an `etag` of their own.
 struct Response {
   int status = 200;
   std::string content_type{};  ///< empty: no Content-Type field
@@ -63,9 +68,10 @@ struct Response {
 
 /// The answer's bytes, made once, to be sent any number of times from any thread: handlers keep it
 /// in their cache and return it. The engine puts in the Date and handles HEAD, If-None-Match and
-/// closing connections.
+/// closing connections. The gzip form is made when the first client asks for it.
+/// @param packed the body in gzip, where there is one already.
 /// @pre the body is not a stream.
-std::shared_ptr<const PreparedResponse> prepare(const Response& response);
+std::shared_ptr<const PreparedResponse> prepare(const Response& response, std::string packed = {});
 
 /// Bytes that a prepared answer takes, for those who keep many.
 std::size_t size_in_memory(const PreparedResponse& answer);

@@ -143,14 +143,14 @@ void Server::Impl::turn_away(Socket socket, const Peer& peer) {
   if (shared_.options.tls) return;
   IoThread& thread = *threads_.front();
   RequestHead nothing_read;
-  Exchange exchange(shared_.routes, shared_.hooks, peer);
+  Exchange exchange(shared_.routes, shared_.hooks, shared_.options.allowed_origins, peer);
   Response response = exchange.refuse(nothing_read, thread.next_request_id(),
                                       {503, ErrorCode::Overloaded,
                                        "As many connections are open as the service takes; close "
                                        "one, or try again soon."});
   std::string text;
   OutputQueue out(text);
-  append_answer(out, response, {.keep_alive = false}, thread.date());
+  append_answer(out, response, exchange.form(false), thread.date());
   error_code ignored;
   socket.non_blocking(true, ignored);
   socket.write_some(asio::buffer(text), ignored);

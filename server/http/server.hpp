@@ -69,6 +69,8 @@ struct ServerOptions {
   /// How long stop() waits for requests in flight.
   std::chrono::milliseconds drain_timeout = std::chrono::seconds(7);
   std::optional<TlsOptions> tls{};
+  /// Origins whose pages may use the service (CORS), as browsers send them: `https://mes.example`.
+  std::vector<std::string> allowed_origins{};
 };
 
 /// One answered request, for logs and metrics.
@@ -90,6 +92,9 @@ struct ServerHooks {
   /// Runs on the head, before parameters and body are read; a returned response or error is the
   /// answer.
   std::function<Result<std::optional<Response>>(Request& request, const Route& route)> guard{};
+  /// Asked a few times a second while a streamed body is sent: false ends the body, because the
+  /// caller of the request may not read on.
+  std::function<bool(const Request&)> may_continue{};
   std::function<void(const FinishedRequest&)> finished{};
   /// A handler threw: `what` is the exception's text. The client got 500 with the request's id.
   std::function<void(const Request&, std::string_view what)> handler_threw{};

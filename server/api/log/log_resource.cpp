@@ -26,7 +26,6 @@ void tile(const Services& services, const http::Request& request, http::Responde
                                                Result<app::LogService::TileBytes> tile) {
     if (!tile) return shared->fail(tile.error());
     http::Response response(200, "application/octet-stream", std::move(tile->bytes));
-    response.with("X-Content-Type-Options", "nosniff");
     response.with("Cache-Control",
                   tile->is_full ? "private, max-age=31536000, immutable" : "no-cache");
     shared->answer(std::move(response));

@@ -118,19 +118,18 @@ void get_trace(const Services& services, const http::Request& request, http::Res
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   const bool csv = wants_csv(request);
-  const bool packed = !csv && accepts_gzip(request);
+  const bool packed = !csv && request.prefers_gzip();
   services.runs.trace(*id, [csv, packed,
                             shared = share(std::move(responder))](Result<app::TraceReader> trace) {
     if (!trace) return shared->fail(trace.error());
     const char* const type = csv ? "text/csv; charset=utf-8; header=present" : "application/json";
-    constexpr const char* kVary = "Accept, Accept-Encoding";
     if (auto bytes = packed ? trace->take_packed() : std::nullopt) {
       return shared->answer(http::Response(200, type, *std::move(bytes))
                                 .with("Content-Encoding", "gzip")
-                                .with("Vary", kVary));
+                                .with("Vary", "Accept"));
     }
     const http::StreamedBody body{std::make_shared<TraceStream>(*std::move(trace), csv)};
-    shared->answer(http::Response(200, type, body).with("Vary", kVary));
+    shared->answer(http::Response(200, type, body).with("Vary", "Accept"));
   });
 }
 

@@ -6,19 +6,13 @@
 #include <string>
 
 #include "api/service/page_assets.hpp"
-#include "api/wire/request_facts.hpp"
 
 namespace fitgauge::api {
 namespace {
 
 using Prepared = std::shared_ptr<const http::PreparedResponse>;
 
-/// One file of the page, ready to be sent in both forms.
-struct PageFile {
-  Prepared plain;
-  Prepared gzipped;
-};
-using PageFiles = std::map<std::string, PageFile, std::less<>>;
+using PageFiles = std::map<std::string, Prepared, std::less<>>;
 
 constexpr std::string_view kEntry = "index.html";
 
@@ -32,25 +26,18 @@ constexpr std::string_view kPolicy =
 constexpr std::string_view kFresh = "no-cache";
 constexpr std::string_view kKept = "public, max-age=31536000, immutable";
 
-http::Response response_of(const PageAsset& asset, std::span<const unsigned char> bytes,
-                           std::string_view caching) {
-  return http::Response(200, std::string(asset.content_type),
-                        std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()))
-      .with("Cache-Control", std::string(caching))
-      .with("Content-Security-Policy", std::string(kPolicy))
-      .with("Referrer-Policy", "no-referrer")
-      .with("Service-Worker-Allowed", "/")
-      .with("Vary", "Accept-Encoding")
-      .with("X-Content-Type-Options", "nosniff");
+std::string bytes_of(std::span<const unsigned char> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-PageFile prepare_file(const PageAsset& asset, std::string_view caching) {
-  http::Response plain = response_of(asset, asset.plain, caching);
-  plain.etag = '"' + std::string(asset.digest) + '"';
-  http::Response gzipped = response_of(asset, asset.gzipped, caching);
-  gzipped.with("Content-Encoding", "gzip");
-  gzipped.etag = '"' + std::string(asset.digest) + "-gzip\"";
-  return {http::prepare(plain), http::prepare(gzipped)};
+Prepared prepare_file(const PageAsset& asset, std::string_view caching) {
+  http::Response response(200, std::string(asset.content_type), bytes_of(asset.plain));
+  response.with("Cache-Control", std::string(caching))
+      .with("Content-Security-Policy", std::string(kPolicy))
+      .with("Referrer-Policy", "no-referrer")
+      .with("Service-Worker-Allowed", "/");
+  response.etag = '"' + std::string(asset.digest) + '"';
+  return http::prepare(response, bytes_of(asset.gzipped));
 }
 
 PageFiles prepare_files() {
@@ -63,13 +50,12 @@ PageFiles prepare_files() {
   return files;
 }
 
-Result<http::Response> answer(const PageFiles& files, std::string_view path,
-                              const http::Request& request) {
+Result<http::Response> answer(const PageFiles& files, std::string_view path) {
   const auto found = files.find(path);
   if (found == files.end()) {
     return Error{ErrorCode::NotFound, "the page has no file " + std::string(path)};
   }
-  return http::Response(accepts_gzip(request) ? found->second.gzipped : found->second.plain);
+  return http::Response(found->second);
 }
 
 }  // namespace
@@ -78,8 +64,8 @@ void add_page_routes(std::vector<http::Route>& routes) {
   const auto files = std::make_shared<const PageFiles>(prepare_files());
   routes.push_back({
       .pattern = "/",
-      .handler = http::SyncHandler(
-          [files](const http::Request& request) { return answer(*files, kEntry, request); }),
+      .handler =
+          http::SyncHandler([files](const http::Request&) { return answer(*files, kEntry); }),
       .summary = "The page",
       .response_types = {"text/html"},
       .access = "open",
@@ -89,9 +75,8 @@ void add_page_routes(std::vector<http::Route>& routes) {
   });
   routes.push_back({
       .pattern = "/web/{path*}",
-      .handler = http::SyncHandler([files](const http::Request& request) {
-        return answer(*files, *request.text("path"), request);
-      }),
+      .handler = http::SyncHandler(
+          [files](const http::Request& request) { return answer(*files, *request.text("path")); }),
       .summary = "A file of the page",
       .parameters = {{.name = "path",
                       .place = http::ParameterPlace::Path,

@@ -40,8 +40,8 @@ inline http::Response event_response(http::Body events) {
       .with("X-Accel-Buffering", "no");
 }
 inline http::Response event_response(std::shared_ptr<http::BodyStream> source) {
-  return event_response(
-      http::StreamedBody{.source = std::move(source), .heartbeat = std::string(kEventHeartbeat)});
+  return event_response(http::StreamedBody{
+      .source = std::move(source), .heartbeat = std::string(kEventHeartbeat), .is_endless = true});
 }
 
 /// The parameters by which a reader that comes back names the last event it had.

@@ -115,7 +115,7 @@ http::Response problem(const Error& error, std::optional<int> given, const http:
       .member("title", title(error.code))
       .member("status", status)
       .member("detail", error.message)
-      .member("instance", "urn:fitgauge:request:" + request.id_text())
+      .member("instance", "urn:fitgauge:request:" + std::string(request.id_text()))
       .member("code", id(error.code));
   if (!error.where.empty()) json.member("where", error.where);
   if (!error.details.empty()) {

@@ -57,15 +57,6 @@ bool prefers_async(const http::Request& request) {
   return found;
 }
 
-bool accepts_gzip(const http::Request& request) {
-  const auto header = request.header_list("Accept-Encoding");
-  if (!header) return false;
-  const auto items = list_items(*header);
-  return std::any_of(items.begin(), items.end(), [](std::string_view item) {
-    return ascii_iequals(take_part(item, ';'), "gzip") && http::quality(item) > 0;
-  });
-}
-
 Result<std::optional<std::string>> idempotency_key(const http::Request& request) {
   constexpr std::size_t kLongest = 255;
   const auto header = request.header("Idempotency-Key");
@@ -90,7 +81,9 @@ std::optional<std::vector<std::string>> revisions_to_match(const http::Request& 
   const auto header = request.header_list("If-Match");
   if (!header || trim(*header) == "*") return std::nullopt;
   std::vector<std::string> revisions;
-  for (std::string_view tag : list_items(*header)) {
+  for (const std::string_view given : list_items(*header)) {
+    const std::string plain = http::plain_etag(given);
+    std::string_view tag = plain;
     // If-Match compares strongly: a weak tag never matches (RFC 9110, 13.1.1).
     if (tag.size() < 2 || tag.front() != '"' || tag.back() != '"') continue;
     tag = tag.substr(1, tag.size() - 2);

@@ -23,9 +23,6 @@ bool wants_csv(const http::Request& request);
 /// The query parameter of such a route.
 http::Parameter csv_or_json();
 
-/// Whether Accept-Encoding takes gzip (RFC 9110, 12.5.3).
-bool accepts_gzip(const http::Request& request);
-
 /// The Idempotency-Key without its quotes: quoted and bare are one key.
 /// @errors IdempotencyKeyInvalid unless it has 1 to 255 visible ASCII characters.
 Result<std::optional<std::string>> idempotency_key(const http::Request& request);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/gzip.hpp"
 #include "base/text.hpp"
 #include "http/body_stream.hpp"
 #include "http/engine/prepared_response.hpp"
@@ -17,6 +18,8 @@
 namespace fitgauge::http {
 
 namespace {
+
+constexpr std::string_view kGzipCoded = "Content-Encoding: gzip\r\n";
 
 std::string_view reason(int status) {
   constexpr std::array<std::pair<int, std::string_view>, 23> kReasons{{
@@ -66,11 +69,42 @@ void append_field(std::string& out, std::string_view name, std::string_view valu
   out.append("\r\n");
 }
 
-void append_connection(std::string& out, const AnswerForm& form) {
+/// Appends what every answer has and its request decides, and ends the head.
+void end_head(std::string& out, std::string_view vary, const AnswerForm& form) {
+  out.append("X-Request-Id: ").append(form.request_id);
+  out.append("\r\nX-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: ");
+  if (form.allowed_origin.empty()) {
+    out.append("same-origin\r\n");
+  } else {
+    out.append("cross-origin\r\nAccess-Control-Allow-Origin: ").append(form.allowed_origin);
+    out.append(
+        "\r\nAccess-Control-Expose-Headers: Location, Link, ETag, Retry-After, X-Request-Id, "
+        "Idempotency-Replayed\r\n");
+  }
+  if (!vary.empty() || form.varies_by_origin) {
+    const bool both = !vary.empty() && form.varies_by_origin;
+    out.append("Vary: ").append(vary).append(both ? ", " : "");
+    out.append(form.varies_by_origin ? "Origin\r\n" : "\r\n");
+  }
   if (!form.keep_alive) {
     out.append("Connection: close\r\n");
   } else if (form.http_1_0) {
     out.append("Connection: keep-alive\r\n");
+  }
+  out.append("\r\n");
+}
+
+/// Whether the gzip form goes to the client: of a long body if it prefers that, of a short one only
+/// if it refuses the plain form.
+bool takes_packed(const Codings& codings, bool is_long) {
+  return codings.gzip > 0 && (codings.identity == 0 || (is_long && codings.prefers_gzip()));
+}
+
+void append_body(OutputQueue& out, std::shared_ptr<const void> owner, std::string_view body) {
+  if (body.size() > OutputQueue::kLongBody) {
+    out.append_long(std::move(owner), body);
+  } else {
+    out.text().append(body);
   }
 }
 
@@ -78,32 +112,48 @@ SentAnswer append_prepared(OutputQueue& out, const std::shared_ptr<const Prepare
                            const AnswerForm& form, const HttpDate& date) {
   std::string& text = out.text();
   const std::size_t start = text.size();
-  const auto put_date = [&](std::size_t offset) {
-    std::copy(date.begin(), date.end(), text.begin() + static_cast<std::ptrdiff_t>(start + offset));
+  const bool packed = answer->is_packable() && takes_packed(form.codings, answer->is_long());
+  const auto append_head = [&](const PreparedHead& head) {
+    text.append(head.text, 0, packed ? head.shared_size : head.text.size());
+    std::copy(date.begin(), date.end(),
+              text.begin() + static_cast<std::ptrdiff_t>(start + head.date_offset));
+    if (packed) append_etag(text, packed_etag(answer->etag()));
   };
-  if (form.conditional && !answer->etag().empty() &&
+  if (form.conditional && answer->status() == 200 && !answer->etag().empty() &&
       names_etag_weakly(form.if_none_match, answer->etag())) {
-    text.append(answer->not_modified_head());
-    put_date(answer->not_modified_date_offset());
-    append_connection(text, form);
-    text.append("\r\n");
+    append_head(answer->not_modified_head());
+    end_head(text, answer->vary(), form);
     return {.status = 304, .keep_alive = form.keep_alive};
   }
-  const bool is_long = answer->body().size() > OutputQueue::kLongBody;
-  if (form.keep_alive && !form.http_1_0 && !form.head_only && !is_long) {
-    text.append(answer->bytes());
-  } else {
-    text.append(answer->head());
-    append_connection(text, form);
-    text.append("\r\n");
-    if (!form.head_only && is_long) out.append_long(answer, answer->body());
-    if (!form.head_only && !is_long) text.append(answer->body());
+  append_head(answer->head());
+  const std::string_view body = packed ? answer->packed_body() : answer->body();
+  if (packed) {
+    text.append(kGzipCoded);
+    append_content_length(text, body.size());
   }
-  put_date(answer->date_offset());
+  end_head(text, answer->vary(), form);
+  if (!form.head_only) append_body(out, answer, body);
   return {.status = answer->status(), .keep_alive = form.keep_alive};
 }
 
-/// The body's bytes, with an owner for those that are sent from where they lie.
+/// A text in pieces, each of which is packed in a turn of its own.
+class TextStream final : public BodyStream {
+ public:
+  TextStream(std::shared_ptr<const std::string> owner, std::string_view text)
+      : owner_(std::move(owner)), rest_(text) {}
+
+  void next(ChunkSink sink) override {
+    std::string piece(rest_.substr(0, OutputQueue::kLongBody));
+    rest_.remove_prefix(piece.size());
+    rest_.empty() ? sink.finish(std::move(piece)) : sink.put(std::move(piece));
+  }
+
+ private:
+  std::shared_ptr<const std::string> owner_;
+  std::string_view rest_;
+};
+
+/// The body's bytes, with an owner if they are so many that they are sent without a copy.
 std::pair<std::shared_ptr<const std::string>, std::string_view> bytes_of(Body& body) {
   if (auto* shared = std::get_if<std::shared_ptr<const std::string>>(&body)) {
     return {*shared, *shared ? std::string_view(**shared) : std::string_view{}};
@@ -111,6 +161,7 @@ std::pair<std::shared_ptr<const std::string>, std::string_view> bytes_of(Body& b
   auto& own = std::get<std::string>(body);
   if (own.size() <= OutputQueue::kLongBody) return {nullptr, own};
   auto kept = std::make_shared<const std::string>(std::move(own));
+  body = kept;
   return {kept, *kept};
 }
 
@@ -127,17 +178,31 @@ std::size_t append_status(std::string& out, int status, const HttpDate& date) {
 
 void append_fields(std::string& out, const Response& response) {
   if (!response.content_type.empty()) append_field(out, "Content-Type", response.content_type);
-  if (!response.etag.empty()) append_field(out, "ETag", response.etag);
-  for (const Header& header : response.headers) append_field(out, header.name, header.value);
+  for (const Header& header : response.headers) {
+    if (!ascii_iequals(header.name, "Vary")) append_field(out, header.name, header.value);
+  }
 }
 
 void append_not_modified_fields(std::string& out, const Response& response) {
-  append_field(out, "ETag", response.etag);
   for (const Header& header : response.headers) {
-    for (const std::string_view kept : {"Cache-Control", "Content-Location", "Expires", "Vary"}) {
+    for (const std::string_view kept : {"Cache-Control", "Content-Location", "Expires"}) {
       if (ascii_iequals(header.name, kept)) append_field(out, header.name, header.value);
     }
   }
+}
+
+std::string vary_of(const Response& response, bool has_packed_form) {
+  std::string vary;
+  for (const Header& header : response.headers) {
+    if (!ascii_iequals(header.name, "Vary")) continue;
+    vary.append(vary.empty() ? "" : ", ").append(header.value);
+  }
+  if (has_packed_form) vary.append(vary.empty() ? "" : ", ").append("Accept-Encoding");
+  return vary;
+}
+
+void append_etag(std::string& out, std::string_view etag) {
+  if (!etag.empty()) append_field(out, "ETag", etag);
 }
 
 void append_content_length(std::string& out, std::size_t length) {
@@ -152,6 +217,47 @@ void append_chunk(std::string& out, std::string_view bytes) {
   out.append(bytes).append("\r\n");
 }
 
+namespace {
+
+/// The body as gzip: what is long, or made while it is sent, is packed piece by piece.
+void pack(Response& response, SentAnswer& sent) {
+  response.with("Content-Encoding", "gzip");
+  response.etag = packed_etag(response.etag);
+  if (std::holds_alternative<StreamedBody>(response.body)) {
+    sent.packed = true;
+    return;
+  }
+  const auto [owner, body] = bytes_of(response.body);
+  if (body.size() <= OutputQueue::kLongBody) {
+    response.body = gzip(body);
+    return;
+  }
+  sent.packed = true;
+  response.body = StreamedBody{.source = std::make_shared<TextStream>(owner, body)};
+}
+
+/// Whether the answer has a gzip form, which a short one has for those who take no other.
+struct PackedForm {
+  bool exists = false;
+  bool is_sent = false;
+};
+
+PackedForm packed_form(Response& response, const AnswerForm& form) {
+  const auto is_coded = [](const Header& header) {
+    return ascii_iequals(header.name, "Content-Encoding");
+  };
+  if (!may_have_body(response.status) || !is_packable(response.content_type)) return {};
+  if (std::any_of(response.headers.begin(), response.headers.end(), is_coded)) {
+    return {.exists = true};
+  }
+  const bool is_long = std::holds_alternative<StreamedBody>(response.body) ||
+                       bytes_of(response.body).second.size() > kPackedFrom;
+  const bool is_sent = takes_packed(form.codings, is_long);
+  return {.exists = is_long || is_sent, .is_sent = is_sent};
+}
+
+}  // namespace
+
 SentAnswer append_answer(OutputQueue& out, Response& response, const AnswerForm& form,
                          const HttpDate& date) {
   if (response.prepared) return append_prepared(out, response.prepared, form, date);
@@ -159,17 +265,21 @@ SentAnswer append_answer(OutputQueue& out, Response& response, const AnswerForm&
   SentAnswer sent{.status = response.status, .keep_alive = form.keep_alive};
   AnswerForm used = form;
   std::string& text = out.text();
+  const PackedForm packed = packed_form(response, form);
+  const std::string vary = vary_of(response, packed.exists);
   if (form.conditional && response.status == 200 && !response.etag.empty() &&
       names_etag_weakly(form.if_none_match, response.etag)) {
     sent.status = 304;
     append_status(text, 304, date);
     append_not_modified_fields(text, response);
-    append_connection(text, used);
-    text.append("\r\n");
+    append_etag(text, packed.is_sent ? packed_etag(response.etag) : response.etag);
+    end_head(text, vary, used);
     return sent;
   }
+  if (packed.is_sent) pack(response, sent);
   append_status(text, response.status, date);
   append_fields(text, response);
+  append_etag(text, response.etag);
   if (std::holds_alternative<StreamedBody>(response.body)) {
     // HTTP/1.0 knows no chunks: the body ends with the connection.
     sent.chunked = !form.http_1_0;
@@ -179,20 +289,13 @@ SentAnswer append_answer(OutputQueue& out, Response& response, const AnswerForm&
     } else {
       sent.keep_alive = used.keep_alive = false;
     }
-    append_connection(text, used);
-    text.append("\r\n");
+    end_head(text, vary, used);
     return sent;
   }
   const auto [owner, body] = bytes_of(response.body);
   if (may_have_body(response.status)) append_content_length(text, body.size());
-  append_connection(text, used);
-  text.append("\r\n");
-  if (form.head_only || !may_have_body(response.status)) return sent;
-  if (owner && body.size() > OutputQueue::kLongBody) {
-    out.append_long(owner, body);
-  } else {
-    text.append(body);
-  }
+  end_head(text, vary, used);
+  if (!form.head_only && may_have_body(response.status)) append_body(out, owner, body);
   return sent;
 }
 

@@ -26,7 +26,8 @@ Connection::Connection(IoThread& thread, Peer peer)
     : thread_(thread),
       peer_(std::move(peer)),
       output_(thread.output()),
-      exchange_(thread.shared().routes, thread.shared().hooks, peer_),
+      exchange_(thread.shared().routes, thread.shared().hooks,
+                thread.shared().options.allowed_origins, peer_),
       body_(thread.shared().budgets) {
   deadline_ = thread_.now() + thread_.shared().options.header_timeout;
 }
@@ -164,6 +165,7 @@ void Connection::answer(Response&& response) {
   if (!sent_.keep_alive) close_after_ = true;
   if (!sent_.streams) return finish_request();
   stream_ = std::move(std::get<StreamedBody>(response.body));
+  if (sent_.packed) packer_ = std::make_unique<GzipWriter>();
   phase_ = Phase::Stream;
 }
 
@@ -285,7 +287,23 @@ void Connection::drain() {
   if (phase_ == Phase::Opening || (phase_ == Phase::Idle && !writing_) || streams) close();
 }
 
+/// The caller of a stream may not read on.
+void Connection::break_off() {
+  close_after_ = true;
+  if (!stream_->is_endless || phase_ != Phase::Piece || writing_) return close();
+  const auto source = stream_->source;
+  take_piece({}, true);
+  source->cancelled();
+  advance();
+}
+
 void Connection::check_deadline(Tick now) {
+  const auto& may_continue = thread_.shared().hooks.may_continue;
+  if (stream_ && may_continue) {
+    guarded([&] {
+      if (!may_continue(exchange_.request())) break_off();
+    });
+  }
   if (writing_) {
     if (now >= write_deadline_) close();
     return;

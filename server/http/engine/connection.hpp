@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/guarded.hpp"
+#include "base/gzip.hpp"
 #include "http/body_stream.hpp"
 #include "http/engine/body_reader.hpp"
 #include "http/engine/exchange.hpp"
@@ -131,6 +132,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void post_answer(Response response);
   void post_error(Error error);
   void post_unanswered();
+  /// Called by one thread at a time, which packs the piece if the body is in gzip.
   void post_piece(std::string bytes, bool is_last);
   void post_stream_failure();
 
@@ -230,6 +232,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void append_piece(std::string_view bytes);
   void take_piece(std::string_view bytes, bool is_last);
   void beat(Tick now);
+  void break_off();
 
   static const Refusal kCrowded;
 
@@ -257,6 +260,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::size_t body_left_ = 0;       ///< still to come of a body with a length
   std::string_view pending_piece_;  ///< read, and not yet taken by body_
   std::optional<StreamedBody> stream_;
+  /// Used by the thread that has the sink of the stream, even while the connection closes.
+  std::unique_ptr<GzipWriter> packer_;
   SentAnswer sent_{};
   std::uint64_t received_ = 0;
   std::uint64_t sent_bytes_ = 0;

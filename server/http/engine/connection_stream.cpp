@@ -96,6 +96,10 @@ void Connection::post_unanswered() {
 }
 
 void Connection::post_piece(std::string bytes, bool is_last) {
+  if (packer_) {
+    packer_->add(bytes);
+    bytes = is_last ? packer_->finish() : packer_->take();
+  }
   post([bytes = std::move(bytes), is_last](Connection& self) {
     if (self.phase_ == Phase::Piece) self.take_piece(bytes, is_last);
   });
@@ -131,6 +135,7 @@ void Connection::take_piece(std::string_view bytes, bool is_last) {
   if (!is_last) return;
   if (sent_.chunked) output_.text().append(kLastChunk);
   stream_.reset();
+  packer_.reset();
   finish_request();
 }
 

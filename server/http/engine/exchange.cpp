@@ -17,6 +17,15 @@ namespace {
 
 constexpr std::size_t kKeptCapacity = 512;
 constexpr std::string_view kAllMethods = "GET, HEAD, POST, PUT, DELETE, PATCH, OPTIONS";
+/// The fields that a page of an allowed origin may send.
+constexpr std::string_view kAllowedFields =
+    "Authorization, Content-Type, Idempotency-Key, If-Match, If-None-Match, Last-Event-ID, Prefer";
+
+bool is_request_id(std::string_view text) {
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](char c) {
+    return is_ascii_alphanumeric(c) || c == '.' || c == '_' || c == '-';
+  });
+}
 
 Response with_allow(Response response, std::string allow) {
   response.prepared = nullptr;
@@ -30,6 +39,8 @@ void Exchange::clear() {
   request_.route_ = nullptr;
   request_.head_ = nullptr;
   request_.path_ = request_.query_ = request_.body_ = request_.response_type_ = {};
+  request_.given_id_ = request_.allowed_origin_ = {};
+  codings_ = {};
   request_.media_type_.clear();
   request_.arguments_.clear();
   request_.caller_.reset();
@@ -43,7 +54,22 @@ void Exchange::take(RequestHead& head, std::uint64_t id) {
   request_.head_ = &head;
   request_.peer_ = &peer_;
   request_.id_ = id;
+  for (std::size_t i = request_.own_id_.size(); i-- > 0; id >>= 4) {
+    request_.own_id_[i] = "0123456789abcdef"[id & 0xf];
+  }
   request_.method_ = method_named(head.method);
+  if (head.has_request_id) {
+    const std::string_view given = *head.find("X-Request-Id");
+    if (is_request_id(given)) request_.given_id_ = given;
+  }
+  if (head.has_origin && !allowed_origins_.empty()) {
+    const auto origin = head.find_list("Origin");
+    const auto allowed = std::find(allowed_origins_.begin(), allowed_origins_.end(), origin);
+    if (allowed != allowed_origins_.end()) request_.allowed_origin_ = *allowed;
+  }
+  if (head.has_accept_encoding && !head.http_1_0) {
+    codings_ = accepted_codings(head.find_list("Accept-Encoding").value_or(""));
+  }
 }
 
 Response Exchange::refuse(RequestHead& head, std::uint64_t id, const Refusal& refusal) {
@@ -81,7 +107,7 @@ std::optional<Response> Exchange::dispatch() {
   const std::int16_t index = resource->route(request_.method_);
   if (index == Resource::kNone) {
     std::string allow = resource->allow();
-    if (request_.method_ == Method::Options) return Response(204).with("Allow", std::move(allow));
+    if (request_.method_ == Method::Options) return answer_options(std::move(allow));
     Response refused = error_response(
         {405, ErrorCode::MethodNotAllowed, fmt::format("The methods here are {}.", allow)});
     return with_allow(std::move(refused), std::move(allow));
@@ -98,6 +124,17 @@ std::optional<Response> Exchange::dispatch() {
     return error_response(*error, is_readable ? 422 : 400);
   }
   return check_head();
+}
+
+/// A preflight asks by OPTIONS whether a page may send what follows; it has no key.
+Response Exchange::answer_options(std::string allow) const {
+  Response response(204);
+  if (!request_.allowed_origin().empty() && request_.header("Access-Control-Request-Method")) {
+    response.with("Access-Control-Allow-Methods", allow)
+        .with("Access-Control-Allow-Headers", std::string(kAllowedFields))
+        .with("Access-Control-Max-Age", "600");
+  }
+  return std::move(response.with("Allow", std::move(allow)));
 }
 
 std::optional<Refusal> Exchange::take_target() {
@@ -226,6 +263,10 @@ std::optional<Error> Exchange::take_headers() {
 
 std::optional<Refusal> Exchange::negotiate() {
   const std::vector<std::string>& types = request_.route_->response_types;
+  if (codings_.gzip == 0 && codings_.identity == 0) {
+    return Refusal{406, ErrorCode::NotAcceptable,
+                   "Accept-Encoding must accept gzip or identity; got neither."};
+  }
   if (types.empty()) return std::nullopt;
   request_.response_type_ = types.front();
   if (!head_->has_accept) return std::nullopt;
@@ -302,7 +343,11 @@ BodyReader::Plan Exchange::body_plan() const {
 AnswerForm Exchange::form(bool keep_alive) const {
   AnswerForm form{.head_only = request_.method_ == Method::Head,
                   .http_1_0 = head_ != nullptr && head_->http_1_0,
-                  .keep_alive = keep_alive};
+                  .keep_alive = keep_alive,
+                  .codings = codings_,
+                  .request_id = request_.id_text(),
+                  .allowed_origin = request_.allowed_origin(),
+                  .varies_by_origin = !allowed_origins_.empty()};
   if (head_ != nullptr && head_->has_if_none_match &&
       (request_.method_ == Method::Get || request_.method_ == Method::Head)) {
     form.conditional = true;

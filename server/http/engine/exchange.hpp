@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "http/engine/answer.hpp"
 #include "http/engine/body_reader.hpp"
@@ -21,8 +22,9 @@ namespace fitgauge::http {
 /// serves the requests of a connection one after the other.
 class Exchange {
  public:
-  Exchange(const RouteTable& routes, const ServerHooks& hooks, const Peer& peer)
-      : routes_(routes), hooks_(hooks), peer_(peer) {}
+  Exchange(const RouteTable& routes, const ServerHooks& hooks,
+           const std::vector<std::string>& allowed_origins, const Peer& peer)
+      : routes_(routes), hooks_(hooks), allowed_origins_(allowed_origins), peer_(peer) {}
 
   /// Takes the head, which must stay until the next open().
   /// @returns the answer when there is one already; otherwise the body is wanted, then run().
@@ -61,6 +63,7 @@ class Exchange {
   void take(RequestHead& head, std::uint64_t id);
   Response internal_error(std::string_view what) const;
   std::optional<Response> dispatch();
+  Response answer_options(std::string allow) const;
   std::optional<Refusal> take_target();
   std::optional<Response> ask_guard();
   std::optional<Response> check_head();
@@ -73,12 +76,14 @@ class Exchange {
 
   const RouteTable& routes_;
   const ServerHooks& hooks_;
+  const std::vector<std::string>& allowed_origins_;
   const Peer& peer_;
   RequestHead* head_ = nullptr;
   Request request_;
   std::string decoded_;  ///< path and query where they were percent-encoded; does not move
   bool wants_continue_ = false;
-  bool gzip_ = false;
+  bool gzip_ = false;  ///< the request's body
+  Codings codings_{};  ///< of its answer
 };
 
 }  // namespace fitgauge::http

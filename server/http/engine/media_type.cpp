@@ -1,6 +1,7 @@
 #include "http/engine/media_type.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "base/text.hpp"
@@ -79,6 +80,36 @@ const std::string* preferred_type(std::string_view accept,
     }
   }
   return best;
+}
+
+Codings accepted_codings(std::string_view accept_encoding) {
+  std::optional<int> gzip;
+  std::optional<int> identity;
+  std::optional<int> others;
+  while (!accept_encoding.empty()) {
+    std::string_view parameters = take_part(accept_encoding, ',');
+    const std::string_view coding = take_part(parameters, ';');
+    if (ascii_iequals(coding, "gzip") || ascii_iequals(coding, "x-gzip")) {
+      gzip = quality(parameters);
+    } else if (ascii_iequals(coding, "identity")) {
+      identity = quality(parameters);
+    } else if (coding == "*") {
+      others = quality(parameters);
+    }
+  }
+  Codings found;
+  if (gzip || others) found.gzip = gzip ? *gzip : *others;
+  if (identity || others) found.identity = identity ? *identity : *others;
+  return found;
+}
+
+bool is_packable(std::string_view content_type) {
+  const std::string_view type = take_part(content_type, ';');
+  constexpr std::array<std::string_view, 6> kTypes{"application/json", "application/x-ndjson",
+                                                   "text/csv",         "text/html",
+                                                   "text/css",         "text/javascript"};
+  return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end() || type.ends_with("+json") ||
+         type.ends_with("/xml") || type.ends_with("+xml");
 }
 
 }  // namespace fitgauge::http

@@ -20,4 +20,17 @@ std::optional<MediaType> parse_media_type(std::string_view text);
 /// first. Null when none is acceptable. A malformed part of the value is skipped.
 const std::string* preferred_type(std::string_view accept, const std::vector<std::string>& offered);
 
+/// The weights, in thousandths, that an Accept-Encoding value gives to the codings of this server
+/// (RFC 9110 section 12.5.3); 0 refuses a coding.
+struct Codings {
+  int gzip = 0;
+  int identity = 1;  ///< of a value that does not name it: accepted, after every other
+
+  bool prefers_gzip() const { return gzip > 0 && gzip >= identity; }
+};
+Codings accepted_codings(std::string_view accept_encoding);
+
+/// Whether gzip shortens bodies of a Content-Type much: JSON, NDJSON, CSV, XML and files of pages.
+bool is_packable(std::string_view content_type);
+
 }  // namespace fitgauge::http

@@ -4,10 +4,13 @@
 
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <variant>
 
+#include "base/gzip.hpp"
 #include "http/body_stream.hpp"
 #include "http/engine/answer.hpp"
+#include "http/engine/media_type.hpp"
 
 namespace fitgauge::http {
 namespace {
@@ -22,29 +25,43 @@ std::string_view body_of(const Response& response) {
 
 }  // namespace
 
-PreparedResponse::PreparedResponse(const Response& response)
-    : status_(response.status), etag_(response.status == 200 ? response.etag : "") {
+PreparedResponse::PreparedResponse(const Response& response, std::string packed)
+    : status_(response.status),
+      is_packable_(!packed.empty() || http::is_packable(response.content_type)),
+      is_long_(is_packable_ && body_of(response).size() > kPackedFrom),
+      etag_(response.etag),
+      vary_(vary_of(response, is_long_)),
+      body_(may_have_body(status_) ? body_of(response) : std::string_view{}),
+      packed_(std::move(packed)) {
   const HttpDate placeholder = format_http_date({});
-  const std::string_view body = body_of(response);
-  date_offset_ = append_status(bytes_, status_, placeholder);
-  append_fields(bytes_, response);
-  if (may_have_body(status_)) append_content_length(bytes_, body.size());
-  head_size_ = bytes_.size();
-  bytes_.append("\r\n");
-  if (may_have_body(status_)) bytes_.append(body);
-  if (!etag_.empty()) {
-    not_modified_date_offset_ = append_status(not_modified_head_, 304, placeholder);
-    append_not_modified_fields(not_modified_head_, response);
-  }
+  head_.date_offset = append_status(head_.text, status_, placeholder);
+  append_fields(head_.text, response);
+  head_.shared_size = head_.text.size();
+  append_etag(head_.text, etag_);
+  if (may_have_body(status_)) append_content_length(head_.text, body_.size());
+  if (status_ != 200 || etag_.empty()) return;
+  not_modified_.date_offset = append_status(not_modified_.text, 304, placeholder);
+  append_not_modified_fields(not_modified_.text, response);
+  not_modified_.shared_size = not_modified_.text.size();
+  append_etag(not_modified_.text, etag_);
+}
+
+std::string_view PreparedResponse::packed_body() const {
+  std::call_once(packing_, [this] {
+    if (packed_.empty()) packed_ = gzip(body_);
+  });
+  return packed_;
 }
 
 std::size_t size_in_memory(const PreparedResponse& answer) {
-  return sizeof answer + answer.bytes().size() + answer.not_modified_head().size();
+  const std::size_t packed = answer.is_long() ? answer.body().size() : 0;  // at most
+  return sizeof answer + answer.head().text.size() + answer.body().size() + packed +
+         answer.not_modified_head().text.size();
 }
 
-std::shared_ptr<const PreparedResponse> prepare(const Response& response) {
+std::shared_ptr<const PreparedResponse> prepare(const Response& response, std::string packed) {
   if (response.prepared) return response.prepared;
-  return std::make_shared<const PreparedResponse>(response);
+  return std::make_shared<const PreparedResponse>(response, std::move(packed));
 }
 
 HttpDate format_http_date(Timestamp time) {

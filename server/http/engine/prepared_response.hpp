@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -10,33 +11,46 @@
 
 namespace fitgauge::http {
 
-/// A serialised answer and its 304, each with the Date at a known place. Immutable.
+/// A serialised head with the Date at a known place. It ends with the fields that differ between
+/// the plain and the gzip form: ETag and Content-Length.
+struct PreparedHead {
+  std::string text;
+  std::size_t date_offset = 0;
+  std::size_t shared_size = 0;  ///< up to here both forms are alike
+};
+
+/// A serialised answer and its 304; without the fields that depend on the request: those that every
+/// answer has, and Vary. Immutable and thread-safe.
 class PreparedResponse {
  public:
-  explicit PreparedResponse(const Response& response);
+  PreparedResponse(const Response& response, std::string packed);
+  PreparedResponse(const PreparedResponse&) = delete;
+  PreparedResponse& operator=(const PreparedResponse&) = delete;
 
   int status() const { return status_; }
   std::string_view etag() const { return etag_; }
+  std::string_view vary() const { return vary_; }
+  const PreparedHead& head() const { return head_; }
+  const PreparedHead& not_modified_head() const { return not_modified_; }
+  std::string_view body() const { return body_; }
 
-  /// The whole answer as a connection that stays open gets it.
-  std::string_view bytes() const { return bytes_; }
-  std::size_t date_offset() const { return date_offset_; }
-  /// Status line and fields, without Connection and the empty line.
-  std::string_view head() const { return bytes().substr(0, head_size_); }
-  std::string_view body() const { return bytes().substr(head_size_ + 2); }
-
-  /// The head of the 304, in the same form.
-  std::string_view not_modified_head() const { return not_modified_head_; }
-  std::size_t not_modified_date_offset() const { return not_modified_date_offset_; }
+  bool is_packable() const { return is_packable_; }
+  /// Whether the gzip form is worth its making.
+  bool is_long() const { return is_long_; }
+  /// The body in gzip, made at the first call. @pre is_packable()
+  std::string_view packed_body() const;
 
  private:
   int status_;
+  bool is_packable_;
+  bool is_long_;
   std::string etag_;
-  std::string bytes_;
-  std::size_t date_offset_ = 0;
-  std::size_t head_size_ = 0;
-  std::string not_modified_head_;
-  std::size_t not_modified_date_offset_ = 0;
+  std::string vary_;
+  std::string body_;
+  PreparedHead head_;
+  PreparedHead not_modified_;
+  mutable std::once_flag packing_;
+  mutable std::string packed_;
 };
 
 /// `Sun, 06 Nov 1994 08:49:37 GMT` (RFC 9110 section 5.6.7).

@@ -35,6 +35,9 @@ struct RequestHead {
   bool has_accept = false;
   bool has_expect = false;
   bool has_if_none_match = false;
+  bool has_accept_encoding = false;
+  bool has_origin = false;
+  bool has_request_id = false;
   bool is_forwarded = false;  ///< a proxy has added its field
   std::vector<HeaderField> fields;
 

@@ -219,9 +219,14 @@ void RequestParser::on_field_impl(beast::http::field field, beast::string_view n
       case beast::http::field::accept: head_.has_accept = true; break;
       case beast::http::field::expect: head_.has_expect = true; break;
       case beast::http::field::if_none_match: head_.has_if_none_match = true; break;
+      case beast::http::field::accept_encoding: head_.has_accept_encoding = true; break;
+      case beast::http::field::origin: head_.has_origin = true; break;
       case beast::http::field::forwarded:
       case beast::http::field::via: head_.is_forwarded = true; break;
-      case beast::http::field::unknown: head_.is_forwarded |= is_of_proxy(name); break;
+      case beast::http::field::unknown:
+        head_.is_forwarded |= is_of_proxy(name);
+        head_.has_request_id |= ascii_iequals(name, "X-Request-Id");
+        break;
       default: break;
     }
     head_.fields.push_back({name, value});

@@ -245,7 +245,8 @@ void sample_mtconnect(const Services& services, const OpenStreams& open,
           http::StreamedBody{
               .source = std::make_shared<SampleStream>(services, open, sample, heartbeat),
               .heartbeat = {},
-              .heartbeat_interval = milliseconds(std::max(*interval, kShortest))})
+              .heartbeat_interval = milliseconds(std::max(*interval, kShortest)),
+              .is_endless = true})
           .with("Cache-Control", "no-store"));
 }
 

@@ -104,7 +104,8 @@ describe('the page', () => {
     let bytes = 0;
     for (const name of [...first, ...languages, 'index.html', 'stream_worker.js', 'service_worker.js']) {
       const answer = await rawGet(daemon, `/web/${name}`, { 'Accept-Encoding': 'gzip' });
-      assert.equal(answer.headers['content-encoding'], 'gzip', name);
+      const packed = answer.headers['content-encoding'] === 'gzip';
+      assert.ok(packed || answer.body.length <= 1024, name);
       bytes += answer.body.length;
     }
     test.diagnostic(`${first.length} files, ${bytes} bytes gzipped`);

@@ -185,7 +185,8 @@ TEST_CASE("a prepared answer is the same bytes with the Date of now") {
   TestServer server(
       {{.pattern = "/p", .handler = [&](const Request&) { return Response(prepared); }}});
   Client client = server.connect();
-  const auto answer = client.ask(get("/p") + get("/p"));
+  const auto answer =
+      client.ask(get("/p", "X-Request-Id: 1\r\n") + get("/p", "X-Request-Id: 1\r\n"));
   CHECK(answer->status == 200);
   CHECK(answer->body == "{}");
   CHECK(answer->field("Vary") == "Accept");

@@ -114,7 +114,8 @@ TEST_CASE("connections beyond the cap are answered 503 and closed") {
   options.max_connections = 2;
   ServerHooks hooks;
   hooks.format_error = [](const Error& error, std::optional<int> status, const Request& request) {
-    return Response(*status, "application/problem+json", error.message + request.id_text())
+    return Response(*status, "application/problem+json",
+                    error.message + std::string(request.id_text()))
         .with("Retry-After", "1");
   };
   TestServer server(limited_routes(), options, hooks);

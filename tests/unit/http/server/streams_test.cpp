@@ -236,3 +236,34 @@ TEST_CASE("stopping the server cuts streams") {
   CHECK(stream->is_cancelled);
   CHECK(client.read_to_end().empty());
 }
+
+TEST_CASE(
+    "a stream ends when its caller may not read on: regularly if it is endless, else broken") {
+  std::atomic<bool> allowed = true;
+  ServerHooks hooks;
+  hooks.may_continue = [&](const Request&) { return allowed.load(); };
+  for (const bool is_endless : {true, false}) {
+    CAPTURE(is_endless);
+    allowed = true;
+    const auto stream = std::make_shared<Events>();
+    TestServer server({{.pattern = "/events",
+                        .handler = [&](const Request&) -> Result<Response> {
+                          return Response(200, "text/event-stream",
+                                          StreamedBody{.source = stream, .is_endless = is_endless});
+                        },
+                        .response_types = {}}},
+                      {}, hooks);
+    Client client = server.connect();
+    client.send(get("/events"));
+    REQUIRE(stream->send("data: 1\n\n"));
+    for (std::string got; got.find("data: 1") == std::string::npos;) {
+      const std::string more = client.read_some();
+      REQUIRE_FALSE(more.empty());
+      got += more;
+    }
+    allowed = false;
+    const std::string rest = client.read_to_end();
+    CHECK(rest.ends_with("0\r\n\r\n") == is_endless);
+    CHECK(comes_true([&] { return stream->is_cancelled.load(); }));
+  }
+}
