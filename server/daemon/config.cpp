@@ -125,6 +125,9 @@ const std::vector<Setting>& settings() {
        .help = "Who needs a key: default is open on loopback addresses and read-open elsewhere",
        .text = &Config::auth,
        .words = {"default", "open", "read-open", "keys"}},
+      {.name = "allow-origin",
+       .help = "Origins whose pages may use the service, as https://mes.example; writes need a key",
+       .texts = &Config::allow_origin},
       {.name = "admin-key-file",
        .help = "File with the first administrator's key",
        .text = &Config::admin_key_file},
@@ -310,6 +313,18 @@ namespace {
 Result<void> check_database(const Config& config) {
   if (config.database.empty()) return {};
   if (!config.database.starts_with("postgresql://") &&
+/// `scheme://host` or `scheme://host:port`, as browsers send it.
+bool is_origin(std::string_view text) {
+  const std::size_t end = text.find("://");
+  if (end == 0 || end == std::string_view::npos || text.size() == end + 3) return false;
+  const auto is_part = [](std::string_view part, std::string_view others) {
+    return std::all_of(part.begin(), part.end(), [&](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || others.find(c) != others.npos;
+    });
+  };
+  return is_part(text.substr(0, end), "+-.") && is_part(text.substr(end + 3), "-.:[]_");
+}
+
       !config.database.starts_with("postgres://")) {
     return invalid("database takes an address as postgresql://user@host:5432/name");
   }
@@ -342,6 +357,14 @@ Result<void> check(const Config& config) {
     return invalid("tls-cert and tls-key go together: give both or neither");
   }
   if (!config.tls_client_ca.empty() && config.tls_cert.empty()) {
+  for (const std::string& origin : config.allow_origin) {
+    if (!is_origin(origin)) {
+      return invalid(
+          fmt::format("allow-origin must be an origin as https://mes.example:8443, in "
+                      "lower case and without a path; got '{}'",
+                      origin));
+    }
+  }
     return invalid("tls-client-ca needs tls-cert and tls-key");
   }
   if (const auto database = check_database(config); !database) return database;

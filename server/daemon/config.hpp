@@ -16,6 +16,7 @@ struct Config {
   std::string data = "data";
   std::string database;
   std::string auth = "default";
+  std::vector<std::string> allow_origin;
   std::string admin_key_file;
   std::string tls_cert;
   std::string tls_key;

@@ -70,6 +70,7 @@ http::ServerOptions server_options(const Config& config, std::vector<http::Liste
   options.io_threads = static_cast<unsigned>(config.io_threads);
   options.max_connections = static_cast<std::size_t>(connections);
   options.tls = tls_options(config);
+  options.allowed_origins = config.allow_origin;
   return options;
 }
 

@@ -88,13 +88,12 @@ void Guard::warn_of_proxy(const http::Request& request) const {
 
 Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
                                                         const http::Route& route) const {
-  if (is_write(request.method())) {
-    const auto origin = request.header("Origin");
-    if (origin && !ascii_iequals(*origin, request.own_origin())) {
-      return Error{
-          ErrorCode::OriginRefused,
-          "a page of " + std::string(first_characters(*origin, 200)) + " may not write here"};
-    }
+  const auto origin = is_write(request.method()) ? request.header("Origin") : std::nullopt;
+  const bool is_foreign = origin && !ascii_iequals(*origin, request.own_origin());
+  if (is_foreign && request.allowed_origin().empty()) {
+    return Error{ErrorCode::OriginRefused,
+                 "a page of " + std::string(first_characters(*origin, 200)) +
+                     " may not write here; if it is yours, start with --allow-origin"};
   }
 
   const Access access = access_of(route, request);
@@ -110,8 +109,9 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
     if (!caller && token->starts_with(kTokenPrefix)) return invalid_key();
     if (caller) request.set_caller(Caller{caller->name});
   }
-  const bool is_open = mode_ != AuthMode::Keys && access == Access::Open;
-  if (mode_ == AuthMode::Open && request.is_local() && (is_open || !may_be_rebound(request))) {
+  const bool is_open = mode_ != AuthMode::Keys && access == Access::Open && !is_foreign;
+  if (mode_ == AuthMode::Open && !is_foreign && request.is_local() &&
+      (is_open || !may_be_rebound(request))) {
     warn_of_proxy(request);
     return std::optional<http::Response>();
   }

@@ -22,7 +22,8 @@ enum class AuthMode {
 };
 
 /// Decides on the head of a request whether it may go on: 401 without a key that is needed, 403
-/// with one that is not enough or for a write that another site's page sent.
+/// with one that is not enough or for a write that another site's page sent. Pages of an allowed
+/// origin may write with a key, in each mode.
 class Guard {
  public:
   /// @param proxy_seen is told once of a proxy that hides its clients, where that opens the service
