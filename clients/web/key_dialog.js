@@ -26,7 +26,7 @@ function ask(problem) {
   const dialog = h('dialog', { 'aria-labelledby': 'key-title' },
     h('form', { method: 'dialog', onsubmit: (event) => take(event) },
       h('h2', { id: 'key-title' }, t('key.title')),
-      h('p', t(problem.code === 'auth.invalid' ? 'key.invalid' : 'key.why')),
+      h('p', t(['auth.invalid', 'auth.expired'].includes(problem.code) ? 'key.invalid' : 'key.why')),
       field(t('key.label'), input, t('key.hint')), note,
       h('p.actions', h('button.primary', { value: 'use' }, t('key.use')),
         h('button', { value: '', formnovalidate: true }, t('key.cancel')))));

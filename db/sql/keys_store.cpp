@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <openssl/rand.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -15,8 +16,9 @@ namespace {
 using sql::Rows;
 
 std::string select_keys(std::string_view rest) {
-  return fmt::format("SELECT id, name, role, token_hash, created_at, revoked_at FROM api_keys {}",
-                     rest);
+  return fmt::format(
+      "SELECT id, name, role, token_hash, created_at, revoked_at, expires_at FROM api_keys {}",
+      rest);
 }
 
 std::vector<ApiKey> read_keys(Rows rows) {
@@ -27,7 +29,8 @@ std::vector<ApiKey> read_keys(Rows rows) {
                     .role = rows.get<Role>(2),
                     .token_hash = rows.get<Digest>(3),
                     .created_at_ns = rows.get<std::int64_t>(4),
-                    .revoked_at_ns = rows.get<std::optional<std::int64_t>>(5)});
+                    .revoked_at_ns = rows.get<std::optional<std::int64_t>>(5),
+                    .expires_at_ns = rows.get<std::optional<std::int64_t>>(6)});
   }
   return keys;
 }
@@ -49,6 +52,12 @@ const ApiKey* KeyRing::find(std::string_view token) const {
     if (equal_in_constant_time(key.token_hash, hash)) found = &key;
   }
   return found;
+}
+
+const ApiKey* KeyRing::find(std::int64_t id) const {
+  const auto found =
+      std::find_if(keys_.begin(), keys_.end(), [id](const ApiKey& key) { return key.id == id; });
+  return found == keys_.end() ? nullptr : &*found;
 }
 
 struct KeysStore::Statements {
@@ -79,7 +88,7 @@ KeysStore::KeysStore(sql::Connection& connection)
 KeysStore::~KeysStore() = default;
 
 Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_view token,
-                                 std::int64_t now_ns) {
+                                 std::int64_t now_ns, std::optional<std::int64_t> expires_at_ns) {
   if (name.empty()) return Error{ErrorCode::FieldInvalid, "a key needs a name", "name"};
   if (token.size() < kShortestToken) {
     return Error{ErrorCode::FieldInvalid,
@@ -90,7 +99,11 @@ Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_v
              .role = role,
              .token_hash = sha256(token),
              .created_at_ns = now_ns,
-             .revoked_at_ns = std::nullopt};
+             .revoked_at_ns = std::nullopt,
+             .expires_at_ns = expires_at_ns};
+  if (key.is_expired(now_ns)) {
+    return Error{ErrorCode::FieldInvalid, "a key must expire later than now", "expires"};
+  }
   if (Rows clash = statements_->clash.query(name, key.token_hash); clash.next()) {
     if (clash.get<bool>(0)) {
       return Error{
@@ -101,7 +114,7 @@ Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_v
     return Error{ErrorCode::FieldConflict, "this token was used before; make a new one", "token"};
   }
   key.id = statements_->insert.returning<std::int64_t>(name, role, key.token_hash, now_ns,
-                                                       key.revoked_at_ns);
+                                                       key.revoked_at_ns, key.expires_at_ns);
   return key;
 }
 
@@ -111,10 +124,10 @@ std::optional<ApiKey> KeysStore::newest(std::string_view name) const {
 }
 
 bool KeysStore::receive(std::string_view name, Role role, const Digest& token_hash,
-                        std::int64_t now_ns) {
+                        std::int64_t now_ns, std::optional<std::int64_t> expires_at_ns) {
   if (statements_->clash.query(name, token_hash).next()) return false;
   statements_->insert.returning<std::int64_t>(name, role, token_hash, now_ns,
-                                              std::optional<std::int64_t>());
+                                              std::optional<std::int64_t>(), expires_at_ns);
   return true;
 }
 

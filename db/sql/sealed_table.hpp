@@ -32,7 +32,7 @@ inline constexpr SealedTable kTableSets{"table_sets", "id", "digest"};
 inline constexpr SealedTable kTableRevisions{
     "table_revisions", "number", "digest, table_set, source, created_at, parent, caller"};
 inline constexpr SealedTable kApiKeys{"api_keys", "id",
-                                      "name, role, token_hash, created_at, revoked_at"};
+                                      "name, role, token_hash, created_at, revoked_at, expires_at"};
 inline constexpr SealedTable kIdempotentAnswers{
     "idempotent_answers", "id",
     "key, caller, method, path, body_digest, status, content_type, location, body, expires_at, "

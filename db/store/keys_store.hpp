@@ -28,6 +28,9 @@ struct ApiKey {
   Digest token_hash{};  ///< SHA-256: the token is 256 random bits, so no salt is needed
   std::int64_t created_at_ns = 0;
   std::optional<std::int64_t> revoked_at_ns{};
+  std::optional<std::int64_t> expires_at_ns{};  ///< valid before, not at that time
+
+  bool is_expired(std::int64_t now_ns) const { return expires_at_ns && *expires_at_ns <= now_ns; }
 };
 
 inline constexpr std::size_t kShortestToken = 16;  ///< characters of one that was not made here
@@ -35,13 +38,15 @@ inline constexpr std::size_t kShortestToken = 16;  ///< characters of one that w
 /// `fg_` and 256 random bits in hexadecimal. Shown once, never stored.
 std::string new_token();
 
-/// The keys that are valid, for a lookup at every request without SQLite. Immutable.
+/// The keys that are not revoked, for a lookup at every request without SQLite. Immutable.
 class KeyRing {
  public:
   explicit KeyRing(std::vector<ApiKey> keys) : keys_(std::move(keys)) {}
 
   /// The key of this token or none, in a time that depends on the number of keys alone.
   const ApiKey* find(std::string_view token) const;
+  const ApiKey* find(std::int64_t id) const;
+  const std::vector<ApiKey>& keys() const { return keys_; }
 
  private:
   std::vector<ApiKey> keys_;
@@ -56,19 +61,21 @@ class KeysStore {
   /// Stores the hash of `token` (new_token, or an administrator's own of at least 16 characters).
   /// @errors FieldConflict when a valid key has the name or the token; FieldInvalid.
   Result<ApiKey> create(std::string_view name, Role role, std::string_view token,
-                        std::int64_t now_ns);
+                        std::int64_t now_ns, std::optional<std::int64_t> expires_at_ns = {});
 
   /// The valid key of that name; else the one that was revoked last.
   std::optional<ApiKey> newest(std::string_view name) const;
   /// Stores a key of a centre by its hash. @returns false: another key has the name or the hash.
-  bool receive(std::string_view name, Role role, const Digest& token_hash, std::int64_t now_ns);
+  bool receive(std::string_view name, Role role, const Digest& token_hash, std::int64_t now_ns,
+               std::optional<std::int64_t> expires_at_ns);
 
   /// @errors NotFound when no valid key has the name.
   Result<void> revoke(std::string_view name, std::int64_t now_ns);
 
   std::vector<ApiKey> list() const;  ///< oldest first, revoked ones too
 
-  /// The valid keys. Other processes create and revoke keys too: load it again every few seconds.
+  /// The keys that are not revoked. Other processes create and revoke keys too: load it again every
+  /// few seconds.
   KeyRing ring() const;
 
  private:

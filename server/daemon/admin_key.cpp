@@ -1,12 +1,15 @@
 #include "daemon/admin_key.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
-#include <iostream>
 
 #include "base/text.hpp"
 #include "daemon/log.hpp"
@@ -47,7 +50,29 @@ Result<void> take_key_of_file(const std::string& file, const std::vector<app::Ke
   return {};
 }
 
+/// Writes the key for its owner alone, beside and renamed: nobody reads half of it, and a link or
+/// file of that name that others could read is replaced.
+Result<void> write_key(const std::string& file, std::string_view token) {
+  const std::string aside = file + ".new";
+  ::unlink(aside.c_str());
+  const int out = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+  const std::string line = std::string(token) + '\n';
+  const bool written = out >= 0 && ::write(out, line.data(), line.size()) == ssize_t(line.size()) &&
+                       ::fsync(out) == 0 && std::rename(aside.c_str(), file.c_str()) == 0;
+  const int cause = errno;
+  if (out >= 0) ::close(out);
+  if (written) return {};
+  ::unlink(aside.c_str());
+  return Error{ErrorCode::ConfigInvalid,
+               fmt::format("admin-key-out: cannot write {}: {}", file, std::strerror(cause))};
+}
+
 }  // namespace
+
+std::string admin_key_out(const Config& config) {
+  return config.admin_key_out.empty() ? std::filesystem::path(config.data) / "admin.key"
+                                      : std::filesystem::path(config.admin_key_out);
+}
 
 Result<std::string> read_admin_key(const std::string& file) {
   std::ifstream in(file);
@@ -72,9 +97,14 @@ Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeySer
     return is_valid(key) && (key.role == app::Role::Admin || key.name == kName);
   });
   if (has_one || !needs_one) return {};
-  const auto created = keys.create(kName, app::Role::Admin);
-  if (!created) return created.error();
-  std::cout << "fitgauged: the administrator's key, shown this once: " << *created << std::endl;
+  const std::string token = app::KeyService::new_token();
+  const std::string file = admin_key_out(config);
+  if (const auto written = write_key(file, token); !written) return written.error();
+  if (const auto created = keys.create(kName, app::Role::Admin, token); !created) {
+    ::unlink(file.c_str());
+    return created.error();
+  }
+  log_info("admin_key_written", fmt::format("the administrator's key is in {}", file));
   return {};
 }
 

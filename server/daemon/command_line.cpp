@@ -174,6 +174,7 @@ struct Commands {
     create = key->add_subcommand("create", "Create a key and show it once");
     create->add_option("--name", name, "Who the key is for")->required();
     create->add_option("--role", role, "viewer, operator, admin or station")->required();
+    create->add_option("--expires", expires, "When it ends, as 2027-01-01T00:00:00Z");
     revoke = key->add_subcommand("revoke", "Revoke a key");
     revoke->add_option("--name", name, "The key's name")->required();
     list = key->add_subcommand("list", "List the keys");
@@ -184,7 +185,7 @@ struct Commands {
     if (*verify) return run_verify(config, checkpoints);
     if (*log_key) return run_log_key(config);
     if (*forward) return run_forward_all(config);
-    if (*create) return run_key_create(config, name, role);
+    if (*create) return run_key_create(config, name, role, expires);
     if (*revoke) return run_key_revoke(config, name);
     return run_key_list(config);
   }
@@ -202,6 +203,7 @@ struct Commands {
   std::vector<std::string> checkpoints;
   std::string name;
   std::string role;
+  std::string expires;
 };
 
 int dispatch(const CLI::App& app, const Arguments& arguments, const Commands& commands) {

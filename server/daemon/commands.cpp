@@ -122,16 +122,27 @@ Result<int> run_log_key(const Config& config) {
   return 0;
 }
 
-Result<int> run_key_create(const Config& config, const std::string& name, const std::string& role) {
+Result<int> run_key_create(const Config& config, const std::string& name, const std::string& role,
+                           const std::string& expires) {
   const auto known = app::role_from_word(role);
   if (!known) {
     return Error{ErrorCode::ConfigInvalid,
                  fmt::format("role is viewer, operator, admin or station, not '{}'", role)};
   }
+  std::optional<Timestamp> end;
+  if (!expires.empty()) {
+    const auto time = parse_rfc3339(expires);
+    if (!time) {
+      return Error{
+          ErrorCode::ConfigInvalid,
+          fmt::format("expires must be a time as 2027-01-01T00:00:00Z; got '{}'", expires)};
+    }
+    end = *time;
+  }
   // A key may be made before the first start; then the database is made too.
   const auto app = open_application(config, !is_new(config.data));
   if (!app) return app.error();
-  const auto token = (*app)->keys().create(name, *known);
+  const auto token = (*app)->keys().create(name, *known, {}, end);
   if (!token) return token.error();
   std::cout << *token << '\n';
   return 0;
@@ -151,7 +162,8 @@ Result<int> run_key_list(const Config& config) {
   if (!entries) return entries.error();
   for (const app::KeyEntry& entry : *entries) {
     std::cout << fmt::format(
-        "{}\t{}\tcreated {}{}\n", entry.name, word(entry.role), format_rfc3339(entry.created_at),
+        "{}\t{}\tcreated {}{}{}\n", entry.name, word(entry.role), format_rfc3339(entry.created_at),
+        entry.expires_at ? "\texpires " + format_rfc3339(*entry.expires_at) : std::string(),
         entry.revoked_at ? "\trevoked " + format_rfc3339(*entry.revoked_at) : std::string());
   }
   return 0;

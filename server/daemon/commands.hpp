@@ -19,8 +19,9 @@ Result<int> run_backup(const Config& config, const std::string& file);
 Result<int> run_verify(const Config& config, const std::vector<std::string>& checkpoints);
 /// `fitgauged log-key`: the log gets a new key, which signs from the next start on.
 Result<int> run_log_key(const Config& config);
-/// `fitgauged key create|revoke|list`
-Result<int> run_key_create(const Config& config, const std::string& name, const std::string& role);
+/// `fitgauged key create|revoke|list`. @param expires RFC 3339; empty: never.
+Result<int> run_key_create(const Config& config, const std::string& name, const std::string& role,
+                           const std::string& expires);
 Result<int> run_key_revoke(const Config& config, const std::string& name);
 Result<int> run_key_list(const Config& config);
 

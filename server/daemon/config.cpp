@@ -131,6 +131,10 @@ const std::vector<Setting>& settings() {
       {.name = "admin-key-file",
        .help = "File with the first administrator's key",
        .text = &Config::admin_key_file},
+      {.name = "admin-key-out",
+       .help = "File for the administrator's key that the first start makes; empty: admin.key in "
+               "data",
+       .text = &Config::admin_key_out},
       {.name = "tls-cert", .help = "Certificate chain (PEM)", .text = &Config::tls_cert},
       {.name = "tls-key", .help = "Private key of the certificate (PEM)", .text = &Config::tls_key},
       {.name = "tls-client-ca",
@@ -309,10 +313,6 @@ Result<void> read_environment(const std::vector<std::string>& environment, Confi
 
 namespace {
 
-/// What daemons that share a database cannot have.
-Result<void> check_database(const Config& config) {
-  if (config.database.empty()) return {};
-  if (!config.database.starts_with("postgresql://") &&
 /// `scheme://host` or `scheme://host:port`, as browsers send it.
 bool is_origin(std::string_view text) {
   const std::size_t end = text.find("://");
@@ -325,6 +325,10 @@ bool is_origin(std::string_view text) {
   return is_part(text.substr(0, end), "+-.") && is_part(text.substr(end + 3), "-.:[]_");
 }
 
+/// What daemons that share a database cannot have.
+Result<void> check_database(const Config& config) {
+  if (config.database.empty()) return {};
+  if (!config.database.starts_with("postgresql://") &&
       !config.database.starts_with("postgres://")) {
     return invalid("database takes an address as postgresql://user@host:5432/name");
   }
@@ -353,10 +357,6 @@ Result<void> check(const Config& config) {
                     "64 and a letter or digit first, not '{}'",
                     config.origin_name));
   }
-  if (config.tls_cert.empty() != config.tls_key.empty()) {
-    return invalid("tls-cert and tls-key go together: give both or neither");
-  }
-  if (!config.tls_client_ca.empty() && config.tls_cert.empty()) {
   for (const std::string& origin : config.allow_origin) {
     if (!is_origin(origin)) {
       return invalid(
@@ -365,6 +365,10 @@ Result<void> check(const Config& config) {
                       origin));
     }
   }
+  if (config.tls_cert.empty() != config.tls_key.empty()) {
+    return invalid("tls-cert and tls-key go together: give both or neither");
+  }
+  if (!config.tls_client_ca.empty() && config.tls_cert.empty()) {
     return invalid("tls-client-ca needs tls-cert and tls-key");
   }
   if (const auto database = check_database(config); !database) return database;

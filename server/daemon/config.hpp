@@ -18,6 +18,7 @@ struct Config {
   std::string auth = "default";
   std::vector<std::string> allow_origin;
   std::string admin_key_file;
+  std::string admin_key_out;
   std::string tls_cert;
   std::string tls_key;
   std::string tls_client_ca;

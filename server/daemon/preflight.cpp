@@ -40,13 +40,14 @@ Result<void> check_folder(const std::string& what, const fs::path& folder) {
   return {};
 }
 
-Result<void> check_port_file(const fs::path& file) {
+/// Whether a file can be made there. `what` names the setting.
+Result<void> check_file(const std::string& what, const fs::path& file) {
   std::error_code ignored;
   if (file.empty()) return {};
   if (fs::is_directory(file, ignored)) {
-    return Error{ErrorCode::ConfigInvalid, fmt::format("port-file: {} is a folder", file.string())};
+    return Error{ErrorCode::ConfigInvalid, fmt::format("{}: {} is a folder", what, file.string())};
   }
-  return check_folder("port-file", file.has_parent_path() ? file.parent_path() : fs::path("."));
+  return check_folder(what, file.has_parent_path() ? file.parent_path() : fs::path("."));
 }
 
 }  // namespace
@@ -95,7 +96,8 @@ Result<void> preflight(const Config& config, const std::string& port_file) {
   }
   if (const auto data = check_folder("data", nearest_existing(config.data)); !data)
     return data.error();
-  return check_port_file(port_file);
+  if (const auto out = check_file("admin-key-out", config.admin_key_out); !out) return out;
+  return check_file("port-file", port_file);
 }
 
 }  // namespace fitgauge::daemon

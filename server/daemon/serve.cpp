@@ -96,6 +96,9 @@ http::ServerHooks hooks(const api::Services& services, const api::Guard& guard,
     return api::mtconnect_error(services, error, std::move(response));
   };
   hooks.guard = guard;
+  hooks.may_continue = [guard](const http::Request& request) {
+    return guard.may_continue(request);
+  };
   hooks.finished = [&metrics](const http::FinishedRequest& finished) {
     metrics.count(finished);
     log_request(finished);
@@ -175,7 +178,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   options.health_changed = log_health;
   options.job_threw = [](const std::string& what) { log_error("storage_job_threw", what); };
   options.log_told = [](std::string_view event, const std::string& detail) {
-    const bool is_news = event == "log_head" || event == "purged";
+    const bool is_news = event == "log_head" || event == "purged" || event.starts_with("key_");
     is_news ? log_info(event, detail) : log_warning(event, detail);
   };
   auto opened = app::Application::open(options, clock);

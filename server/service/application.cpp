@@ -208,7 +208,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
       });
   app->clock_ = &clock;
   app->revisions_ = std::make_unique<RevisionFeed>(*app->database_, *app->tables_, origins);
-  auto keys = KeyService::open(*app->database_, clock);
+  auto keys = KeyService::open(*app->database_, clock, options.log_told);
   if (!keys) return keys.error();
   app->keys_ = *std::move(keys);
   app->measurements_ = std::make_unique<MeasurementService>(

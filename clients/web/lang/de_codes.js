@@ -76,6 +76,7 @@ export default {
   'error.service.shutting_down': 'Der Dienst wird gerade beendet.',
   'error.service.not_ready': 'Der Dienst ist noch nicht bereit.',
   'error.service.internal': 'Fehler im Dienst. Er steht im Protokoll.',
+  'error.auth.expired': 'Dieser Schlüssel ist abgelaufen.',
   'error.auth.invalid': 'Dieser Schlüssel ist ungültig.',
   'error.origin.refused': 'Von dieser Adresse darf nicht geschrieben werden.',
   'error.connection.unknown': 'Diese Verbindung gibt es nicht.',

@@ -76,6 +76,7 @@ export default {
   'error.service.shutting_down': 'Il servizio si sta arrestando.',
   'error.service.not_ready': 'Il servizio non è ancora pronto.',
   'error.service.internal': 'Errore nel servizio. È nel registro.',
+  'error.auth.expired': 'Questa chiave è scaduta.',
   'error.auth.invalid': 'Questa chiave non è valida.',
   'error.origin.refused': 'Da questo indirizzo non si può scrivere.',
   'error.connection.unknown': 'Questo collegamento non esiste.',

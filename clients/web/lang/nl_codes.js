@@ -76,6 +76,7 @@ export default {
   'error.service.shutting_down': 'De dienst wordt afgesloten.',
   'error.service.not_ready': 'De dienst is nog niet gereed.',
   'error.service.internal': 'Fout in de dienst. Hij staat in het logboek.',
+  'error.auth.expired': 'Deze sleutel is verlopen.',
   'error.auth.invalid': 'Deze sleutel is ongeldig.',
   'error.origin.refused': 'Vanaf dit adres mag niet worden geschreven.',
   'error.connection.unknown': 'Deze verbinding bestaat niet.',

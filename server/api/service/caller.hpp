@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace fitgauge::api {
@@ -8,6 +9,7 @@ namespace fitgauge::api {
 /// needed.
 struct Caller {
   std::string name;
+  std::int64_t key = 0;  ///< of app::KeyService
 };
 
 }  // namespace fitgauge::api

@@ -107,7 +107,10 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
     caller = keys_.find(*token);
     // What does not look like a key is of a proxy or another service: no business of ours.
     if (!caller && token->starts_with(kTokenPrefix)) return invalid_key();
-    if (caller) request.set_caller(Caller{caller->name});
+    if (caller && caller->is_expired) {
+      return Error{ErrorCode::KeyExpired, "the key " + caller->name + " has expired"};
+    }
+    if (caller) request.set_caller(Caller{caller->name, caller->key});
   }
   const bool is_open = mode_ != AuthMode::Keys && access == Access::Open && !is_foreign;
   if (mode_ == AuthMode::Open && !is_foreign && request.is_local() &&
@@ -129,6 +132,11 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
                                            std::string(word(needed))};
   }
   return std::optional<http::Response>();
+}
+
+bool Guard::may_continue(const http::Request& request) const {
+  const auto* const caller = request.caller<Caller>();
+  return caller == nullptr || keys_.is_valid(caller->key);
 }
 
 }  // namespace fitgauge::api

@@ -35,6 +35,8 @@ class Guard {
   /// The hook of http::ServerHooks; sets the request's caller.
   Result<std::optional<http::Response>> operator()(http::Request& request,
                                                    const http::Route& route) const;
+  /// Whether the key that began a streamed body is still valid.
+  bool may_continue(const http::Request& request) const;
 
  private:
   void warn_of_proxy(const http::Request& request) const;

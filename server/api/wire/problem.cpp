@@ -25,7 +25,8 @@ void add_headers(const Error& error, int status, http::Response& response) {
 int status_of(ErrorCode code) {
   switch (code) {
     case ErrorCode::Unauthenticated:
-    case ErrorCode::KeyInvalid: return 401;
+    case ErrorCode::KeyInvalid:
+    case ErrorCode::KeyExpired: return 401;
     case ErrorCode::Forbidden:
     case ErrorCode::LogKeyUnknown:
     case ErrorCode::OriginRefused: return 403;

@@ -1,13 +1,16 @@
 #include "service/documents/key_service.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <utility>
 
 #include "db/store/database.hpp"
 
 namespace fitgauge::app {
 namespace {
 
-constexpr std::chrono::seconds kReloadInterval{2};
+constexpr std::chrono::seconds kReloadInterval{1};
 
 static_assert(kShortestToken == store::kShortestToken);
 static_assert(static_cast<int>(Role::Station) == static_cast<int>(store::Role::Station));
@@ -41,14 +44,14 @@ std::optional<Role> role_from_word(std::string_view text) {
   return std::nullopt;
 }
 
-KeyService::KeyService(store::Database& database, const Clock& clock)
-    : database_(database), clock_(clock) {}
+KeyService::KeyService(store::Database& database, const Clock& clock, Tell tell)
+    : database_(database), clock_(clock), tell_(std::move(tell)) {}
 
 KeyService::~KeyService() = default;
 
-Result<std::unique_ptr<KeyService>> KeyService::open(store::Database& database,
-                                                     const Clock& clock) {
-  std::unique_ptr<KeyService> service(new KeyService(database, clock));
+Result<std::unique_ptr<KeyService>> KeyService::open(store::Database& database, const Clock& clock,
+                                                     Tell tell) {
+  std::unique_ptr<KeyService> service(new KeyService(database, clock, std::move(tell)));
   if (const auto loaded = service->reload(); !loaded) return loaded.error();
   service->loader_ = Thread("the loader of keys", [raw = service.get()](const auto& stop) {
     std::unique_lock lock(raw->mutex_);
@@ -62,25 +65,56 @@ Result<std::unique_ptr<KeyService>> KeyService::open(store::Database& database,
 }
 
 Result<void> KeyService::reload() {
+  const std::lock_guard lock(loading_);
   auto ring = database_.readers().wait(
       [](const store::Stores& stores) -> Result<store::KeyRing> { return stores.keys.ring(); });
   if (!ring) return ring.error();
-  ring_.set(std::make_shared<const store::KeyRing>(*std::move(ring)));
+  const auto before = ring_.get();
+  const auto now = std::make_shared<const store::KeyRing>(*std::move(ring));
+  ring_.set(now);
+  if (before && tell_) tell_changes(*before, *now);
   return {};
+}
+
+void KeyService::tell_changes(const store::KeyRing& before, const store::KeyRing& now) const {
+  const auto tell = [&](std::string_view event, const store::ApiKey& key) {
+    const auto expiry = key.expires_at_ns
+                            ? ", expires " + format_rfc3339(Timestamp{*key.expires_at_ns})
+                            : std::string();
+    tell_(event, fmt::format("{} ({}{})", key.name, word(static_cast<Role>(key.role)), expiry));
+  };
+  for (const store::ApiKey& key : now.keys()) {
+    if (before.find(key.id) == nullptr) tell("key_created", key);
+  }
+  for (const store::ApiKey& key : before.keys()) {
+    if (now.find(key.id) == nullptr) tell("key_revoked", key);
+  }
 }
 
 std::optional<KnownCaller> KeyService::find(std::string_view token) const {
   const auto ring = ring_.get();
   const store::ApiKey* key = ring->find(token);
   if (key == nullptr) return std::nullopt;
-  return KnownCaller{key->name, static_cast<Role>(key->role)};
+  return KnownCaller{.name = key->name,
+                     .role = static_cast<Role>(key->role),
+                     .key = key->id,
+                     .is_expired = key->is_expired(clock_.now().nanoseconds)};
 }
 
-Result<std::string> KeyService::create(const std::string& name, Role role, std::string token) {
+bool KeyService::is_valid(std::int64_t key) const {
+  const auto ring = ring_.get();
+  const store::ApiKey* const found = ring->find(key);
+  return found != nullptr && !found->is_expired(clock_.now().nanoseconds);
+}
+
+std::string KeyService::new_token() { return store::new_token(); }
+
+Result<std::string> KeyService::create(const std::string& name, Role role, std::string token,
+                                       std::optional<Timestamp> expires) {
   if (token.empty()) token = store::new_token();
   const auto created = database_.writer().wait([&](store::Stores& stores) -> Result<store::ApiKey> {
-    return stores.keys.create(name, static_cast<store::Role>(role), token,
-                              clock_.now().nanoseconds);
+    return stores.keys.create(name, static_cast<store::Role>(role), token, clock_.now().nanoseconds,
+                              expires ? std::optional(expires->nanoseconds) : std::nullopt);
   });
   if (!created) return created.error();
   if (const auto loaded = reload(); !loaded) return loaded.error();
@@ -119,6 +153,7 @@ Result<std::vector<KeyEntry>> KeyService::list() const {
       entry.role = static_cast<Role>(key.role);
       entry.created_at = {key.created_at_ns};
       if (key.revoked_at_ns) entry.revoked_at = Timestamp{*key.revoked_at_ns};
+      if (key.expires_at_ns) entry.expires_at = Timestamp{*key.expires_at_ns};
     }
     return entries;
   });

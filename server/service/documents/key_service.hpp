@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -39,6 +40,8 @@ std::optional<Role> role_from_word(std::string_view text);
 struct KnownCaller {
   std::string name;
   Role role = Role::Viewer;
+  std::int64_t key = 0;  ///< for is_valid()
+  bool is_expired = false;
 };
 
 struct KeyEntry {
@@ -46,23 +49,33 @@ struct KeyEntry {
   Role role = Role::Viewer;
   Timestamp created_at;
   std::optional<Timestamp> revoked_at;
+  std::optional<Timestamp> expires_at;
 };
 
-/// The API keys. Looking one up touches no storage; the keys are loaded again every two seconds,
-/// because the command line changes them too. Thread-safe.
+/// The API keys. Looking one up touches no storage; the keys are loaded again every second, because
+/// the command line changes them too. Thread-safe.
 class KeyService {
  public:
+  /// Receives `key_created` and `key_revoked` with the key's name and role, from any thread.
+  using Tell = std::function<void(std::string_view event, const std::string& detail)>;
+
   /// @errors StorageUnavailable.
-  static Result<std::unique_ptr<KeyService>> open(store::Database& database, const Clock& clock);
+  static Result<std::unique_ptr<KeyService>> open(store::Database& database, const Clock& clock,
+                                                  Tell tell);
   ~KeyService();
 
   std::optional<KnownCaller> find(std::string_view token) const;
+  /// Whether the key of a KnownCaller is neither revoked nor expired.
+  bool is_valid(std::int64_t key) const;
 
   // These block: for commands, not for I/O threads.
 
+  /// A secret that create() accepts.
+  static std::string new_token();
   /// @param token the secret of the key; a new one is made when empty.
   /// @returns the token, which is not stored. @errors FieldConflict, FieldInvalid.
-  Result<std::string> create(const std::string& name, Role role, std::string token = {});
+  Result<std::string> create(const std::string& name, Role role, std::string token = {},
+                             std::optional<Timestamp> expires = {});
   /// Revokes the key `name` and makes an administrator's of that name and this token, both or
   /// neither.
   /// @errors NotFound, FieldConflict, FieldInvalid.
@@ -72,11 +85,14 @@ class KeyService {
   Result<std::vector<KeyEntry>> list() const;
 
  private:
-  KeyService(store::Database& database, const Clock& clock);
+  KeyService(store::Database& database, const Clock& clock, Tell tell);
   Result<void> reload();
+  void tell_changes(const store::KeyRing& before, const store::KeyRing& now) const;
 
   store::Database& database_;
   const Clock& clock_;
+  const Tell tell_;
+  std::mutex loading_;
   Snapshot<store::KeyRing> ring_;
   std::mutex mutex_;
   std::condition_variable_any wake_;

@@ -50,6 +50,7 @@ void write_revision(JsonWriter& json, const app::Revision& revision) {
     case app::RevisionKind::Key:
       if (revision.is_removed) break;
       json.member("role", word(revision.role)).member("token_sha256", to_hex(revision.token_hash));
+      if (revision.expires_at) json.member("expires_at", format_rfc3339(*revision.expires_at));
       break;
     case app::RevisionKind::Correction:
       json.member("place", revision.place).member("record", revision.text);
@@ -114,6 +115,11 @@ Result<void> read_key(const JsonValue& json, app::Revision& revision) {
   }
   revision.role = *role;
   revision.token_hash = *hash;
+  if (json.find("expires_at") != nullptr) {
+    const auto expires = parse_rfc3339(text_of(json, "expires_at"));
+    if (!expires) return unreadable(revision);
+    revision.expires_at = *expires;
+  }
   return {};
 }
 

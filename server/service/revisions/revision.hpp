@@ -49,6 +49,7 @@ struct Revision {
 
   Role role = Role::Viewer;
   Digest token_hash{};
+  std::optional<Timestamp> expires_at{};
 
   std::int64_t place = 0;                    ///< of the correction in the centre's log
   std::optional<Measurement> measurement{};  ///< what `text` says, where it was read

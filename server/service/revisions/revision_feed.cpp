@@ -32,6 +32,7 @@ void fill_key(const store::Stores& stores, Revision& revision) {
   if (!key) return;
   revision.role = static_cast<Role>(key->role);
   revision.token_hash = key->token_hash;
+  if (key->expires_at_ns) revision.expires_at = Timestamp{*key->expires_at_ns};
 }
 
 void fill_document(const store::Stores& stores, Revision& revision) {

@@ -131,8 +131,9 @@ struct RevisionIntake::Job {
     } else if (is_valid && current->token_hash == revision.token_hash) {
       return set_received(revision, revision.token_hash);
     }
-    if (!stores.keys.receive(revision.name, static_cast<store::Role>(revision.role),
-                             revision.token_hash, now)) {
+    if (!stores.keys.receive(
+            revision.name, static_cast<store::Role>(revision.role), revision.token_hash, now,
+            revision.expires_at ? std::optional(revision.expires_at->nanoseconds) : std::nullopt)) {
       return refuse(
           fmt::format("the centre's key '{}': this folder has a valid key of its own of "
                       "that name, or has revoked this one",

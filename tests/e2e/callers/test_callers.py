@@ -1,8 +1,12 @@
 """Who may do what: keys, roles, the modes of --auth, proxies, foreign pages."""
 
+import contextlib
+import datetime
+import http.client
 import socket
+import time
 
-from support.daemon import Daemon, DaemonTest
+from support.daemon import SANITIZED, Daemon, DaemonTest, command
 from support.waiting import PATIENCE, wait_for
 
 PART = {"designation": "25 H7", "measured_mm": 25.013}
@@ -111,15 +115,19 @@ class ReadOpen(Callers):
             wait_for(lambda: self.daemon.get(path + stored, Authorization=key).status != 401)
             self.assert_problem(self.daemon.get(path + stored, Authorization=key), 422, "statistics.too_few")
 
-    def test_the_first_start_shows_the_administrators_key_once(self):
-        shown = [line for line in self.daemon.output.splitlines() if "administrator" in line]
-        self.assertEqual(len(shown), 1, self.daemon.output)
-        token = shown[0].split()[-1]
+    def test_the_first_start_writes_the_administrators_key_for_its_owner(self):
+        file = self.daemon.data / "admin.key"
+        self.assertEqual(file.stat().st_mode & 0o777, 0o600)
+        token = file.read_text().strip()
+        self.assertIn(str(file), self.daemon.log)
+        self.assertNotIn(token, self.daemon.log + self.daemon.output)
         self.assertEqual(self.daemon.get("/v1/measurements",
                                          Authorization=f"Bearer {token}").status, 200)
         self.assertEqual(self.daemon.stop(), 0)
+        file.unlink()
         self.daemon.start()
-        self.assertEqual(self.daemon.output.count("administrator"), 1)
+        self.assertFalse(file.exists(), "made once")
+        self.assertEqual(self.daemon.log.count("admin_key_written"), 1)
         self.assertNotIn(token.encode(), self.daemon.database.read_bytes(), "only a hash is stored")
 
     def test_it_is_the_default_of_an_address_that_is_not_loopback(self):
@@ -195,7 +203,130 @@ class Keys(Callers):
         self.assertIn("viewer, operator, admin or station", made.stderr)
 
 
+class Ends(Callers):
+    """Keys that are revoked or expire, and the streams that they opened."""
+    flags = ("--auth", "keys")
+    # A second to load the keys, a quarter of one to sweep; a busy machine gets as much again.
+    SOON = 4
+
+    def follow(self, token, path):
+        connection = self.daemon.connect()
+        self.addCleanup(connection.close)
+        fields = {"Authorization": f"Bearer {token}"}
+        wait_for(lambda: self.daemon.get("/v1/tables", **fields).status == 200)
+        connection.request("GET", path, headers=fields)
+        response = connection.getresponse()
+        self.assertEqual(response.status, 200)
+        return response
+
+    def assert_ends(self, response):
+        begun = time.monotonic()
+        with contextlib.suppress(http.client.IncompleteRead):
+            while response.read1():
+                pass
+        if not SANITIZED:
+            self.assertLess(time.monotonic() - begun, self.SOON)
+
+    def test_the_streams_of_a_revoked_key_end(self):
+        token, other = self.make_key("leaver", "viewer"), self.make_key("stayer", "viewer")
+        streams = [self.follow(token, path) for path in ("/v1/events", "/mtconnect/sample?interval=100")]
+        stays = self.follow(other, "/v1/events")
+        stays.read1()
+        self.assertEqual(self.daemon.command("key", "revoke", "--name", "leaver").returncode, 0)
+        for stream in streams:
+            self.assert_ends(stream)
+        self.daemon.wait_for_log('"key_revoked","detail":"leaver (viewer)"')
+        admin = (self.daemon.data / "admin.key").read_text().strip()
+        self.assertEqual(self.daemon.measure(PART, {"Authorization": f"Bearer {admin}"}).status, 201)
+        self.assertIn(b"measurement.recorded", stays.read1())
+
+    def test_a_key_expires_with_its_streams(self):
+        end = datetime.datetime.now(datetime.timezone.utc) + datetime.timedelta(seconds=5)
+        made = self.daemon.command("key", "create", "--name", "auditor", "--role", "viewer", "--expires",
+                                   end.isoformat())
+        self.assertEqual(made.returncode, 0, made.stderr)
+        token = made.stdout.strip()
+        self.daemon.wait_for_log('"key_created","detail":"auditor (viewer, expires ')
+        self.assert_ends_after(end, self.follow(token, "/v1/events"))
+        answer = self.daemon.get("/v1/tables", Authorization=f"Bearer {token}")
+        self.assert_problem(answer, 401, "auth.expired")
+        self.assertIn("www-authenticate", answer.headers)
+        self.assertIn("auditor\tviewer\tcreated", self.daemon.command("key", "list").stdout)
+        self.assertIn("\texpires ", self.daemon.command("key", "list").stdout)
+
+    def assert_ends_after(self, end, response):
+        while response.read1():
+            pass
+        self.assertGreaterEqual(datetime.datetime.now(datetime.timezone.utc), end)
+
+    def test_an_expiry_that_is_none(self):
+        for expires, code in (("tomorrow", 2), ("2020-01-01T00:00:00Z", 1)):
+            made = self.daemon.command("key", "create", "--name", "x", "--role", "viewer", "--expires", expires)
+            self.assertEqual(made.returncode, code)
+            self.assertIn("expire", made.stderr)
+
+
+class OtherOrigins(Callers):
+    """Pages of an origin that --allow-origin names, in open mode."""
+    MES = "https://mes.example"
+    flags = ("--allow-origin", MES, "--allow-origin", "http://10.0.0.7:8080")
+
+    def test_they_read_without_a_key_and_write_with_one(self):
+        read = self.daemon.get("/v1/limits/25H7", Origin=self.MES)
+        self.assertEqual((read.status, read.headers["access-control-allow-origin"]), (200, self.MES))
+        self.assertEqual(read.headers["cross-origin-resource-policy"], "cross-origin")
+        refused = self.daemon.measure(PART, {"Origin": self.MES})
+        self.assert_needs_a_key(refused)
+        self.assertEqual(refused.headers["access-control-allow-origin"], self.MES)
+        figures = {"values": [1, 2, 3]}
+        self.assert_needs_a_key(self.daemon.post("/v1/statistics/summary", figures, {"Origin": self.MES}))
+        token = self.make_key("mes", "operator")
+        fields = {"Origin": self.MES, "Authorization": f"Bearer {token}"}
+        wait_for(lambda: self.daemon.measure(PART, fields).status == 201)
+        self.assertEqual(self.daemon.post("/v1/statistics/summary", figures, fields).status, 200)
+        self.assertEqual(self.daemon.measure(PART).status, 201, "no page: open as ever")
+
+    def test_a_preflight_needs_no_key(self):
+        answer = self.daemon.request("OPTIONS", "/v1/measurements", headers={
+            "Origin": self.MES, "Access-Control-Request-Method": "POST"})
+        self.assertEqual(answer.status, 204)
+        self.assertEqual(answer.headers["access-control-allow-methods"], "GET, HEAD, POST, OPTIONS")
+
+    def test_others_stay_refused(self):
+        for origin in ("https://mes.example.evil", "https://MES.example", "null"):
+            answer = self.daemon.measure(PART, {"Origin": origin})
+            self.assert_problem(answer, 403, "origin.refused")
+            self.assertNotIn("access-control-allow-origin", answer.headers)
+            self.assertEqual(answer.headers["vary"], "Origin")
+
+    def test_an_origin_that_is_none(self):
+        for origin in ("*", "null", "mes.example", "https://mes.example/", "https://MES.example", "https://"):
+            refused = command("--check-config", "--allow-origin", origin)
+            self.assertEqual(refused.returncode, 2, origin)
+            self.assertIn("allow-origin must be an origin", refused.stderr)
+
+
 class TheFirstKey(Callers):
+    def test_its_file_may_be_elsewhere(self):
+        daemon = Daemon("--auth", "keys")
+        self.addCleanup(daemon.cleanup)
+        file = daemon.folder / "first"
+        file.write_text("an old one")
+        file.chmod(0o644)
+        daemon.flags += ["--admin-key-out", str(file)]
+        daemon.start()
+        token = file.read_text().strip()
+        self.assertEqual(file.stat().st_mode & 0o777, 0o600)
+        self.assertEqual(daemon.get("/v1/measurements", Authorization=f"Bearer {token}").status, 200)
+        self.assertFalse((daemon.data / "admin.key").exists())
+        self.assertEqual(daemon.stop(), 0)
+
+    def test_a_start_that_cannot_write_it_says_so(self):
+        refused = command("--auth", "keys", "--listen", "127.0.0.1:0", "--data", self.daemon.folder / "new",
+                          "--admin-key-out", "/proc/none/key")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("admin-key-out: cannot write /proc/none/key", refused.stderr)
+
     def test_it_may_come_from_a_file(self):
         daemon = Daemon("--auth", "keys")
         self.addCleanup(daemon.cleanup)
@@ -204,7 +335,8 @@ class TheFirstKey(Callers):
         daemon.environment["FITGAUGE_ADMIN_KEY_FILE"] = str(daemon.folder / "key")
         daemon.start()
         self.assertEqual(daemon.get("/v1/measurements", Authorization=f"Bearer {token}").status, 200)
-        self.assertNotIn("administrator", daemon.output)
+        self.assertNotIn("admin_key_written", daemon.log)
+        self.assertFalse((daemon.data / "admin.key").exists())
         self.assertEqual(daemon.stop(), 0)
 
     def test_others_may_be_made_before_the_first_start(self):
@@ -215,5 +347,5 @@ class TheFirstKey(Callers):
         daemon.start()
         self.assertEqual(
             daemon.measure(PART, {"Authorization": f"Bearer {made.stdout.strip()}"}).json["caller"], "press-3")
-        self.assertIn("administrator", daemon.output, "somebody has to have the other rights")
+        self.assertTrue((daemon.data / "admin.key").exists(), "somebody has to have the other rights")
         self.assertEqual(daemon.stop(), 0)
