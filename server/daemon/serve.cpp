@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <csignal>
-#include <cstdio>
-#include <fstream>
+#include <mutex>
+#include <thread>
 
 #include "api/routes.hpp"
 #include "api/runs/run_codec.hpp"
@@ -17,12 +19,14 @@
 #include "api/wire/problem.hpp"
 #include "base/forward_clock.hpp"
 #include "base/guarded.hpp"
+#include "base/thread.hpp"
 #include "daemon/admin_key.hpp"
 #include "daemon/application_options.hpp"
 #include "daemon/commands.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/forwarding.hpp"
 #include "daemon/log.hpp"
+#include "daemon/opening.hpp"
 #include "daemon/ports.hpp"
 #include "daemon/preflight.hpp"
 #include "daemon/process_limits.hpp"
@@ -33,14 +37,6 @@
 
 namespace fitgauge::daemon {
 namespace {
-
-/// The signals the main thread waits for; blocked in every thread before one is started.
-sigset_t waited_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
-  return signals;
-}
 
 void prepare_signals() {
   // A client that hangs up and a file at its size limit are errors of calls, not ends of the
@@ -60,15 +56,16 @@ api::AuthMode auth_mode(const Config& config, const std::vector<http::ListenAddr
   return loopback ? api::AuthMode::Open : api::AuthMode::ReadOpen;
 }
 
-http::ServerOptions server_options(const Config& config, std::vector<http::ListenAddress> addresses,
-                                   std::int64_t connections) {
+http::ServerOptions server_options(const Config& config,
+                                   std::vector<http::ListenAddress> addresses) {
   http::ServerOptions options;
   options.listen = std::move(addresses);
   if (!config.tls_client_ca.empty()) {
     options.listen.push_back({.host = "127.0.0.1", .port = 0, .health_only = true});
   }
   options.io_threads = static_cast<unsigned>(config.io_threads);
-  options.max_connections = static_cast<std::size_t>(connections);
+  // Beyond these a client gets 503 rather than no answer.
+  options.max_connections = static_cast<std::size_t>(allow_connections(config.max_connections));
   options.tls = tls_options(config);
   options.allowed_origins = config.allow_origin;
   return options;
@@ -109,22 +106,6 @@ http::ServerHooks hooks(const api::Services& services, const api::Guard& guard,
   return hooks;
 }
 
-/// Written aside and renamed, so that whoever waits for the file reads a whole number.
-Result<void> write_port_file(const std::string& path, std::uint16_t port) {
-  const std::string aside = path + ".new";
-  {
-    std::ofstream file(aside);
-    file << port << '\n';
-    if (!file.flush()) {
-      return Error{ErrorCode::ConfigInvalid, "cannot write the port file " + path};
-    }
-  }
-  if (std::rename(aside.c_str(), path.c_str()) != 0) {
-    return Error{ErrorCode::ConfigInvalid, "cannot write the port file " + path};
-  }
-  return {};
-}
-
 /// Returns when the service is to end. Looks at the clock each second, so that a jump is reported
 /// when it happens.
 void wait_for_end(http::Server& server, bool tls, const Clock& clock) {
@@ -146,6 +127,19 @@ void wait_for_end(http::Server& server, bool tls, const Clock& clock) {
   }
 }
 
+/// What is acknowledged is on disk: an end that something outside holds up is no longer waited for.
+void end_in_time(const std::stop_token& stop) {
+  constexpr std::chrono::seconds kLongestEnd{9};
+  std::mutex mutex;
+  std::condition_variable_any stopped;
+  std::unique_lock lock(mutex);
+  stopped.wait_for(lock, stop, kLongestEnd, [] { return false; });
+  if (stop.stop_requested()) return;
+  log_error("stop_forced", "a thread had not ended after 9 s");
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the log's own thread writes it
+  _exit(1);
+}
+
 void log_health(std::string_view state, const std::string& reason) {
   const bool well = state == "ok" || state == "checking";
   const std::string detail =
@@ -159,9 +153,7 @@ void answer_together(const std::function<void()>& answer) {
   answer();
 }
 
-}  // namespace
-
-Result<void> serve(const Config& config, const std::string& port_file) {
+Result<void> serve_once(const Config& config, const std::string& port_file) {
   const auto addresses = listen_addresses(config);
   if (!addresses) return addresses.error();
   prepare_signals();
@@ -181,8 +173,11 @@ Result<void> serve(const Config& config, const std::string& port_file) {
     const bool is_news = event == "log_head" || event == "purged" || event.starts_with("key_");
     is_news ? log_info(event, detail) : log_warning(event, detail);
   };
-  auto opened = app::Application::open(options, clock);
+  http::ServerOptions listening = server_options(config, *addresses);
+  const auto most_clients = static_cast<std::int64_t>(listening.max_connections);
+  auto opened = open_or_wait(options, clock, listening, port_file);
   if (!opened) return opened.error();
+  if (!*opened) return {};
   app::Application& app = **opened;
   // A page that cannot be read shows in the readiness, and is no reason not to start.
   const auto newest = app.newest_measurement();
@@ -233,16 +228,13 @@ Result<void> serve(const Config& config, const std::string& port_file) {
                                .verdicts = verdicts,
                                .clock = clock,
                                .readiness = [&app] { return app.readiness(); }};
-  // Beyond these a client gets 503 rather than no answer.
-  const std::int64_t most_clients = allow_connections(config.max_connections);
   std::vector<http::Route> of_plant;
   connections::add_connections_routes(of_plant, outside);
   api::add_mtconnect_routes(of_plant, services);
   api::Schemas schemas;
   connections::add_connection_schemas(schemas);
   auto started = http::Server::start(
-      server_options(config, *addresses, most_clients),
-      api::make_routes(services, std::move(of_plant), schemas),
+      std::move(listening), api::make_routes(services, std::move(of_plant), schemas),
       hooks(services,
             api::Guard(app.keys(), mode,
                        [](std::string_view what) { log_warning("proxy_suspected", what); }),
@@ -274,6 +266,7 @@ Result<void> serve(const Config& config, const std::string& port_file) {
 
   wait_for_end(server, !config.tls_cert.empty(), clock);
   log_info("stopping", "");
+  const Thread deadline("the end's deadline", end_in_time);
   // Runs are cancelled first, so that those who wait for one get their answer.
   app.jobs().call_off();
   app.runs().stop();
@@ -287,6 +280,18 @@ Result<void> serve(const Config& config, const std::string& port_file) {
   started->reset();
   log_info("stopped", "");
   return {};
+}
+
+}  // namespace
+
+Result<void> serve(const Config& config, const std::string& port_file) {
+  for (;;) {
+    auto served = serve_once(config, port_file);
+    // A database server that went away during the start is waited for like one that was away.
+    const bool is_away =
+        !served && !config.database.empty() && served.error().code == ErrorCode::StorageUnavailable;
+    if (!is_away || is_to_end_after_a_second()) return served;
+  }
 }
 
 }  // namespace fitgauge::daemon

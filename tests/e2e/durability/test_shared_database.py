@@ -409,5 +409,33 @@ class Together(unittest.TestCase):
         self.assertEqual(put.status, 409, put)
 
 
+class Away(unittest.TestCase):
+    def test_a_daemon_that_starts_while_the_server_is_away_waits_for_it(self):
+        cluster = Cluster().start()
+        self.addCleanup(cluster.cleanup)
+        cluster.stop("fast")
+        daemon = Daemon("--database", cluster.address(), listen=lasting_address())
+        self.addCleanup(daemon.cleanup)
+        daemon.start()
+        self.assertEqual(daemon.get("/livez").status, 200)
+        for answer in (daemon.get("/readyz"), daemon.measure({"designation": "25 H7", "measured_mm": 25.01})):
+            self.assertEqual((answer.status, answer.json["code"]), (503, "storage.unavailable"), answer)
+            self.assertIn("waits for its database", answer.json["detail"])
+            self.assertIn("retry-after", answer.headers)
+        cluster.start()
+
+        def is_ready():
+            try:
+                return daemon.get("/readyz").status == 200
+            except OSError:
+                return False  # between the two servers
+        wait_for(is_ready, lambda: daemon.log)
+        self.assertEqual(daemon.measure({"designation": "25 H7", "measured_mm": 25.01}).status, 201)
+        self.assertEqual(daemon.stop(), 0)
+        cluster.stop("fast")
+        daemon.start()
+        self.assertEqual(daemon.stop(timeout=10), 0)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,92 @@
+#include "daemon/opening.hpp"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+
+#include "api/wire/problem.hpp"
+#include "daemon/log.hpp"
+
+namespace fitgauge::daemon {
+namespace {
+
+using Opened = Result<std::unique_ptr<app::Application>>;
+
+Result<std::unique_ptr<http::Server>> start_waiting_server(const http::ServerOptions& options,
+                                                           const std::string& why) {
+  std::vector<http::Route> routes;
+  const auto live = [](const http::Request&) -> Result<http::Response> {
+    return http::Response(200, "application/json", std::string(R"({"status":"live"})"));
+  };
+  routes.push_back({.pattern = "/livez", .handler = live});
+  http::ServerHooks hooks;
+  hooks.format_error = [why](const Error&, std::optional<int>, const http::Request& request) {
+    return api::problem(
+        {ErrorCode::StorageUnavailable, "the service waits for its database: " + why}, std::nullopt,
+        request);
+  };
+  return http::Server::start(options, http::RouteTable(std::move(routes)), std::move(hooks));
+}
+
+}  // namespace
+
+sigset_t waited_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
+  return signals;
+}
+
+bool is_to_end_after_a_second() {
+  const sigset_t signals = waited_signals();
+  constexpr timespec kSecond{.tv_sec = 1, .tv_nsec = 0};
+  const int signal = sigtimedwait(&signals, nullptr, &kSecond);
+  return signal == SIGTERM || signal == SIGINT;
+}
+
+Result<void> write_port_file(const std::string& path, std::uint16_t port) {
+  const std::string aside = path + ".new";
+  {
+    std::ofstream file(aside);
+    file << port << '\n';
+    if (!file.flush()) {
+      return Error{ErrorCode::ConfigInvalid, "cannot write the port file " + path};
+    }
+  }
+  if (std::rename(aside.c_str(), path.c_str()) != 0) {
+    return Error{ErrorCode::ConfigInvalid, "cannot write the port file " + path};
+  }
+  return {};
+}
+
+Result<std::unique_ptr<app::Application>> open_or_wait(const app::ApplicationOptions& options,
+                                                       const Clock& clock,
+                                                       http::ServerOptions& server,
+                                                       const std::string& port_file) {
+  const auto is_away = [&](const Opened& opened) {
+    return !opened && !options.address.empty() &&
+           opened.error().code == ErrorCode::StorageUnavailable;
+  };
+  Opened opened = app::Application::open(options, clock);
+  if (!is_away(opened)) return opened;
+  log_warning("database_awaited", opened.error().message);
+  const auto waiting = start_waiting_server(server, opened.error().message);
+  if (!waiting) return waiting.error();
+  for (std::size_t i = 0; i < server.listen.size(); ++i) {
+    server.listen[i].port = (*waiting)->ports().at(i);
+  }
+  if (!port_file.empty()) {
+    const auto written = write_port_file(port_file, server.listen.front().port);
+    if (!written) return written.error();
+  }
+  do {
+    if (is_to_end_after_a_second()) return std::unique_ptr<app::Application>();
+    opened = app::Application::open(options, clock);
+  } while (is_away(opened));
+  return opened;
+}
+
+}  // namespace fitgauge::daemon
