@@ -29,8 +29,10 @@ const Kind* named_kind(const JsonValue& body, api::FieldErrors& errors) {
 
 constexpr std::string_view kSecrets = "secrets";
 constexpr std::string_view kPassword = "password";
+constexpr std::string_view kHeaders = "headers";
 
-/// What may be shown: how many secrets there are instead of them, and that there is a password.
+/// What may be shown: how many secrets there are instead of them, that there is a password, and the
+/// names of headers.
 JsonValue shown(JsonValue body) {
   for (auto& [name, value] : body.members) {
     if (name == kSecrets) {
@@ -39,6 +41,8 @@ JsonValue shown(JsonValue body) {
     } else if (name == kPassword) {
       name = "password_set";
       value = {.kind = JsonValue::Kind::Boolean, .boolean = true};
+    } else if (name == kHeaders) {
+      for (auto& [header, secret] : value.members) secret = JsonValue();
     }
   }
   return body;
@@ -85,6 +89,14 @@ void keep_secrets(JsonValue& body, const Definition& before) {
   const bool is_same_broker = is_same(body, *known, "broker") && is_same(body, *known, "user") &&
                               is_same(body, *known, "ca_file");
   if (is_same_broker) keep(kPassword);
+  if (!is_same(body, *known, "url")) return;
+  keep(kHeaders);
+  for (auto& [name, value] : body.members) {
+    if (name != kHeaders) continue;
+    for (auto& [header, given] : value.members) {
+      if (given.is(JsonValue::Kind::Null)) given = known->member(kHeaders).member(header);
+    }
+  }
 }
 
 Result<Definition> read_definition(std::string name, const JsonValue& body,

@@ -13,18 +13,22 @@
 #include "http/client/http_client.hpp"
 #include "plant/follower_settings.hpp"
 #include "plant/kind.hpp"
+#include "plant/webhook/body_template.hpp"
 #include "record/record.hpp"
 
 namespace fitgauge::connections {
 namespace {
 
 using http_client::HttpAnswer;
+using namespace std::string_view_literals;
 
 constexpr std::string_view kSecretPrefix = "whsec_";
 constexpr std::size_t kShortestKey = 24;
 constexpr std::size_t kLongestKey = 64;
 constexpr std::size_t kMostKeys = 4;
 constexpr std::size_t kLongestUrl = 2000;
+constexpr std::size_t kLongestHeader = 100;
+constexpr std::size_t kMostHeaders = 20;
 constexpr int kMostAttempts = 5;  ///< of an event that the receiver does not understand
 
 /// A receiver of webhooks.
@@ -33,6 +37,8 @@ struct WebhookOptions {
   std::string url{};
   std::vector<std::string> keys{};  ///< bytes; each signs, so that a receiver may change its own
   std::chrono::seconds timeout{15};
+  std::vector<std::string> headers{};  ///< lines of a request
+  BodyTemplate body{};                 ///< empty: the event as it is
 };
 
 Result<std::string> read_url(std::string_view text) {
@@ -53,10 +59,84 @@ Result<std::string> read_key(const JsonValue& item) {
                   kSecretPrefix, kShortestKey, kLongestKey));
 }
 
+/// Names that are the request's own or the specification's.
+bool is_reserved(std::string_view name) {
+  constexpr std::array kNames = {
+      "connection"sv, "content-length"sv,    "content-type"sv, "host"sv,   "expect"sv,
+      "te"sv,         "transfer-encoding"sv, "trailer"sv,      "upgrade"sv};
+  return name.starts_with("webhook-") ||
+         std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
+
+std::string fault_of_header(std::string_view name, const JsonValue& value) {
+  const auto is_token = [](char c) {
+    return is_ascii_alphanumeric(c) ||
+           std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
+  };
+  if (name.empty() || name.size() > kLongestHeader ||
+      !std::all_of(name.begin(), name.end(), is_token)) {
+    return fmt::format("a header name must have 1 to {} letters, digits and -", kLongestHeader);
+  }
+  if (is_reserved(ascii_lower(name))) return fmt::format("{} is set by the service", name);
+  if (value.is(JsonValue::Kind::Null)) return "no value is stored: give one";
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  if (!value.is(JsonValue::Kind::String) || value.text.empty() || value.text.size() > kLongestUrl ||
+      std::any_of(value.text.begin(), value.text.end(), is_control)) {
+    return fmt::format("a header value must be a text of 1 to {} bytes without control characters",
+                       kLongestUrl);
+  }
+  return {};
+}
+
+/// An object of names and values. A value null is the stored one (definition.cpp).
+struct HeadersForm {
+  std::string schema(api::Side) const {
+    return api::schema::map(api::schema::null_or(api::schema::text(kLongestUrl)));
+  }
+  bool read(api::FieldReader& fields, std::string_view name, std::vector<std::string>& to) const {
+    const JsonValue* const object = fields.object(name);
+    if (object == nullptr) return false;
+    if (object->members.size() > kMostHeaders) {
+      fields.report(ErrorCode::FieldInvalid, name,
+                    fmt::format("headers must have at most {} members", kMostHeaders));
+      return false;
+    }
+    for (const auto& [header, value] : object->members) {
+      const std::string fault = fault_of_header(header, value);
+      if (fault.empty()) {
+        to.push_back(fmt::format("{}: {}", header, value.text));
+      } else {
+        fields.errors().add(ErrorCode::FieldInvalid, pointer_to(fields.at(name), header), fault);
+      }
+    }
+    return true;
+  }
+};
+
+struct BodyForm {
+  std::string schema(api::Side) const { return "{}"; }
+  bool read(api::FieldReader& fields, std::string_view name, BodyTemplate& to) const {
+    const JsonValue* const given = fields.any(name);
+    if (given == nullptr) return false;
+    auto made = BodyTemplate::read(*given);
+    if (!made) {
+      fields.report(ErrorCode::FieldInvalid, name, made.error().message);
+      return false;
+    }
+    to = *std::move(made);
+    return true;
+  }
+};
+
 template <class V>
 void members(V& v, WebhookOptions& options) {
   v.member("url", options.url, By{kLongestUrl, read_url}, "https://host/path");
   v.optional("timeout_s", options.timeout, Within{1, 30}, "Of a request; 15 when absent");
+  v.optional("headers", options.headers, HeadersForm{},
+             "Of each request, as Authorization. Values are not shown; null keeps the stored value "
+             "while the url stays, as leaving headers out does");
+  v.optional("body", options.body, BodyForm{},
+             "JSON with {{field}} of the event; the event as it is when absent");
   event_members(v, options.follower);
   follower_members(v, options.follower);
   v.optional(
@@ -90,7 +170,8 @@ class Webhook final : public Outlet {
   Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
   Delivery deliver_events(std::span<const OutgoingEvent> events,
                           const std::stop_token& stop) override;
-  HttpAnswer send(std::string_view id, std::string_view body, const std::stop_token& stop);
+  /// @param event the body, or what the template makes one of
+  HttpAnswer send(std::string_view id, std::string_view event, const std::stop_token& stop);
 
  private:
   struct Posted {
@@ -107,18 +188,21 @@ class Webhook final : public Outlet {
   int attempts_ = 0;  ///< of the first event that is not dealt with
 };
 
-HttpAnswer Webhook::send(std::string_view id, std::string_view body, const std::stop_token& stop) {
+HttpAnswer Webhook::send(std::string_view id, std::string_view event, const std::stop_token& stop) {
+  const std::string made = options_.body.is_empty() ? "" : options_.body.body_of(id, event);
+  const std::string_view body = made.empty() ? event : made;
   const std::string timestamp =
       std::to_string(plant_.clock.now().nanoseconds / kNanosecondsPerSecond);
-  return client_.call(
-      {.url = options_.url,
-       .headers = {"Content-Type: application/json", fmt::format("webhook-id: {}", id),
-                   fmt::format("webhook-timestamp: {}", timestamp),
-                   fmt::format("webhook-signature: {}",
-                               webhook_signature(options_.keys, id, timestamp, body))},
-       .body = body,
-       .timeout = options_.timeout},
-      [&stop] { return !stop.stop_requested(); });
+  std::vector<std::string> headers = {
+      "Content-Type: application/json", fmt::format("webhook-id: {}", id),
+      fmt::format("webhook-timestamp: {}", timestamp),
+      fmt::format("webhook-signature: {}", webhook_signature(options_.keys, id, timestamp, body))};
+  headers.insert(headers.end(), options_.headers.begin(), options_.headers.end());
+  return client_.call({.url = options_.url,
+                       .headers = std::move(headers),
+                       .body = body,
+                       .timeout = options_.timeout},
+                      [&stop] { return !stop.stop_requested(); });
 }
 
 template <class Items, class Compose>
