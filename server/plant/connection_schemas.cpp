@@ -2,6 +2,7 @@
 
 #include "plant/connection_state.hpp"
 #include "plant/connections.hpp"
+#include "plant/replay.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -30,10 +31,12 @@ schema::Fields state_fields() {
                       {"at", schema::time(), "When it was given up"},
                       {"reason", schema::text(), "What the other side said"}});
   schema::Fields fields = {
-      {"state", schema::words({"waiting", "ok", "failing", "stopped"}),
-       "Of its last attempt; stopped: the other side wants no more"},
+      {"state", schema::words({"waiting", "ok", "failing", "hanging", "stopped"}),
+       "Of its last attempt; hanging: the attempt under way has stood still for a minute; stopped: "
+       "the other side wants no more"},
       {"last_attempt_at", time_or_null, ""},
-      {"last_success_at", time_or_null, ""},
+      {"last_success_at", time_or_null, "When something was delivered or stored"},
+      {"attempt_began_at", time_or_null, "Of the attempt under way"},
       {"lag_s", schema::null_or(schema::number()),
        "Since the last success; of an outgoing one the age of what is to go next"},
       {"last_error", schema::null_or(schema::text()), "Of the last attempt that failed"},
@@ -73,6 +76,7 @@ void add_connection_schemas(api::Schemas& schemas) {
   schemas.push_back(
       {"Connections",
        schema::object({{"connections", schema::array(schema::ref("Connection")), ""}})});
+  schemas.push_back(api::order_schema<ReplayOrder>("ConnectionReplay"));
   schemas.push_back(
       {"ConnectionTest", schema::object({{"ok", schema::boolean(), "The other side was reached"},
                                          {"detail", schema::text(), "What was found"}})});

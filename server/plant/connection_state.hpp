@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,6 +32,8 @@ struct ConnectionState {
   std::string last_error{};  ///< of the last attempt that failed; empty: none did
   std::optional<Timestamp> last_attempt_at{};
   std::optional<Timestamp> last_success_at{};
+  std::optional<Timestamp> attempt_began_at{};  ///< of the attempt that is under way
+  std::chrono::steady_clock::time_point attempt_began{};
 
   // Of outgoing ones.
   std::optional<std::int64_t> position{};  ///< how many measurements of the log are dealt with
@@ -52,6 +55,12 @@ struct ConnectionState {
 /// Since when nothing was dealt with, in nanoseconds; none before the first success.
 /// Of an outgoing connection the age of what is to go next, of another since its last success.
 std::optional<std::int64_t> lag(const ConnectionState& state, Timestamp now);
+
+/// No step of an attempt takes longer, unless the other side or a file holds it up.
+inline constexpr std::chrono::seconds kLongestStep{60};
+
+/// Whether the attempt under way stands still.
+bool hangs(const ConnectionState& state, std::chrono::steady_clock::time_point now);
 
 /// A counter of all connections, by the name it has in JSON.
 struct ConnectionCounter {

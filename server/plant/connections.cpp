@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "plant/replay.hpp"
 #include "service/documents/document_service.hpp"
 
 namespace fitgauge::connections {
@@ -161,6 +162,31 @@ Result<void> Connections::remove(const std::string& name) {
   if (!removed) return removed.error();
   if (found && found->definition.name == name) end(ascii_lower(name));
   return forget_progress(plant_.documents, name);
+}
+
+Result<void> Connections::replay(const std::string& name, std::string_view body) {
+  const auto found = find(name);
+  if (!found || found->definition.name != name) return unknown(name);
+  const auto json = parse_json(body);
+  if (!json) return json.error();
+  const auto order = api::read_whole<ReplayOrder>(*json);
+  if (!order) return order.error();
+  const FollowerOptions* const follower = found->definition.settings->follower();
+  if (follower == nullptr) {
+    return Error{ErrorCode::RequestInvalid,
+                 fmt::format("the connection '{}' brings measurements: only outgoing connections "
+                             "send again",
+                             name)};
+  }
+  end(ascii_lower(name));  // which keeps how far it came
+  const auto saved = [&]() -> Result<void> {
+    auto progress = begin_progress(*follower, plant_);
+    if (!progress) return progress.error();
+    if (const auto moved = move_back(*progress, *order, plant_); !moved) return moved;
+    return save_progress(plant_.documents, name, *progress);
+  }();
+  begin(found->definition, found->is_read_only);
+  return saved;
 }
 
 Result<ConnectionTest> Connections::test(const std::string& name) {

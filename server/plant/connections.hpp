@@ -52,6 +52,9 @@ class Connections {
   /// Ends a connection and forgets how far it came. @errors ConnectionUnknown,
   ///   ConnectionReadOnly, those of storage.
   Result<void> remove(const std::string& name);
+  /// Sends again from a place: what goes out has its ids as before. @errors ConnectionUnknown;
+  ///   RequestInvalid, also of a connection that brings measurements; those of JSON and storage.
+  Result<void> replay(const std::string& name, std::string_view body);
   /// @errors ConnectionUnknown.
   Result<ConnectionTest> test(const std::string& name);
 

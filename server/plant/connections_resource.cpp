@@ -10,6 +10,7 @@ using api::JsonWriter;
 
 std::string_view state_word(const ConnectionState& connection) {
   if (connection.is_stopped) return "stopped";
+  if (hangs(connection, std::chrono::steady_clock::now())) return "hanging";
   if (connection.is_failing) return "failing";
   return connection.last_success_at ? "ok" : "waiting";
 }
@@ -58,6 +59,7 @@ Result<void> write_connection(JsonWriter& json, const ConnectionState& connectio
   json.member("state", state_word(connection));
   write_time(json, "last_attempt_at", connection.last_attempt_at);
   write_time(json, "last_success_at", connection.last_success_at);
+  write_time(json, "attempt_began_at", connection.attempt_began_at);
   json.key("lag_s");
   if (const auto nanoseconds = lag(connection, now)) {
     json.fixed(static_cast<double>(*nanoseconds) / 1e9, 3);
@@ -151,6 +153,12 @@ Result<http::Response> test(Connections& all, const http::Request& request) {
   return answer_of(200, std::move(body));
 }
 
+Result<http::Response> replay(Connections& all, const http::Request& request) {
+  const auto moved = all.replay(name_of(request), request.body());
+  if (!moved) return moved.error();
+  return one(all, name_of(request), 200);
+}
+
 }  // namespace
 
 void add_connections_routes(std::vector<http::Route>& routes, Connections& all) {
@@ -217,6 +225,23 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
       .operation = "testConnection",
       .tag = "connections",
       .outcomes = {{.meaning = "What was found", .schema = "ConnectionTest"}},
+      .refusals = {404},
+  });
+  routes.push_back({
+      .method = http::Method::Post,
+      .pattern = "/v1/connections/{name}/replay",
+      .handler = by(all, replay),
+      .summary = "Send again from a place",
+      .description = "What goes out again has its ids as before: a receiver that knows them by "
+                     "their ids ignores what it has.",
+      .parameters = {name},
+      .body = {.use = http::BodyUse::Required,
+               .media_types = {"application/json"},
+               .schema = "ConnectionReplay"},
+      .access = "admin",
+      .operation = "replayConnection",
+      .tag = "connections",
+      .outcomes = {{.meaning = "It sends again", .schema = "Connection"}},
       .refusals = {404},
   });
 }

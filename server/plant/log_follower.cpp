@@ -228,6 +228,7 @@ bool LogFollower::has_events() const {
 }
 
 void LogFollower::deliver_events(const std::stop_token& stop) {
+  begin_attempt();
   const Delivery delivery = outlet_->deliver_events(pending_events_, stop);
   if (delivery.dealt_with > 0) progress_.event = pending_events_[delivery.dealt_with - 1].id;
   pending_events_.erase(pending_events_.begin(),
@@ -274,6 +275,7 @@ void LogFollower::deliver(const std::stop_token& stop) {
     if (attempt && !stop.stop_requested()) take(*attempt, 0);
     return;
   }
+  begin_attempt();
   const Delivery delivery = outlet_->deliver(std::span(pending_).first(count), stop);
   if (delivery.dealt_with > 0) progress_.position = (*pending_[delivery.dealt_with - 1])->row;
   pending_.erase(pending_.begin(),
@@ -297,11 +299,19 @@ void LogFollower::take(const Delivery& delivery, std::size_t measurements) {
     state.bytes += delivery.bytes;
     state.is_stopped = delivery.wants_no_more;
   });
-  finish_attempt(delivery.failure);
+  const bool has_progress = delivery.dealt_with > 0;
   if (!delivery.failure) {
+    finish_attempt(std::nullopt);
     pause_ = std::chrono::seconds(0);
+    repeats_at_once_ = true;
+  } else if ((has_progress || repeats_at_once_) && !delivery.wait && !delivery.wants_no_more) {
+    // The other side has just taken something: this is no reason to wait, unless it comes again.
+    pass_refusal(*delivery.failure, has_progress);
+    pause_ = std::chrono::seconds(0);
+    repeats_at_once_ = false;
   } else {
-    const bool is_first = pause_.count() == 0 || delivery.dealt_with > 0;
+    finish_attempt(delivery.failure, has_progress);
+    const bool is_first = pause_.count() == 0 || has_progress;
     pause_ = delivery.wait.value_or(is_first ? kFirstPause : 2 * pause_);
     pause_ = std::clamp(pause_, kFirstPause, options_.longest_wait);
   }

@@ -89,7 +89,8 @@ Result<Progress> begin_progress(const FollowerOptions& options, const Plant& pla
 
 /// Follows the log of measurements and gives what passes the filter to an outlet, in order and at
 /// least once. How far it came is in the database at most a second later. An attempt in vain is
-/// repeated after 1 s, 2 s, 4 s and so on. Never waited for by a writer.
+/// repeated after 1 s, 2 s, 4 s and so on, the first one after a success at once. Never waited for
+/// by a writer.
 class LogFollower final : public Worker {
  public:
   /// Waits for the storage, which says where it begins. @param plant outlives it.
@@ -136,6 +137,7 @@ class LogFollower final : public Worker {
   std::vector<OutgoingEvent> pending_events_;
   std::int64_t events_behind_ = 0;  ///< the measurement they come behind; 0: none is pending
   std::chrono::seconds pause_{0};   ///< before the next attempt; 0: the last went well
+  bool repeats_at_once_ = false;    ///< a refusal: the last attempt went well
   bool is_dirty_ = false;
   bool cannot_read_ = false;
   Time saved_at_{};

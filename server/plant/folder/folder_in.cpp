@@ -82,6 +82,7 @@ void FolderIn::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     if (watch_ < 0) watch();
     std::optional<std::string> why = "a defect of fitgauge ended the attempt";
+    begin_attempt();
     guarded("folder_in", [&] { why = look(stop); });
     if (stop.stop_requested()) return;
     finish_attempt(why);
@@ -154,6 +155,7 @@ std::optional<std::string> FolderIn::look(const std::stop_token& stop) {
   for (const auto& [time, name] : ready) {
     if (stop.stop_requested()) break;
     if (is_description(name)) continue;  // it goes with its DFX
+    begin_attempt();
     if (auto why = take(*folder, name, seen_[name]); why && !first) first = std::move(why);
   }
   return first;

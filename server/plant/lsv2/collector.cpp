@@ -96,6 +96,7 @@ void Collector::run(const std::stop_token& stop) {
   std::chrono::seconds wait = options_.interval;
   while (!stop.stop_requested()) {
     std::optional<std::string> why = "a defect of fitgauge ended the attempt";
+    begin_attempt();
     guarded("collector", [&] { why = round(stop); });
     if (stop.stop_requested()) return;
     finish_attempt(why);
@@ -147,6 +148,7 @@ std::string Collector::failed(const std::string& path, const LinkFailure& failur
 
 std::optional<std::string> Collector::fetch(LinkClient& control, const std::string& path,
                                             const DirectoryEntry& entry) {
+  begin_attempt();
   const std::string key = ascii_lower(path);
   const auto known = seen_.find(key);
   const bool is_known = known != seen_.end() && known->second.bytes == entry.bytes &&

@@ -68,6 +68,7 @@ BODIES = {
     "putConnection": [
         {"kind": "lsv2", "address": "127.0.0.1:1", "paths": ["TNC:\\logs\\*.TXT"], "machine": "m", "interval_s": 60},
         {"kind": "webhook", "url": "http://127.0.0.1:1/x", "timeout_s": 1, **FOLLOWER, "events": ["note.added"],
+         "headers": {"X-Plant": "p"}, "body": {"text": "{{id}}"},
          "secrets": ["whsec_" + base64.b64encode(b"k" * 32).decode()]},
         {"kind": "mqtt", "broker": "mqtt://127.0.0.1:1", "user": "u", "password": "p", "client_id": "c", "topic": "a/{machine}",
          "version": "5", "status_topic": "s", "events_topic": "e", **FOLLOWER},
@@ -78,6 +79,7 @@ BODIES = {
         {"kind": "folder_out", "folder": f"{FOLDERS}/out", "format": "csv", "part_number": "p", "part_description": "d",
          "split": "none", "every_s": 60, "time_zone": "UTC", **FOLLOWER}],
 }
+BODIES["replayConnection"] = [{"from": "2026-11-20T08:00:00Z"}]
 BODIES["putUncertainty"] = BODIES["combineUncertainties"]
 # Members that are held together: the first is at most the second.
 TOGETHER = {"min_interference_um": "max_interference_um"}

@@ -344,6 +344,14 @@ class Answers(ContractTest):
         self.expect("getConnection", 200, name="mill")
         self.expect("testConnection", 200, name="mill")
         self.expect("testConnection", 404, name="none")
+        self.expect("replayConnection", 422, {"from": "2026-11-20T08:00:00Z"}, name="mill")
+        webhook = {"kind": "webhook", "url": "http://127.0.0.1:1/", "secrets": ["whsec_" + "A" * 32],
+                   "headers": {"X-Plant": "press-3"}, "body": {"text": "{{id}}"}}
+        self.expect("putConnection", 201, webhook, name="mes")
+        self.expect("replayConnection", 200, {"from": "2026-11-20T08:00:00Z"}, name="mes")
+        self.expect("replayConnection", 422, {"from": "yesterday"}, name="mes")
+        self.expect("replayConnection", 404, {"from": "yesterday"}, name="none")
+        self.expect("deleteConnection", 204, name="mes")
         for name in ("probeMtconnect", "currentMtconnect", "sampleMtconnect"):
             self.expect(name, 200)
         self.expect("sampleMtconnect", 404, **{"from": 10**9})

@@ -200,6 +200,121 @@ class Webhooks(Receivers):
         receiver.wait(lambda: "connection_recovered" in daemon.log)
         self.assertEqual(self.state(daemon)["dead_letters"], [])
 
+    def test_a_passing_refusal_is_repeated_at_once(self):
+        """Finding 7b of the review: each 503 of a busy receiver cost a second and showed `failing`."""
+        refused = set()
+
+        def answer(event):
+            part = event["data"]["part_id"]
+            if int(part[1:]) % 10 == 0 and part not in refused:
+                refused.add(part)
+                return 503
+            return 204
+
+        receiver, daemon = self.receiver(answer), self.daemon()
+        self.connect(daemon, receiver, longest_wait_s=300)
+        ids = self.store(daemon, range(1, 61))
+        receiver.wait(lambda: len(receiver.distinct()) == 60)
+        self.assertEqual(receiver.ids(), ids)
+        receiver.wait(lambda: self.state(daemon)["position"] == 60)
+        state = self.state(daemon)
+        self.assertEqual((state["state"], state["failures"], state["attempt_began_at"]), ("ok", 6, None))
+        self.assertNotIn("connection_failing", daemon.log)
+
+    def test_an_attempt_that_is_under_way_says_since_when(self):
+        held, may_go = threading.Event(), threading.Event()
+
+        def answer(_):
+            held.set()
+            may_go.wait(PATIENCE)
+            return 204
+
+        receiver, daemon = self.receiver(answer), self.daemon()
+        self.addCleanup(may_go.set)
+        made = self.connect(daemon, receiver, timeout_s=30)
+        self.assertIsNone(made["attempt_began_at"])
+        stored = daemon.measure(part(1)).json
+        self.assertTrue(held.wait(PATIENCE))
+        self.assertGreaterEqual(self.state(daemon)["attempt_began_at"], stored["received_at"][:19])
+        may_go.set()
+        receiver.wait(lambda: self.state(daemon)["attempt_began_at"] is None)
+
+    def test_own_headers_are_sent_and_never_shown(self):
+        receiver, daemon = self.receiver(), self.daemon()
+        headers = {"Authorization": "Bearer s3cret", "X-Plant": "press-3"}
+        made = self.connect(daemon, receiver, headers=headers)
+        self.assertEqual(made["headers"], {"Authorization": None, "X-Plant": None})
+
+        def sent(number):
+            daemon.measure(part(number))
+            receiver.wait(lambda: len(receiver.events) == number)
+            return {name: receiver.events[-1]["headers"].get(name.lower()) for name in headers}
+
+        self.assertEqual(sent(1), headers)
+        self.connect(daemon, receiver, 200)  # they stay when they are not named
+        self.assertEqual(sent(2), headers)
+        self.connect(daemon, receiver, 200, headers={"Authorization": None, "X-Plant": "press-4"})
+        self.assertEqual(sent(3), {**headers, "X-Plant": "press-4"})
+        # Nobody who does not know them may send them elsewhere.
+        elsewhere = {"kind": "webhook", "url": receiver.url + "&x=1", "secrets": SECRETS[:1]}
+        answer = daemon.request("PUT", "/v1/connections/mes", {**elsewhere, "headers": {"Authorization": None}})
+        self.assertEqual([e["pointer"] for e in answer.json["errors"]], ["/headers/Authorization"])
+        self.assertEqual(daemon.request("PUT", "/v1/connections/mes", elsewhere).status, 200)
+        self.assertEqual(sent(4), {"Authorization": None, "X-Plant": None})
+        shown = daemon.get("/v1/connections").text + daemon.log
+        self.assertNotIn("s3cret", shown)
+        self.assertNotIn("press-4", shown)
+
+    def test_a_body_of_its_own(self):
+        receiver, daemon = self.receiver(), self.daemon()
+        body = {"text": 'Part "{{part_id}}": {{measured_mm}} mm', "value": "{{measured_mm}}", "order": "{{order}}",
+                "note": "{{order}}-", "of": ["{{id}}", "{{type}}", "{{data.verdict}}"], "all": "{{data}}"}
+        self.connect(daemon, receiver, body=body)
+        stored = daemon.measure(part(1, part_id='a"b\\')).json
+        receiver.wait(lambda: receiver.events)
+        request = receiver.events[0]
+        self.assertEqual(request["event"], {
+            "text": 'Part "a"b\\": 25.01 mm', "value": 25.01, "order": None, "note": "-",
+            "of": [stored["id"], "measurement.recorded", "good"], "all": stored})
+        self.assertEqual(request["headers"]["webhook-signature"],
+                         signature(SECRETS[0], request["headers"], request["body"]))
+        self.connect(daemon, receiver, 200, body='{"v": {{measured_mm}}, "s": "{{measured_mm}}.", "n": {{none}}}')
+        daemon.measure(part(2))
+        receiver.wait(lambda: len(receiver.events) == 2)
+        self.assertEqual(receiver.events[1]["event"], {"v": 25.01, "s": "25.01.", "n": None})
+        self.assertTrue(daemon.post("/v1/connections/mes/test", None).json["ok"])
+        for wrong in ("{", '{"a": {{part id}}}', {"a": "{{part_id"}, '{"{{measured_mm}}": 1}', "", "x" * 20_000):
+            answer = daemon.request("PUT", "/v1/connections/mes", {
+                "kind": "webhook", "url": receiver.url, "secrets": SECRETS[:1], "body": wrong})
+            self.assertEqual([e["pointer"] for e in answer.json["errors"]], ["/body"], wrong)
+
+    def test_replay_sends_again_from_a_place(self):
+        receiver, daemon = self.receiver(), self.daemon()
+        self.connect(daemon, receiver, events=["measurement.recorded", "note.added"])
+        records = [daemon.measure(part(number)).json for number in range(6)]
+        ids = [record["id"] for record in records]
+        self.assertEqual(daemon.post(f"/v1/measurements/{ids[0]}/notes", {"text": "seen"}).status, 201)
+        receiver.wait(lambda: len(receiver.events) == 7)
+        note = receiver.ids()[-1]
+
+        def replayed(place, expected):
+            count = len(receiver.events)
+            answer = daemon.post("/v1/connections/mes/replay", {"from": place})
+            self.assertEqual((answer.status, answer.json.get("name")), (200, "mes"), answer)
+            receiver.wait(lambda: len(receiver.events) >= count + len(expected))
+            self.assertEqual(receiver.ids()[count:], expected)
+
+        replayed(ids[3], ids[3:])
+        replayed(note, [note])
+        replayed(records[4]["received_at"], [*ids[4:], note])
+        replayed("2000-01-01T00:00:00Z", [*ids, note])
+        for wrong in ("yesterday", "m99-0000000000000000", ""):
+            answer = daemon.post("/v1/connections/mes/replay", {"from": wrong})
+            self.assertEqual((answer.status, [e["pointer"] for e in answer.json["errors"]]), (422, ["/from"]), wrong)
+        self.assertEqual(daemon.post("/v1/connections/none/replay", {"from": ids[0]}).status, 404)
+        daemon.measure(part(7))
+        receiver.wait(lambda: len(receiver.distinct()) == 8)
+
     def test_killed_and_started_again_nothing_is_lost(self):
         receiver, daemon = self.receiver(), self.daemon()
         self.connect(daemon, receiver)
