@@ -192,7 +192,7 @@ export class Entry {
     const burst = this.burst.isBurst(typed);
     // A scanner's 25H7 comes as 25h7 then: another thing.
     if (burst && this.caps && parseMeasured(typed) === null) return this.#refuse(t('entry.caps'));
-    if (this.correcting?.what === 'part_id') return this.#correctPart(typed);
+    if (this.correcting?.what === 'part_id') return this.#correctPart(typed, burst);
     if (!this.correcting && parseMeasured(typed) === null && this.isKnown(typed)) return this.#finish(() => this.onField('part_id', typed));
     const read = readLine(typed, { burst, prefixes: this.prefixes() });
     if (read.kind === 'value') return this.#judge(read.text);
@@ -223,15 +223,13 @@ export class Entry {
     this.#refuse(t('entry.malformed', { typed: text }));
   }
 
-  #correctPart(typed) {
+  #correctPart(typed, burst) {
     const { record } = this.correcting;
     if (isReading(typed, { limits: record })) return this.#refuse(t('entry.reading', { typed }));
-    return this.#finish(() => this.onField('part_id', this.#withoutPrefix(typed), record));
-  }
-
-  #withoutPrefix(typed) {
-    const read = readLine(typed, { prefixes: this.prefixes() });
-    return read.kind === 'field' && read.name === 'part_id' ? read.text : typed;
+    const read = readLine(typed, { burst, prefixes: this.prefixes() });
+    if (read.kind === 'doubt') return this.#doubt(typed, read.text, read.name);
+    if (read.kind === 'test' || (read.kind === 'field' && read.name !== 'part_id')) return this.#refuse(t('entry.malformed', { typed }));
+    return this.#finish(() => this.onField('part_id', read.kind === 'field' ? read.text : typed, record));
   }
 
   #judge(text) {
@@ -273,7 +271,7 @@ export class Entry {
     this.input.value = typed;
     this.#question(t('entry.doubt', { part: text }), null, [
       { label: t('entry.doubt_no'), act: () => this.#drop() },
-      { label: t('entry.ask_part', { part: text }), act: () => this.#answer(null, () => this.#finish(() => this.onField(name, text))) },
+      { label: t('entry.ask_part', { part: text }), act: () => this.#answer(null, () => this.#finish(() => this.onField(name, text, this.correcting?.record))) },
     ]);
   }
 

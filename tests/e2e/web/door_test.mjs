@@ -95,6 +95,26 @@ describe('the door for keys', () => {
     await close(page);
   });
 
+  it('corrects a part by the same door', async () => {
+    await station('#/gauge/25H7?part_id=SN-20');
+    await scan(page, '25.01');
+    await stored(1);
+    const corrects = () => page.getByRole('button', { name: 'Correct the part SN-20' }).click();
+    await corrects();
+    for (const [line, why] of [['01A+00025.015', /is a value/], ['O:WO-17', /Nothing is stored/]]) {
+      await scan(page, line);
+      await notes(why);
+    }
+    await scan(page, 'SNß21');
+    await page.click('.answers >> text=No, scan again');
+    await corrects();
+    await scan(page, ']C1SN-21');
+    await page.waitForSelector('.recent li.corrected');
+    await page.waitForSelector('.link[data-state="up"]');
+    assert.deepEqual((await storedSince()).map(({ part_id, correction_of }) => [part_id, Boolean(correction_of)]), [['SN-20', false], ['SN-21', true]]);
+    await close(page);
+  });
+
   it('says in the panel that a scan has changed the size', async () => {
     await station();
     await scan(page, '12A9');
