@@ -208,7 +208,7 @@ describe('the trend', () => {
     })));
     page = await openChart(browser, daemon, '#/trend?characteristic=paint');
     await untilPoints(page, 15);
-    const near = (texts, value) => texts.some((text) => Math.abs(parseFloat(text) - value) < 0.011);
+    const near = (texts, value) => texts.some((text) => Math.abs(parseFloat(text.replace(/^[UL]?CL /, '')) - value) < 0.011);
     for (const value of [33.52, 34.8, 32.24, 0.48]) {
       assert.ok(near(await lettering(page), value), `${value} in ${await lettering(page)}`);
       assert.ok(near(await page.$$eval('.in-figures td', (cells) => cells.map((cell) => cell.textContent)), value), `${value} in figures`);
@@ -251,7 +251,7 @@ describe('the trend', () => {
     assert.equal((await marksOf(page, 'good')).length, 0); // where they are dense the good are a line
     assert.ok(await page.isHidden('.stretch'));
     const texts = await lettering(page);
-    assert.deepEqual(['µm', '+21', '0', '+10.5'].filter((text) => !texts.includes(text)), []);
+    assert.deepEqual(['µm', 'U +21', 'L 0', 'T +10.5'].filter((text) => !texts.includes(text)), []);
     const plot = await (await page.$('.control-chart .u-over')).boundingBox();
     const drawAcross = async (from, to) => {
       const y = plot.y + plot.height / 2;
@@ -331,8 +331,8 @@ describe('the trend', () => {
     page = await openChart(browser, daemon, '#/trend?characteristic=one-limit');
     await untilPoints(page, 30);
     const texts = await lettering(page);
-    assert.deepEqual(texts.slice(texts.indexOf('µm')).slice(0, 2), ['µm', '+36']);
-    assert.deepEqual(texts.filter((text) => text.startsWith('+')), ['+36'], 'no target');
+    assert.deepEqual(texts.slice(texts.indexOf('µm')).slice(0, 2), ['µm', 'U +36']);
+    assert.deepEqual(texts.filter((text) => /^[ULT] /.test(text)), ['U +36'], 'no lower limit, no target');
     const named = await page.textContent('.in-figures table');
     assert.ok(/Upper limit/.test(named) && !/Lower limit/.test(named), named);
     assert.match(await page.textContent('.indices'), /Cpk/);
@@ -348,7 +348,7 @@ describe('the trend', () => {
     page = await openChart(browser, daemon, '#/trend?characteristic=ring&count=200');
     await untilPoints(page, 126);
     const near = (label) => page.waitForFunction((wanted) => globalThis.lettering.get(document.querySelector('.control-chart canvas'))
-      .some(({ text }) => Math.abs(Number(text.replace('−', '-')) - wanted) < 0.06), label);
+      .some(({ text }) => Math.abs(Number(text.replace(/^[UL]?CL /, '').replace('−', '-')) - wanted) < 0.06), label);
     await page.selectOption('#trend-kind', 'xbar_r');
     await untilPoints(page, 25);
     for (const label of [1.18, 14.31, -11.95, 22.76, 48.12]) await near(label);
