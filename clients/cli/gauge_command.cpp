@@ -224,6 +224,12 @@ Outcome<ExitCode> follow_port(const Context& context, GaugeOptions options) {
 }  // namespace
 
 Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options) {
+  const auto given = [&](std::size_t field) { return !options.fields.at(field).empty(); };
+  if ((given(RowField::Upper) || given(RowField::Lower)) &&
+      (!options.record || (!given(RowField::Feature) && !given(RowField::Quantity)))) {
+    return Failure{ExitCode::Usage,
+                   "--upper-um and --lower-um take --record, and --feature or a --quantity"};
+  }
   if (!options.serial.empty()) return follow_port(context, options);
   if (options.measured.empty()) {
     return Failure{ExitCode::Usage,

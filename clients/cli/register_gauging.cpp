@@ -67,9 +67,8 @@ void add_gauge(CLI::App& app, Action& chosen) {
     const RowField& field = api::kRowFields.at(i);
     const auto option = gauge->add_option(option_name(field.name), options->fields.at(i),
                                           std::string(field.meaning));
-    if (i < RowField::Uncertainty || i >= RowField::Kept) {
-      option->needs(record);
-    }
+    const bool is_limit = i == RowField::Upper || i == RowField::Lower;  // run_gauge says more
+    if (!is_limit && (i < RowField::Uncertainty || i >= RowField::Kept)) option->needs(record);
   }
   gauge->get_option("--feature")->check(CLI::IsMember({"hole", "shaft"}));
   gauge->get_option("--measured-at")->excludes(serial);

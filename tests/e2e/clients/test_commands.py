@@ -273,6 +273,9 @@ class Records(ClientTest):
         self.assertIn("GOOD  7.9955 mm  8 (7.991 to 8 mm)", self.assert_runs(0, "gauge", "8", "7,9955", *limits))
         self.assert_runs(2, "gauge", "8", "7.99", *limits)
         self.assertIn("--feature", self.assert_fails(4, "gauge", "8", "8", "--upper-um", "0"))
+        self.assertIn("REJECT  30.06 mm  30 (29.95 to 30.05 mm)", self.assert_runs(
+            2, "gauge", "30", "30.06", "--quantity", "distance", "--upper-um", "50", "--lower-um=-50", "--record"))
+        self.assertIn("UNJUDGED  7.99 mm", self.assert_runs(0, "gauge", "8", "7.99", "--quantity", "width", "--record"))
 
     def test_tools_of_a_quality_engineer(self):
         self.assertIn("GO     25.001 to 25.005 mm new, worn out at 24.997 mm", self.assert_runs(0, "limit-gauge", "25H7"))
