@@ -17,6 +17,20 @@ struct LogStore::Statements {
       : state(c,
               fmt::format("SELECT origin, name, size, {} FROM log WHERE id = 1", kLog.is_sound(c))),
         set_name(c, "UPDATE log SET name = ?"),
+        branches(c, fmt::format("SELECT {}, {} FROM log_branches ORDER BY number",
+                                kLogBranches.columns, kLogBranches.is_sound(c))),
+        is_copy(c, "SELECT 1 FROM log_marks WHERE mark = 'copy'"),
+        forked(c, "SELECT reason FROM log_marks WHERE mark = 'forked'"),
+        mark(c, kLogMarks.insert(c)),
+        not_forked(c, "DELETE FROM log_marks WHERE mark = 'forked'"),
+        newest(
+            c,
+            "SELECT (SELECT coalesce(max(id), 0) FROM measurements), (SELECT "
+            "coalesce(max(id), 0) FROM runs), (SELECT coalesce(max(id), 0) FROM events), (SELECT "
+            "coalesce(max(id), 0) FROM notes)"),
+        add_branch(c, kLogBranches.insert(c)),
+        set_origin(c, "UPDATE log SET origin = ?, name = ?"),
+        unmark(c, "DELETE FROM log_marks"),
         set_size(c, "UPDATE log SET size = ?1 WHERE size < ?1"),
         seal(c, kLog),
         keys(c, "SELECT vkey FROM log_keys ORDER BY number DESC"),
@@ -31,6 +45,15 @@ struct LogStore::Statements {
 
   sql::Statement state;
   sql::Statement set_name;
+  sql::Statement branches;
+  sql::Statement is_copy;
+  sql::Statement forked;
+  sql::Statement mark;
+  sql::Statement not_forked;
+  sql::Statement newest;
+  sql::Statement add_branch;
+  sql::Statement set_origin;
+  sql::Statement unmark;
   sql::Statement set_size;
   Seal seal;
   sql::Statement keys;
@@ -43,6 +66,29 @@ LogStore::LogStore(sql::Connection& connection)
     : statements_(std::make_unique<Statements>(connection)) {}
 LogStore::~LogStore() = default;
 
+namespace {
+
+using Origin = std::array<std::uint8_t, 16>;
+
+Origin origin_in(const Rows& rows, int column) {
+  Origin origin{};
+  const std::string_view bytes = rows.get<sql::Blob>(column).bytes;
+  std::copy_n(bytes.begin(), std::min(bytes.size(), origin.size()), origin.begin());
+  return origin;
+}
+
+std::array<std::int64_t, 4> numbers_in(const Rows& rows, int column) {
+  std::array<std::int64_t, 4> numbers{};
+  for (std::int64_t& number : numbers) number = rows.get<std::int64_t>(column++);
+  return numbers;
+}
+
+sql::Blob blob_of(const Origin& origin) {
+  return {{reinterpret_cast<const char*>(origin.data()), origin.size()}};
+}
+
+}  // namespace
+
 LogStore::State LogStore::state() const {
   Rows rows = statements_->state.query();
   if (!rows.next()) {
@@ -50,8 +96,7 @@ LogStore::State LogStore::state() const {
   }
   require_sound(rows, 3, kLog);
   State state;
-  const std::string_view origin = rows.get<sql::Blob>(0).bytes;
-  std::copy_n(origin.begin(), std::min(origin.size(), state.origin.size()), state.origin.begin());
+  state.origin = origin_in(rows, 0);
   state.name = rows.get<std::optional<std::string>>(1);
   state.size = rows.get<std::int64_t>(2);
   return state;
@@ -60,6 +105,44 @@ LogStore::State LogStore::state() const {
 void LogStore::set_name(std::string_view name) {
   statements_->set_name.run(name);
   statements_->seal.renew(1);
+}
+
+std::vector<LogStore::Branch> LogStore::branches() const {
+  std::vector<Branch> branches;
+  for (Rows rows = statements_->branches.query(); rows.next();) {
+    require_sound(rows, 7, kLogBranches);
+    branches.push_back({.origin = origin_in(rows, 0),
+                        .name = rows.get<std::string>(1),
+                        .size = rows.get<std::int64_t>(2),
+                        .newest = numbers_in(rows, 3)});
+  }
+  return branches;
+}
+
+bool LogStore::is_copy() const { return statements_->is_copy.query().next(); }
+
+std::optional<std::string> LogStore::forked() const {
+  Rows rows = statements_->forked.query();
+  return rows.next() ? std::optional(rows.get<std::string>(0)) : std::nullopt;
+}
+
+void LogStore::set_forked(const std::optional<std::string>& reason) {
+  statements_->not_forked.run();
+  if (reason) statements_->mark.run("forked", *reason);
+}
+
+void LogStore::begin_branch(std::int64_t size, const Origin& origin, std::string_view name) {
+  const State ended = state();
+  const auto last = [this] {
+    Rows rows = statements_->newest.query();
+    rows.next();
+    return numbers_in(rows, 0);
+  }();
+  statements_->add_branch.run(blob_of(ended.origin), ended.name.value_or(""), size, last[0],
+                              last[1], last[2], last[3]);
+  statements_->set_origin.run(blob_of(origin), name);
+  statements_->seal.renew(1);
+  statements_->unmark.run();
 }
 
 std::vector<std::string> LogStore::keys() const {

@@ -89,7 +89,7 @@ struct MeasurementsStore::Statements {
                  "SELECT 1 FROM table_revisions WHERE number = ?1 UNION ALL "
                  "SELECT 1 FROM origin_revisions WHERE number = -?1"),
         first_forwarded(c, "SELECT min(first_row) FROM origins"),
-        forwarded(c, "SELECT size FROM forwarding"),
+        forked(c, "SELECT reason FROM log_marks WHERE mark = 'forked'"),
         newest_of_own(c, "SELECT max(seq) FROM measurements WHERE origin = 0"),
         by_number(c, "SELECT id FROM measurements WHERE origin = ? AND number = ?"),
         by_place(c, "SELECT id FROM measurements WHERE origin = ? AND seq = ? AND number IS NULL"),
@@ -121,19 +121,12 @@ struct MeasurementsStore::Statements {
     return {};
   }
 
-  /// Of an older copy of a folder the centre has more: those would get the same places again.
-  Result<void> require_newest_copy() {
+  /// Where two folders go on under one history, their rows would get the same ids.
+  Result<void> require_one_history() {
     if (connection.dialect().is_shared) return {};  // no folder, and nothing is forwarded from it
-    std::int64_t there = 0;
-    if (Rows rows = forwarded.query(); rows.next()) there = rows.get<std::int64_t>(0);
-    if (there == 0) return {};
-    const std::int64_t here = log_size();
-    if (there <= here) return {};
-    return Error{ErrorCode::StorageUnavailable,
-                 fmt::format("an older copy of this data folder was put back: its centre has {} "
-                             "measurements of it, and {} are here. Put the newest copy back, or "
-                             "start with an empty folder",
-                             there, here)};
+    Rows rows = forked.query();
+    if (!rows.next()) return {};
+    return Error{ErrorCode::LogForked, rows.get<std::string>(0)};
   }
 
   std::int64_t log_size() {
@@ -208,7 +201,7 @@ struct MeasurementsStore::Statements {
   Statement hand_on;
   Statement revision;
   Statement first_forwarded;
-  Statement forwarded;
+  Statement forked;
   Statement newest_of_own;
   Statement by_number;
   Statement by_place;
@@ -232,7 +225,7 @@ MeasurementsStore::MeasurementsStore(sql::Connection& connection)
 MeasurementsStore::~MeasurementsStore() = default;
 
 Result<void> MeasurementsStore::append(std::span<const MeasurementRow> rows) {
-  if (const Result<void> newest = statements_->require_newest_copy(); !newest) return newest;
+  if (const Result<void> alone = statements_->require_one_history(); !alone) return alone;
   for (const MeasurementRow& row : rows) {
     if (row.correction_of) {
       if (Result<void> open = statements_->require_current(*row.correction_of); !open) {

@@ -54,6 +54,8 @@ struct OriginsStore::Statements {
         seal(c, kOrigins),
         keys(c, select(c, kOriginKeys, "vkey", "WHERE origin = ? ORDER BY number")),
         add_key(c, kOriginKeys.insert(c)),
+        base(c, select(c, kOriginBases, "base, size", "WHERE origin = ?")),
+        set_base(c, kOriginBases.insert(c)),
         put_node(c,
                  "INSERT INTO origin_nodes VALUES (?, ?, ?, ?) ON CONFLICT (origin, level, node) "
                  "DO UPDATE SET hash = excluded.hash"),
@@ -76,6 +78,8 @@ struct OriginsStore::Statements {
   Seal seal;
   Statement keys;
   Statement add_key;
+  Statement base;
+  Statement set_base;
   Statement put_node;
   Statement nodes;
   Statement forks;
@@ -121,6 +125,17 @@ std::vector<std::string> OriginsStore::keys(std::int64_t origin) const {
 
 void OriginsStore::add_key(std::int64_t origin, std::string_view vkey, std::int64_t now_ns) {
   statements_->add_key.run(origin, vkey, now_ns);
+}
+
+std::optional<OriginsStore::Base> OriginsStore::base(std::int64_t origin) const {
+  Rows rows = statements_->base.query(origin);
+  if (!rows.next()) return std::nullopt;
+  require_sound(rows, 2, kOriginBases);
+  return Base{.origin = rows.get<std::int64_t>(0), .size = rows.get<std::int64_t>(1)};
+}
+
+void OriginsStore::set_base(std::int64_t origin, const Base& base) {
+  statements_->set_base.run(origin, base.origin, base.size);
 }
 
 void OriginsStore::keep_nodes(std::int64_t origin, std::span<const LogStore::Node> nodes) {

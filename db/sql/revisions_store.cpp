@@ -23,7 +23,9 @@ struct RevisionsStore::Statements {
   explicit Statements(sql::Connection& c)
       : list(c,
              "SELECT r.number, r.kind, r.name FROM revisions r WHERE r.number > ? AND "
-             "(r.station IS NULL OR r.station = ?) AND r.number = (SELECT max(n.number) FROM "
+             "(r.station IS NULL OR r.station IN (WITH RECURSIVE below (origin) AS (SELECT "
+             "CAST(? AS BIGINT) UNION SELECT b.base FROM origin_bases b JOIN below ON b.origin = "
+             "below.origin) SELECT origin FROM below)) AND r.number = (SELECT max(n.number) FROM "
              "revisions n WHERE n.kind = r.kind AND n.name = r.name) ORDER BY r.number LIMIT ?"),
         newest(c, fmt::format("SELECT {} FROM revisions ORDER BY number DESC LIMIT 1",
                               kPositionColumn)),

@@ -47,8 +47,12 @@ inline constexpr SealedTable kRunTraces{"run_traces", "run", "run, trace"};
 inline constexpr SealedTable kRunFiles{"run_files", "run", "run, name_key, path, content"};
 inline constexpr SealedTable kLog{"log", "id", "origin, name, size"};
 inline constexpr SealedTable kLogKeys{"log_keys", "number", "vkey, created_at"};
+inline constexpr SealedTable kLogBranches{
+    "log_branches", "number", "origin, name, size, last_row, last_run, last_event, last_note"};
+inline constexpr SealedTable kLogMarks{"log_marks", "mark", "mark, reason"};
 inline constexpr SealedTable kOrigins{"origins", "number", "digits, first_row, size, checkpoint"};
 inline constexpr SealedTable kOriginKeys{"origin_keys", "number", "origin, vkey, created_at"};
+inline constexpr SealedTable kOriginBases{"origin_bases", "origin", "origin, base, size"};
 inline constexpr SealedTable kOriginForks{"origin_forks", "number",
                                           "origin, checkpoint, created_at"};
 inline constexpr SealedTable kOriginRevisions{"origin_revisions", "number", "id"};

@@ -196,6 +196,9 @@ Result<void> copy_database(const fs::path& source, const fs::path& target) {
     copy.executeStep();
     // One file without a log beside it, readable from a read-only medium too.
     to.execute("PRAGMA journal_mode = DELETE");
+    if (to.query_integer("SELECT count(*) FROM sqlite_schema WHERE name = 'log_marks'") > 0) {
+      to.execute("INSERT OR IGNORE INTO log_marks VALUES ('copy', '', row_digest('copy', ''))");
+    }
   } catch (const StorageFailure& failure) {
     return give_up(failure.error());
   } catch (const SQLite::Exception& failure) {

@@ -36,6 +36,24 @@ class LogStore {
   /// Once, at the first start.
   void set_name(std::string_view name);
 
+  /// A history before the one that state() names, and what of it went on in the next.
+  struct Branch {
+    std::array<std::uint8_t, 16> origin{};
+    std::string name{};
+    std::int64_t size = 0;  ///< rows of its tree
+    /// The newest numbers in ids that it gave out: of measurements, runs, events and notes.
+    std::array<std::int64_t, 4> newest{};
+  };
+  std::vector<Branch> branches() const;  ///< the oldest first
+  /// Whether the database is a copy that `backup` made and nobody has started.
+  bool is_copy() const;
+  /// Why no measurement is recorded, if the centre has another log of this name.
+  std::optional<std::string> forked() const;
+  void set_forked(const std::optional<std::string>& reason);
+  /// Ends the history that state() names with the `size` rows there are, and begins another.
+  void begin_branch(std::int64_t size, const std::array<std::uint8_t, 16>& origin,
+                    std::string_view name);
+
   /// The public keys (vkeys) that have signed, the newest first.
   std::vector<std::string> keys() const;
   void add_key(std::string_view vkey, std::int64_t now_ns);

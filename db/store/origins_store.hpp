@@ -44,6 +44,14 @@ class OriginsStore {
   std::vector<std::string> keys(std::int64_t origin) const;
   void add_key(std::int64_t origin, std::string_view vkey, std::int64_t now_ns);
 
+  /// The log that this one is a branch of, and how many of its rows it begins with.
+  struct Base {
+    std::int64_t origin = 0;
+    std::int64_t size = 0;
+  };
+  std::optional<Base> base(std::int64_t origin) const;
+  void set_base(std::int64_t origin, const Base& base);
+
   /// Keeps nodes of its tree, as LogStore::grow.
   void keep_nodes(std::int64_t origin, std::span<const LogStore::Node> nodes);
   /// As LogStore::nodes.

@@ -49,7 +49,6 @@ Result<int> run_forward_all(const Config& config) {
   if (!opened) return opened.error();
   app::Application& app = **opened;
   const auto forwarder = start_forwarder(config, app, print);
-  if (const auto behind = app.log().behind()) return *behind;
 
   auto told = Steady::now();
   auto went_on = told;

@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 
 #include "daemon/log.hpp"
+#include "service/log/revisions_text.hpp"
 
 namespace fitgauge::daemon {
 namespace {
+
+constexpr std::chrono::seconds kPatienceAtStart{3};
+constexpr long kOk = 200;
 
 Error invalid_forwarding(std::string message) {
   return {ErrorCode::ConfigInvalid, std::move(message)};
@@ -35,6 +40,12 @@ bool is_this_machine(std::string_view authority) {
 std::string without_last_slash(std::string url) {
   if (url.ends_with('/')) url.pop_back();
   return url;
+}
+
+forwarder::CentreOptions centre_of(const Config& config) {
+  return {.url = without_last_slash(config.forward_to),
+          .key_file = config.forward_key_file,
+          .authorities = config.forward_ca};
 }
 
 }  // namespace
@@ -72,16 +83,22 @@ void tell_log(std::string_view event, const std::string& detail) {
                                                            : log_warning(event, detail);
 }
 
+std::optional<std::int64_t> ask_centre(const Config& config, std::string_view digits) {
+  const auto until = std::chrono::steady_clock::now() + kPatienceAtStart;
+  forwarder::CentreLink link(centre_of(config));
+  const auto answer = link.get(fmt::format("/v1/log/revisions?station={}", digits),
+                               [until] { return std::chrono::steady_clock::now() < until; });
+  const auto read = api::read_revisions(answer.status == kOk ? answer.body : "");
+  if (!read) return std::nullopt;
+  return (*read)->page.size;
+}
+
 std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app,
                                                       Tell tell) {
   if (config.forward_to.empty()) return nullptr;
   return std::make_unique<forwarder::Forwarder>(
       app.outbox(), app.revision_intake(tell),
-      forwarder::ForwarderOptions{.centre = {.url = without_last_slash(config.forward_to),
-                                             .key_file = config.forward_key_file,
-                                             .authorities = config.forward_ca},
-                                  .origin = std::string(app.log().origin()),
-                                  .tell = tell});
+      forwarder::ForwarderOptions{.centre = centre_of(config), .tell = tell});
 }
 
 void write_outbox_metrics(const forwarder::Forwarder* forwarder, const Clock& clock,

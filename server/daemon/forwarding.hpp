@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +22,9 @@ Result<void> check_forwarding(const Config& config);
 
 /// As the log of the service has it: the event's name and a sentence.
 using Tell = std::function<void(std::string_view event, const std::string& detail)>;
+
+/// How many rows of a history the centre has; none where it does not say within some seconds.
+std::optional<std::int64_t> ask_centre(const Config& config, std::string_view digits);
 
 /// Starts to forward the log to the centre; null when there is none.
 std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app,

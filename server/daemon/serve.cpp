@@ -173,6 +173,9 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
     const bool is_news = event == "log_head" || event == "purged" || event.starts_with("key_");
     is_news ? log_info(event, detail) : log_warning(event, detail);
   };
+  if (!config.forward_to.empty()) {
+    options.ask_centre = [&config](std::string_view digits) { return ask_centre(config, digits); };
+  }
   http::ServerOptions listening = server_options(config, *addresses);
   const auto most_clients = static_cast<std::int64_t>(listening.max_connections);
   auto opened = open_or_wait(options, clock, listening, port_file);

@@ -58,8 +58,8 @@ Result<std::int64_t> end_of_log(app::MeasurementService& service) {
 
 }  // namespace
 
-std::string event_text(const OutgoingEvent& event, std::string_view origin) {
-  return fmt::format("e{}-{}", event.id, origin);
+std::string event_text(const OutgoingEvent& event) {
+  return fmt::format("e{}-{}", event.id, event.history);
 }
 
 Result<Progress> begin_progress(const FollowerOptions& options, const Plant& plant) {

@@ -27,8 +27,8 @@ using Outgoing = std::unique_ptr<const app::KeptMeasurement>;
 /// An event that is no measurement, on its way out.
 using OutgoingEvent = app::EventService::Stored;
 
-/// The id of such an event on the outside. @param origin of the data folder
-std::string event_text(const OutgoingEvent& event, std::string_view origin);
+/// The id of such an event on the outside.
+std::string event_text(const OutgoingEvent& event);
 
 /// How far a delivery has come.
 struct Delivery {

@@ -36,9 +36,10 @@ std::optional<std::int64_t> parse_number(char prefix, std::string_view text) {
 std::optional<RecordName> parse_id(char prefix, std::string_view text, const Origins& origins) {
   const std::size_t dash = std::min(text.find('-', 2), text.size());
   const auto number = parse_number(prefix, text.substr(0, dash));
-  const auto origin =
-      dash == text.size() ? std::optional<std::int64_t>(0) : origins.number(text.substr(dash + 1));
-  if (!number || !origin) return std::nullopt;
+  if (!number || dash + 1 == text.size()) return std::nullopt;
+  const auto origin = origins.number(text.substr(std::min(dash + 1, text.size())), *number,
+                                     prefix == kRunPrefix ? Counted::Run : Counted::Measurement);
+  if (!origin) return std::nullopt;
   return RecordName{.origin = *origin, .number = *number};
 }
 
@@ -193,11 +194,10 @@ Result<RecordName> parse_measurement_id(std::string_view text, const Origins& or
                "there is no measurement '" + std::string(first_characters(text, 40)) + "'"};
 }
 
-Result<std::int64_t> parse_run_id(std::string_view text, std::string_view origin) {
-  const std::size_t dash = std::min(text.find('-', 2), text.size());
-  const auto number = parse_number(kRunPrefix, text.substr(0, dash));
-  if (!number || (dash < text.size() && text.substr(dash + 1) != origin)) return unknown_run(text);
-  return *number;
+Result<std::int64_t> parse_own_run_id(std::string_view text, const Origins& origins) {
+  const auto name = parse_id(kRunPrefix, text, origins);
+  if (!name || name->origin != 0) return unknown_run(text);
+  return name->number;
 }
 
 Result<RecordName> parse_run_id(std::string_view text, const Origins& origins) {

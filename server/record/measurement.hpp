@@ -158,8 +158,8 @@ struct CycleSize {
 void judge_size(Measurement& measurement, const CycleSize& size);
 
 /// The ids of measurements and runs as the outside sees them, opaque: `m17-5f0c9a3e77d21b40`. The
-/// origin makes them unique over all data folders. Without it (`m17`, as folders gave them before
-/// they had one) an id is one of this folder.
+/// origin makes them unique over all data folders and histories. Without it (`m17`, as folders gave
+/// them before they had one) an id is one of this folder.
 /// @param origin of the data folder: 16 hexadecimal digits.
 std::string measurement_id_text(std::int64_t id, std::string_view origin);
 std::string run_id_text(std::int64_t id, std::string_view origin);
@@ -167,15 +167,16 @@ std::string run_id_text(std::int64_t id, std::string_view origin);
 std::string corrected_id_text(const Measurement& measurement);
 /// The id of the record that replaces this one; empty if there is none.
 std::string corrector_id_text(const Measurement& measurement);
-/// @errors RunUnknown, also for the ids of another origin.
-Result<std::int64_t> parse_run_id(std::string_view text, std::string_view origin);
+/// @errors RunUnknown, also for the ids of another folder.
+Result<std::int64_t> parse_own_run_id(std::string_view text, const Origins& origins);
 
 /// A measurement or a run as its id names it.
 struct RecordName {
   std::int64_t origin = 0;  ///< as Origins numbers them
   std::int64_t number = 0;
 };
-/// @errors MeasurementUnknown, RunUnknown, also for the ids of origins that are not known.
+/// @errors MeasurementUnknown, RunUnknown, also for the ids of origins that are not known, and for
+///   those of a history of this folder that ended before they were given out.
 Result<RecordName> parse_measurement_id(std::string_view text, const Origins& origins);
 Result<RecordName> parse_run_id(std::string_view text, const Origins& origins);
 

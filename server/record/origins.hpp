@@ -1,31 +1,81 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace fitgauge::app {
 
-/// What the ids of each data folder end with whose records stand here: 16 hexadecimal digits.
-/// Number 0 is this folder. Thread-safe; what was given out stays valid.
+/// The kinds of things with ids; each is counted by itself.
+enum class Counted : std::uint8_t { Measurement, Run, Event, Note };
+
+/// What the ids of each data folder end with whose records stand here: 16 hexadecimal digits, the
+/// tag of a history. Number 0 is this folder, whose log may have gone through several. Thread-safe;
+/// what was given out stays valid.
 class Origins {
  public:
-  std::string_view own() const { return digits(0); }
+  /// A history of this folder before its present one, and the newest numbers of it that are here.
+  struct Ended {
+    std::string digits;
+    std::array<std::int64_t, 4> newest{};  ///< by what is counted
 
-  /// Empty for a number that is not known.
-  std::string_view digits(std::int64_t number) const {
+    std::int64_t newest_of(Counted what) const { return newest.at(static_cast<std::size_t>(what)); }
+  };
+
+  /// Of the present history of this folder.
+  std::string_view own() const { return digits(0); }
+  /// Of the first one: what this folder is called for ever.
+  std::string_view first() const {
     const std::lock_guard lock(mutex_);
-    const auto found = digits_.find(number);
-    return found == digits_.end() ? std::string_view() : found->second;
+    return ended_.empty() ? of(0) : ended_.front().digits;
+  }
+  /// Of that in which this folder gave out the number.
+  std::string_view own(Counted what, std::int64_t number) const {
+    const std::lock_guard lock(mutex_);
+    return own_of(what, number);
   }
 
-  std::optional<std::int64_t> number(std::string_view digits) const {
+  /// Of a measurement's id, or a run's. Empty for an origin that is not known.
+  std::string_view digits(std::int64_t origin, std::int64_t number,
+                          Counted what = Counted::Measurement) const {
     const std::lock_guard lock(mutex_);
+    return origin == 0 ? own_of(what, number) : of(origin);
+  }
+  std::string_view digits(std::int64_t origin) const {
+    const std::lock_guard lock(mutex_);
+    return of(origin);
+  }
+
+  /// The origin of an id with these digits; none where they are not known, and where that number
+  /// was given out behind the end of a history. Without digits it is of the first history.
+  std::optional<std::int64_t> number(std::string_view digits, std::int64_t number,
+                                     Counted what = Counted::Measurement) const {
+    const std::lock_guard lock(mutex_);
+    for (const Ended& ended : ended_) {
+      if (digits != ended.digits && !digits.empty()) continue;
+      return number <= ended.newest_of(what) ? std::optional<std::int64_t>(0) : std::nullopt;
+    }
+    if (digits.empty()) return 0;
     const auto found = numbers_.find(digits);
     return found == numbers_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  /// The last number of an origin's measurements whose ids end with these digits, as far as it is
+  /// known.
+  std::int64_t last_with(std::string_view digits, std::int64_t origin) const {
+    const std::lock_guard lock(mutex_);
+    for (const Ended& ended : ended_) {
+      if (origin == 0 && digits == ended.digits) return ended.newest_of(Counted::Measurement);
+    }
+    return std::numeric_limits<std::int64_t>::max();
   }
 
   void remember(std::int64_t number, std::string_view digits) {
@@ -33,11 +83,28 @@ class Origins {
     const auto [at, is_new] = digits_.try_emplace(number, digits);
     if (is_new) numbers_.emplace(at->second, number);
   }
+  /// The oldest first.
+  void remember(Ended ended) {
+    const std::lock_guard lock(mutex_);
+    ended_.push_back(std::move(ended));
+  }
 
  private:
+  std::string_view own_of(Counted what, std::int64_t number) const {
+    for (const Ended& ended : ended_) {
+      if (number <= ended.newest_of(what)) return ended.digits;
+    }
+    return of(0);
+  }
+  std::string_view of(std::int64_t number) const {
+    const auto found = digits_.find(number);
+    return found == digits_.end() ? std::string_view() : found->second;
+  }
+
   mutable std::mutex mutex_;
   std::map<std::int64_t, std::string> digits_;
   std::map<std::string, std::int64_t, std::less<>> numbers_;
+  std::deque<Ended> ended_;
 };
 
 }  // namespace fitgauge::app

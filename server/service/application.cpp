@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
+
 #include "db/postgres/database.hpp"
 #include "db/sqlite/data_directory.hpp"
 #include "db/sqlite/database.hpp"
@@ -15,6 +18,8 @@ namespace fitgauge::app {
 namespace {
 
 constexpr std::int64_t kForEverDays = 100'000;
+constexpr std::chrono::seconds kPatienceForCheckpoint{5};
+constexpr std::chrono::milliseconds kBetweenGlances{50};
 
 store::OpenOptions options_of_store(const ApplicationOptions& options) {
   store::OpenOptions open;
@@ -90,9 +95,9 @@ class LaterNames {
                   return known.empty() ? find(revisions_, number) : known;
                 },
             .origin =
-                [this](std::int64_t number) {
-                  const std::string_view known = origins_.digits(number);
-                  return known.empty() ? find(digits_, number) : known;
+                [this](std::int64_t origin, std::int64_t number) {
+                  const std::string_view known = origins_.digits(origin, number);
+                  return known.empty() ? find(digits_, origin) : known;
                 }};
   }
 
@@ -131,9 +136,18 @@ class LaterNames {
 std::int64_t origin_of(std::string_view note, const LogService::Logs& logs) {
   const auto checkpoint = tlog::parse_checkpoint(note);
   for (const auto& [origin, facts] : logs) {
-    if (checkpoint && checkpoint->origin == facts.name) return origin;
+    if (!checkpoint) break;
+    if (checkpoint->origin == facts.name || facts.former.contains(checkpoint->origin)) {
+      return origin;
+    }
   }
   return 0;
+}
+
+/// How many measurements a checkpoint covers.
+std::uint64_t size_of(const Result<std::optional<std::string>>& note) {
+  const auto checkpoint = tlog::parse_checkpoint(note && *note ? **note : std::string());
+  return checkpoint ? checkpoint->size : 0;
 }
 
 /// What verify says of a measurement that is altered, has a wrong verdict, or both.
@@ -197,6 +211,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
                                .name = options.origin_name,
                                .shares = !options.address.empty(),
                                .attach = options.attach,
+                               .ask_centre = options.ask_centre,
                                .tell = options.log_told});
   if (!log) return log.error();
   app->log_ = *std::move(log);
@@ -220,7 +235,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   if (!options.attach) {
     app->jobs_ = std::make_unique<Jobs>(options.write_queue);
     app->runs_ = std::make_unique<RunService>(
-        *app->database_, *app->tables_, clock, origins.own(), app->jobs_->orders,
+        *app->database_, *app->tables_, clock, origins, app->jobs_->orders,
         RunServiceOptions{.workers = options.run_workers,
                           .shares = !options.address.empty(),
                           .keeps_newest = options.keeps_newest_run});
@@ -289,8 +304,19 @@ Result<std::optional<Timestamp>> Application::newest_measurement() const {
 }
 
 Result<void> Application::backup(const std::filesystem::path& file) const {
-  // The checkpoint first: the copy that is made after it has all that it covers.
-  const auto checkpoint = read_small_file(directory_ / kCheckpointFile);
+  // The checkpoint first: the copy that is made after it has all that it covers. A running daemon
+  // signs what there is within a second.
+  const auto rows =
+      database_->readers().wait([](const store::Stores& stores) -> Result<std::int64_t> {
+        return stores.measurements.log_size();
+      });
+  const auto until = std::chrono::steady_clock::now() + kPatienceForCheckpoint;
+  auto checkpoint = read_small_file(directory_ / kCheckpointFile);
+  while (rows && size_of(checkpoint) < static_cast<std::uint64_t>(*rows) &&
+         std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(kBetweenGlances);
+    checkpoint = read_small_file(directory_ / kCheckpointFile);
+  }
   if (const auto copied = database_->backup(file); !copied) return copied;
   if (!checkpoint || !*checkpoint) return {};
   auto beside = file;

@@ -12,6 +12,7 @@
 namespace fitgauge::api {
 namespace {
 
+constexpr int kConflict = 409;
 constexpr std::size_t kBatchLimit = std::size_t{32} << 20;
 
 void write_head(JsonWriter& json, const app::LogIntake::Head& head) {
@@ -41,7 +42,7 @@ http::Response response_of(const http::Request& request, const app::LogIntake::A
     write_head(json, answer.head);
     return {200, "application/json", std::move(body)};
   }
-  http::Response response = problem(refusal(answer, origin), std::nullopt, request);
+  http::Response response = problem(refusal(answer, origin), kConflict, request);
   auto& text = std::get<std::string>(response.body);
   text.pop_back();
   text += ",\"head\":";
@@ -58,6 +59,10 @@ void put_batch(const Services& services, const http::Request& request, http::Res
             read_batch(*request.text("origin"), *request.integer("from"), request.body());
         if (!batch) return batch.error();
         const auto answer = services.intake.take((*batch)->batch);
+        // The station's own state of that name is 503; this is a conflict.
+        if (!answer && answer.error().code == ErrorCode::LogForked) {
+          return problem(answer.error(), kConflict, request);
+        }
         if (!answer) return answer.error();
         return response_of(request, *answer, (*batch)->batch.origin);
       },
@@ -73,7 +78,8 @@ void add_intake_routes(std::vector<http::Route>& routes, const Services& service
       .handler = with(services, put_batch),
       .summary = "Take what a station forwards",
       .description =
-          "NDJSON: a line with `checkpoint`, `key` and `hand_overs`; up to 10,000 records as they "
+          "NDJSON: a line with `checkpoint`, `key`, `hand_overs` and, of a branch, its `base`; up "
+          "to 10,000 records as they "
           "were first answered; a line for each answer kept under an idempotency key. Taken whole "
           "where the first record continues the log of the origin and the root fits the signed "
           "checkpoint; else 409 with the head that is here.",

@@ -10,6 +10,7 @@
 #include "api/wire/request_facts.hpp"
 #include "base/decimal.hpp"
 #include "record/measurement_row_reader.hpp"
+#include "service/log/log_service.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/measurements/measurement_service.hpp"
 #include "service/tables/table_catalog.hpp"
@@ -151,7 +152,8 @@ std::optional<std::string_view> read_reason(const JsonValue& body, FieldErrors& 
 }
 
 Result<MeasurementBatch> decode(const std::shared_ptr<const Sources>& sources,
-                                Timestamp received_at, std::optional<std::string_view> caller) {
+                                Timestamp received_at, std::optional<std::string_view> caller,
+                                std::string_view own_origin) {
   FieldErrors errors;
   const JsonValue& body = sources->body;
   if (!body.is(JsonValue::Kind::Object)) {
@@ -175,7 +177,7 @@ Result<MeasurementBatch> decode(const std::shared_ptr<const Sources>& sources,
   MeasurementBatch batch{.rows = {*row}, .single = true, .texts = sources};
   const app::Measurement& original = *sources->original;
   batch.rows.front().correction_of = original.id;
-  if (original.origin_number != 0) {
+  if (original.origin != own_origin) {
     batch.rows.front().corrected_elsewhere = {
         .row = original.row, .origin = original.origin_number, .digits = original.origin};
   }
@@ -196,7 +198,7 @@ void correct(const SharedPosting& posting, const app::Measurement& original) {
   auto batch = decode(
       std::shared_ptr<const Sources>(new Sources{*std::move(body), app::KeptMeasurement(original),
                                                  *tables, posting->services.gauges.book()}),
-      posting->services.clock.now(), caller_name(posting->request));
+      posting->services.clock.now(), caller_name(posting->request), posting->services.log.origin());
   if (!batch) return posting->responder.fail(batch.error());
   record(posting, *std::move(batch));
 }

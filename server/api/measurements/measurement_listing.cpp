@@ -14,6 +14,7 @@
 #include "api/wire/request_facts.hpp"
 #include "http/body_stream.hpp"
 #include "record/record.hpp"
+#include "service/log/log_service.hpp"
 #include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
@@ -76,9 +77,10 @@ struct Cursor {
   std::optional<app::RecordName> record;  ///< or it begins behind this one
 };
 
-/// `m100.m250`: the rows after m100, in the state when m250 was the newest.
-std::string cursor_text(const app::ListPage& page) {
-  return fmt::format("m{}.m{}", *page.next, page.as_of);
+/// `m100.m250-5f0c9a3e77d21b40`: the rows after m100, in the state when m250 was the newest of that
+/// history. `m100.m250` is one that was given out before cursors named their history.
+std::string cursor_text(const app::ListPage& page, std::string_view origin) {
+  return fmt::format("m{}.{}", *page.next, app::measurement_id_text(page.as_of, origin));
 }
 
 /// The id of a measurement is a cursor too: what was recorded after it.
@@ -86,12 +88,15 @@ Result<Cursor> cursor_of(const Services& services, const http::Request& request)
   const auto text = request.text("after");
   if (!text) return Cursor();
   const std::size_t point = text->find('.');
-  const auto after = services.measurements.parse_id(text->substr(0, point));
-  if (after && point == std::string_view::npos)
-    return Cursor{.after = 0, .as_of = {}, .record = *after};
-  if (after && after->origin == 0) {
+  if (point == std::string_view::npos) {
+    const auto after = services.measurements.parse_id(*text);
+    if (after) return Cursor{.after = 0, .as_of = {}, .record = *after};
+  } else {
     const auto as_of = services.measurements.parse_id(text->substr(point + 1));
-    if (as_of && as_of->origin == 0) {
+    const std::size_t dash = std::min(text->find('-', point), text->size());
+    const auto after = services.measurements.parse_id(
+        std::string(text->substr(0, point)).append(text->substr(dash)));
+    if (as_of && as_of->origin == 0 && after) {
       return Cursor{.after = after->number, .as_of = as_of->number, .record = {}};
     }
   }
@@ -134,10 +139,10 @@ class MeasurementStream final : public http::BodyStream,
   bool begun_ = false;
 };
 
-void answer_page(const http::Request& request, http::Responder& responder, Form form,
-                 const std::string& rows, const app::ListPage& page) {
+void answer_page(const Services& services, const http::Request& request, http::Responder& responder,
+                 Form form, const std::string& rows, const app::ListPage& page) {
   std::string body;
-  const std::string cursor = page.next ? cursor_text(page) : std::string();
+  const std::string cursor = page.next ? cursor_text(page, services.log.origin()) : "";
   if (form == Form::Json) {
     JsonWriter json(body);
     json.begin_object().key("measurements").raw("[" + rows + "]").key("next");
@@ -263,9 +268,10 @@ void list_measurements(const Services& services, const http::Request& request,
         if (form == Form::Json && !rows->empty()) *rows += ',';
         append_row(*rows, form, measurement);
       },
-      [&request, rows, form, responder = share(std::move(responder))](Result<app::ListPage> page) {
+      [&services, &request, rows, form,
+       responder = share(std::move(responder))](Result<app::ListPage> page) {
         if (!page) return responder->fail(page.error());
-        answer_page(request, *responder, form, *rows, *page);
+        answer_page(services, request, *responder, form, *rows, *page);
       });
 }
 

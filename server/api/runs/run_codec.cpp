@@ -307,14 +307,12 @@ std::string unfinished_run_json(const app::StoredRun& run) {
       RunAnswer{.head = {run.id_text(), run.state, run.program}, .created_at = run.created_at});
 }
 
-std::string run_cursor(std::int64_t id) { return fmt::format("r{}", id); }
-
-std::string run_page_json(const app::RunService::Page& page) {
+std::string run_page_json(const app::RunService::Page& page, std::string_view next) {
   RunListAnswer list;
   for (const app::StoredRun& run : page.runs) {
     list.runs.push_back({{run.id_text(), run.state, run.program}, run.created_at, run.finished_at});
   }
-  if (page.next) list.next = run_cursor(*page.next);
+  if (!next.empty()) list.next = next;
   return body_json(list);
 }
 

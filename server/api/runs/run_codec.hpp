@@ -21,9 +21,9 @@ std::string unfinished_run_json(const app::ActiveRun& run);
 std::string unfinished_run_json(const app::StoredRun& run);
 
 /// `next` of a page that ends before run `id`.
-std::string run_cursor(std::int64_t id);
 /// `{"runs":[{"id","status","program","created_at","finished_at"},...],"next"}`
-std::string run_page_json(const app::RunService::Page& page);
+/// @param next the cursor; empty on the last page
+std::string run_page_json(const app::RunService::Page& page, std::string_view next);
 
 /// `{"diagnostics":[...]}`
 std::string diagnostics_json(const std::vector<klartext::Diagnostic>& diagnostics);

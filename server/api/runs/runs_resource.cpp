@@ -172,15 +172,16 @@ void list_runs(const Services& services, const http::Request& request, http::Res
     }
     after = *id;
   }
-  services.runs.list(
-      std::move(query), after,
-      static_cast<std::size_t>(request.integer("limit").value_or(kRunsOfAPage)),
-      [&request, shared = share(std::move(responder))](Result<app::RunService::Page> page) {
-        if (!page) return shared->fail(page.error());
-        http::Response response = json_response(run_page_json(*page));
-        if (page->next) response.with("Link", next_link(request, run_cursor(*page->next)));
-        shared->answer(std::move(response));
-      });
+  services.runs.list(std::move(query), after,
+                     static_cast<std::size_t>(request.integer("limit").value_or(kRunsOfAPage)),
+                     [&services, &request,
+                      shared = share(std::move(responder))](Result<app::RunService::Page> page) {
+                       if (!page) return shared->fail(page.error());
+                       const std::string next = page->next ? services.runs.cursor(*page->next) : "";
+                       http::Response response = json_response(run_page_json(*page, next));
+                       if (page->next) response.with("Link", next_link(request, next));
+                       shared->answer(std::move(response));
+                     });
 }
 
 const http::Parameter kId{

@@ -13,11 +13,12 @@ constexpr std::string_view kGap =
 
 void write_event(std::string& text, const app::Event& event) {
   if (event.measurement == nullptr) {
-    return append_event(text, event.type, app::event_id_text(event.id), event.payload);
+    return append_event(text, event.type, app::event_id_text(event.id, event.history),
+                        event.payload);
   }
   std::string data;
   app::append_record(data, *event.measurement);
-  append_event(text, event.type, app::event_id_text(event.id), data);
+  append_event(text, event.type, app::event_id_text(event.id, event.history), data);
 }
 
 }  // namespace
@@ -64,7 +65,7 @@ void EventStream::read() {
 /// The reader learns its position with its first piece, and of a gap when there is one.
 void EventStream::take(const app::EventService::Page& page) {
   std::string piece = page.text;
-  const std::string id = app::event_id_text(page.position);
+  const std::string id = events_.id_text(page.position);
   if (page.gap || gap_) {
     append_event(piece, "resync", id, kGap);
   } else if (!place_.after) {

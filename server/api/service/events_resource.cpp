@@ -6,10 +6,10 @@
 namespace fitgauge::api {
 namespace {
 
-EventStream::Start start_of(const http::Request& request) {
+EventStream::Start start_of(const Services& services, const http::Request& request) {
   const auto named = last_event_id(request);
   if (!named) return {};
-  const auto position = app::parse_event_id(*named);
+  const auto position = services.events.position_of(*named);
   return {.after = position, .gap = !position};
 }
 
@@ -17,7 +17,7 @@ http::Response stream_events(const Services& services, const http::Request& requ
   const auto source = request.text("source");
   // `all` is no source, so that the filter is off.
   return event_response(std::make_shared<EventStream>(
-      services.events, start_of(request),
+      services.events, start_of(services, request),
       source ? app::source_from_word(*source) : std::optional(app::Source::Gauge)));
 }
 

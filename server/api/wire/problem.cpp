@@ -47,7 +47,6 @@ int status_of(ErrorCode code) {
     case ErrorCode::RequestTimeout: return 408;
     case ErrorCode::IdempotencyInProgress:
     case ErrorCode::LogPosition:
-    case ErrorCode::LogForked:
     case ErrorCode::MeasurementCorrected:
     case ErrorCode::MeasurementSimulated:
     case ErrorCode::ConnectionReadOnly:
@@ -68,6 +67,7 @@ int status_of(ErrorCode code) {
     case ErrorCode::StorageBusy:
     case ErrorCode::StorageCorrupt:
     case ErrorCode::Overloaded:
+    case ErrorCode::LogForked:
     case ErrorCode::ShuttingDown:
     case ErrorCode::NotReady: return 503;
     case ErrorCode::ClassUndefinedForSize:

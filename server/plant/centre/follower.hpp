@@ -17,12 +17,13 @@ namespace fitgauge::forwarder {
 class Follower {
  public:
   /// @param tell the event's name and a sentence, for the log of the service.
-  Follower(app::RevisionIntake intake, std::string station,
+  /// @param station what the ids of this folder end with, when it is asked.
+  Follower(app::RevisionIntake intake, std::function<std::string_view()> station,
            std::function<void(std::string_view event, const std::string& detail)> tell)
       : intake_(std::move(intake)), station_(std::move(station)), tell_(std::move(tell)) {}
 
   /// Does what is due, if anything. Blocks as CentreLink.
-  /// @returns how many records of this folder the centre has; none where it was not asked now.
+  /// @returns how many records of that history the centre has; none where it was not asked now.
   std::optional<std::int64_t> look(CentreLink& link, const CentreLink::GoesOn& goes_on);
 
  private:
@@ -32,7 +33,7 @@ class Follower {
   bool failed(const std::string& why);
 
   app::RevisionIntake intake_;
-  const std::string station_;
+  const std::function<std::string_view()> station_;
   const std::function<void(std::string_view event, const std::string& detail)> tell_;
   std::string position_{};
   std::optional<std::int64_t> size_at_centre_{};

@@ -46,11 +46,12 @@ Forwarder::Forwarder(app::LogOutbox outbox, app::RevisionIntake intake, Forwarde
     : outbox_(outbox),
       options_(std::move(options)),
       link_(options_.centre),
-      follower_(std::move(intake), options_.origin, options_.tell) {
+      follower_(
+          std::move(intake), [this] { return outbox_.newest_history(); }, options_.tell) {
   if (const auto confirmed = outbox_.confirmed(options_.centre.url)) confirmed_ = *confirmed;
   look();
-  // Before the first measurement is taken: whether this folder is an older copy, and the newest
-  // tables. A centre that is away holds nothing up for long.
+  // Before the first measurement is taken: the newest tables. A centre that is away holds nothing
+  // up for long.
   const auto until = Steady::now() + kPatienceAtStart;
   guarded("the follower", [&] { follow([until] { return Steady::now() < until; }); });
   thread_ = Thread("the forwarder", [this](const std::stop_token& stop) { run(stop); });
@@ -87,13 +88,12 @@ bool Forwarder::wait(const std::stop_token& stop, milliseconds time) {
 
 /// Takes what the centre hands on, and what it says of this folder's log.
 void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
-  const bool is_first = !has_asked_;
   const auto there = follower_.look(link_, goes_on);
   if (!there) return;
-  has_asked_ = true;
-  // It was set back to an older copy: it gets what it has lost.
-  if (*there < confirmed_) confirmed_ = *there;
-  if (is_first) static_cast<void>(outbox_.compare(options_.centre.url, *there));
+  // It was set back to an older copy: it gets the records it has lost. Of a branch that it does not
+  // know it may still have the records below.
+  const std::int64_t has = std::max(*there, outbox_.history_of(seen_).begin);
+  if (has < confirmed_) confirmed_ = has;
 }
 
 /// Counts what is waiting while a call does.
@@ -126,8 +126,17 @@ void Forwarder::run(const std::stop_token& stop) {
 Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
   const auto batch = outbox_.next(confirmed_, most_rows_);
   if (!batch) return failed(Sent::Failed, batch.error().message);
+  if (batch->unsigned_to && lacks_records_) {
+    return failed(Sent::Refused,
+                  "the centre lacks records from before an older copy was put back, and the key "
+                  "that signs them is lost: put it back into fitgauge.log.key");
+  }
+  if (batch->unsigned_to) {  // perhaps it has them
+    confirmed_ = *batch->unsigned_to;
+    return Sent::Taken;
+  }
   if (batch->records.empty()) return Sent::Nothing;
-  const std::string path = fmt::format("/v1/log/{}/{}", options_.origin, batch->from);
+  const std::string path = fmt::format("/v1/log/{}/{}", batch->origin, batch->from);
   const http_client::HttpAnswer answer = link_.put(path, api::batch_text(*batch), goes_on(stop));
   if (stop.stop_requested() && answer.status == 0) return Sent::Nothing;
   return answered(answer, confirmed_ + static_cast<std::int64_t>(batch->records.size()));
@@ -149,7 +158,11 @@ Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::
     return Sent::Taken;
   }
   const std::string detail = json ? text_of(*json, "detail") : std::string();
-  if (answer.status == kConflict && json && text_of(*json, "code") == "log.position") {
+  const std::string code = json ? text_of(*json, "code") : std::string();
+  if (code == "log.forked" || code == "log.key_unknown") {
+    return forked(fmt::format("{} {}", answer.status, detail));
+  }
+  if (answer.status == kConflict && code == "log.position") {
     const JsonValue* head = json->find("head");
     const auto size = head == nullptr ? std::nullopt : size_of(*head);
     if (size) return elsewhere(*size, text_of(*head, "root"));
@@ -164,15 +177,20 @@ Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root)
   tlog::Hash there{};
   if (!bytes || bytes->size() != there.size()) return failed(Sent::Refused, "its root is none");
   std::copy(bytes->begin(), bytes->end(), there.begin());
+  const app::LogService::History& history = outbox_.history_of(confirmed_ + 1);
+  if (history.end && size >= *history.end) {  // what it has beyond went on elsewhere
+    took(*history.end);
+    return Sent::Taken;
+  }
   const auto same = outbox_.begins_with(size, there);
   if (!same) return failed(Sent::Failed, same.error().message);
   if (*same == true && size != confirmed_) {
+    lacks_records_ = size < confirmed_;
     took(size);
     return Sent::Taken;
   }
   if (*same == true) return failed(Sent::Failed, "the centre is behind itself");
-  return failed(Sent::Refused,
-                *same
+  return forked(*same
                     ? fmt::format("the {} records of this log at the centre are others than here: "
                                   "this folder was copied and started twice, or an older copy "
                                   "was put back",
@@ -181,6 +199,16 @@ Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root)
                                   "there are here: an older copy was put back, or this folder was "
                                   "copied and started twice",
                                   size));
+}
+
+/// Two folders go on under one history: no more ids are given out.
+Forwarder::Sent Forwarder::forked(const std::string& why) {
+  outbox_.set_forked(fmt::format(
+      "the centre refuses what follows: {}. No measurement is taken, so that none gets the id of "
+      "another: put a backup back from before the two folders went apart, or start with an empty "
+      "folder",
+      why));
+  return failed(Sent::Refused, why);
 }
 
 Forwarder::Sent Forwarder::failed(Sent how, const std::string& why) {
@@ -199,6 +227,7 @@ Forwarder::Sent Forwarder::failed(Sent how, const std::string& why) {
 void Forwarder::took(std::int64_t size) {
   static_cast<void>(outbox_.confirm(options_.centre.url, size));  // else the centre tells it again
   confirmed_ = size;
+  outbox_.set_forked(std::nullopt);
   std::unique_lock lock(mutex_);
   const bool failed_before = !state_.failure.empty();
   state_.failure.clear();

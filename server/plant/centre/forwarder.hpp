@@ -19,7 +19,6 @@ namespace fitgauge::forwarder {
 
 struct ForwarderOptions {
   CentreOptions centre{};
-  std::string origin{};  ///< what the ids of this folder end with
   /// The event's name and a sentence, for the log of the service; called on the thread.
   std::function<void(std::string_view event, const std::string& detail)> tell{};
 };
@@ -29,7 +28,7 @@ struct ForwarderOptions {
 /// up to half a minute.
 class Forwarder {
  public:
-  /// Asks the centre first, for some seconds at most, whether this folder is an older copy.
+  /// Asks the centre first, for some seconds at most, what it hands on.
   Forwarder(app::LogOutbox outbox, app::RevisionIntake intake, ForwarderOptions options);
   ~Forwarder();
   Forwarder(const Forwarder&) = delete;
@@ -55,6 +54,7 @@ class Forwarder {
   Sent answered(const http_client::HttpAnswer& answer, std::int64_t end);
   Sent elsewhere(std::int64_t size, const std::string& root);
   Sent failed(Sent how, const std::string& why);
+  Sent forked(const std::string& why);
   void took(std::int64_t size);
   void look();
   bool wait(const std::stop_token& stop, std::chrono::milliseconds time);
@@ -63,7 +63,7 @@ class Forwarder {
   const ForwarderOptions options_;
   CentreLink link_;
   Follower follower_;
-  bool has_asked_ = false;  ///< what the centre has, since the start
+  bool lacks_records_ = false;  ///< the centre said so of records that were taken as its own
   std::atomic<std::int64_t> confirmed_{0};
   std::atomic<std::int64_t> seen_{0};  ///< records there were at the last look
   std::int64_t most_rows_ = app::LogOutbox::kMostRows;

@@ -92,9 +92,8 @@ Delivery Mqtt::deliver(std::span<const Outgoing> measurements, const std::stop_t
 }
 
 Delivery Mqtt::deliver_events(std::span<const OutgoingEvent> events, const std::stop_token& stop) {
-  const std::string_view origin = plant_.origin;
-  return publish(events, stop, [this, origin](const OutgoingEvent& event) {
-    const std::string id = event_text(event, origin);
+  return publish(events, stop, [this](const OutgoingEvent& event) {
+    const std::string id = event_text(event);
     return Published{.id = id,
                      .message = {.topic = fmt::format("{}/{}", options_.events_topic, event.type),
                                  .payload = fmt::format(R"({{"id":"{}","at":"{}","data":{}}})", id,

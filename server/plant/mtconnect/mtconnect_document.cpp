@@ -40,10 +40,10 @@ std::string_view status_of(Verdict verdict) {
   return "INDETERMINATE";
 }
 
-/// From 1 on, the same for the same data folder.
+/// From 1 on, the same for the same history of a data folder.
 std::uint64_t instance_of(const Agent& agent) {
   std::uint32_t number = 0;
-  const std::string_view digits = agent.origin.substr(0, 7);
+  const std::string_view digits = agent.history.substr(0, 7);
   std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
   return std::uint64_t{number} + 1;
 }

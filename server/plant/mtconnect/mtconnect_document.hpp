@@ -27,7 +27,8 @@ constexpr std::int64_t measurement_at(std::uint64_t sequence) {
 
 /// What every document says of the agent.
 struct Agent {
-  std::string_view origin;  ///< of the data folder: 16 hexadecimal digits
+  std::string_view origin;   ///< of the data folder for ever: 16 hexadecimal digits
+  std::string_view history;  ///< what its ids end with now
   Timestamp now;
   Timestamp began;          ///< since when the gauge is there
   std::int64_t newest = 0;  ///< measurements in the log

@@ -182,7 +182,10 @@ class SampleStream final : public http::BodyStream,
 
 mtconnect::Agent mtconnect_agent(const Services& services) {
   // The gauge is there as long as its log is: since before the first measurement.
-  return {.origin = services.log.origin(), .now = services.clock.now(), .began = Timestamp{}};
+  return {.origin = services.log.origins().first(),
+          .history = services.log.origin(),
+          .now = services.clock.now(),
+          .began = Timestamp{}};
 }
 
 http::Response mtconnect_response(int status, std::string text) {

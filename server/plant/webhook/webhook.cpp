@@ -245,9 +245,8 @@ Delivery Webhook::deliver(std::span<const Outgoing> measurements, const std::sto
 
 Delivery Webhook::deliver_events(std::span<const OutgoingEvent> events,
                                  const std::stop_token& stop) {
-  const std::string_view origin = plant_.origin;
-  return post(events, stop, [origin](const OutgoingEvent& event) {
-    return Posted{.id = event_text(event, origin),
+  return post(events, stop, [](const OutgoingEvent& event) {
+    return Posted{.id = event_text(event),
                   .body = begun_event(event.type, event.at) + event.payload + '}'};
   });
 }

@@ -7,6 +7,7 @@
 
 #include "base/guarded.hpp"
 #include "db/store/database.hpp"
+#include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/tables/table_catalog.hpp"
 
@@ -33,8 +34,8 @@ bool take(std::string_view& text, std::string_view prefix) {
 /// Walks one page of events in one state of the database.
 class EventReader {
  public:
-  EventReader(const store::Stores& stores, EventService::Write write)
-      : stores_(stores), write_(write) {}
+  EventReader(const store::Stores& stores, EventService::Write write, std::string_view history)
+      : stores_(stores), write_(write), history_(history) {}
 
   EventPosition newest() const {
     return {.measurement = stores_.measurements.last_id(), .stored = stores_.events.kept().newest};
@@ -56,7 +57,10 @@ class EventReader {
     const auto stored = stores_.events.after(page_.position.stored, kRowsAPage);
     for (const store::Event& event : stored) {
       page_.position.stored = event.id;
-      put({.type = event.type, .id = page_.position, .payload = event.payload});
+      put({.type = event.type,
+           .id = page_.position,
+           .history = history_,
+           .payload = event.payload});
     }
     page_.more = page_.more || stored.size() == kRowsAPage;
     return std::move(page_);
@@ -86,34 +90,44 @@ class EventReader {
     position.measurement = measurement.row;
     position.reject_is_due = rejected;
     if (!told) {
-      put({.type = "measurement.recorded", .id = position, .measurement = &measurement});
+      put({.type = "measurement.recorded",
+           .id = position,
+           .history = history_,
+           .measurement = &measurement});
     }
     position.reject_is_due = false;
-    if (rejected) put({.type = "verdict.reject", .id = position, .measurement = &measurement});
+    if (!rejected) return;
+    put({.type = "verdict.reject",
+         .id = position,
+         .history = history_,
+         .measurement = &measurement});
   }
 
   void put(const Event& event) { write_(page_.text, event); }
 
   const store::Stores& stores_;
   const EventService::Write write_;
+  const std::string_view history_;
   EventService::Page page_;
 };
 
 }  // namespace
 
-std::string event_id_text(const EventPosition& position) {
-  return fmt::format("m{}{}.e{}", position.measurement, position.reject_is_due ? "r" : "",
-                     position.stored);
+std::string event_id_text(const EventPosition& position, std::string_view history) {
+  return fmt::format("m{}{}.e{}-{}", position.measurement, position.reject_is_due ? "r" : "",
+                     position.stored, history);
 }
 
-std::optional<EventPosition> parse_event_id(std::string_view text) {
+std::optional<EventPosition> parse_event_id(std::string_view text, const Origins& origins) {
   EventPosition position;
   if (!take(text, "m")) return std::nullopt;
   const auto measurement = take_number(text);
   position.reject_is_due = take(text, "r");
   if (!measurement || !take(text, ".e")) return std::nullopt;
   const auto stored = take_number(text);
-  if (!stored || !text.empty()) return std::nullopt;
+  if (!stored || (!text.empty() && !take(text, "-"))) return std::nullopt;
+  if (origins.number(text, *measurement) != 0) return std::nullopt;
+  if (origins.number(text, *stored, Counted::Event) != 0) return std::nullopt;
   position.measurement = *measurement;
   position.stored = *stored;
   return position;
@@ -133,7 +147,7 @@ struct EventService::PageWork {
   }
 
   Result<Page> operator()(const store::Stores& stores) const {
-    EventReader reader(stores, write);
+    EventReader reader(stores, write, service.origins_.own());
     if (!place.after) return Page{.position = reader.newest()};
     if (!reader.can_go_on(*place.after, service.retention_)) {
       return Page{.position = reader.newest(), .gap = true};
@@ -162,11 +176,12 @@ void EventService::read(const Place& place, Write write, PageDone done) {
 void EventService::read_stored(std::int64_t after, std::size_t limit,
                                std::function<void(Result<StoredPage>)> done) {
   database_.readers().submit(
-      [after, limit](const store::Stores& stores) -> Result<StoredPage> {
+      [this, after, limit](const store::Stores& stores) -> Result<StoredPage> {
         const store::EventsStore::Kept kept = stores.events.kept();
         StoredPage page{.newest = kept.newest, .gap = after + 1 < kept.oldest};
         for (store::Event& event : stores.events.after(after, limit)) {
           page.events.push_back({.id = event.id,
+                                 .history = origins_.own(Counted::Event, event.id),
                                  .type = std::move(event.type),
                                  .payload = std::move(event.payload),
                                  .at = Timestamp{event.created_at_ns}});

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "record/measurement.hpp"
+#include "record/origins.hpp"
 #include "service/events/commit_signal.hpp"
 
 namespace fitgauge::store {
@@ -34,8 +35,10 @@ struct EventPosition {
 };
 
 /// The id of an event, opaque to the outside: a reader that stopped there goes on with the next.
-std::string event_id_text(const EventPosition& position);
-std::optional<EventPosition> parse_event_id(std::string_view text);
+/// @param history what the ids of the folder end with
+std::string event_id_text(const EventPosition& position, std::string_view history);
+/// None where the id is none, or is of a history that ended before it.
+std::optional<EventPosition> parse_event_id(std::string_view text, const Origins& origins);
 
 /// One event, with a measurement or a payload; views, valid during the call it is given to.
 struct Event {
@@ -43,6 +46,7 @@ struct Event {
   /// `note.added`
   std::string_view type;
   EventPosition id;
+  std::string_view history;  ///< as event_id_text() takes it
   const Measurement* measurement = nullptr;
   std::string_view payload{};  ///< JSON
 };
@@ -82,9 +86,19 @@ class EventService {
   /// @param write the same for all. @errors StorageUnavailable, StorageBusy.
   void read(const Place& place, Write write, PageDone done);
 
+  /// Where a reader stopped that had this event; none: it is told as a gap.
+  std::optional<EventPosition> position_of(std::string_view event_id) const {
+    return parse_event_id(event_id, origins_);
+  }
+  /// The id of the event at which a reader of pages is now.
+  std::string id_text(const EventPosition& position) const {
+    return event_id_text(position, origins_.own());
+  }
+
   /// An event that is in no other table, on its own.
   struct Stored {
     std::int64_t id = 0;
+    std::string_view history{};  ///< in which it was given its id
     std::string type{};
     std::string payload{};  ///< JSON
     Timestamp at{};

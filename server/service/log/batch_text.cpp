@@ -18,6 +18,13 @@ namespace {
 void write_heading(std::string& text, const app::LogOutbox::Batch& batch) {
   JsonWriter json(text);
   json.begin_object().member("checkpoint", batch.checkpoint).member("key", batch.key);
+  if (!batch.base.empty()) {
+    json.key("base")
+        .begin_object()
+        .member("origin", batch.base)
+        .member("size", batch.base_size)
+        .end_object();
+  }
   if (!batch.hand_overs.empty()) {
     json.key("hand_overs").begin_array();
     for (const std::string& note : batch.hand_overs) json.value(note);
@@ -47,6 +54,14 @@ void write_answer(std::string& text, const store::IdempotencyStore::Forwarded& k
 /// More often than a key is renewed.
 constexpr std::size_t kMostHandOvers = 100;
 
+std::int64_t size_of(const JsonValue& base) {
+  std::int64_t size = 0;
+  if (const JsonValue* value = base.find("size")) {
+    std::from_chars(value->text.data(), value->text.data() + value->text.size(), size);
+  }
+  return size;
+}
+
 Error missing(std::string_view what) {
   return {ErrorCode::RequestInvalid, fmt::format("the batch has no {}", what)};
 }
@@ -56,6 +71,14 @@ Result<void> read_heading(const JsonValue& json, app::ForwardedBatch& batch) {
   batch.key = text_of(json, "key");
   if (batch.checkpoint.empty()) return missing("checkpoint in its first line");
   if (batch.key.empty()) return missing("key in its first line");
+  if (const JsonValue* base = json.find("base")) {
+    batch.base = {.origin = text_of(*base, "origin"), .size = size_of(*base)};
+    if (batch.base.size < 1 || batch.base.size >= batch.from) {
+      return Error{ErrorCode::RequestInvalid,
+                   "base takes the origin below a branch and how many of its rows there are, "
+                   "which are fewer than the place of the first record"};
+    }
+  }
   if (const JsonValue* notes = json.find("hand_overs")) {
     if (notes->items.size() > kMostHandOvers) {
       return Error{ErrorCode::RequestInvalid,

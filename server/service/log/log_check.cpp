@@ -18,11 +18,20 @@ void LogCheck::expect(const std::string& place, std::string_view note) {
   if (!checkpoint) {
     findings_.push_back(
         fmt::format("{} is no checkpoint of this log: {}", place, checkpoint.error().message));
-  } else if (checkpoint->origin != facts_.name) {
+    return;
+  }
+  const auto former = facts_.former.find(checkpoint->origin);
+  const bool is_former = former != facts_.former.end();
+  if (!is_former && checkpoint->origin != facts_.name) {
     findings_.push_back(
         fmt::format("{} is of the log {}, not of {}", place, checkpoint->origin, facts_.name));
+  } else if (is_former && checkpoint->size > former->second) {
+    findings_.push_back(fmt::format(
+        "{} has signed {} measurements of {}, of which {} went on into {}: an older copy was put "
+        "back",
+        place, checkpoint->size, checkpoint->origin, former->second, facts_.name));
   } else if (checkpoint->size == 0) {
-    return;  // every log begins so
+    empty_.push_back(place);  // every log begins so
   } else {
     expected_.emplace(checkpoint->size, Expected{place, *checkpoint});
   }
@@ -89,8 +98,12 @@ std::string LogCheck::head_text() {
     return fmt::format("{}: {} corrections by the centre, which has its log", facts_.name,
                        partial_rows_);
   }
-  return fmt::format("{}: {} measurements, root {}", facts_.name, frontier_.size(),
-                     tlog::to_base64(frontier_.root()));
+  std::string text = fmt::format("{}: {} measurements, root {}", facts_.name, frontier_.size(),
+                                 tlog::to_base64(frontier_.root()));
+  for (const std::string& place : empty_) {
+    text += fmt::format("\n{} covers 0 of them: it says nothing of any", place);
+  }
+  return text;
 }
 
 }  // namespace fitgauge::app

@@ -27,7 +27,10 @@ class LogCheck {
   using KeptNodes = std::function<std::optional<tlog::Hash>(const tlog::Node&)>;
 
   LogCheck(LogService::Facts facts, RowNames names, KeptNodes kept)
-      : facts_(std::move(facts)), names_(std::move(names)), kept_(std::move(kept)) {}
+      : facts_(std::move(facts)),
+        names_(std::move(names)),
+        kept_(std::move(kept)),
+        frontier_(facts_.base) {}
 
   /// Takes a checkpoint to compare with. @param place what a finding calls it.
   void expect(const std::string& place, std::string_view note);
@@ -38,7 +41,7 @@ class LogCheck {
   /// What is wrong with the whole, after the last measurement.
   std::vector<std::string> finish();
 
-  /// The size and the root of what was read, for people.
+  /// The size and the root of what was read, for people; and which checkpoints say nothing of it.
   std::string head_text();
 
  private:
@@ -56,7 +59,8 @@ class LogCheck {
   tlog::Frontier frontier_;
   std::multimap<std::uint64_t, Expected> expected_;  ///< by size
   std::vector<std::string> findings_;
-  bool whole_ = true;  ///< no row was missing so far
+  std::vector<std::string> empty_;  ///< checkpoints that cover no measurement
+  bool whole_ = true;               ///< no row was missing so far
 };
 
 }  // namespace fitgauge::app

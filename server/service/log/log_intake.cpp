@@ -52,6 +52,7 @@ std::optional<std::size_t> row_in(const ForwardedBatch& batch, std::int64_t numb
 /// What stands here of a batch's log.
 struct LogIntake::Known {
   std::int64_t number = 0;  ///< 0: nothing yet
+  std::optional<store::OriginsStore::Base> base{};
   Head head{.size = 0, .root = tlog::empty_root()};
   std::vector<tlog::VerifierKey> keys{};
   std::vector<tlog::VerifierKey> new_keys{};  ///< that this batch has brought
@@ -99,6 +100,7 @@ Result<LogIntake::Answer> LogIntake::take(const ForwardedBatch& batch) {
     if (!now) return now.error();
     return Answer{.outcome = Outcome::Elsewhere, .head = now->head};
   }
+  tell_branch(batch, *known);
   for (const tlog::VerifierKey& key : known->new_keys) {
     tell_("log_origin_key", fmt::format("{} signs with {} from now on", key.name(), key.text()));
   }
@@ -110,6 +112,7 @@ Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
   return database_.readers().wait([&](const store::Stores& stores) -> Result<Known> {
     Known known;
     const auto origin = stores.origins.find(batch.origin);
+    if (const auto based = read_base(stores, batch, known); !based) return based.error();
     if (!origin) return known;
     known.number = origin->number;
     for (const std::string& text : stores.origins.keys(origin->number)) {
@@ -117,12 +120,12 @@ Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
       if (!key) return key.error();
       known.keys.push_back(*std::move(key));
     }
-    if (origin->size == 0 && origin->first_row) {
+    if (origin->checkpoint.empty() && origin->first_row) {
       return Error{ErrorCode::RequestInvalid,
                    fmt::format("{} is the centre of this folder: it cannot be its station too",
                                batch.origin)};
     }
-    if (origin->size == 0) return known;
+    if (origin->checkpoint.empty()) return known;
     const auto checkpoint = tlog::parse_checkpoint(origin->checkpoint);
     if (!checkpoint) return checkpoint.error();
     known.head = {.size = checkpoint->size, .root = checkpoint->root};
@@ -137,12 +140,36 @@ Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
   });
 }
 
+/// A branch begins with what its base has here: of one that has fewer rows than it says, with
+/// those.
+Result<void> LogIntake::read_base(const store::Stores& stores, const ForwardedBatch& batch,
+                                  Known& known) const {
+  if (batch.base.origin.empty()) return {};
+  const auto base = stores.origins.find(batch.base.origin);
+  if (!base || base->checkpoint.empty()) return {};
+  known.base = {.origin = base->number, .size = batch.base.size};
+  if (const auto origin = stores.origins.find(batch.origin)) {
+    const auto stored = stores.origins.base(origin->number);
+    if (!stored || stored->origin != known.base->origin || stored->size != batch.base.size) {
+      return Error{ErrorCode::RequestInvalid,
+                   fmt::format("{} is no branch of {} behind {} rows here", batch.origin,
+                               batch.base.origin, batch.base.size)};
+    }
+  }
+  const auto there = static_cast<std::uint64_t>(std::min(base->size, batch.base.size));
+  const RowNames names = row_names(tables_, origins_);
+  auto frontier = LogReader(stores, names, base->number).frontier(there);
+  known.head = {.size = there, .root = frontier.root()};
+  if (there == static_cast<std::uint64_t>(batch.from - 1)) known.before = frontier;
+  return {};
+}
+
 /// Adds the keys that the batch brings with it: the first one on trust, each further one signed for
 /// by one before it.
 Result<void> LogIntake::trust(const ForwardedBatch& batch, Known& known) const {
   const auto key = tlog::VerifierKey::parse(batch.key);
   if (!key) return key.error();
-  if (batch.origin == origins_.own()) {
+  if (origins_.number(batch.origin, 0) == 0) {
     return Error{
         ErrorCode::LogForked,
         fmt::format("{} is the log of this centre itself: one of the two folders is a copy "
@@ -235,7 +262,8 @@ Result<void> LogIntake::check_rows(const ForwardedBatch& batch) const {
       return invalid(i, "has an id that does not follow the one before");
     }
     before = m.id;
-    if (m.corrected_elsewhere && !origins_.number(m.corrected_elsewhere->digits) &&
+    if (m.corrected_elsewhere &&
+        !origins_.number(m.corrected_elsewhere->digits, *m.correction_of) &&
         m.corrected_elsewhere->digits != batch.origin) {
       return invalid(i, "corrects a record of a folder that is not known here");
     }
@@ -265,6 +293,10 @@ Result<void> LogIntake::prepare(const ForwardedBatch& batch, Known& known) {
     if (is_new) {
       const auto found = stores.origins.find(batch.origin);
       known.number = found ? found->number : stores.origins.add(batch.origin);
+      if (!found && known.base) {
+        stores.origins.set_base(known.number, *known.base);
+        stores.origins.set_head({.number = known.number, .size = known.base->size});
+      }
     }
     return true;
   });
@@ -293,7 +325,7 @@ Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& 
     row.hash = judged.leaves[i];
     if (m.corrected_elsewhere) {
       const std::int64_t number = *m.correction_of;
-      const std::int64_t of = *origins_.number(m.corrected_elsewhere->digits);
+      const std::int64_t of = *origins_.number(m.corrected_elsewhere->digits, number);
       row.corrected_origin = of;
       const auto in_batch = of == known.number ? row_in(batch, number) : std::nullopt;
       row.correction_of = in_batch  ? std::optional(first + static_cast<std::int64_t>(*in_batch))
@@ -319,6 +351,15 @@ Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& 
   origin->checkpoint = batch.checkpoint;
   stores.origins.set_head(*origin);
   return true;
+}
+
+void LogIntake::tell_branch(const ForwardedBatch& batch, const Known& known) const {
+  if (!known.base || known.before.size() != static_cast<std::uint64_t>(known.base->size)) return;
+  tell_("log_branched",
+        fmt::format("{} goes on behind {} measurements of {}: an older copy of that folder was put "
+                    "back, or may have been. What {} has here beyond them stays",
+                    known.keys.front().name(), known.base->size, batch.base.origin,
+                    batch.base.origin));
 }
 
 /// Keeps the signed proof that there are two histories of one log.

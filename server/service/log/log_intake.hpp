@@ -35,7 +35,13 @@ struct ForwardedBatch {
     Measurement measurement;
     std::string_view record;  ///< its text, which is the leaf
   };
-  std::string origin;     ///< 16 hexadecimal digits
+  std::string origin;  ///< 16 hexadecimal digits
+  /// The log that it is a branch of, and how many of its rows lie below; no digits: it is none.
+  struct Base {
+    std::string origin{};
+    std::int64_t size = 0;
+  };
+  Base base{};
   std::int64_t from = 1;  ///< the place of the first row in its log
   std::string key;        ///< the vkey of the station
   std::string checkpoint;
@@ -86,10 +92,13 @@ class LogIntake {
   struct Judged;
 
   Result<Known> read(const ForwardedBatch& batch) const;
+  Result<void> read_base(const store::Stores& stores, const ForwardedBatch& batch,
+                         Known& known) const;
   Result<void> trust(const ForwardedBatch& batch, Known& known) const;
   Result<void> check_rows(const ForwardedBatch& batch) const;
   Result<Judged> judge_tree(const ForwardedBatch& batch, const Known& known) const;
   Result<void> prepare(const ForwardedBatch& batch, Known& known);
+  void tell_branch(const ForwardedBatch& batch, const Known& known) const;
   Result<bool> store_rows(store::Stores& stores, const ForwardedBatch& batch, const Known& known,
                           const Judged& judged) const;
   void fork(const ForwardedBatch& batch, const Known& known);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <system_error>
 
+#include "base/digest.hpp"
 #include "db/sqlite/data_directory.hpp"
 
 namespace fitgauge::app {
@@ -18,6 +19,7 @@ constexpr std::string_view kNextKey = "\nnext key ";
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestName = 64;
+constexpr std::size_t kDigitsInIds = 16;
 
 Error failed(std::string_view doing, const fs::path& file) {
   return {ErrorCode::StorageUnavailable, fmt::format("cannot {} {}", doing, file.string())};
@@ -44,6 +46,10 @@ Result<void> replace(const fs::path& file, std::string_view content, fs::perms r
 }
 
 }  // namespace
+
+std::string digits_of_origin(const std::array<std::uint8_t, 16>& origin) {
+  return to_hex(origin).substr(0, kDigitsInIds);
+}
 
 bool is_origin_name(std::string_view name) {
   const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
@@ -89,9 +95,14 @@ Result<std::string> renew_log_key(const fs::path& folder) {
         ErrorCode::StorageUnavailable,
         fmt::format("{} has no {}: start fitgauged once to make it", folder.string(), kLogKeyFile)};
   }
-  const tlog::SigningKey used = keys->back();  // a new one that no start has taken yet goes again
-  const auto made = tlog::SigningKey::make(used.verifier().name());
-  if (const auto written = write_log_keys(folder, {made, used}); !written) return written.error();
+  const std::string name = keys->front().verifier().name();
+  const auto older = std::find_if(keys->begin(), keys->end(),
+                                  [&](const auto& key) { return key.verifier().name() != name; });
+  const auto made = tlog::SigningKey::make(name);
+  std::vector<tlog::SigningKey> all{made};
+  // A new one that no start has taken yet goes again; those of former histories stay.
+  all.insert(all.end(), std::prev(older), keys->end());
+  if (const auto written = write_log_keys(folder, all); !written) return written.error();
   return made.verifier().text();
 }
 

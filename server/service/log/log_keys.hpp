@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,6 +16,9 @@ namespace fitgauge::app {
 /// The names of the log's files in the data folder.
 inline constexpr std::string_view kLogKeyFile = "fitgauge.log.key";
 inline constexpr std::string_view kCheckpointFile = "fitgauge.checkpoint";
+
+/// The end of the ids of an origin: its first 16 hexadecimal digits.
+std::string digits_of_origin(const std::array<std::uint8_t, 16>& origin);
 
 /// Whether a log may have this name: `[a-z0-9][a-z0-9./-]{0,63}`.
 bool is_origin_name(std::string_view name);

@@ -21,7 +21,18 @@ Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most) 
   return database_.readers().wait([&](const store::Stores& stores) -> Result<Batch> {
     Batch batch{.from = after + 1};
     const RowNames names = row_names(tables_, log_.origins());
-    const std::int64_t end = std::min(after + most, stores.log.state().size);
+    std::int64_t end = std::min(after + most, stores.log.state().size);
+    const LogService::History& history = log_.history_of(after + 1);
+    if (history.end) end = std::min(end, *history.end);
+    if (!history.signer && end > after) {
+      batch.unsigned_to = history.end;
+      return batch;
+    }
+    batch.origin = history.digits;
+    if (history.begin > 0) {
+      batch.base = log_.history_of(history.begin).digits;
+      batch.base_size = history.begin;
+    }
     std::optional<std::int64_t> first_row;
     std::int64_t last_row = 0;
     std::size_t bytes = 0;
@@ -38,9 +49,8 @@ Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most) 
     }
     if (!first_row) return batch;
     batch.checkpoint =
-        log_.sign_at(stores, static_cast<std::uint64_t>(after) + batch.records.size());
-    batch.key = log_.verifier_keys();
-    batch.key.resize(std::min(batch.key.find('\n'), batch.key.size()));
+        log_.sign_at(stores, history, static_cast<std::uint64_t>(after) + batch.records.size());
+    batch.key = history.signer->verifier().text();
     batch.hand_overs = log_.hand_overs();
     stores.idempotency.visit_forwarded(*first_row, last_row,
                                        [&](const auto& kept) { batch.answers.push_back(kept); });
@@ -74,15 +84,16 @@ Result<void> LogOutbox::confirm(std::string_view centre, std::int64_t size) cons
   return {};
 }
 
-Result<void> LogOutbox::compare(std::string_view centre, std::int64_t size) const {
-  const auto behind = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
-    if (size <= stores.measurements.log_size()) return false;
-    stores.origins.set_forwarded({.centre = std::string(centre), .size = size});
-    return true;
-  });
-  if (!behind) return behind.error();
-  if (*behind) log_.set_behind(size);
-  return {};
+std::string_view LogOutbox::newest_history() const {
+  const auto rows =
+      database_.readers().wait([](const store::Stores& stores) -> Result<std::int64_t> {
+        return stores.measurements.log_size();
+      });
+  return log_.history_of(rows ? *rows : std::numeric_limits<std::int64_t>::max()).digits;
+}
+
+void LogOutbox::set_forked(const std::optional<std::string>& why) const {
+  static_cast<void>(log_.set_forked(why));  // what cannot be stored now is tried with the next
 }
 
 std::int64_t LogOutbox::committed() const { return database_.writer_counters().own_rows; }

@@ -11,10 +11,10 @@
 #include "db/store/idempotency_store.hpp"
 #include "proof/tree_hash.hpp"
 #include "service/log/log_intake.hpp"
+#include "service/log/log_service.hpp"
 
 namespace fitgauge::app {
 
-class LogService;
 class TableCatalog;
 
 /// What of this folder's log a centre does not have yet. The log itself is the outbox: kept beside
@@ -28,6 +28,12 @@ class LogOutbox {
       : database_(database), tables_(tables), log_(log) {}
 
   struct Batch {
+    std::string_view origin{};  ///< the digits of the history that its records are of
+    /// The history below that one, and how many of its rows; no digits: there is none.
+    std::string_view base{};
+    std::int64_t base_size = 0;
+    /// Of a history whose key was lost nothing can be signed: it ends here, and the batch is empty.
+    std::optional<std::int64_t> unsigned_to{};
     std::int64_t from = 1;  ///< the place of its first record
     std::string checkpoint{};
     std::string key{};  ///< the vkey
@@ -35,7 +41,8 @@ class LogOutbox {
     std::vector<std::string> records{};
     std::vector<store::IdempotencyStore::Forwarded> answers{};
   };
-  /// What follows the first `after` records, at most `most`; no record where nothing does.
+  /// What follows the first `after` records, at most `most`, of one history; no record where
+  /// nothing does.
   /// @errors those of storage.
   Result<Batch> next(std::int64_t after, std::int64_t most) const;
 
@@ -46,9 +53,12 @@ class LogOutbox {
   Result<std::int64_t> confirmed(std::string_view centre) const;
   Result<void> confirm(std::string_view centre, std::int64_t size) const;
 
-  /// What the centre says at the start that it has. Where that is more than there is here, this
-  /// folder is an older copy and takes no measurement any more.
-  Result<void> compare(std::string_view centre, std::int64_t size) const;
+  /// The history of a place in the log.
+  const LogService::History& history_of(std::int64_t place) const { return log_.history_of(place); }
+  /// The newest history that has records.
+  std::string_view newest_history() const;
+  /// As LogService.
+  void set_forked(const std::optional<std::string>& why) const;
 
   struct Waiting {
     std::int64_t rows = 0;

@@ -60,17 +60,19 @@ Result<LogService::Proof> LogService::read_proof(const store::Stores& stores,
         *row, [&](const store::MeasurementRow& found) { place = found.place_in_log(); });
   }
   if (place == 0) {
-    return Error{ErrorCode::MeasurementUnknown,
-                 fmt::format("there is no measurement '{}'",
-                             measurement_id_text(name.number, origins_.digits(name.origin)))};
+    return Error{
+        ErrorCode::MeasurementUnknown,
+        fmt::format("there is no measurement '{}'",
+                    measurement_id_text(name.number, origins_.digits(name.origin, name.number)))};
   }
   proof.index = static_cast<std::uint64_t>(place - 1);
   if (name.origin != 0) {
     proof.head = countersigned(stores, name.origin);
     if (!proof.head) {
-      return Error{ErrorCode::NotFound,
-                   fmt::format("{} was made at the centre: its log and its proof are there",
-                               measurement_id_text(name.number, origins_.digits(name.origin)))};
+      return Error{
+          ErrorCode::NotFound,
+          fmt::format("{} was made at the centre: its log and its proof are there",
+                      measurement_id_text(name.number, origins_.digits(name.origin, name.number)))};
     }
   }
   const std::uint64_t size = proof.head->checkpoint.size;

@@ -12,6 +12,13 @@ namespace fitgauge::app {
 std::vector<tlog::Hash> LogReader::leaves(std::int64_t after, std::int64_t count) {
   std::vector<tlog::Hash> leaves;
   leaves.reserve(static_cast<std::size_t>(count));
+  if (base_ && after < base_->size) {
+    const std::int64_t below = std::min(count, base_->size - after);
+    leaves = LogReader(stores_, names_, base_->origin).leaves(after, below);
+    after += below;
+    count -= below;
+    if (count == 0) return leaves;
+  }
   stores_.measurements.log_hashes(origin_, after, count,
                                   [&](const Digest& leaf) { leaves.push_back(leaf); });
   return leaves;
@@ -27,12 +34,21 @@ std::vector<std::string> LogReader::records(std::int64_t after, std::int64_t cou
 
 std::vector<tlog::Hash> LogReader::hashes(unsigned tile_level, std::uint64_t first,
                                           std::uint64_t count) {
-  const auto begin = static_cast<std::int64_t>(first);
-  const auto many = static_cast<std::int64_t>(count);
+  auto begin = static_cast<std::int64_t>(first);
+  auto many = static_cast<std::int64_t>(count);
   std::vector<tlog::Hash> hashes;
   if (tile_level == 0) {
     hashes = leaves(begin, many);
   } else {
+    // Those that are whole below the branch were kept there.
+    const std::int64_t below =
+        std::min(many, (base_ ? base_->size >> (tile_level * tlog::kTileHeight) : 0) - begin);
+    if (below > 0) {
+      hashes = LogReader(stores_, names_, base_->origin)
+                   .hashes(tile_level, first, static_cast<std::uint64_t>(below));
+      begin += below;
+      many -= below;
+    }
     const auto take = [&](const Digest& hash) { hashes.push_back(hash); };
     const int level = static_cast<int>(tile_level);
     if (origin_ == 0) {

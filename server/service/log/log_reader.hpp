@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,9 @@ class LogReader {
  public:
   /// @param origin 0: this folder.
   LogReader(const store::Stores& stores, const RowNames& names, std::int64_t origin = 0)
-      : stores_(stores), names_(names), origin_(origin) {}
+      : stores_(stores), names_(names), origin_(origin) {
+    if (origin != 0) base_ = stores.origins.base(origin);
+  }
 
   /// The leaves of the rows after `after`, at most `count`.
   std::vector<tlog::Hash> leaves(std::int64_t after, std::int64_t count);
@@ -42,6 +45,7 @@ class LogReader {
   const store::Stores& stores_;
   const RowNames& names_;
   const std::int64_t origin_;
+  std::optional<store::OriginsStore::Base> base_{};  ///< a branch begins with rows of another log
   tlog::TreeHasher hasher_;
 };
 

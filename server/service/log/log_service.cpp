@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <span>
 #include <utility>
 
 #include "base/base64.hpp"
 #include "base/guarded.hpp"
 #include "db/store/database.hpp"
+#include "db/store/storage_failure.hpp"
 #include "proof/note.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
 #include "service/measurements/mapping.hpp"
-#include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
@@ -27,9 +26,6 @@ constexpr seconds kBetweenSignings{1};
 constexpr hours kBetweenTellings{24};
 constexpr std::int64_t kLeavesAtATime = 4096;
 constexpr std::uint64_t kLeavesACommit = 1'000'000;
-/// Hexadecimal digits of the origin in ids and in the log's name.
-constexpr std::size_t kDigitsInIds = 16;
-constexpr std::size_t kDigitsInName = 8;
 
 }  // namespace
 
@@ -51,128 +47,28 @@ Result<std::unique_ptr<LogService>> LogService::open(store::Database& database,
   return log;
 }
 
-Result<void> LogService::load() {
-  struct Loaded {
-    store::LogStore::State state;
-    std::vector<std::string> keys;
-    tlog::Frontier frontier;
-    std::int64_t size_at_centre = 0;
-  };
-  const auto loaded =
-      database_.readers().wait([this](const store::Stores& stores) -> Result<Loaded> {
-        Loaded found{.state = stores.log.state(), .keys = stores.log.keys(), .frontier = {}};
-        const auto forwarded = stores.origins.forwarded();
-        if (forwarded && forwarded->size > stores.measurements.log_size()) {
-          found.size_at_centre = forwarded->size;
-        }
-        origins_.remember(0, to_hex(found.state.origin).substr(0, kDigitsInIds));
-        for (const auto& origin : stores.origins.list()) {
-          origins_.remember(origin.number, origin.digits);
-        }
-        if (options_.attach) return found;
-        const RowNames names = row_names(tables_, origins_);
-        LogReader reader(stores, names);
-        found.frontier = reader.frontier(static_cast<std::uint64_t>(found.state.size));
-        return found;
-      });
-  // What is damaged is for verify to tell.
-  if (options_.attach && !loaded && loaded.error().code == ErrorCode::StorageCorrupt) return {};
-  if (!loaded) return loaded.error();
-  if (options_.attach) return {};
-  frontier_ = loaded->frontier;
-  name_ = loaded->state.name.value_or(
-      fmt::format("fitgauge/{}/{}", options_.name, origin().substr(0, kDigitsInName)));
-  if (const auto keys = load_keys(loaded->keys); !keys) return keys;
-  look_at_older_checkpoint();
-  if (loaded->size_at_centre > 0) set_behind(loaded->size_at_centre);
-  sign();
-  return {};
-}
-
-/// Makes the key at the first start, or when it was lost, and lists its public half.
-Result<void> LogService::load_keys(const std::vector<std::string>& known) {
-  auto keys = read_log_keys(options_.directory);
-  if (!keys) return keys.error();
-  if (!keys->empty() && keys->front().verifier().name() != name_) {
-    set_aside(kLogKeyFile, "of another log");
-    keys->clear();
-  }
-  if (keys->empty()) {
-    keys->push_back(tlog::SigningKey::make(name_));
-    if (const auto written = write_log_keys(options_.directory, *keys); !written) return written;
-    // Of daemons that share a database each has a key of its own.
-    if (!known.empty() && !options_.shares) {
-      tell("log_key_lost",
-           fmt::format("{} is not there: a new key signs from now on, and nothing but a kept "
-                       "checkpoint joins it to the old one",
-                       kLogKeyFile));
-    }
-  }
-  signers_ = *std::move(keys);
-  signer_ = signers_.front();
-  std::vector<std::string> all = known;
-  const std::string newest = signers_.front().verifier().text();
-  const bool is_new = std::find(known.begin(), known.end(), newest) == known.end();
-  if (is_new) all.insert(all.begin(), newest);
-  std::string lines;
-  for (const std::string& key : all) lines += key + "\n";
-  verifier_keys_.set(std::make_shared<const std::string>(std::move(lines)));
-  if (!is_new) return {};
+Result<void> LogService::set_forked(const std::optional<std::string>& why) {
+  if (why.has_value() == forked().has_value()) return {};
+  forked_.set(std::make_shared<const std::string>(why.value_or("")));
   const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
-    stores.log.set_name(name_);
-    stores.log.add_key(newest, clock_.now().nanoseconds);
+    stores.log.set_forked(why);
     return true;
   });
   if (!stored) return stored.error();
+  if (why) tell("log_forked", *why);
   return {};
 }
 
-/// Keeps a file that does not belong to the database any more.
-void LogService::set_aside(std::string_view name, std::string_view why) {
-  const auto aside = fmt::format("{}.{}", name, clock_.now().nanoseconds / 1'000'000'000);
-  std::error_code failure;
-  std::filesystem::rename(options_.directory / name, options_.directory / aside, failure);
-  tell("log_file_set_aside",
-       failure ? fmt::format("{} is {}, and cannot be renamed: {}", name, why, failure.message())
-               : fmt::format("{} is {}: it is called {} now", name, why, aside));
+std::optional<Error> LogService::forked() const {
+  const auto why = forked_.get();
+  if (!why || why->empty()) return std::nullopt;
+  return Error{ErrorCode::LogForked, *why, "database"};
 }
 
-/// A folder whose database is older than what it signed got a copy back. The checkpoint that tells
-/// stays aside.
-void LogService::look_at_older_checkpoint() {
-  const auto note = read_small_file(options_.directory / kCheckpointFile);
-  if (!note || !*note || (*note)->empty()) return;
-  std::vector<tlog::VerifierKey> keys;
-  for (const tlog::SigningKey& key : signers_) keys.push_back(key.verifier());
-  const auto kept = tlog::open_checkpoint(**note, keys);
-  if (!kept || kept->origin != name_) {
-    set_aside(kCheckpointFile, "of another log or key");
-  } else if (kept->size > frontier_.size()) {
-    set_aside(kCheckpointFile, "newer than the database");
-    tell("log_behind",
-         fmt::format("this folder has signed {} measurements, and the database has {} "
-                     "of them: an older copy was put back, and ids from m{} on are "
-                     "given out a second time",
-                     kept->size, frontier_.size(), frontier_.size() + 1));
-  }
-}
-
-void LogService::set_behind(std::int64_t size_at_centre) {
-  size_at_centre_ = size_at_centre;
-  tell("log_behind", behind()->message);
-}
-
-std::optional<Error> LogService::behind() const {
-  const std::int64_t size = size_at_centre_;
-  if (size == 0) return std::nullopt;
-  return Error{ErrorCode::StorageUnavailable,
-               fmt::format("the centre has {} measurements of this folder's log, which are more "
-                           "than there are here: an older copy was put back, or the folder was "
-                           "copied and started twice. It takes no measurement, so that none gets "
-                           "the id of another: put the newest copy back, or start with an empty "
-                           "folder",
-                           size),
-               "database"};
+const LogService::History& LogService::history_of(std::int64_t place) const {
+  return *std::find_if(histories_.begin(), histories_.end(), [place](const History& history) {
+    return !history.end || place <= *history.end;
+  });
 }
 
 void LogService::start() {
@@ -189,6 +85,11 @@ void LogService::committed() {
 }
 
 void LogService::take_names(const store::Stores& stores) {
+  if (digits_of_origin(stores.log.state().origin) != origin()) {
+    throw store::StorageFailure({ErrorCode::StorageUnavailable,
+                                 "an older copy of the database was put back, and another daemon "
+                                 "has begun a branch: start this daemon again"});
+  }
   for (const auto& origin : stores.origins.list()) {
     origins_.remember(origin.number, origin.digits);
   }
@@ -310,7 +211,7 @@ void LogService::sign() {
                       fmt::format("{}.{:08x}", kCheckpointFile, signers_.front().verifier().id());
     signers_.resize(1, signers_.front());
     auto written = replace_file(file, head->note, true);
-    if (written) written = write_log_keys(options_.directory, signers_);
+    if (written) written = write_keys();
     tell("log_key_replaced", written ? file.string() : written.error().message);
   }
   head_.set(std::move(head));
@@ -322,12 +223,13 @@ std::string LogService::head_text() const {
                      tlog::to_base64(head->checkpoint.root));
 }
 
-std::string LogService::sign_at(const store::Stores& stores, std::uint64_t size) const {
+std::string LogService::sign_at(const store::Stores& stores, const History& history,
+                                std::uint64_t size) const {
   const RowNames names = row_names(tables_, origins_);
   LogReader reader(stores, names);
   const tlog::Checkpoint checkpoint{
-      .origin = name_, .size = size, .root = reader.frontier(size).root()};
-  const tlog::SigningKey* const key = &*signer_;
+      .origin = history.name, .size = size, .root = reader.frontier(size).root()};
+  const tlog::SigningKey* const key = &*history.signer;
   return tlog::sign_note(checkpoint.text(), {&key, 1});
 }
 
@@ -367,6 +269,9 @@ Result<LogService::Logs> LogService::logs(store::Database& database) {
                .size = state.size,
                .keys = parsed(stores.log.keys()),
                .checkpoint = {}};
+    for (const auto& ended : stores.log.branches()) {
+      logs[0].former.emplace(ended.name, static_cast<std::uint64_t>(ended.size));
+    }
     for (const auto& origin : stores.origins.list()) {
       const auto keys = parsed(stores.origins.keys(origin.number));
       logs[origin.number] = {.name = keys.empty() ? origin.digits : keys.front().name(),
@@ -374,6 +279,10 @@ Result<LogService::Logs> LogService::logs(store::Database& database) {
                              .keys = keys,
                              .checkpoint = origin.checkpoint,
                              .is_partial = keys.empty() && origin.size == 0};
+      if (const auto base = stores.origins.base(origin.number)) {
+        logs[origin.number].base =
+            LogReader(stores, {}, base->origin).frontier(static_cast<std::uint64_t>(base->size));
+      }
     }
     return logs;
   });

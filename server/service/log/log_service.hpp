@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -18,6 +17,7 @@
 #include "base/result.hpp"
 #include "base/snapshot.hpp"
 #include "base/thread.hpp"
+#include "db/store/log_store.hpp"
 #include "proof/checkpoint.hpp"
 #include "proof/frontier.hpp"
 #include "record/measurement.hpp"
@@ -38,6 +38,9 @@ struct LogOptions {
   std::string name = "station";  ///< of the log, if this is its first start
   bool shares = false;           ///< one of several daemons that sign the same log
   bool attach = false;           ///< beside a running daemon: nothing is signed and nothing written
+  /// How many rows the centre has of the history with these digits; none where it does not say.
+  /// Asked once, when the log is opened; not set where there is no centre. May block.
+  std::function<std::optional<std::int64_t>(std::string_view digits)> ask_centre{};
   /// The event's name and a sentence, for the log of the service; called on any thread.
   std::function<void(std::string_view event, const std::string& detail)> tell{};
 };
@@ -47,14 +50,15 @@ struct LogOptions {
 class LogService {
  public:
   /// Reads the log's name and keys, makes them at the first start, and signs what the tree has.
-  /// What was stored and is not in it follows in the background.
+  /// What was stored and is not in it follows in the background. Where the database may be an older
+  /// copy of what has given out ids, a branch begins: another origin, name and key.
   /// @errors StorageUnavailable, StorageCorrupt, KeyMalformed.
   static Result<std::unique_ptr<LogService>> open(store::Database& database,
                                                   const TableCatalog& tables, const Clock& clock,
                                                   LogOptions options);
   ~LogService();
 
-  /// What the ids of this folder end with: the first 16 hexadecimal digits of its origin.
+  /// The end of new ids of this folder: the first 16 hexadecimal digits of its origin.
   std::string_view origin() const { return origins_.own(); }
   /// Of all folders whose records stand here.
   Origins& origins() { return origins_; }
@@ -73,12 +77,25 @@ class LogService {
   std::shared_ptr<const Head> head() const { return head_.get(); }
   std::string head_text() const;  ///< for people
 
-  /// The centre has more of this log than this folder: an older copy was put back. Told, and a
-  /// finding from then on.
-  void set_behind(std::int64_t size_at_centre);
-  std::optional<Error> behind() const;
+  /// Two folders go on under this history: no measurement is recorded until the centre takes the
+  /// rows here. @param why none: it does. Blocks. @errors those of storage.
+  Result<void> set_forked(const std::optional<std::string>& why);
+  std::optional<Error> forked() const;
+
+  /// The rows of this log under one name, from behind `begin` to `end`.
+  struct History {
+    std::string digits;  ///< what their ids end with
+    std::string name;    ///< in checkpoints
+    std::int64_t begin = 0;
+    std::optional<std::int64_t> end{};         ///< none: the present one
+    std::optional<tlog::SigningKey> signer{};  ///< none: the key was lost
+  };
+  /// That of a place in the log.
+  const History& history_of(std::int64_t place) const;
 
   /// Takes note of origins and keys that other daemons have added. Used inside a job.
+  /// @throws store::StorageFailure where one of them has begun a branch: this one goes on under the
+  ///   history below it, and is to be started again.
   void take_names(const store::Stores& stores);
 
   /// The public keys, one a line, the newest first.
@@ -111,6 +128,9 @@ class LogService {
     std::int64_t size = 0;
     std::vector<tlog::VerifierKey> keys;
     std::string checkpoint;  ///< the newest that is kept in the database; of forwarded logs
+    tlog::Frontier base{};   ///< of a branch that was forwarded: the rows below it
+    /// Names it had before, and how many rows of each it goes on behind.
+    std::map<std::string, std::uint64_t> former{};
     /// Of a centre: only its corrections of this folder's records are here.
     bool is_partial = false;
   };
@@ -118,9 +138,11 @@ class LogService {
   using Logs = std::map<std::int64_t, Facts>;
   static Result<Logs> logs(store::Database& database);
 
-  /// The signed head of the first `size` measurements of this folder, which is not told to others
-  /// as the newest one is. @pre there are so many in the tree. Used inside a read job.
-  std::string sign_at(const store::Stores& stores, std::uint64_t size) const;
+  /// The head of the first `size` measurements of this folder, signed for a history that has its
+  /// signer. It is not told to others as the newest one is. @pre there are so many in the tree.
+  /// Used inside a read job.
+  std::string sign_at(const store::Stores& stores, const History& history,
+                      std::uint64_t size) const;
 
   /// The checkpoints that hand over from a key to the next, as they are kept in the folder.
   std::vector<std::string> hand_overs() const;
@@ -137,10 +159,15 @@ class LogService {
   LogService(store::Database& database, const TableCatalog& tables, const Clock& clock,
              LogOptions options);
 
+  struct Loaded;
+  Result<Loaded> read() const;
   Result<void> load();
   Result<void> load_keys(const std::vector<std::string>& known);
+  Result<void> write_keys() const;
   void set_aside(std::string_view name, std::string_view why);
-  void look_at_older_checkpoint();
+  std::optional<std::string> told_by_checkpoint(const Loaded& loaded);
+  std::optional<std::string> why_to_branch(const Loaded& loaded);
+  Result<void> branch(const Loaded& loaded, const std::string& why);
   void run(const std::stop_token& stop);
   Steady::time_point next_wake() const;
   Result<void> grow(const std::stop_token& stop);
@@ -159,9 +186,11 @@ class LogService {
   const LogOptions options_;
   Origins origins_;
   std::string name_;
-  std::atomic<std::int64_t> size_at_centre_{0};  ///< where that is more than there is here
-  std::vector<tlog::SigningKey> signers_;        ///< the key in use, and once the one before
-  std::optional<tlog::SigningKey> signer_;       ///< the key in use
+  std::vector<History> histories_;          ///< the oldest first, the present one last
+  Snapshot<std::string> forked_;            ///< why nothing is recorded; empty: it is
+  std::vector<tlog::SigningKey> signers_;   ///< the key in use, and once the one before
+  std::vector<tlog::SigningKey> older_;     ///< those of former histories
+  std::optional<tlog::SigningKey> signer_;  ///< the key in use
   Snapshot<std::string> verifier_keys_;
   Snapshot<Head> head_;
   tlog::Frontier frontier_;  ///< of the thread

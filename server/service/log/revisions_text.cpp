@@ -123,15 +123,14 @@ Result<void> read_key(const JsonValue& json, app::Revision& revision) {
   return {};
 }
 
-Result<void> read_correction(const JsonValue& json, app::Revision& revision,
-                             std::string_view origin, TextArena& texts) {
+Result<void> read_correction(const JsonValue& json, app::Revision& revision, TextArena& texts) {
   revision.text = text_of(json, "record");
   revision.place = number_of(json, "place");
   const auto record = parse_json(revision.text);
   if (!record) return record.error();
   auto measurement = read_record(*record, texts);
   if (!measurement) return measurement.error();
-  if (measurement->origin != origin || !measurement->corrected_elsewhere || revision.place < 1) {
+  if (!is_digits(measurement->origin) || !measurement->corrected_elsewhere || revision.place < 1) {
     return unreadable(revision);
   }
   revision.measurement = *measurement;
@@ -149,9 +148,7 @@ Result<void> read_revision(const JsonValue& json, ReadRevisions& read) {
   switch (*kind) {
     case app::RevisionKind::Tables: done = read_columns(json, revision); break;
     case app::RevisionKind::Key: done = read_key(json, revision); break;
-    case app::RevisionKind::Correction:
-      done = read_correction(json, revision, read.page.origin, read.texts);
-      break;
+    case app::RevisionKind::Correction: done = read_correction(json, revision, read.texts); break;
     default:
       revision.text = text_of(json, "text");
       if (revision.name.empty() || revision.text.empty() != revision.is_removed) {

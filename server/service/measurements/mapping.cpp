@@ -109,7 +109,8 @@ store::IdempotentRequest to_store(const IdempotencyScope& scope) {
 
 RowNames row_names(const TableCatalog& tables, const Origins& origins) {
   return {.revision_id = [&tables](std::int64_t number) { return tables.revision_id(number); },
-          .origin = [&origins](std::int64_t number) { return origins.digits(number); }};
+          .origin = [&origins](std::int64_t origin,
+                               std::int64_t number) { return origins.digits(origin, number); }};
 }
 
 store::MeasurementRow to_store(const Measurement& m) {
@@ -156,7 +157,7 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
   static_cast<MeasurementFields&>(m) = row;
   m.id = row.public_number();
   m.origin_number = row.origin.value_or(0);
-  m.origin = names.origin(m.origin_number);
+  m.origin = names.origin(m.origin_number, m.id);
   m.row = row.id;
   m.source = value_of<Source>(row.source);
   m.measured_at = {row.measured_at_ns};
@@ -190,7 +191,7 @@ Measurement from_store(const store::MeasurementRow& row, const RowNames& names) 
   if (row.corrected_origin && row.correction_of) {
     m.corrected_elsewhere = {.row = *row.correction_of,
                              .origin = *row.corrected_origin,
-                             .digits = names.origin(*row.corrected_origin)};
+                             .digits = names.origin(*row.corrected_origin, *m.correction_of)};
   }
   return m;
 }

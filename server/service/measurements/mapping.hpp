@@ -23,7 +23,8 @@ store::MeasurementRow to_store(const Measurement& measurement);
 /// What the numbers in a row are called outside; valid as long as the catalog and the origins.
 struct RowNames {
   std::function<std::string_view(std::int64_t number)> revision_id;
-  std::function<std::string_view(std::int64_t number)> origin;  ///< the digits
+  /// The digits of the id that this number of an origin has.
+  std::function<std::string_view(std::int64_t origin, std::int64_t number)> origin;
 };
 RowNames row_names(const TableCatalog& tables, const Origins& origins);
 Measurement from_store(const store::MeasurementRow& row, const RowNames& names);

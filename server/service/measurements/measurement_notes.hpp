@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "db/store/stores.hpp"
@@ -12,11 +11,13 @@
 
 namespace fitgauge::app {
 
-/// Keeps a note beside a row and gives it its id. @param origin of this folder
-void append_note(store::Stores& stores, std::int64_t row, std::string_view origin, Note& note);
+class Origins;
+
+/// Keeps a note beside a row and gives it its id.
+void append_note(store::Stores& stores, std::int64_t row, const Origins& origins, Note& note);
 
 /// The notes of a row, oldest first. @param measurement the id of its record
 std::vector<Note> notes_of(const store::Stores& stores, std::int64_t row,
-                           const std::string& measurement, std::string_view origin);
+                           const std::string& measurement, const Origins& origins);
 
 }  // namespace fitgauge::app

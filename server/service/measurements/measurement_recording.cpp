@@ -87,8 +87,8 @@ void MeasurementService::add_note(const RecordName& name, Note note,
                form = std::move(form)](store::Stores& stores) mutable -> Result<Answer> {
     const auto row = existing_row_of(stores, name, origins_);
     if (!row) return row.error();
-    note.measurement = measurement_id_text(name.number, origins_.digits(name.origin));
-    append_note(stores, *row, origins_.own(), note);
+    note.measurement = measurement_id_text(name.number, origins_.digits(name.origin, name.number));
+    append_note(stores, *row, origins_, note);
     stores.events.append(kNoteEvent, form.event(note), note.received_at.nanoseconds);
     return form.answer(note);
   };

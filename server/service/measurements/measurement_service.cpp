@@ -100,8 +100,8 @@ void MeasurementService::list_notes(const RecordName& name, Done<std::vector<Not
         const auto row = existing_row_of(stores, name, origins_);
         if (!row) return row.error();
         return notes_of(stores, *row,
-                        measurement_id_text(name.number, origins_.digits(name.origin)),
-                        origins_.own());
+                        measurement_id_text(name.number, origins_.digits(name.origin, name.number)),
+                        origins_);
       },
       std::move(done));
 }
@@ -134,8 +134,7 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
               std::vector<Note> notes;
               if (shows_notes) {
                 notes = notes_of(stores, row.id,
-                                 measurement_id_text(measurement.id, measurement.origin),
-                                 origins_.own());
+                                 measurement_id_text(measurement.id, measurement.origin), origins_);
               }
               measurement.notes = notes;
               visit(measurement);
@@ -152,8 +151,6 @@ Result<ReadValues> MeasurementService::read_values(const MeasurementQuery& query
   store::MeasurementFilter filter = measurement_filter(query);
   std::optional<std::int64_t> after = 0;
   std::string newest = measurement_id_text(query.as_of.value_or(0), origins_.own());
-  std::int64_t origin = 0;  // of the run before, mostly that of the next
-  std::string_view digits = origins_.digits(origin);
   CorrectedPlaces places;
   std::vector<MeasuredRun::Value> values;
   while (after) {
@@ -162,8 +159,9 @@ Result<ReadValues> MeasurementService::read_values(const MeasurementQuery& query
           if (!filter.as_of_id) {
             filter.as_of_id = stores.measurements.last_id();
             stores.measurements.find(*filter.as_of_id, [&](const store::MeasurementRow& row) {
-              newest = measurement_id_text(row.public_number(),
-                                           origins_.digits(row.is_forwarded() ? *row.origin : 0));
+              newest =
+                  measurement_id_text(row.public_number(),
+                                      origins_.digits(row.origin.value_or(0), row.public_number()));
             });
             stores.measurements.list_corrections(
                 *filter.as_of_id, [&](std::int64_t id, std::int64_t of) { places.add(id, of); });
@@ -183,12 +181,21 @@ Result<ReadValues> MeasurementService::read_values(const MeasurementQuery& query
                   places.pass(value.id);
                   values.push_back({value.number, Length::nanometres(value.measured_nm)});
                 }
-                if (run.origin != origin) digits = origins_.digits(origin = run.origin);
-                taken = visit({.origin = digits,
-                               .lower_limit = limit_of(run.lower_limit_nm),
-                               .upper_limit = limit_of(run.upper_limit_nm),
-                               .subgroup = run.subgroup,
-                               .values = values});
+                // Where a history of this folder ended, another origin begins.
+                for (std::span<const MeasuredRun::Value> rest(values); taken && !rest.empty();) {
+                  const auto digits = origins_.digits(run.origin, rest.front().id);
+                  const auto last = origins_.last_with(digits, run.origin);
+                  const auto end = std::partition_point(
+                      rest.begin(), rest.end(),
+                      [last](const MeasuredRun::Value& value) { return value.id <= last; });
+                  const auto count = static_cast<std::size_t>(end - rest.begin());
+                  taken = visit({.origin = digits,
+                                 .lower_limit = limit_of(run.lower_limit_nm),
+                                 .upper_limit = limit_of(run.upper_limit_nm),
+                                 .subgroup = run.subgroup,
+                                 .values = rest.first(count)});
+                  rest = rest.subspan(count);
+                }
               });
           if (!taken) return taken.error();
           return more;

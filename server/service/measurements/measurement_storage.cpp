@@ -95,7 +95,7 @@ Result<std::int64_t> existing_row_of(const store::Stores& stores, const RecordNa
 Error unknown_measurement(const RecordName& name, const Origins& origins) {
   return {ErrorCode::MeasurementUnknown,
           "there is no measurement '" +
-              measurement_id_text(name.number, origins.digits(name.origin)) + "'"};
+              measurement_id_text(name.number, origins.digits(name.origin, name.number)) + "'"};
 }
 
 Error too_much_work() {

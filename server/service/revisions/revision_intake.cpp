@@ -145,19 +145,23 @@ struct RevisionIntake::Job {
 
   void take_correction(const Revision& revision) {
     const Measurement& m = *revision.measurement;
-    const std::int64_t centre = *origins.number(page.origin);
+    // Of the centre's present history or of one below it.
+    const std::int64_t centre = origins.number(m.origin, m.id).value_or(0);
+    if (centre == 0) return refuse(fmt::format("a correction is of {} itself", m.origin));
     if (stores.measurements.find_forwarded(centre, m.id)) return;
     if (const std::string_view finding = finding_in(m, revision.text); !finding.empty()) {
       return refuse(fmt::format("the centre's correction {} {}",
-                                measurement_id_text(m.id, page.origin), finding));
+                                measurement_id_text(m.id, m.origin), finding));
     }
-    const auto of = origins.number(m.corrected_elsewhere->digits);
+    const auto of = origins.number(m.corrected_elsewhere->digits, *m.correction_of);
+    // It is of a history of this folder that ended before that record.
+    if (!of && origins.number(m.corrected_elsewhere->digits, 0) == 0) return;
     const auto target = !of        ? std::nullopt
                         : *of == 0 ? m.correction_of
                                    : stores.measurements.find_forwarded(*of, *m.correction_of);
     if (!target || !stores.measurements.find(*target, [](const auto&) {})) {
       return refuse(fmt::format("the centre's correction {}: what it corrects is not here",
-                                measurement_id_text(m.id, page.origin)));
+                                measurement_id_text(m.id, m.origin)));
     }
     store::MeasurementRow row = to_store(m);
     if (!m.table_revision.empty()) row.table_revision = tables.revision_number(m.table_revision);
@@ -206,28 +210,33 @@ Result<RevisionIntake::Outcome> RevisionIntake::take(const RevisionPage& page) {
 /// the rows: whoever reads a row knows what it is called.
 Result<void> RevisionIntake::prepare(const RevisionPage& page) {
   std::set<std::string_view> revisions;
-  bool has_corrections = false;
+  std::set<std::string_view> centres;
   for (const Revision& revision : page.revisions) {
     if (!revision.measurement) continue;
-    has_corrections = true;
+    if (!origins_.number(revision.measurement->origin, 0)) {
+      centres.insert(revision.measurement->origin);
+    }
     const std::string_view id = revision.measurement->table_revision;
     if (!id.empty() && !tables_.revision_number(id)) revisions.insert(id);
   }
-  if (!has_corrections || (revisions.empty() && origins_.number(page.origin))) return {};
-  std::int64_t centre = 0;
+  if (centres.empty() && revisions.empty()) return {};
+  std::vector<std::pair<std::int64_t, std::string_view>> added;
   std::vector<std::pair<std::int64_t, std::string_view>> numbers;
   const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
     numbers.clear();
+    added.clear();
     for (const std::string_view id : revisions) {
       numbers.emplace_back(-stores.origins.add_revision(id), id);
     }
-    const auto found = stores.origins.find(page.origin);
-    centre = found ? found->number : stores.origins.add(page.origin);
+    for (const std::string_view digits : centres) {
+      const auto found = stores.origins.find(digits);
+      added.emplace_back(found ? found->number : stores.origins.add(digits), digits);
+    }
     return true;
   });
   if (!stored) return stored.error();
   for (const auto& [number, id] : numbers) tables_.remember(number, id);
-  origins_.remember(centre, page.origin);
+  for (const auto& [number, digits] : added) origins_.remember(number, digits);
   return {};
 }
 

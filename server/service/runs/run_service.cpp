@@ -18,10 +18,10 @@ Error stopping() {
 }  // namespace
 
 RunService::RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
-                       std::string_view origin, JobPool& orders, RunServiceOptions options)
+                       const Origins& origins, JobPool& orders, RunServiceOptions options)
     : database_(database),
       clock_(clock),
-      origin_(origin),
+      origins_(origins),
       options_(options),
       live_tables_(tables),
       stored_(database),
@@ -79,7 +79,7 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
                        .caller = shared->caller};
   std::shared_ptr<ActiveRun> active;
   const auto create = [&](store::Stores& stores) -> Result<Answer> {
-    active = std::make_shared<ActiveRun>(stores.runs.create(row), origin_, shared,
+    active = std::make_shared<ActiveRun>(stores.runs.create(row), origins_.own(), shared,
                                          Timestamp{row.created_at_ns});
     return accepted(*active);
   };
@@ -125,7 +125,7 @@ void RunService::run(const std::shared_ptr<ActiveRun>& run) {
 
 void RunService::end(ActiveRun& active, ExecutedRun executed) {
   const RunReport report{.id = active.id(),
-                         .origin = origin_,
+                         .origin = origin_of(active.id()),
                          .program = active.program(),
                          .result = std::move(executed.result),
                          .seed = active.order().setup.seed,

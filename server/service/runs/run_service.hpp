@@ -13,6 +13,7 @@
 #include "base/thread.hpp"
 #include "base/worker_pool.hpp"
 #include "nc/klartext/diagnostic.hpp"
+#include "record/origins.hpp"
 #include "service/files/disks.hpp"
 #include "service/measurements/measurement_service.hpp"
 #include "service/runs/active_run.hpp"
@@ -46,10 +47,10 @@ class RunService {
   template <class T>
   using Done = std::function<void(Result<T>)>;
 
-  /// @param origin of the data folder; outlives the service, as the pool does.
+  /// @param origins outlive the service, as the pool does.
   /// @param orders the pool on which the functions below that block are called
   RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
-             std::string_view origin, JobPool& orders, RunServiceOptions options);
+             const Origins& origins, JobPool& orders, RunServiceOptions options);
   RunService(const RunService&) = delete;
   RunService& operator=(const RunService&) = delete;
   ~RunService();
@@ -100,7 +101,11 @@ class RunService {
   // From any thread.
 
   /// @errors RunUnknown.
-  Result<std::int64_t> parse_id(std::string_view text) const { return parse_run_id(text, origin_); }
+  /// Where a list goes on behind this run.
+  std::string cursor(std::int64_t id) const { return run_id_text(id, origin_of(id)); }
+  Result<std::int64_t> parse_id(std::string_view text) const {
+    return parse_own_run_id(text, origins_);
+  }
 
   /// The run while it is queued or under way; null from when its end is being stored, as the store
   /// then knows more.
@@ -162,12 +167,13 @@ class RunService {
                            const std::optional<std::string>& caller);
   Result<void> close_interrupted();
   void look_for_abandoned(const std::stop_token& stop);
+  std::string_view origin_of(std::int64_t id) const { return origins_.own(Counted::Run, id); }
   Result<void> take_over(const store::Run& run);
   Result<std::shared_ptr<ActiveRun>> queue(std::shared_ptr<ActiveRun> active);
 
   store::Database& database_;
   const Clock& clock_;
-  const std::string_view origin_;
+  const Origins& origins_;
   const RunServiceOptions options_;
   LiveTables live_tables_;
   StoredDisk stored_;

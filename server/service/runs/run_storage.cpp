@@ -42,7 +42,7 @@ Result<void> RunService::close_interrupted() {
     if (runs->empty()) return {};
     for (const store::Run& run : *runs) {
       const RunReport report{.id = run.id,
-                             .origin = origin_,
+                             .origin = origin_of(run.id),
                              .program = run.program,
                              .result = unstarted(RunStatus::Failed, MessageKind::Error,
                                                  "the service ended before the run did; nothing "
@@ -107,12 +107,12 @@ Result<void> RunService::take_over(const store::Run& run) {
   if (!*taken) return {};
   if (order) {
     static_cast<void>(queue(std::make_shared<ActiveRun>(
-        run.id, origin_, std::make_shared<const RunOrder>(*std::move(order)),
+        run.id, origin_of(run.id), std::make_shared<const RunOrder>(*std::move(order)),
         Timestamp{run.created_at_ns})));
     return {};
   }
   const RunReport report{.id = run.id,
-                         .origin = origin_,
+                         .origin = origin_of(run.id),
                          .program = run.program,
                          .result = unstarted(RunStatus::Failed, MessageKind::Error,
                                              "the service ended before the run did, and it cannot "
@@ -146,7 +146,7 @@ Result<FinishedRun> RunService::keep(const RunReport& report, std::string_view t
                                             .files = files},
                                            now);
     if (!closed) return closed.error();
-    if (const auto first = append(stores, measurements, origin_); !first) {
+    if (const auto first = append(stores, measurements, origins_.own()); !first) {
       return first.error();
     }
     stores.events.append(kFinishedEvent, event, now);
@@ -168,8 +168,8 @@ void RunService::find(std::int64_t id, Done<StoredRun> done) {
   database_.readers().submit(
       [this, id](const store::Stores& stores) -> Result<StoredRun> {
         auto run = stores.runs.find(id);
-        if (!run) return unknown_run(run_id_text(id, origin_));
-        return stored_run(*std::move(run), origin_);
+        if (!run) return unknown_run(run_id_text(id, origin_of(id)));
+        return stored_run(*std::move(run), origin_of(id));
       },
       std::move(done));
 }
@@ -187,7 +187,8 @@ void RunService::follow(std::int64_t id, Done<Followed> done) {
 }
 
 void RunService::cancel(std::int64_t id, Done<void> done) {
-  const auto at_end = [id_text = run_id_text(id, origin_), done](const Result<FinishedRun>& end) {
+  const auto at_end = [id_text = run_id_text(id, origin_of(id)),
+                       done](const Result<FinishedRun>& end) {
     if (!end) return done(end.error());
     done(end->state == RunState::Cancelled ? Result<void>() : too_late(id_text));
   };
@@ -212,8 +213,8 @@ void RunService::trace(std::int64_t id, Done<TraceReader> done) {
   database_.readers().submit(
       [this, id](const store::Stores& stores) -> Result<TraceReader> {
         if (auto trace = stores.runs.trace(id)) return TraceReader(*std::move(trace));
-        if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_));
-        return Error{ErrorCode::RunUnfinished, "run '" + run_id_text(id, origin_) +
+        if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_of(id)));
+        return Error{ErrorCode::RunUnfinished, "run '" + run_id_text(id, origin_of(id)) +
                                                    "' is not over; its trace comes with its end"};
       },
       std::move(done));
@@ -225,9 +226,9 @@ void RunService::file(std::int64_t id, std::string name, Done<File> done) {
         if (auto file = stores.runs.file(id, name)) {
           return File{.path = std::move(file->path), .bytes = std::move(file->content)};
         }
-        if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_));
-        return Error{ErrorCode::FileUnknown,
-                     "run '" + run_id_text(id, origin_) + "' has written no file '" + name + "'"};
+        if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_of(id)));
+        return Error{ErrorCode::FileUnknown, "run '" + run_id_text(id, origin_of(id)) +
+                                                 "' has written no file '" + name + "'"};
       },
       std::move(done));
 }
@@ -244,7 +245,8 @@ void RunService::list(RunQuery query, std::optional<std::int64_t> after, std::si
         for (store::Run& run : found.runs) {
           run.request.clear();
           run.result.clear();
-          page.runs.push_back(stored_run(std::move(run), origin_));
+          const std::string_view origin = origin_of(run.id);
+          page.runs.push_back(stored_run(std::move(run), origin));
         }
         return page;
       },

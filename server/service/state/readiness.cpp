@@ -21,7 +21,7 @@ Readiness readiness(const store::Database& database, const TableCatalog& tables,
       readiness.findings.push_back({ErrorCode::StorageCorrupt, health.reason, "database"});
       break;
   }
-  if (auto behind = log.behind()) readiness.findings.push_back(*std::move(behind));
+  if (auto forked = log.forked()) readiness.findings.push_back(*std::move(forked));
   return readiness;
 }
 

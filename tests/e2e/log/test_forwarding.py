@@ -149,6 +149,7 @@ class Forwarding(unittest.TestCase):
         twin.wait_for_log("copied and started twice")
         self.centre.wait_for_log('"event":"log_forked"')
         self.assertEqual(metric(twin, "fitgauge_outbox_rows"), 1)
+        self.assertEqual(twin.measure(PART).json["code"], "log.forked")
         station.measure(PART)
         self.wait_for_rows(5)
         self.wait_until_drained(station)
@@ -203,46 +204,6 @@ class Forwarding(unittest.TestCase):
         self.assertEqual(refused.returncode, 1, refused.stdout)
         self.assertIn("1 measurements are not at", refused.stdout)
         self.assertEqual(forward(1, "--all").returncode if DEEP else 1, 1, "nobody there")
-
-    def test_an_older_copy_takes_no_measurement_as_long_as_the_centre_has_more(self):
-        station = self.station(self.centre.port).start()
-        station.measure([PART] * 3)
-        self.wait_until_drained(station)
-        station.stop()
-        older, newest = (station.folder / name for name in ("older", "newest"))
-        shutil.copytree(station.data, older)
-        station.start()
-        station.measure([PART] * 2)
-        self.wait_until_drained(station)
-        station.stop()
-        station.data.rename(newest)
-        shutil.copytree(older, station.data)
-        station.start()
-        for centre_is_there in (True, False):  # what it has learned it knows without the centre
-            for body in (PART, [PART] * 300):
-                answer = station.measure(body)
-                self.assertEqual((answer.status, answer.json["code"]), (503, "storage.unavailable"))
-                self.assertIn("older copy", answer.json["detail"])
-            self.assertEqual(station.get("/readyz").status, 503)
-            self.assertIn("older copy", station.get("/readyz").text)
-            self.assertEqual(len(records_of(station)), 3, "what is there is read")
-            station.stop()
-            self.assertEqual(station.log.count('"event":"log_behind"'), 1 if centre_is_there else 2)
-            if centre_is_there:
-                self.centre.kill()
-            else:
-                self.centre.start()
-            station.start()
-        station.stop()
-        shutil.rmtree(station.data)
-        newest.rename(station.data)
-        station.start()
-        self.assertEqual(station.get("/readyz").status, 200)
-        self.assertEqual(station.measure(PART).status, 201)
-        self.wait_until_drained(station)
-        self.assertEqual(len(self.assert_same(station)), 6)
-        self.assertEqual(self.centre.stop(), 0)  # its log is written
-        self.assertNotIn('"event":"log_forked"', self.centre.log)
 
     def test_a_station_goes_on_with_a_new_key_of_its_log(self):
         station = self.station(self.centre.port).start()

@@ -278,8 +278,11 @@ class Tampered(StorageTest):
         self.assert_found("an older copy was put back")
         self.daemon.start()
         self.assertEqual(self.daemon.stop(), 0)
-        self.assertIn('"event":"log_behind"', self.daemon.log)
+        self.assertIn('"event":"log_branched"', self.daemon.log)
         self.assert_found("an older copy was put back", self.kept)
+        # Up to the branch the earlier checkpoints hold.
+        verified = self.daemon.command("verify", "--checkpoint", f"{copy}.checkpoint")
+        self.assertEqual(verified.returncode, 0, verified.stdout)
 
 
 class Tamperings(StorageTest):

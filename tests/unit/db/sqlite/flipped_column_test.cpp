@@ -50,6 +50,10 @@ struct Everything : Fixture {
               CHECK(stores.origins.add_revision("2026-a") == stores.origins.add_revision("2026-a"));
               stores.revisions.set_received(RevisionKind::Plan, "4711",
                                             {.number = 3, .digest = {}});
+              const std::int64_t branch = stores.origins.add("9c3e77d21b405f0a");
+              stores.origins.set_base(branch, {.origin = other, .size = 1});
+              stores.log.begin_branch(1100, {1}, "fitgauge/station/9c3e77d2");
+              stores.log.set_forked("another");
               stores.origins.set_forwarded({.centre = "https://centre", .size = 7});
               return true;
             }).has_value());
@@ -112,6 +116,7 @@ const std::map<std::string, std::string> kFree = {
     {"runs.id", "rises: the file's check finds one that does not"},
     {"notes.id", "rises: the file's check finds one that does not"},
     {"log_keys.number", "in no answer"},
+    {"log_branches.number", "in no answer"},
     {"log_nodes.level", "made from the leaves: the application compares them"},
     {"log_nodes.node", "as above"},
     {"log_nodes.hash", "as above"},

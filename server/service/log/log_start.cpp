@@ -1,0 +1,231 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <random>
+#include <utility>
+
+#include "db/store/database.hpp"
+#include "proof/note.hpp"
+#include "service/log/log_keys.hpp"
+#include "service/log/log_reader.hpp"
+#include "service/log/log_service.hpp"
+#include "service/measurements/mapping.hpp"
+#include "service/tables/table_catalog.hpp"
+
+// How the log of a folder begins: under which history it goes on, and with which key. How it grows
+// is in log_service.cpp.
+
+namespace fitgauge::app {
+namespace {
+
+/// Hexadecimal digits of the origin in the log's name.
+constexpr std::size_t kDigitsInName = 8;
+
+std::string name_of(std::string_view name, std::string_view digits) {
+  return fmt::format("fitgauge/{}/{}", name, digits.substr(0, kDigitsInName));
+}
+
+}  // namespace
+
+/// What the database says of its log.
+struct LogService::Loaded {
+  store::LogStore::State state{};
+  std::vector<store::LogStore::Branch> branches{};
+  std::vector<std::string> keys{};
+  std::int64_t rows = 0;
+  bool is_copy = false;
+  std::optional<std::string> forked{};
+  std::vector<store::OriginsStore::Origin> origins{};
+};
+
+Result<LogService::Loaded> LogService::read() const {
+  return database_.readers().wait([](const store::Stores& stores) -> Result<Loaded> {
+    return Loaded{.state = stores.log.state(),
+                  .branches = stores.log.branches(),
+                  .keys = stores.log.keys(),
+                  .rows = stores.measurements.log_size(),
+                  .is_copy = stores.log.is_copy(),
+                  .forked = stores.log.forked(),
+                  .origins = stores.origins.list()};
+  });
+}
+
+Result<void> LogService::load() {
+  auto loaded = read();
+  // What is damaged is for verify to tell.
+  if (options_.attach && !loaded && loaded.error().code == ErrorCode::StorageCorrupt) return {};
+  if (!loaded) return loaded.error();
+  if (!options_.attach) {
+    if (const auto why = why_to_branch(*loaded)) {
+      if (const auto begun = branch(*loaded, *why); !begun) return begun;
+      loaded = read();
+      if (!loaded) return loaded.error();
+    }
+  }
+  std::int64_t begin = 0;
+  for (const auto& ended : loaded->branches) {
+    const std::string digits = digits_of_origin(ended.origin);
+    origins_.remember({.digits = digits, .newest = ended.newest});
+    histories_.push_back({.digits = digits, .name = ended.name, .begin = begin, .end = ended.size});
+    begin = ended.size;
+  }
+  origins_.remember(0, digits_of_origin(loaded->state.origin));
+  for (const auto& origin : loaded->origins) origins_.remember(origin.number, origin.digits);
+  if (options_.attach) return {};
+  const auto frontier =
+      database_.readers().wait([&](const store::Stores& stores) -> Result<tlog::Frontier> {
+        const RowNames names = row_names(tables_, origins_);
+        return LogReader(stores, names).frontier(static_cast<std::uint64_t>(loaded->state.size));
+      });
+  if (!frontier) return frontier.error();
+  frontier_ = *frontier;
+  name_ = loaded->state.name.value_or(name_of(options_.name, origin()));
+  histories_.push_back({.digits = std::string(origin()), .name = name_, .begin = begin});
+  if (const auto keys = load_keys(loaded->keys); !keys) return keys;
+  if (loaded->forked) {
+    forked_.set(std::make_shared<const std::string>(*loaded->forked));
+    tell("log_forked", *loaded->forked);
+  }
+  sign();
+  return {};
+}
+
+/// Makes the key at the first start of a history, or when it was lost, and lists its public half.
+Result<void> LogService::load_keys(const std::vector<std::string>& known) {
+  auto keys = read_log_keys(options_.directory);
+  if (!keys) return keys.error();
+  bool is_foreign = false;
+  for (const tlog::SigningKey& key : *keys) {
+    const auto history =
+        std::find_if(histories_.begin(), histories_.end(),
+                     [&](const History& each) { return each.name == key.verifier().name(); });
+    if (history == histories_.end()) {
+      is_foreign = true;
+    } else if (history->end) {
+      if (!history->signer) history->signer = key;
+      older_.push_back(key);
+    } else {
+      signers_.push_back(key);
+    }
+  }
+  if (is_foreign) set_aside(kLogKeyFile, "of another log");
+  const bool is_made = signers_.empty();
+  if (is_made) signers_.push_back(tlog::SigningKey::make(name_));
+  if (is_made || is_foreign) {
+    if (const auto written = write_keys(); !written) return written;
+  }
+  if (is_made) {
+    const bool was_there = std::any_of(known.begin(), known.end(), [this](const auto& text) {
+      const auto key = tlog::VerifierKey::parse(text);
+      return key && key->name() == name_;
+    });
+    // Of daemons that share a database each has a key of its own.
+    if (was_there && !options_.shares) {
+      tell("log_key_lost",
+           fmt::format("{} is not there: a new key signs from now on, and nothing but a kept "
+                       "checkpoint joins it to the old one",
+                       kLogKeyFile));
+    }
+  }
+  signer_ = histories_.back().signer = signers_.front();
+  std::vector<std::string> all = known;
+  const std::string newest = signers_.front().verifier().text();
+  const bool is_new = std::find(known.begin(), known.end(), newest) == known.end();
+  if (is_new) all.insert(all.begin(), newest);
+  std::string lines;
+  for (const std::string& key : all) lines += key + "\n";
+  verifier_keys_.set(std::make_shared<const std::string>(std::move(lines)));
+  if (!is_new) return {};
+  const auto stored = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    stores.log.set_name(name_);
+    stores.log.add_key(newest, clock_.now().nanoseconds);
+    return true;
+  });
+  if (!stored) return stored.error();
+  return {};
+}
+
+/// Those of former histories go on signing what a centre lacks of them.
+Result<void> LogService::write_keys() const {
+  std::vector<tlog::SigningKey> all = signers_;
+  all.insert(all.end(), older_.begin(), older_.end());
+  return write_log_keys(options_.directory, all);
+}
+
+/// Keeps a file that does not belong to the database.
+void LogService::set_aside(std::string_view name, std::string_view why) {
+  const auto aside = fmt::format("{}.{}", name, clock_.now().nanoseconds / 1'000'000'000);
+  std::error_code failure;
+  std::filesystem::rename(options_.directory / name, options_.directory / aside, failure);
+  tell("log_file_set_aside",
+       failure ? fmt::format("{} is {}, and cannot be renamed: {}", name, why, failure.message())
+               : fmt::format("{} is {}: it is called {} now", name, why, aside));
+}
+
+/// The finding of the checkpoint in the folder against the database; the file is set aside then.
+std::optional<std::string> LogService::told_by_checkpoint(const Loaded& loaded) {
+  const auto note = read_small_file(options_.directory / kCheckpointFile);
+  if (!note || !*note || (*note)->empty()) return std::nullopt;
+  if (!tlog::parse_checkpoint(**note)) {  // cut by a power failure, say
+    set_aside(kCheckpointFile, "no checkpoint");
+    return std::nullopt;
+  }
+  std::vector<tlog::VerifierKey> keys;
+  for (const std::string& text : loaded.keys) {
+    if (auto key = tlog::VerifierKey::parse(text)) keys.push_back(*std::move(key));
+  }
+  const auto kept = tlog::open_checkpoint(**note, keys);
+  // A branch that was not signed yet when the daemon ended.
+  const auto is_former = [&](const auto& ended) { return kept && kept->origin == ended.name; };
+  if (std::any_of(loaded.branches.begin(), loaded.branches.end(), is_former)) return std::nullopt;
+  if (!kept || kept->origin != *loaded.state.name) {
+    set_aside(kCheckpointFile, "of another log or key");
+    return "the folder has signed another log than the database's";
+  }
+  const auto rows = static_cast<std::uint64_t>(loaded.rows);
+  if (kept->size <= rows) return std::nullopt;
+  set_aside(kCheckpointFile, "newer than the database");
+  return fmt::format("this folder has signed {} measurements, and the database has {}", kept->size,
+                     rows);
+}
+
+/// Why ids that would be given out next may have been given out before, if they may.
+std::optional<std::string> LogService::why_to_branch(const Loaded& loaded) {
+  if (!loaded.state.name) return std::nullopt;  // the first start
+  if (auto told = told_by_checkpoint(loaded)) return told;
+  if (loaded.is_copy) return "the database is a copy that `backup` made";
+  if (!options_.ask_centre) return std::nullopt;
+  const auto there = options_.ask_centre(digits_of_origin(loaded.state.origin));
+  if (!there) return "the centre does not say whether it has more of this log";
+  if (*there <= loaded.rows) return std::nullopt;
+  return fmt::format("the centre has {} measurements of this log, and the database has {}", *there,
+                     loaded.rows);
+}
+
+Result<void> LogService::branch(const Loaded& loaded, const std::string& why) {
+  std::array<std::uint8_t, 16> origin{};
+  std::random_device random;
+  for (std::uint8_t& byte : origin) byte = static_cast<std::uint8_t>(random());
+  const std::string& before = *loaded.state.name;
+  const std::size_t first = before.find('/') + 1;
+  const std::string name =
+      name_of(before.substr(first, before.rfind('/') - first), digits_of_origin(origin));
+  const auto begun = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
+    // Another daemon may have been first.
+    if (stores.log.state().origin != loaded.state.origin) return false;
+    stores.log.begin_branch(stores.measurements.log_size(), origin, name);
+    return true;
+  });
+  if (!begun) return begun.error();
+  if (*begun) {
+    tell("log_branched",
+         fmt::format("{} goes on as {} behind {} measurements, which keep their ids; those from "
+                     "then on end with {}: {}",
+                     before, name, loaded.rows, digits_of_origin(origin), why));
+  }
+  return {};
+}
+
+}  // namespace fitgauge::app
