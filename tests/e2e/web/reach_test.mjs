@@ -112,7 +112,7 @@ describe('the reach of the page', () => {
   it('shows a whole verdict below a plan on a low screen, and above the number pad on a phone', async () => {
     await daemon.send('PUT', '/v1/plans/LOW', { name: 'Flange', characteristics: [{ name: 'bore-1', designation: '25 H7' }, { name: 'bore-2', designation: '30 H7' }, { name: 'journal', designation: '40 k6' }] });
     for (const [viewport, pad] of [[{ width: 1024, height: 700 }, false], [{ width: 1024, height: 700 }, true], [PHONE, true]]) {
-      const page = await open(browser, daemon, '#/gauge/25H7?plan=LOW&part_id=SN-1&characteristic=bore-1', { viewport });
+      const page = await open(browser, daemon, `#/gauge/25H7?plan=LOW&part_id=SN-${viewport.width}-${pad}&characteristic=bore-1`, { viewport });
       await page.waitForSelector('.echo .figures');
       if (pad) {
         await page.click('.more summary');
