@@ -16,10 +16,13 @@ DO $$
 DECLARE
   narrow TEXT;
 BEGIN
-  SELECT conname INTO STRICT narrow FROM pg_constraint
-   WHERE conrelid = 'measurements'::regclass AND contype = 'c'
-     AND pg_get_constraintdef(oid) LIKE '%cycle IS NOT NULL%measured_nm%';
-  EXECUTE format('ALTER TABLE measurements DROP CONSTRAINT %I', narrow);
+  FOR narrow IN
+    SELECT conname FROM pg_constraint
+     WHERE conrelid = 'measurements'::regclass AND contype = 'c'
+       AND pg_get_constraintdef(oid) LIKE '%cycle IS NOT NULL%measured_nm%'
+  LOOP
+    EXECUTE format('ALTER TABLE measurements DROP CONSTRAINT %I', narrow);
+  END LOOP;
 END $$;
 ALTER TABLE measurements ADD CONSTRAINT measurements_size
   CHECK (cycle IS NOT NULL OR measured_nm > 0 OR coalesce(quantity, 0) IN (4, 5, 8)) NOT VALID;
