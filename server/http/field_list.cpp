@@ -23,8 +23,16 @@ int weight(std::string_view text) {
   return std::min(value, 1000);
 }
 
-/// The end of the tag of an answer that was packed on its way.
-constexpr std::string_view kPackedEtagEnd = "-gzip\"";
+/// Whether two tags are of one representation, each in the plain or the gzip form.
+bool is_same(std::string_view a, std::string_view b) {
+  const auto take_end = [](std::string_view& tag) {
+    const bool is_tag = tag.ends_with('"');
+    if (is_tag) tag.remove_suffix(1);
+    if (is_tag && tag.ends_with(kPackedEtagEnd)) tag.remove_suffix(kPackedEtagEnd.size());
+    return is_tag;
+  };
+  return take_end(a) == take_end(b) && a == b;
+}
 
 template <class Matches>
 bool names(std::string_view tags, const Matches& matches) {
@@ -78,26 +86,19 @@ int quality(std::string_view parameters) {
 
 std::string packed_etag(std::string_view etag) {
   std::string packed(etag.substr(0, etag.size() - std::min<std::size_t>(etag.size(), 1)));
-  return etag.empty() ? packed : packed.append(kPackedEtagEnd);
-}
-
-std::string plain_etag(std::string_view etag) {
-  if (!etag.ends_with(kPackedEtagEnd)) return std::string(etag);
-  return std::string(etag.substr(0, etag.size() - kPackedEtagEnd.size())) + '"';
+  return etag.empty() ? packed : packed.append(kPackedEtagEnd).append("\"");
 }
 
 bool names_etag_weakly(std::string_view tags, std::string_view etag) {
   const auto opaque = [](std::string_view tag) {
-    return plain_etag(tag.starts_with("W/") ? tag.substr(2) : tag);
+    return tag.starts_with("W/") ? tag.substr(2) : tag;
   };
-  return names(tags,
-               [&, wanted = opaque(etag)](std::string_view tag) { return opaque(tag) == wanted; });
+  return names(tags, [&](std::string_view tag) { return is_same(opaque(tag), opaque(etag)); });
 }
 
 bool names_etag_strongly(std::string_view tags, std::string_view etag) {
-  return names(tags, [&, wanted = plain_etag(etag)](std::string_view tag) {
-    return !tag.starts_with("W/") && plain_etag(tag) == wanted;
-  });
+  return names(tags,
+               [&](std::string_view tag) { return !tag.starts_with("W/") && is_same(tag, etag); });
 }
 
 }  // namespace fitgauge::http

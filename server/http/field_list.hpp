@@ -27,10 +27,10 @@ NameValue split_parameter(std::string_view part);
 /// is malformed (RFC 9110 section 12.4.2).
 int quality(std::string_view parameters);
 
-/// The entity tag of the gzip form of what has `etag`: `"abc"` and `"abc-gzip"`; and back. Both
-/// leave an empty text empty.
+/// The entity tag of the gzip form of an answer: `"abc-gzip"` of `"abc"`; empty of an empty one.
 std::string packed_etag(std::string_view etag);
-std::string plain_etag(std::string_view etag);
+/// The end of such a tag, before its quote.
+inline constexpr std::string_view kPackedEtagEnd = "-gzip";
 
 /// Whether a list of entity tags, or `*`, names `etag` or its other form. If-None-Match compares
 /// weakly, so that `W/` does not count; If-Match strongly, so that a weak tag names nothing (RFC

@@ -28,6 +28,7 @@ struct StreamedBody {
   /// The body has no end that a reader waits for: it ends regularly where ServerHooks::may_continue
   /// says so. Any other breaks off, so that nobody takes it for whole.
   bool is_endless = false;
+  std::size_t held = 0;  ///< bytes that only the source keeps until the body has left
 };
 
 /// Bytes of its own, immutable bytes shared with others, or a stream.

@@ -81,11 +81,10 @@ std::optional<std::vector<std::string>> revisions_to_match(const http::Request& 
   const auto header = request.header_list("If-Match");
   if (!header || trim(*header) == "*") return std::nullopt;
   std::vector<std::string> revisions;
-  for (const std::string_view given : list_items(*header)) {
-    const std::string plain = http::plain_etag(given);
-    std::string_view tag = plain;
+  for (std::string_view tag : list_items(*header)) {
     // If-Match compares strongly: a weak tag never matches (RFC 9110, 13.1.1).
     if (tag.size() < 2 || tag.front() != '"' || tag.back() != '"') continue;
+    if (tag.ends_with(http::kPackedEtagEnd)) tag.remove_suffix(http::kPackedEtagEnd.size());
     tag = tag.substr(1, tag.size() - 2);
     revisions.emplace_back(tag.substr(0, tag.find('.')));
   }

@@ -233,7 +233,9 @@ void pack(Response& response, SentAnswer& sent) {
     return;
   }
   sent.packed = true;
-  response.body = StreamedBody{.source = std::make_shared<TextStream>(owner, body)};
+  constexpr long kOwn = 2;  // here and in the response
+  const std::size_t held = owner.use_count() > kOwn ? 0 : body.size();
+  response.body = StreamedBody{.source = std::make_shared<TextStream>(owner, body), .held = held};
 }
 
 /// Whether the answer has a gzip form, which a short one has for those who take no other.

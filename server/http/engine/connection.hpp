@@ -141,7 +141,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Acts on a deadline that has passed.
   void check_deadline(Tick now);
   /// The bytes of answers that the client has not taken yet, and since when it takes them.
-  std::size_t bytes_unsent() const { return output_.held(); }
+  std::size_t bytes_unsent() const { return output_.held() + (stream_ ? stream_->held : 0); }
   std::optional<Tick> unsent_since() const { return unsent_since_; }
 
   /// The bytes a body waits for before it can be read on, or 0.

@@ -59,7 +59,7 @@ void Exchange::take(RequestHead& head, std::uint64_t id) {
   }
   request_.method_ = method_named(head.method);
   if (head.has_request_id) {
-    const std::string_view given = *head.find("X-Request-Id");
+    const std::string_view given = head.find("X-Request-Id").value_or("");
     if (is_request_id(given)) request_.given_id_ = given;
   }
   if (head.has_origin && !allowed_origins_.empty()) {

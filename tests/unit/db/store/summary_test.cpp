@@ -28,7 +28,7 @@ constexpr std::size_t kThreeFilters = kTwoFilters + 1;
 constexpr std::size_t kFilters = kThreeFilters + 1;
 
 std::string line(std::optional<std::string_view> value, std::int64_t count,
-                 const std::array<std::int64_t, 4>& verdicts, const std::string& mean,
+                 const std::array<std::int64_t, 5>& verdicts, const std::string& mean,
                  const std::optional<std::string>& deviation, std::int64_t min, std::int64_t max) {
   return fmt::format("{}: {}x {} mean {} s {} {}..{}\n",
                      value ? '"' + std::string(*value) + '"' : "none", count,
@@ -114,7 +114,7 @@ struct Shop : Fixture {
                        TextField group_by) const {
     struct Group {
       ExactStatistics statistics;
-      std::array<std::int64_t, 4> verdicts{};
+      std::array<std::int64_t, 5> verdicts{};
     };
     MeasurementFilter all = filter;
     all.history = true;

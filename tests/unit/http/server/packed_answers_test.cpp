@@ -3,12 +3,14 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <memory>
 
 #include "base/gzip.hpp"
 #include "http/body_stream.hpp"
 #include "http/engine/media_type.hpp"
+#include "support/comes_true.hpp"
 #include "test_server.hpp"
 
 using namespace fitgauge;
@@ -241,4 +243,30 @@ TEST_CASE("a streamed body is packed piece by piece") {
   CHECK(packed->body.size() < plain->body.size() / 4);
   CHECK(unpacked(packed->body) == plain->body);
   CHECK(client.ask(get("/json/10"))->body == text_of(10));
+}
+
+TEST_CASE("the body of a packed answer that nobody takes counts as unsent") {
+  ServerOptions options;
+  options.unsent_budget = 50'000'000;  // two bodies
+  options.unsent_time = std::chrono::milliseconds(0);
+  TestServer server({{.pattern = "/noise",
+                      .handler =
+                          [](const Request&) {
+                            std::string text(20'000'000, '\0');
+                            std::uint32_t state = 1;
+                            for (char& c : text) {
+                              state = state * 1664525 + 1013904223;
+                              c = static_cast<char>(' ' + (state >> 24) % 95);
+                            }
+                            return Response(200, "application/json", std::move(text));
+                          },
+                      .response_types = {}}},
+                    options);
+  std::vector<Client> stuck;
+  for (int i = 0; i < 6; ++i) {
+    stuck.push_back(server.connect());
+    stuck.back().send(get("/noise", kGzip));
+    REQUIRE_FALSE(stuck.back().read_some().empty());
+  }
+  CHECK(comes_true([&] { return server.server().counters().connections_open == 2; }));
 }

@@ -52,10 +52,10 @@ std::string in_chunks(std::string_view bytes) {
 }
 
 std::vector<BodyForm> body_forms() {
-  using Pieces = std::vector<std::string>;
-  const auto whole = [](const std::string& bytes) { return Pieces{bytes}; };
+  using Texts = std::vector<std::string>;
+  const auto whole = [](const std::string& bytes) { return Texts{bytes}; };
   const auto late = [](const std::string& bytes) { return halves(bytes); };
-  const auto chunked = [](const std::string& bytes) { return Pieces{in_chunks(bytes)}; };
+  const auto chunked = [](const std::string& bytes) { return Texts{in_chunks(bytes)}; };
   const auto slow_chunks = [](const std::string& bytes) { return halves(in_chunks(bytes)); };
   const std::string te = "Transfer-Encoding: chunked\r\n";
   const std::string ce = "Content-Encoding: gzip\r\n";
@@ -157,7 +157,7 @@ TEST_CASE("a request says what was sent, in every form of body and on every kind
           CAPTURE(target.sent);
           CAPTURE(form.name);
           CAPTURE(body.size());
-          const std::string bytes = form.gzip ? gzip(body) : body;
+          const std::string bytes = form.gzip ? test::gzip(body) : body;
           std::string head = fmt::format(
               "{} {} HTTP/1.1\r\nHost: gauge.example:8286\r\nContent-Type: Text/CSV\r\n"
               "Accept: text/plain\r\nX-Key: some-value\r\nIdempotency-Key: \"retry-1\"\r\n{}",
