@@ -100,6 +100,11 @@ class MeasurementCalls(Transport):
         return self._get("/v1/measurements/chart",
                          {"kind": kind, "rules": ",".join(map(str, rules)) or None, **filters})
 
+    def compensation(self, *, target_mm: Size | None = None, cost: Size | None = None,
+                     **filters: Parameter) -> dict[str, Any]:
+        """The next offset of a machine, from the newest values: `state`, `offset_um`, `interval_um`, `next_in_parts`."""
+        return self._get("/v1/measurements/compensation", {"target_mm": target_mm, "cost": cost, **filters})
+
     def correct(self, measurement_id: str, correction: Correction, *,
                 idempotency_key: str | None = None) -> Measurement:
         """A new record in place of a wrong one, which stays: `measured_mm`, `reason`, and what else changes."""

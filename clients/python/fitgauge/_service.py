@@ -68,6 +68,10 @@ class ServiceCalls(Transport):
         """Tries the other side once: `ok` and `detail`."""
         return loads(self._perform(Request("POST", path_of("connections", name, "test"))).body)
 
+    def replay_connection(self, name: str, start: str) -> dict[str, Any]:
+        """Sends again from the id of a measurement or an event, or from a time."""
+        return self._compute(path_of("connections", name, "replay"), {"from": start})
+
     def mtconnect(self, request: str, *, start: int | None = None, count: int | None = None) -> str:
         """An MTConnect document: `probe`, `current`, `sample` from a sequence on, `assets` or `asset/ID`."""
         return self._bytes("/mtconnect/" + urllib.parse.quote(request) + query_of({"from": start, "count": count}),

@@ -100,6 +100,7 @@ std::string LogCheck::head_text() {
   }
   std::string text = fmt::format("{}: {} measurements, root {}", facts_.name, frontier_.size(),
                                  tlog::to_base64(frontier_.root()));
+  if (frontier_.size() == 0) return text;
   for (const std::string& place : empty_) {
     text += fmt::format("\n{} covers 0 of them: it says nothing of any", place);
   }

@@ -138,6 +138,7 @@ class EveryRoute(ControlTest):
         client.measure_all([{"designation": "25 H7", "measured_mm": value, "characteristic": "figures"}
                             for value in values])
         self.assertEqual(client.capability(characteristic="figures", target_mm=25)["selection"]["count"], 5)
+        self.assertEqual(client.compensation(characteristic="figures")["state"], "wait")
         chart = client.chart("i_mr", [1, 2], characteristic="figures")
         self.assertEqual((chart["charts"][0]["points"], chart["violations"]), (values, []))
 
@@ -194,6 +195,9 @@ class EveryRoute(ControlTest):
         self.assertEqual(client.connection("mill")["address"], "127.0.0.1:1")
         self.assertFalse(client.test_connection("mill")["ok"])
         client.delete_connection("mill")
+        client.put_connection("mes", {"kind": "webhook", "url": "http://127.0.0.1:1/", "secrets": ["whsec_" + "A" * 32]})
+        self.assertEqual(client.replay_connection("mes", "2026-11-20T08:00:00Z")["kind"], "webhook")
+        client.delete_connection("mes")
         self.assertIn("FEATURE_MEASUREMENT", client.mtconnect("probe"))
         self.assertIn("nextSequence", client.mtconnect("sample", start=1, count=2))
         self.assertIn("PartCount", client.mtconnect("current"))

@@ -273,6 +273,7 @@ class Answers(ContractTest):
             self.expect("assessStoredCapability", 200, characteristic="figures", subgroups=subgroups)
             self.expect("makeStoredControlChart", 200, characteristic="figures", subgroups=subgroups, rules="1,2,3,4")
         self.expect("assessStoredCapability", 422, characteristic="none")
+        self.expect("proposeOffset", 200, characteristic="figures")
         budget = {"contributions": [{"name": "a", "standard_uncertainty": 2}]}
         for status in (201, 200):
             self.expect("putUncertainty", status, budget, name="plug")

@@ -127,7 +127,6 @@ TEST_CASE("fits are found within their bounds, the preferred first") {
   CHECK_FALSE(is_preferred("H7", "g7"));
   CHECK_FALSE(is_preferred("G8", "h6"));
   CHECK_FALSE(is_preferred("H7", "6"));
-  CHECK_FALSE(is_preferred("G7", "h6"));
   CHECK(find_fits(tables(), size("25"), {Length::micrometres(1), Length::micrometres(1)}).empty());
 }
 
