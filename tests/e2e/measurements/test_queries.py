@@ -119,7 +119,7 @@ class Lists(DaemonTest):
         table = list(csv.DictReader(io.StringIO(answer.text)))
         self.assertEqual([row["id"] for row in table], self.rows[::10])
         self.assertEqual({row["excess_um"] for row in table}, {"9"})
-        self.assertEqual(answer.headers["vary"], "Accept")
+        self.assertEqual(answer.headers["vary"], "Accept, Accept-Encoding")
 
     def test_a_limited_csv_has_the_link(self):
         answer = self.daemon.get("/v1/measurements?limit=10", Accept="text/csv")
