@@ -127,7 +127,7 @@ void wait_for_end(http::Server& server, bool tls, const Clock& clock) {
   }
 }
 
-/// What is acknowledged is on disk: an end that something outside holds up is no longer waited for.
+/// Ends the process if something outside holds up its end; all that is acknowledged is on disk.
 void end_in_time(const std::stop_token& stop) {
   constexpr std::chrono::seconds kLongestEnd{9};
   std::mutex mutex;

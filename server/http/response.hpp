@@ -34,7 +34,7 @@ struct StreamedBody {
 /// Bytes of its own, immutable bytes shared with others, or a stream.
 using Body = std::variant<std::string, std::shared_ptr<const std::string>, StreamedBody>;
 
-/// What a handler answers. The engine adds Date, Content-Length or Transfer-Encoding, Connection,
+/// The answer of a handler. The engine adds Date, Content-Length or Transfer-Encoding, Connection,
 /// ETag, X-Request-Id, X-Content-Type-Options, Cross-Origin-Resource-Policy and the fields of CORS;
 /// it leaves the body out for HEAD, and answers 304 by itself when `etag` is set, the request is
 /// GET or HEAD and its If-None-Match names it. It packs bodies of more than 1 KiB (is_packable) for

@@ -232,7 +232,7 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
       .pattern = "/v1/connections/{name}/replay",
       .handler = by(all, replay),
       .summary = "Send again from a place",
-      .description = "What goes out again has its ids as before: a receiver that knows them by "
+      .description = "Events go out again with their ids: a receiver that knows them by "
                      "their ids ignores what it has.",
       .parameters = {name},
       .body = {.use = http::BodyUse::Required,

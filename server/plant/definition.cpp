@@ -31,8 +31,8 @@ constexpr std::string_view kSecrets = "secrets";
 constexpr std::string_view kPassword = "password";
 constexpr std::string_view kHeaders = "headers";
 
-/// What may be shown: how many secrets there are instead of them, that there is a password, and the
-/// names of headers.
+/// The part that may be shown: the number of secrets instead of them, that there is a password, and
+/// the names of headers.
 JsonValue shown(JsonValue body) {
   for (auto& [name, value] : body.members) {
     if (name == kSecrets) {

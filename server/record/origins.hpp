@@ -17,7 +17,7 @@ namespace fitgauge::app {
 /// The kinds of things with ids; each is counted by itself.
 enum class Counted : std::uint8_t { Measurement, Run, Event, Note };
 
-/// What the ids of each data folder end with whose records stand here: 16 hexadecimal digits, the
+/// The ends of the ids of each data folder whose records stand here: 16 hexadecimal digits, the
 /// tag of a history. Number 0 is this folder, whose log may have gone through several. Thread-safe;
 /// what was given out stays valid.
 class Origins {

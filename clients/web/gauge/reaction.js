@@ -57,7 +57,7 @@ export class Reactions {
 
   draw() {
     const { open } = this.ledger;
-    // What is typed into its field stays while nothing changes.
+    // Its field keeps the typed text while nothing changes.
     const drawn = JSON.stringify(open.map((value) => [value.key, this.ledger.verdictOf(value), this.ledger.said(value), this.#asked(value)]));
     if (drawn === this.drawn) return;
     this.drawn = drawn;

@@ -187,7 +187,7 @@ export class ControlChart {
       ctx.fillText(...text);
     };
     for (const [i, x] of inSight(plot, this.firsts, APART.rules * size)) write([...rules.get(i)].join(','), x, plot.valToPos(row.data[i], 'nm', true) - 13 * size);
-    // What lies beyond the edge: an arrow with how far.
+    // A point beyond the edge: an arrow with its distance.
     for (const [i, x] of inSight(plot, this.beyond, APART.beyond * size)) {
       const isHigh = this.points[i].deviation > this.range.high;
       write(`${isHigh ? '▲' : '▼'} ${signed(umText(Math.round(this.points[i].deviation)))}`, x, plot.valToPos(row.data[i], 'nm', true) + (isHigh ? 22 : -14) * size);

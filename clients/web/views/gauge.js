@@ -34,7 +34,7 @@ export function mount(main, route) {
   const panel = new Panel();
   /** Why no value is taken now; '' where one is. */
   const reason = () => reactions.reason || (plan.loading ? t('entry.busy') : '') || plan.reason;
-  // Who has logged in is the operator: the record names the badge, and no name of the one before.
+  // The badge that has logged in is the operator: the record names the badge, and no name of the one before.
   const badge = new Badge({ onIn: () => {
     job.set('operator', '');
     next();

@@ -20,9 +20,9 @@ struct Warning {
   std::string detail;
 };
 
-/// What a measured value is stored in spite of: an acceptance zone that is empty, an uncertainty
-/// above a tenth of the tolerance that the simple rule does not see, a gauge that is not registered
-/// while others are.
+/// Reasons for care that do not keep a value from the store: an acceptance zone that is empty, an
+/// uncertainty above a tenth of the tolerance that the simple rule does not see, a gauge that is
+/// not registered while others are.
 std::vector<Warning> warnings_of(const app::Measurement& measurement);
 
 /// Writes `"warnings":[{code, detail}]`; nothing without any.

@@ -57,7 +57,7 @@ schema::Fields echoed_fields() {
   return fields;
 }
 
-/// What an answer to a stored value says beside it.
+/// The warnings in the answer to a stored value.
 schema::Fields warnings_field() {
   const std::string warning = schema::object(
       {{"code", schema::text(), "rule.no_acceptance, uncertainty.large, gauge.unknown"},

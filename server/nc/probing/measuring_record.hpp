@@ -44,7 +44,7 @@ struct Form {
   std::optional<Length> deviation{};
 };
 
-/// What a value of a cycle is.
+/// The quantity that a cycle measures.
 constexpr gauging::Quantity quantity_of(int cycle, bool is_position) {
   using gauging::Quantity;
   if (is_position || cycle == 427) return Quantity::Position;

@@ -41,7 +41,7 @@ class LogOutbox {
     std::vector<std::string> records{};
     std::vector<store::IdempotencyStore::Forwarded> answers{};
   };
-  /// What follows the first `after` records, at most `most`, of one history; no record where
+  /// The rows behind the first `after` records, at most `most`, of one history; no record where
   /// nothing does.
   /// @errors those of storage.
   Result<Batch> next(std::int64_t after, std::int64_t most) const;

@@ -50,8 +50,8 @@ struct LogOptions {
 class LogService {
  public:
   /// Reads the log's name and keys, makes them at the first start, and signs what the tree has.
-  /// What was stored and is not in it follows in the background. Where the database may be an older
-  /// copy of what has given out ids, a branch begins: another origin, name and key.
+  /// Rows that were stored and are not in it follow in the background. Where the database may be an
+  /// older copy of what has given out ids, a branch begins: another origin, name and key.
   /// @errors StorageUnavailable, StorageCorrupt, KeyMalformed.
   static Result<std::unique_ptr<LogService>> open(store::Database& database,
                                                   const TableCatalog& tables, const Clock& clock,

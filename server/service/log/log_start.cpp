@@ -29,7 +29,7 @@ std::string name_of(std::string_view name, std::string_view digits) {
 
 }  // namespace
 
-/// What the database says of its log.
+/// The state of the log in the database.
 struct LogService::Loaded {
   store::LogStore::State state{};
   std::vector<store::LogStore::Branch> branches{};
@@ -54,7 +54,7 @@ Result<LogService::Loaded> LogService::read() const {
 
 Result<void> LogService::load() {
   auto loaded = read();
-  // What is damaged is for verify to tell.
+  // verify tells of damage.
   if (options_.attach && !loaded && loaded.error().code == ErrorCode::StorageCorrupt) return {};
   if (!loaded) return loaded.error();
   if (!options_.attach) {

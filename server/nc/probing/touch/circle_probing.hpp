@@ -39,7 +39,7 @@ std::vector<Point2> ball_centres(std::span<const Contact> contacts);
 CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
                                    double ball_radius);
 
-/// What the points say about roundness, and the circle about its diameter.
+/// The form by the points, and how surely the circle gives its diameter.
 Form circle_form(std::span<const Point2> points, const Circle& circle, double start_angle);
 
 struct ProbedCircle {
