@@ -66,19 +66,24 @@ export const umText = (nm) => unscaled(nm, 3, 0);
 export const boundsOf = ({ lower_limit_mm: lower, upper_limit_mm: upper }) =>
   [lower === undefined ? -Infinity : nmFromMm(lower), upper === undefined ? Infinity : nmFromMm(upper)];
 
+/** The verdicts below and above the limits: rework where material can still be removed, as from a broken edge. */
+function beyond({ feature, quantity, tolerance_class: of }) {
+  if (feature === 'hole' || ['radius', 'chamfer'].includes(quantity) || /^[RC] ISO 2768/.test(of)) return ['rework', 'reject'];
+  return feature ? ['reject', 'rework'] : ['reject', 'reject'];
+}
+
 /**
  * The verdict of whole nanometres, as the service gives it (limits inclusive); null where this page
  * cannot tell. @param guard k times u in nm: beside a limit by less, the value is indeterminate
  */
 export function judge(measured, limits, guard = 0) {
-  const { feature } = limits;
   const [lower, upper] = boundsOf(limits);
   const below = lower - measured;
   const above = measured - upper;
   if (!Number.isSafeInteger(guard) || ![below, above].every((nm) => Number.isSafeInteger(nm) || nm === -Infinity)) return null;
   if (below <= -guard && above <= -guard) return 'good';
-  if (below > guard) return feature === 'hole' ? 'rework' : 'reject';
-  if (above > guard) return feature === 'hole' ? 'reject' : 'rework';
+  if (below > guard) return beyond(limits)[0];
+  if (above > guard) return beyond(limits)[1];
   return 'indeterminate';
 }
 

@@ -66,11 +66,12 @@ describe('other standards at the station', () => {
   });
 
   it('are judged by the limits held while the service is away, as the service judges', async () => {
-    for (const designation of ['M10-6H', 'M10x1.25-6g', '25 ISO 2768-m', 'R5 ISO 2768-f']) {
-      const limits = await daemon.json(`/v1/limits/${encodeURIComponent(designation)}`);
+    for (const [designation, side] of [['M10-6H'], ['M10x1.25-6g'], ['25 ISO 2768-m', 'hole'], ['25 ISO 2768-m', 'shaft'], ['R5 ISO 2768-f'], ['C5 ISO 2768-m']]) {
+      const given = await daemon.json(`/v1/limits/${encodeURIComponent(designation)}`);
+      const limits = { ...given, feature: side ?? given.feature };
       for (const limit of [limits.lower_limit_mm, limits.upper_limit_mm].map((mm) => nmFromMm(String(mm)))) {
         for (const nm of [limit - 1, limit, limit + 1]) {
-          const answer = await daemon.json(`/v1/verdicts/${encodeURIComponent(designation)}?measured_mm=${mmText(nm)}`);
+          const answer = await daemon.json(`/v1/verdicts/${encodeURIComponent(designation)}?measured_mm=${mmText(nm)}${side ? `&feature=${side}` : ''}`);
           assert.equal(judge(nm, limits), answer.verdict, `${designation} ${mmText(nm)}`);
         }
       }
