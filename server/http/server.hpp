@@ -62,6 +62,8 @@ struct ServerOptions {
   /// What several answers share counts for none.
   std::size_t unsent_budget = std::size_t{64} << 20;
   std::chrono::milliseconds unsent_time = std::chrono::seconds(10);
+  /// A sender of a body that is silent for so long gives way when others wait for memory.
+  std::chrono::milliseconds stall_time = std::chrono::seconds(1);
   std::chrono::milliseconds header_timeout = std::chrono::seconds(10);
   std::chrono::milliseconds request_timeout = std::chrono::seconds(30);  ///< header and body
   std::chrono::milliseconds idle_timeout = std::chrono::seconds(30);

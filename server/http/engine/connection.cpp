@@ -10,8 +10,6 @@ namespace {
 
 /// Answers wait for each other up to this size, then they are sent.
 constexpr std::size_t kBatch = std::size_t{64} << 10;
-/// A sender of a body that is silent for longer gives way when others wait for memory.
-constexpr auto kStalled = std::chrono::seconds(1);
 /// A sender that was refused is waited for until it is silent for so long.
 constexpr auto kLinger = std::chrono::seconds(2);
 
@@ -317,8 +315,9 @@ void Connection::check_deadline(Tick now) {
       case Phase::ReadingBody:
       case Phase::FillingBody: {
         // A thread that was busy for a second has bytes to read of a client that has not stalled.
-        const bool gives_way =
-            body_.is_wanted() && now - last_body_byte_ >= kStalled && !has_unread();
+        const bool gives_way = body_.is_wanted() &&
+                               now - last_body_byte_ >= thread_.shared().options.stall_time &&
+                               !has_unread();
         if (now < request_deadline_ && !gives_way) return;
         refuse(kTimedOut);
         return advance();

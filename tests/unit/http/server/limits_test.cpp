@@ -247,6 +247,7 @@ const std::string kLastChunk = "0\r\n\r\n";
 TEST_CASE("bodies of unknown length wait without holding what another waits for") {
   ServerOptions options;
   options.body_budget = 2 * kWholeLimit;
+  options.request_timeout = options.stall_time = 120s;  // whatever the machine's speed
   TestServer server(limited_routes(), options);
   const std::string head = "POST /whole HTTP/1.1\r\nHost: h\r\nTransfer-Encoding: chunked\r\n\r\n";
   const auto in_flight = [&] { return server.server().counters().body_bytes_in_flight; };
