@@ -168,7 +168,6 @@ void test_fit(FittedDistribution& fit, const Places& places) {
   double from = 0;
   int used = 0;
   fit.chi_squared = 0;
-  double left = n;
   for (std::size_t i = 0; i < places.size(); ++i) {
     observed += places[i].count;
     const bool last = i + 1 == places.size();
@@ -176,7 +175,6 @@ void test_fit(FittedDistribution& fit, const Places& places) {
     if (!last && (to - from < 1 / classes || 1 - to < 1 / classes)) continue;
     const double expected = std::max(n * (to - from), 1e-9);
     fit.chi_squared += (observed - expected) * (observed - expected) / expected;
-    left -= observed;
     from = to;
     observed = 0;
     ++used;
