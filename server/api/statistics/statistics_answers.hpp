@@ -186,7 +186,7 @@ struct CapabilityAnswer {
 };
 void members(auto& v, const CapabilityAnswer& answer) {
   constexpr std::string_view kWidth = "chi-square, n - 1";
-  constexpr std::string_view kFitted = "none: percentile method";
+  static constexpr std::string_view kFitted = "none: percentile method";
   constexpr std::string_view kDistance = "normal, Bissell 1990";
   const metrology::Capability& c = answer.capability;
   const auto index = [&v, &c](std::string_view name,
