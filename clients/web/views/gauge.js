@@ -89,6 +89,12 @@ export function mount(main, route) {
     if (result) panel.part(result);
   }
 
+  /** A value without an answer. While the service is away it may be the last of a part. */
+  function showWaiting(shown, late) {
+    panel.waiting(shown, !connection.up, late);
+    if (!connection.up) sayPart();
+  }
+
   const next = () => {
     stepped = false;
     if (plan.result && job.part) return sayPart();
@@ -189,11 +195,11 @@ export function mount(main, route) {
   function send(path, body, shown, of) {
     const { key } = queue.add(path, toJson(body), { ...shown, late: !connection.up }, !of);
     panel.begin(key);
-    if (shown.verdict) panel.waiting(shown, !connection.up);
+    if (shown.verdict) showWaiting(shown);
     ledger.taken(key, shown, of);
     recent.add(key);
     setTimeout(() => {
-      if (panel.of === key && queue.values.some((waiting) => waiting.key === key)) panel.waiting(shown, !connection.up, true);
+      if (panel.of === key && queue.values.some((waiting) => waiting.key === key)) showWaiting(shown, true);
     }, GAP_MS);
     return key;
   }
@@ -240,7 +246,7 @@ export function mount(main, route) {
     if (connection.up || !queue.values.length) return;
     for (const waiting of queue.entries) queue.mark(waiting, { late: true });
     const shown = queue.values.find(({ key }) => key === panel.of);
-    if (shown) panel.waiting(shown.shown, true);
+    if (shown) showWaiting(shown.shown);
   }, { signal });
 
   document.addEventListener('keydown', (event) => {

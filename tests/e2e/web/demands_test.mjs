@@ -163,6 +163,8 @@ describe('what a value demands', () => {
     for (const value of ['25.012', '40.01', '120.9']) await line(value);
     await verdict('rework', '[data-provisional="away"]');
     await says('ReworkPart SN-6002 · length Rework');
+    await page.waitForTimeout(200); // and a wait for the answer shows the value alone no longer than that
+    assert.match(await page.textContent('.verdict'), /Part SN-6002/);
     await daemon.start();
     await isUp();
     page.errors.length = 0;

@@ -83,6 +83,17 @@ export async function launch() {
   return browser;
 }
 
+/** The driver of Firefox fills a field with keys that come as fast as those of a scanner, which the page reads as a scan. */
+function fillAsChromium(page) {
+  page.fill = async (selector, text) => {
+    await page.focus(selector);
+    await page.$eval(selector, (field, wanted) => {
+      field.select();
+      document.execCommand(wanted ? 'insertText' : 'delete', false, wanted);
+    }, text);
+  };
+}
+
 /**
  * A page at a state, in a browser context of its own; `errors` holds what it logged.
  * @param at the time at which its clock begins to go; the service tells it no other then
@@ -102,6 +113,7 @@ export async function open(browser, daemon, fragment = '', { at, ...options } = 
 export async function openIn(context, daemon, fragment = '') {
   const page = await context.newPage();
   page.setDefaultTimeout(PATIENCE_MS);
+  if (browserName === 'firefox') fillAsChromium(page);
   page.errors = [];
   page.foreign = [];
   page.on('pageerror', (error) => {
