@@ -72,6 +72,7 @@ describe('what a value demands', () => {
     await hasMarks(undefined, 'good', 'good');
     await line('25.012');
     await page.waitForFunction(() => document.querySelector('.progress')?.textContent === 'All 3 measured');
+    await isUp();
     const inForce = (await daemon.stored('part_id=SN-8003')).map(({ characteristic, measured_mm }) => [characteristic, measured_mm]);
     assert.deepEqual(inForce, [['bore-B', 40.01], ['length', 120.1], ['bore-A', 25.012]]);
     await close(page);
