@@ -195,7 +195,8 @@ describe('the gauging station', () => {
     await page.waitForSelector('.entry.correcting');
     await typeValue('25,013');
     await verdict('good');
-    await page.waitForSelector('.recent .corrected');
+    await page.waitForSelector('.recent .corrected'); // as soon as it is sent
+    await settled();
     const [old, corrected] = await storedSince();
     assert.equal((await daemon.json(`/v1/measurements/${old.id}`)).corrected_by, corrected.id);
     assert.deepEqual([old.measured_mm, corrected.measured_mm, corrected.correction_of], [25.031, 25.013, old.id]);

@@ -157,7 +157,8 @@ describe('a station with a scanner', () => {
     await verdict('good');
     await page.getByRole('button', { name: 'Correct the part SN-1' }).click();
     await slow('SN-2');
-    await page.waitForSelector('.recent .corrected');
+    await page.waitForSelector('.recent .corrected'); // as soon as it is sent
+    await settled();
     const [old, corrected] = await storedSince();
     assert.deepEqual([corrected.part_id, corrected.measured_mm, corrected.correction_of], ['SN-2', 25.011, old.id]);
   });
