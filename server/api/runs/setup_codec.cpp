@@ -26,7 +26,7 @@ void check(const machine::Setup& setup, const std::string& pointer, FieldErrors&
 void members(auto& v, machine::Setup& setup) {
   v.optional("machine", setup.machine, Object<machine::MachineSetup>{"Machine"},
              "Axes, tools, touch probes and presets");
-  v.optional("workpiece", setup.features, kWorkpieceForm,
+  v.optional("workpiece", setup, kWorkpieceForm,
              "What lies on the table; nothing when absent");
   builder_members(v);
   printing_members(v);
@@ -64,7 +64,7 @@ void add_setup_schemas(Schemas& schemas) {
     });
   });
   schemas.push_back({"Feature", schema::any_of(features)});
-  add_nested(kWorkpieceForm, std::vector<machine::Feature>{});
+  add_nested(kWorkpieceForm, machine::Setup{});
   schemas.push_back(order_schema<machine::Setup>("Setup", kSetupExample));
   schemas.push_back(names_schema("Setups", "setups", "m3"));
 }

@@ -106,10 +106,13 @@ struct FeatureForm {
   }
 };
 
-inline constexpr Nested kWorkpieceForm{"Workpiece", [](auto& v, auto& features) {
-                                         v.optional("features", features,
-                                                    List<machine::Feature, FeatureForm>{},
-                                                    "Joined in this order");
-                                       }};
+inline constexpr Nested kWorkpieceForm{
+    "Workpiece", [](auto& v, auto& setup) {
+      const List<machine::Feature, FeatureForm> list;
+      v.optional("features", setup.features, list, "Joined in this order");
+      v.optional("fixtures", setup.fixtures, list,
+                 "Clamps and vices, joined likewise: no value is taken from them, and a tool that "
+                 "touches one ends the run as failed");
+    }};
 
 }  // namespace fitgauge::api

@@ -17,6 +17,7 @@ FaultText text_of(FaultKind kind) {
     case FaultKind::NoContact: return {1014, "Touch point inaccessible"};
     case FaultKind::StylusDeflected: return {0, "Stylus already deflected"};
     case FaultKind::Collision: return {0, "Touch probe collision"};
+    case FaultKind::FixtureCollision: return {0, "Collision with a fixture"};
     case FaultKind::AxisLimit: return {0, "Limit switch"};
     case FaultKind::AxisMissing: return {0, "Axis not available"};
     case FaultKind::HirthGrid: return {0, "Position is not on the Hirth grid"};

@@ -11,6 +11,7 @@ enum class FaultKind : std::uint8_t {
   NoContact,          ///< 1014: nothing touched within the probing distance
   StylusDeflected,    ///< the stylus touches before the probing move begins
   Collision,          ///< the probe touched outside a probing move
+  FixtureCollision,   ///< a tool touched what holds the workpiece
   AxisLimit,          ///< the spindle nose or a rotary axis would leave its range
   AxisMissing,        ///< the machine has no such axis
   HirthGrid,          ///< a rotary axis with a Hirth grid would stop between two teeth

@@ -175,7 +175,17 @@ struct Setup {
   MachineSetup machine;
   std::vector<Feature> features;  ///< joined in order; coordinates fixed to the table
   std::uint64_t seed = 1;
+  std::vector<Feature> fixtures{};  ///< clamps and vices, likewise: not gauged, and they collide
 };
+
+/// Calls `use(pointer, feature)` for every feature and fixture: "/workpiece/features/3".
+void each_feature(auto& setup, const auto& use) {
+  const auto each = [&use](std::string at, auto& features) {
+    for (std::size_t k = 0; k < features.size(); ++k) use(at + std::to_string(k), features[k]);
+  };
+  each("/workpiece/features/", setup.features);
+  each("/workpiece/fixtures/", setup.fixtures);
+}
 
 /// Everything that is wrong with a setup, as details with JSON pointers
 /// (`/machine/axes/A/min_deg`, `/workpiece/features/3/diameter_mm`).

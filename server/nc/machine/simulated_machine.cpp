@@ -67,6 +67,7 @@ std::vector<Feature> around_plate(const ToolTouchProbeSetup& tt, double tool_rad
 SimulatedAxes::SimulatedAxes(const Setup& setup)
     : setup_(setup.machine),
       workpiece_(on_table(setup)),
+      fixtures_(setup.fixtures),
       kinematics_(as_built(setup.machine)),
       nose_(setup.machine.start_position()),
       rest_{},
@@ -117,17 +118,23 @@ Vec3 SimulatedAxes::ball_on_table(const Position& nose, const RealTool& tool) co
 
 MachineResult<double> SimulatedAxes::follow(const Path& path, const Motion& motion) {
   if (path.end.rotary != path.start.rotary) turn(path.end.rotary);
-  const bool can_touch = motion.tool.is_probe && !motion.is_retract && !workpiece_.is_empty();
-  const double part = can_touch ? free_part(path, real_tool(motion.tool), motion.allowance) : 1;
+  const auto free = [&](const Workpiece& body) {
+    const bool can_touch = !motion.is_retract && !body.is_empty();
+    return can_touch ? free_part(body, path, real_tool(motion.tool), motion.allowance) : 1;
+  };
+  const double part = motion.tool.is_probe ? free(workpiece_) : 1;
+  const double to_fixture = free(fixtures_);
   if (motion.allowance.found() != Allowance::Spent::Nothing) {
     return make_fault(FaultKind::Interrupted);
   }
-  nose_ = part < 1 ? path.nose(part) : path.end;
+  const double gone = std::min(part, to_fixture);
+  nose_ = gone < 1 ? path.nose(gone) : path.end;
+  if (to_fixture < part) return make_fault(FaultKind::FixtureCollision);
   return part;
 }
 
 /// The part of the path, 0 to 1, that the ball can go without touching.
-double SimulatedAxes::free_part(const Path& path, const RealTool& tool,
+double SimulatedAxes::free_part(const Workpiece& body, const Path& path, const RealTool& tool,
                                 Allowance& allowance) const {
   const double radius = tool.radius - tolerance::kNanometre;
 
@@ -136,7 +143,7 @@ double SimulatedAxes::free_part(const Path& path, const RealTool& tool,
     const Vec3 way = ball_on_table(path.end, tool) - start;
     const double length = norm(way);
     if (length == 0) return 1;
-    const auto touched = workpiece_.contact(start, way * (1 / length), radius, length, allowance);
+    const auto touched = body.contact(start, way * (1 / length), radius, length, allowance);
     return touched ? std::min(*touched / length, 1 - 1e-15) : 1;
   }
   double lever = norm(path.start.linear) + path.nose_speed + tool.length + norm(tool.offset);
@@ -147,7 +154,7 @@ double SimulatedAxes::free_part(const Path& path, const RealTool& tool,
   if (speed == 0) return 1;
   const auto touched = first_zero(
       [&](double way) {
-        return workpiece_.clearance(ball_on_table(path.nose(way / speed), tool), radius);
+        return body.clearance(ball_on_table(path.nose(way / speed), tool), radius);
       },
       speed, least_step(radius), allowance);
   return touched ? std::min(*touched / speed, 1 - 1e-15) : 1;
@@ -177,6 +184,10 @@ MachineResult<double> SimulatedAxes::probe_contact(const Vec3& direction, double
   }
   const Vec3 on_table = real_table(nose_.rotary).inverse().direction(direction);
   const auto touched = workpiece_.contact(start, on_table, tool.radius, distance, allowance);
+  const double before = touched.value_or(distance);
+  if (fixtures_.contact(start, on_table, tool.radius, before, allowance).value_or(before) < before) {
+    return make_fault(FaultKind::FixtureCollision, "it stands in the way of the probing move");
+  }
   if (!touched) return make_fault(FaultKind::NoContact);
   touching_ = start + on_table * *touched;
   table_at_contact_ = real_table(nose_.rotary);

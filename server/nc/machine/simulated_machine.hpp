@@ -10,7 +10,8 @@ namespace fitgauge::machine {
 
 /// Axes that exist in a setup alone: they, their tools and their probe may differ from what the
 /// control's tables say, and a workpiece stands on their table. The ball of the touch probe is what
-/// touches; stylus and holder are not modelled, and cutters pass through material.
+/// touches; stylus and holder are not modelled, and cutters pass through material. Fixtures collide
+/// with every tool, of which the ball of its radius at the tip is looked at.
 /// The same setup and the same commands give the same run. Not thread-safe.
 class SimulatedAxes final : public Axes {
  public:
@@ -37,7 +38,8 @@ class SimulatedAxes final : public Axes {
   };
 
   void turn(const Vec3& rotary);
-  double free_part(const Path& path, const RealTool& tool, Allowance& allowance) const;
+  double free_part(const Workpiece& body, const Path& path, const RealTool& tool,
+                   Allowance& allowance) const;
   RealTool real_tool(const SpindleTool& known) const;
   Transform real_table(const Vec3& rotary) const;
   Vec3 real_tool_point(const Position& nose, const RealTool& tool, double length) const;
@@ -49,6 +51,7 @@ class SimulatedAxes final : public Axes {
 
   MachineSetup setup_;
   Workpiece workpiece_;
+  Workpiece fixtures_;
   Kinematics kinematics_;  ///< as built, with the errors of centre and direction
   Position nose_;
   Vec3 slack_deg_;      ///< what backlash adds to the positions of A, B, C at present

@@ -312,9 +312,9 @@ Result<void> validate(const Setup& setup) {
   check_kinematics_options(findings, machine.kinematics_options);
   check_standards(findings, machine);
   check_presets(findings, machine);
-  for (std::size_t k = 0; k < setup.features.size(); ++k) {
-    std::visit(CheckFeature{findings, fmt::format("/workpiece/features/{}", k)}, setup.features[k]);
-  }
+  each_feature(setup, [&findings](const std::string& at, const Feature& feature) {
+    std::visit(CheckFeature{findings, at}, feature);
+  });
   return std::move(findings).result();
 }
 

@@ -50,9 +50,9 @@ Result<void> MeshFiles::load(machine::Setup& setup, std::string_view pointer,
                              MissingFiles missing) {
   std::vector<Error> found;
   std::size_t triangles = 0;
-  for (std::size_t k = 0; k < setup.features.size(); ++k) {
-    Mesh* const mesh = std::get_if<Mesh>(&setup.features[k]);
-    if (mesh == nullptr) continue;
+  machine::each_feature(setup, [&](const std::string& at, machine::Feature& feature) {
+    Mesh* const mesh = std::get_if<Mesh>(&feature);
+    if (mesh == nullptr) return;
     auto body = body_of(*mesh);
     if (body && (triangles += (*body)->triangles().size()) > kMostTriangles) {
       body = refused(fmt::format(
@@ -64,9 +64,9 @@ Result<void> MeshFiles::load(machine::Setup& setup, std::string_view pointer,
       mesh->body = *std::move(body);
     } else if (body.error().code != ErrorCode::FileUnknown || missing == MissingFiles::Refused) {
       found.push_back(body.error());
-      found.back().where = fmt::format("{}/workpiece/features/{}/file", pointer, k);
+      found.back().where = fmt::format("{}{}/file", pointer, at);
     }
-  }
+  });
   if (found.empty()) return {};
   return Error{
       ErrorCode::RequestInvalid,

@@ -68,7 +68,8 @@ TEST_CASE("every part of a setup is read") {
     "workpiece": {"features": [
       {"type": "bore", "center_mm": [50, 40], "diameter_mm": 25.013, "lobes": 3,
        "lobe_amplitude_um": 2},
-      {"type": "surface", "points_mm": [[0, 0, 1.2], [10, 0, 1.25], [0, 10, 1.1]]}]},
+      {"type": "surface", "points_mm": [[0, 0, 1.2], [10, 0, 1.25], [0, 10, 1.1]]}],
+      "fixtures": [{"type": "boss", "center_mm": [10, 10], "diameter_mm": 12}]},
     "seed": 99})");
   CHECK(setup.seed == 99);
   const machine::MachineSetup& machine = setup.machine;
@@ -91,6 +92,7 @@ TEST_CASE("every part of a setup is read") {
   CHECK(bore.diameter == 25.013);
   CHECK(bore.depth == 30);
   CHECK(std::get<machine::Surface>(setup.features.at(1)).points.size() == 3);
+  CHECK(std::get<machine::Boss>(setup.fixtures.at(0)).diameter == 12);
 }
 
 TEST_CASE("the parameters of the builder for the kinematics are read") {

@@ -31,6 +31,14 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
+TEST_CASE("a bad fixture is named by its place among the fixtures") {
+  Setup setup = with(Sphere{{}, 25});
+  setup.fixtures = {Sphere{{}, 25}, Sphere{{}, -1}};
+  const auto valid = validate(setup);
+  REQUIRE_FALSE(valid);
+  CHECK(valid.error().details.at(0).where == "/workpiece/fixtures/1/diameter_mm");
+}
+
 TEST_CASE("the default setup is valid and has the defaults of the contract") {
   const Setup setup;
   CHECK(validate(setup).has_value());

@@ -196,3 +196,34 @@ TEST_CASE("presets are written at once and act when they are activated") {
   REQUIRE(ok(machine.write_preset(preset)));
   CHECK(fault_of(machine.write_preset(preset)) == FaultKind::PresetLocked);
 }
+
+TEST_CASE("every tool collides with a fixture, and no value is taken from one") {
+  Setup setup = bore_setup();
+  setup.fixtures = {Boss{{80, 70}, 30, 30, 12}};
+  for (const bool is_probe : {true, false}) {
+    CAPTURE(is_probe);
+    setup.machine.tools[0].row.probe = is_probe ? 1 : 0;
+    SimulatedMachine machine(setup);
+    REQUIRE(ok(machine.call_tool(probe_call())));
+    REQUIRE(ok(machine.move(to({60, 70, 20}))));
+    const auto fault = machine.move(to({90, 70, 20}));
+    CHECK(fault_of(fault) == FaultKind::FixtureCollision);
+    CHECK(fault.error().text == "Collision with a fixture");
+    CHECK(machine.position().linear.x == doctest::Approx(72));  // the ball of 2 before the boss of 6
+  }
+}
+
+TEST_CASE("a fixture before the workpiece ends a probing move, one behind it does not") {
+  for (const bool is_before : {true, false}) {
+    CAPTURE(is_before);
+    Setup setup = bore_setup();
+    setup.fixtures = {is_before ? Boss{{-6, 40}, 0, 40, 4} : Boss{{50, 40}, 0, 40, 4}};
+    SimulatedMachine machine(setup);
+    REQUIRE(ok(machine.call_tool(probe_call())));
+    REQUIRE(ok(machine.move(to({-15, 40, -10}))));
+    const auto contact = machine.probe(towards({1, 0, 0}));
+    CHECK(ok(contact) != is_before);
+    if (is_before) CHECK(fault_of(contact) == FaultKind::FixtureCollision);
+    if (ok(contact)) CHECK(contact->ball_centre.x == doctest::Approx(-2));
+  }
+}
