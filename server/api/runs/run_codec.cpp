@@ -40,16 +40,7 @@ constexpr Words kState{app::RunState::Cancelled};
 struct ParameterValues {
   std::string schema(Side) const { return schema::map(R"({"type":["number","string"]})"); }
   void write(JsonWriter& json, const std::vector<ParameterValue>& parameters) const {
-    json.begin_object();
-    for (const ParameterValue& parameter : parameters) {
-      json.key(interpreter::name(parameter.parameter));
-      if (const auto* number = std::get_if<double>(&parameter.value)) {
-        Digits{}.write(json, *number);
-      } else {
-        json.value(std::get<std::string>(parameter.value));
-      }
-    }
-    json.end_object();
+    write_parameters(json, parameters);
   }
 };
 
@@ -285,6 +276,19 @@ Result<app::RunOrder> stored_order(const std::string& request, const app::Contro
 }
 
 }  // namespace
+
+void write_parameters(JsonWriter& json, std::span<const ParameterValue> parameters) {
+  json.begin_object();
+  for (const ParameterValue& parameter : parameters) {
+    json.key(interpreter::name(parameter.parameter));
+    if (const auto* number = std::get_if<double>(&parameter.value)) {
+      Digits{}.write(json, *number);
+    } else {
+      json.value(std::get<std::string>(parameter.value));
+    }
+  }
+  json.end_object();
+}
 
 app::RunFormat run_format() {
   return {.report = report_json,

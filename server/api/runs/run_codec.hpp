@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,9 @@ namespace fitgauge::api {
 
 /// How runs are written: the run object of the contract, its trace, its event.
 app::RunFormat run_format();
+
+/// `{"Q1":25,"QS3":"GOOD"}`
+void write_parameters(JsonWriter& json, std::span<const interpreter::ParameterValue> parameters);
 
 /// The run object of a run that is not over yet.
 std::string unfinished_run_json(const app::ActiveRun& run);

@@ -97,6 +97,34 @@ struct Parameters {
   }
 };
 
+/// The form of names of parameters.
+struct ParameterNames {
+  static constexpr std::size_t kMost = 32;
+
+  std::string schema(Side) const { return schema::array(schema::text(), 0, kMost); }
+  bool read(FieldReader& fields, std::string_view of, std::vector<klartext::QRef>& to) const {
+    const JsonValue* names = fields.array(of);
+    if (names == nullptr) return false;
+    if (names->items.size() > kMost) {
+      fields.report(ErrorCode::FieldInvalid, of,
+                    fmt::format("{} takes at most {} names", of, kMost));
+    }
+    for (std::size_t i = 0; i < std::min(names->items.size(), kMost); ++i) {
+      const JsonValue& item = names->items[i];
+      const auto parameter = interpreter::parse_parameter_name(item.text);
+      if (item.is(Kind::String) && parameter) {
+        to.push_back(*parameter);
+      } else {
+        fields.errors().add(item.is(Kind::String) ? parameter.error().code : ErrorCode::FieldType,
+                            pointer_to(fields.at(of), i),
+                            item.is(Kind::String) ? parameter.error().message
+                                                  : "takes names of parameters: \"Q5\"");
+      }
+    }
+    return true;
+  }
+};
+
 /// The form of a text in the records of a run.
 struct Subject : Text {
   static constexpr bool kHasDefault = false;
@@ -169,6 +197,7 @@ struct RunOrderBody {
   interpreter::RunOptions options{};
   app::RunSubject subject{};
   std::optional<std::vector<machine::ScriptedContact>> contacts{};
+  std::vector<klartext::QRef> watch{};
 };
 void members(auto& v, RunOrderBody& order) {
   interpreter::RunOptions& options = order.options;
@@ -188,6 +217,11 @@ void members(auto& v, RunOrderBody& order) {
   v.optional("unreadable", options.keeps_unreadable, OneOf<2>{"refuse", "error_block"},
              "Lines that are no Klartext: refuse the program, or fail where one is reached");
   v.optional("block_skip", options.block_skip, "Skip blocks that begin with /");
+  v.optional("start_block", options.start_block, Integer{0, kMostBlocks},
+             "The first block that runs, by its number, as after GOTO on a control: nothing before "
+             "it has run");
+  v.optional("watch", order.watch, ParameterNames{},
+             "Q, QL, QR and QS whose values after each block stand in the trace");
   v.optional("language", options.language, LanguageForm{}, "Of FN 16 masks");
   v.optional("part_id", order.subject.part_id, kSubject,
              "The part that is measured: in each record of the run");
@@ -242,7 +276,8 @@ Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_set
                        .options = std::move(order.options),
                        .request = std::move(request),
                        .contacts = std::move(order.contacts),
-                       .subject = std::move(order.subject)};
+                       .subject = std::move(order.subject),
+                       .watch = std::move(order.watch)};
 }
 
 }  // namespace fitgauge::api

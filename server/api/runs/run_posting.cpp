@@ -127,6 +127,7 @@ Result<void> start(const SharedPosting& posting) {
         invalid_program(posting->request, order->program.text(), *diagnostics));
     return {};
   }
+  if (auto known = runs.check_start(*order); !known) return known;
   const bool at_once = prefers_async(posting->request);
   const auto run = runs.start(*std::move(order), posting->scope,
                               [at_once](const app::ActiveRun& r) { return accepted(r, at_once); });

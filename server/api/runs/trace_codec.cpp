@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "api/runs/run_codec.hpp"
 #include "base/csv_cell.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
@@ -90,6 +91,23 @@ void write_move(std::string& out, const machine::TracedMove& move, const app::Tr
   json.end_object();
 }
 
+void write_block(std::string& out, const app::TracePlace& place,
+                 std::span<const interpreter::ParameterValue> values) {
+  JsonWriter json(out);
+  json.begin_object().key("block").value(*place.block).member("line", place.line);
+  json.member("program", place.program).key("values");
+  write_parameters(json, values);
+  json.end_object();
+}
+
+std::string write_tail(std::size_t dropped, const std::optional<app::WatchedBlocks>& blocks) {
+  std::string tail = fmt::format("\n],\"dropped\":{}", dropped);
+  if (blocks) {
+    tail += fmt::format(",\"blocks\":[{}],\"blocks_dropped\":{}", blocks->text, blocks->dropped);
+  }
+  return tail + '}';
+}
+
 /// Members that only some moves have, or that may be null, and whether they are points: each has
 /// its columns in every CSV.
 constexpr std::pair<std::string_view, bool> kOptional[] = {
@@ -104,7 +122,8 @@ app::TraceFormat trace_json() {
   return {.head = "{\"moves\":[\n",
           .separator = ",\n",
           .move = write_move,
-          .tail = [](std::size_t dropped) { return fmt::format("\n],\"dropped\":{}}}", dropped); }};
+          .block = write_block,
+          .tail = write_tail};
 }
 
 std::string TraceCsv::Column::title() const {
@@ -202,9 +221,18 @@ void add_trace_schema(Schemas& schemas) {
       {"machine_contact_normal", schema::null_or(position), "Of a contact: away from the material",
        false},
   });
+  const std::string block =
+      schema::object({{"block", schema::count(), "Its number, as written or counted"},
+                      {"line", schema::count(), ""},
+                      {"program", schema::text(), ""},
+                      {"values", schema::map(R"({"type":["number","string"]})"),
+                       "After the block, of the watched parameters that are defined then"}});
   schemas.push_back(
-      {"Trace", schema::object({{"moves", schema::array(move), "In order"},
-                                {"dropped", schema::count(), "Moves beyond the longest trace"}})});
+      {"Trace", schema::object(
+                    {{"moves", schema::array(move), "In order"},
+                     {"dropped", schema::count(), "Moves beyond the longest trace"},
+                     {"blocks", schema::array(block), "Of a run with watch: each as it ran", false},
+                     {"blocks_dropped", schema::count(), "Blocks beyond 4 MiB of them", false}})});
 }
 
 }  // namespace fitgauge::api

@@ -185,7 +185,8 @@ MachineResult<double> SimulatedAxes::probe_contact(const Vec3& direction, double
   const Vec3 on_table = real_table(nose_.rotary).inverse().direction(direction);
   const auto touched = workpiece_.contact(start, on_table, tool.radius, distance, allowance);
   const double before = touched.value_or(distance);
-  if (fixtures_.contact(start, on_table, tool.radius, before, allowance).value_or(before) < before) {
+  if (fixtures_.contact(start, on_table, tool.radius, before, allowance).value_or(before) <
+      before) {
     return make_fault(FaultKind::FixtureCollision, "it stands in the way of the probing move");
   }
   if (!touched) return make_fault(FaultKind::NoContact);

@@ -1,5 +1,7 @@
 #include "nc/program/linked_program.hpp"
 
+#include <algorithm>
+
 #include "base/text.hpp"
 
 namespace fitgauge::interpreter {
@@ -12,6 +14,15 @@ std::optional<std::uint32_t> lookup(const Map& map, const Key& key) {
 }
 
 }  // namespace
+
+std::optional<std::uint32_t> LinkedProgram::instruction_of(std::uint32_t block_number) const {
+  const auto& blocks = program_.blocks();
+  const auto block = std::ranges::find(blocks, block_number, &klartext::Block::number);
+  if (block == blocks.end()) return std::nullopt;
+  const auto index = static_cast<std::uint32_t>(block - blocks.begin());
+  const auto first = std::ranges::lower_bound(parts_.block_of, index);
+  return static_cast<std::uint32_t>(first - parts_.block_of.begin());
+}
 
 std::optional<std::uint32_t> LinkedProgram::label(std::uint32_t number) const {
   return lookup(parts_.numbered_labels, number);

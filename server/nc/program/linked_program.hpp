@@ -54,6 +54,10 @@ class LinkedProgram {
   }
   std::uint32_t block_of(std::size_t instruction) const { return parts_.block_of[instruction]; }
 
+  /// The first instruction of a block, by its number as written or counted, or of what follows it;
+  /// nothing where no block has the number.
+  std::optional<std::uint32_t> instruction_of(std::uint32_t block_number) const;
+
   /// The instruction a label stands before, or nothing.
   std::optional<std::uint32_t> label(std::uint32_t number) const;
   std::optional<std::uint32_t> label(std::string_view name) const;

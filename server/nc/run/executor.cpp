@@ -28,7 +28,8 @@ class Executor : ExecutorSteps {
 
   Ending run() {
     load_program();
-    loop(code_);
+    const auto& start = channel_.options.start_block;
+    loop(code_ + (start ? channel_.linked().instruction_of(*start).value_or(0) : 0));
     return {channel_.budget.executed(fuel_), std::move(error_)};
   }
 

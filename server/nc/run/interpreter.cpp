@@ -43,7 +43,7 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   Allowance own(options.limits.time, options.limits.memory_bytes, std::move(stop));
   Allowance& allowance = environment.allowance != nullptr ? *environment.allowance : own;
   Channel channel(std::move(main), environment, options, allowance);
-  environment.observer.begins(channel.files);
+  environment.observer.begins(channel.files, channel.parameters);
   channel.parameters.enter(channel.linked());
   Ending ending;
   if (auto done = preset(channel.parameters, options.parameters); !done) {

@@ -28,7 +28,10 @@ struct RunOptions {
   RunLimits limits;
   OnStop on_stop = OnStop::Continue;
   bool block_skip = false;  ///< blocks that begin with `/` are passed over
-  MachineBuilder builder;   ///< M functions and cycles that the control does not know
+  /// The first block of the main program that runs, by its number, as after GOTO on a control:
+  /// nothing before it has run. @pre the program has it
+  std::optional<std::uint32_t> start_block{};
+  MachineBuilder builder;  ///< M functions and cycles that the control does not know
   /// Lines that are no Klartext are ERROR blocks, which fail when they are reached (decision 32);
   /// otherwise they refuse the program.
   bool keeps_unreadable = false;

@@ -8,6 +8,7 @@
 
 namespace fitgauge::interpreter {
 
+class QParameters;
 class RunFiles;
 
 /// A block of a running program.
@@ -33,9 +34,9 @@ class RunObserver {
   /// Asked once at the start: whether `entered` is wanted for every block, and not only for those
   /// that may command the machine or print.
   virtual bool follows_every_block() const { return false; }
-  /// Called once before the first block: where the run's files are, which may be looked at in the
-  /// calls below.
-  virtual void begins(const RunFiles&) {}
+  /// Called once before the first block: where the run's files and parameters are, which may be
+  /// looked at in the calls below.
+  virtual void begins(const RunFiles&, const QParameters&) {}
   /// The block that is about to run: what the machine is commanded until the next call is its
   /// doing.
   virtual void entered(const Place&) {}

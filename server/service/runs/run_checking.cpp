@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -100,6 +102,22 @@ Result<RunService::Diagnostics> RunService::check_with(Check find_all,
   Allowance allowance(kPreparingTime, kPreparingMemory, orders_.stop_token());
   if (!draft) return find_all(path, disk, programs_, allowance);
   return find_all(path, DraftDisk(disk, path, *std::move(draft)), programs_, allowance);
+} catch (const store::StorageFailure& failure) {
+  return failure.error();
+}
+
+Result<void> RunService::check_start(const RunOrder& order) try {
+  const std::optional<std::uint32_t> start = order.options.start_block;
+  if (!start) return {};
+  const interpreter::ProjectingDisk disk(stored_, live_tables_.projections());
+  const auto file = programs_.get(disk, order.program);
+  const auto program = file == nullptr ? nullptr : file->runnable(order.options.keeps_unreadable);
+  if (program == nullptr || program->instruction_of(*start)) return {};  // the run says the former
+  const std::string refused =
+      fmt::format("{} has no block {}; its last is block {}", order.program.text(), *start,
+                  program->program().blocks().back().number);
+  return Error{
+      ErrorCode::RequestInvalid, refused, {}, {{ErrorCode::FieldInvalid, refused, "/start_block"}}};
 } catch (const store::StorageFailure& failure) {
   return failure.error();
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "nc/machine/simulated_machine.hpp"
+#include "nc/run/q_parameters.hpp"
 #include "nc/run/run_files.hpp"
 #include "service/runs/stored_run.hpp"
 
@@ -27,8 +28,20 @@ class Follower final : public interpreter::RunObserver {
   /// @param machine outlives the run.
   void follow(const machine::Machine& machine) { machine_ = &machine; }
 
-  void begins(const interpreter::RunFiles& files) override { files_ = &files; }
+  /// @param trace outlives the run.
+  void watch(TraceWriter& trace, std::span<const klartext::QRef> names) {
+    trace_ = &trace;
+    watched_ = names;
+  }
+
+  bool follows_every_block() const override { return !watched_.empty(); }
+  void begins(const interpreter::RunFiles& files,
+              const interpreter::QParameters& parameters) override {
+    files_ = &files;
+    parameters_ = &parameters;
+  }
   void entered(const interpreter::Place& place) override {
+    leave_block();
     place_ = place;
     answer_look();
   }
@@ -43,6 +56,7 @@ class Follower final : public interpreter::RunObserver {
   void printed(std::string_view line) override { active_.printed(line); }
 
   void ends() override {
+    leave_block();
     if (shows_last_) show(Look::StateAndFiles);
   }
 
@@ -53,6 +67,20 @@ class Follower final : public interpreter::RunObserver {
   }
 
  private:
+  /// The block is over: what it has made of the watched parameters.
+  void leave_block() {
+    if (watched_.empty() || place_.program == nullptr) return;
+    std::vector<interpreter::ParameterValue> values;
+    for (const klartext::QRef name : watched_) {
+      if (name.space == klartext::QSpace::Qs) {
+        if (const auto* text = parameters_->string(name.number)) values.push_back({name, *text});
+      } else if (const auto number = parameters_->number(name)) {
+        values.push_back({name, *number});
+      }
+    }
+    trace_->add(place(), values);
+  }
+
   void answer_look() {
     if (const Look wanted = active_.wanted(); wanted != Look::Nothing) show(wanted);
   }
@@ -93,6 +121,9 @@ class Follower final : public interpreter::RunObserver {
   const bool shows_last_;
   const machine::Machine* machine_ = nullptr;
   const interpreter::RunFiles* files_ = nullptr;
+  const interpreter::QParameters* parameters_ = nullptr;
+  TraceWriter* trace_ = nullptr;
+  std::span<const klartext::QRef> watched_;
   std::vector<interpreter::RunMessage> errors_;
   interpreter::Place place_;
   int cycle_ = 0;
@@ -185,6 +216,7 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
   const auto keep = [&](const machine::TracedMove& move) { trace.add(move, follower.place()); };
   machine::TracingMachine machine(*actual, {.keep = keep, .longest = kLongestTrace});
   follower.follow(machine);
+  follower.watch(trace, order.watch);
   ExecutedRun executed;
   executed.result = interpreter::run(
       linked,

@@ -37,6 +37,8 @@ struct RunOrder {
   std::optional<std::vector<machine::ScriptedContact>> contacts{};
   RunSubject subject{};
   std::optional<std::string> caller{};
+  /// Parameters whose values after each block stand in the trace.
+  std::vector<klartext::QRef> watch{};
 };
 
 enum class RunState : std::uint8_t {
@@ -78,6 +80,13 @@ struct TracePlace {
   int cycle = 0;                         ///< that commands the machine, 0 for the block itself
 };
 
+/// The blocks of a run that is watched, as they are written down.
+struct WatchedBlocks {
+  static constexpr std::size_t kLongest = std::size_t{4} << 20;
+  std::string text{};       ///< at most kLongest bytes
+  std::size_t dropped = 0;  ///< blocks that came after that
+};
+
 /// How the moves of a run are written down, one after the other while it moves.
 struct TraceFormat {
   std::string_view head{};
@@ -86,8 +95,14 @@ struct TraceFormat {
   std::function<void(std::string& out, const machine::TracedMove&, const TracePlace&,
                      std::span<const machine::Axis> axes)>
       move{};
+  /// A block that has run, with those of the watched parameters that are defined then.
+  std::function<void(std::string& out, const TracePlace&,
+                     std::span<const interpreter::ParameterValue> values)>
+      block{};
   /// @param dropped moves that came after the longest trace was full
-  std::function<std::string(std::size_t dropped)> tail{};
+  /// @param blocks of a run that is watched, with commas between them
+  std::function<std::string(std::size_t dropped, const std::optional<WatchedBlocks>& blocks)>
+      tail{};
 };
 
 /// How runs are written down; the text is opaque here and in the store.

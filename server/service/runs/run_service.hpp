@@ -75,6 +75,9 @@ class RunService {
   /// The same of a file that is to be run, whatever it is called.
   Result<Diagnostics> check_program(const interpreter::ControlPath& path);
 
+  /// Whether the program has the block in which the order starts. @errors RequestInvalid.
+  Result<void> check_start(const RunOrder& order);
+
   /// A program, tidied and renumbered. @errors ProgramUnknown, ProgramInvalid, StorageUnavailable.
   Result<std::string> format(const interpreter::ControlPath& path);
 

@@ -59,8 +59,22 @@ void TraceWriter::add(const machine::TracedMove& move, const TracePlace& place) 
   packed_.add(text_);
 }
 
+void TraceWriter::add(const TracePlace& place,
+                      std::span<const interpreter::ParameterValue> values) {
+  if (!blocks_) blocks_.emplace();
+  std::string& text = blocks_->text;
+  const std::size_t before = text.size();
+  if (blocks_->dropped == 0) {
+    if (before != 0) text += ',';
+    format_.block(text, place, values);
+  }
+  if (blocks_->dropped == 0 && text.size() <= WatchedBlocks::kLongest) return;
+  text.resize(before);
+  ++blocks_->dropped;
+}
+
 std::string TraceWriter::finish(std::size_t dropped) {
-  packed_.add(format_.tail(dropped));
+  packed_.add(format_.tail(dropped, blocks_));
   return packed_.finish();
 }
 

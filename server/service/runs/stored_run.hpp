@@ -45,6 +45,8 @@ class TraceWriter {
   TraceWriter(const TraceFormat& format, std::vector<machine::Axis> axes);
 
   void add(const machine::TracedMove& move, const TracePlace& place);
+  /// A block of a run that is watched.
+  void add(const TracePlace& place, std::span<const interpreter::ParameterValue> values);
   /// The whole trace, for TraceReader. Nothing can be added any more.
   std::string finish(std::size_t dropped);
 
@@ -53,6 +55,7 @@ class TraceWriter {
   const std::vector<machine::Axis> axes_;
   GzipWriter packed_;
   std::string text_;  ///< of the last move
+  std::optional<WatchedBlocks> blocks_;
   bool is_empty_ = true;
 };
 

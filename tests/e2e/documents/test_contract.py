@@ -310,6 +310,7 @@ class Answers(ContractTest):
         self.connections()
         order = {"program": "TNC:\\nc_prog\\hole.h", "setup": SETUP, "parameters": {"Q1": 25, "QS1": "H7"},
                  "limits": {"blocks": 1000, "seconds": 60}, "on_stop": "end", "unreadable": "refuse",
+                 "start_block": 0, "watch": ["Q1"],
                  "part_id": "SN-17", "order": "WO-9"}
         run = self.expect("postRun", 201, order).json
         self.assertEqual(run["status"], "completed", run)

@@ -166,6 +166,40 @@ class Runs(ControlTest):
         self.assertTrue(set(ids) <= {run["id"] for run in completed})
         self.assert_problem(self.daemon.get("/v1/runs?status=done"), 400, "query.invalid")
 
+    def test_start_at_a_block_runs_nothing_before_it(self):
+        program = self.upload_program("begun", "Q1 = 1", "Q2 = 2", "; from here", "Q3 = Q9", "STOP")
+        order = {"program": program, "parameters": {"Q9": 7}, "on_stop": "end"}
+        for number, expected in ((0, {"Q1": 1, "Q2": 2}), (2, {"Q2": 2}), (3, {}), (4, {})):
+            run = self.daemon.post("/v1/runs", {**order, "start_block": number}).json
+            self.assertEqual(run["parameters"], {**expected, "Q3": 7, "Q9": 7}, number)
+            self.assertEqual((run["status"], run["messages"][0]["block"]), ("stopped", 5))
+        refused = self.assert_problem(self.daemon.post("/v1/runs", {**order, "start_block": 99}), 422, "request.invalid")
+        self.assertEqual(refused["errors"], [{"pointer": "/start_block", "code": "field.invalid",
+                                              "detail": f"{program} has no block 99; its last is block 6"}])
+
+    def test_watched_parameters_stand_in_the_trace_after_each_block(self):
+        program = self.upload_program("watched", "Q1 = 1", "LBL 1", "Q1 = Q1 + 1", 'QS2 = "two"', "FN 12: IF +Q1 LT +3 GOTO LBL 1")
+        order = {"program": program, "watch": ["Q1", "qs2", "QL7"]}
+        trace = self.daemon.get(f"/v1/runs/{self.daemon.post('/v1/runs', order).json['id']}/trace").json
+        self.assertEqual([(b["block"], b["line"], b["program"], b["values"]) for b in trace["blocks"]],
+                         [(1, 2, program, {"Q1": 1}), (3, 4, program, {"Q1": 2}),
+                          (4, 5, program, {"Q1": 2, "QS2": "two"}), (5, 6, program, {"Q1": 2, "QS2": "two"}),
+                          (3, 4, program, {"Q1": 3, "QS2": "two"}), (4, 5, program, {"Q1": 3, "QS2": "two"}),
+                          (5, 6, program, {"Q1": 3, "QS2": "two"}), (6, 7, program, {"Q1": 3, "QS2": "two"})])
+        self.assertEqual((trace["dropped"], trace["blocks_dropped"]), (0, 0))
+        unwatched = self.daemon.post("/v1/runs", {"program": program}).json["id"]
+        self.assertNotIn("blocks", self.daemon.get(f"/v1/runs/{unwatched}/trace").json)
+        refused = self.assert_problem(self.daemon.post("/v1/runs", {**order, "watch": ["Q1", "X", 3]}), 422, "request.invalid")
+        self.assertEqual([(e["pointer"], e["code"]) for e in refused["errors"]],
+                         [("/watch/1", "field.invalid"), ("/watch/2", "field.type")])
+
+    def test_blocks_of_a_long_watch_are_counted_beyond_4_mib(self):
+        program = self.upload_program("long", "Q1 = 0", "LBL 1", "Q1 = Q1 + 1", "FN 12: IF +Q1 LT +50000 GOTO LBL 1")
+        run = self.daemon.post("/v1/runs", {"program": program, "watch": ["Q1"]}).json
+        trace = self.daemon.get(f"/v1/runs/{run['id']}/trace").json
+        self.assertGreater(trace["blocks_dropped"], 0)
+        self.assertEqual(len(trace["blocks"]) + trace["blocks_dropped"], 100_002)
+
     def test_order_with_wrong_fields_lists_them_all(self):
         answer = self.daemon.post("/v1/runs", {"program": "C:\\x.h", "parameters": {"Q9999": 1, "QS1": 5},
                                                "limits": {"blocks": 0, "seconds": 61},

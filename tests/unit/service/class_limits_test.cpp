@@ -78,9 +78,11 @@ class Examples {
   interpreter::ProjectingDisk projected_{disk_, project(tables())};
   interpreter::ProgramCache programs_;
   SystemClock clock_;
-  const TraceFormat trace_{.move = [](std::string&, const machine::TracedMove&, const TracePlace&,
-                                      std::span<const machine::Axis>) {},
-                           .tail = [](std::size_t) { return std::string(); }};
+  const TraceFormat trace_{
+      .move = [](std::string&, const machine::TracedMove&, const TracePlace&,
+                 std::span<const machine::Axis>) {},
+      .block = {},
+      .tail = [](std::size_t, const std::optional<WatchedBlocks>&) { return std::string(); }};
 };
 
 std::optional<Length> length_of(const interpreter::RunResult& result, std::string_view name) {

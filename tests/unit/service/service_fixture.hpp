@@ -80,7 +80,12 @@ class Service {
         {.report = [this](const RunReport& report) { return keep(report); },
          .trace = {.move = [](std::string& out, const machine::TracedMove&, const TracePlace&,
                               std::span<const machine::Axis>) { out += "a move, "; },
-                   .tail = [](std::size_t) { return std::string("the end"); }},
+                   .block = [](std::string&, const TracePlace&,
+                               std::span<const interpreter::ParameterValue>) {},
+                   .tail =
+                       [](std::size_t, const std::optional<WatchedBlocks>&) {
+                         return std::string("the end");
+                       }},
          .seed = [](const std::string&) { return std::uint64_t{1}; },
          .event = [](const RunReport&) { return std::string("{}"); }});
     REQUIRE(opened.has_value());

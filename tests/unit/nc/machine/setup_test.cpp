@@ -35,7 +35,7 @@ TEST_CASE("a bad fixture is named by its place among the fixtures") {
   Setup setup = with(Sphere{{}, 25});
   setup.fixtures = {Sphere{{}, 25}, Sphere{{}, -1}};
   const auto valid = validate(setup);
-  REQUIRE_FALSE(valid);
+  REQUIRE(valid.has_error());
   CHECK(valid.error().details.at(0).where == "/workpiece/fixtures/1/diameter_mm");
 }
 
