@@ -1,19 +1,19 @@
-// Any bytes as a program: every finding has its place, and a program without errors, printed, reads
-// back as the same.
+// Any bytes as a program of either dialect: every finding has its place, and a program without errors,
+// printed as Klartext, reads back as the same.
 
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
-#include "nc/klartext/parser.hpp"
+#include "nc/iso/parser.hpp"
 #include "nc/klartext/printer.hpp"
 
 using namespace fitgauge::klartext;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const ParsedProgram parsed =
-      parse_program(std::string(reinterpret_cast<const char*>(data), size), "fuzz.h");
+      fitgauge::iso::parse_program(std::string(reinterpret_cast<const char*>(data), size), "fuzz.h");
   for (const Diagnostic& diagnostic : parsed.diagnostics) {
     if (render(diagnostic).empty() || diagnostic.range.end < diagnostic.range.begin) std::abort();
   }

@@ -123,6 +123,7 @@ export default {
   'finding.diagnostics.too_many': 'Es gibt noch mehr Meldungen.',
   'finding.feature.unsupported': 'Das bildet die Simulation nicht nach.',
   'finding.block.error_stored': 'Die Steuerung hat diesen Satz als fehlerhaft gespeichert.',
+  'finding.block.modal_state_assumed': 'Nach einer Sprungmarke oder einem Aufruf gilt G90, G91 oder die Bahnfunktion der Sätze darüber.',
   'finding.label.unknown': 'Diese Sprungmarke gibt es nicht.',
   'finding.label.duplicate': 'Diese Sprungmarke gibt es zweimal.',
   'finding.label.repeat_before': 'Die Wiederholung steht vor ihrer Sprungmarke.',

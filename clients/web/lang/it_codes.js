@@ -123,6 +123,7 @@ export default {
   'finding.diagnostics.too_many': 'Ci sono altri messaggi.',
   'finding.feature.unsupported': 'La simulazione non lo riproduce.',
   'finding.block.error_stored': 'Il controllo ha salvato questo blocco come errato.',
+  'finding.block.modal_state_assumed': 'Dopo una label o una chiamata vale G90, G91 o la funzione di traiettoria dei blocchi sopra.',
   'finding.label.unknown': 'Questa label non esiste.',
   'finding.label.duplicate': 'Questa label esiste due volte.',
   'finding.label.repeat_before': 'La ripetizione precede la sua label.',

@@ -123,6 +123,7 @@ export default {
   'finding.diagnostics.too_many': 'Er zijn nog meer meldingen.',
   'finding.feature.unsupported': 'Dit bootst de simulatie niet na.',
   'finding.block.error_stored': 'De besturing heeft deze regel als foutief opgeslagen.',
+  'finding.block.modal_state_assumed': 'Na een label of een oproep geldt G90, G91 of de baanfunctie van de regels erboven.',
   'finding.label.unknown': 'Dit label bestaat niet.',
   'finding.label.duplicate': 'Dit label bestaat tweemaal.',
   'finding.label.repeat_before': 'De herhaling staat vóór haar label.',

@@ -28,6 +28,19 @@ std::size_t ProgramParts::memory_bytes() const {
              (bytes_of(cycle_parameters) + bytes_of(nodes) + bytes_of(operands) + texts.size());
 }
 
+Program Program::translated(std::string&& source,
+                            const std::function<Slice<char>(Slice<char>)>& place) && {
+  for (Block& block : parts_.blocks) block.written = place(block.written);
+  for (CycleParameter& row : parts_.cycle_parameters) row.written = place(row.written);
+  parts_.source = std::move(source);
+  parts_.line_starts = {0};
+  for (std::size_t at = parts_.source.find('\n'); at != std::string::npos;
+       at = parts_.source.find('\n', at + 1)) {
+    parts_.line_starts.push_back(static_cast<std::uint32_t>(at + 1));
+  }
+  return std::move(*this);
+}
+
 SourceRange Program::range(Slice<char> place) const {
   return {position_of(parts_.source, parts_.line_starts, place.first),
           position_of(parts_.source, parts_.line_starts, std::size_t{place.first} + place.count)};

@@ -15,8 +15,10 @@
 
 namespace fitgauge::interpreter {
 
-/// What a program is called when it is named without one: `CALL PGM 82551`.
-inline constexpr std::string_view kProgramExtension = ".H";
+/// What a program is called when `caller` names it without one: `CALL PGM 82551`, `%82551`.
+inline std::string_view program_extension(const ControlPath& caller) {
+  return caller.key().ends_with(".i") ? ".I" : ".H";
+}
 
 /// What the linker fills and a LinkedProgram freezes.
 struct LinkedParts {

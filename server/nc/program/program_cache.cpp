@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "nc/iso/parser.hpp"
+
 namespace fitgauge::interpreter {
 
 namespace {
@@ -39,7 +41,7 @@ std::shared_ptr<const LinkedFile> ProgramCache::get(ControlFile file) {
   std::string source = *file.bytes;
   file.bytes.reset();  // a large program is not held twice
   auto linked = std::make_shared<const LinkedFile>(
-      link(klartext::parse_program(std::move(source), file.path.text()), file.path));
+      link(iso::parse_program(std::move(source), file.path.text()), file.path));
   if (!cached) return linked;
 
   const std::lock_guard lock(mutex_);

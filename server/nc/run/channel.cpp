@@ -43,7 +43,7 @@ NcResult<ControlPath> Channel::resolve_printed(std::string_view written) const {
 NcResult<ControlPath> Channel::resolve_program(std::string_view written) const {
   auto path = resolve(written);
   if (!path) return path;
-  return path->with_default_extension(kProgramExtension);
+  return path->with_default_extension(program_extension(linked().path()));
 }
 
 NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const ControlPath& path) {

@@ -11,9 +11,9 @@
 #include "base/text.hpp"
 #include "db/store/database.hpp"
 #include "db/store/storage_failure.hpp"
+#include "nc/iso/parser.hpp"
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/mask_file.hpp"
-#include "nc/klartext/parser.hpp"
 #include "nc/klartext/printer.hpp"
 #include "nc/program/check.hpp"
 #include "nc/program/control_disk.hpp"
@@ -70,7 +70,7 @@ Result<std::string> format_file(const interpreter::ControlPath& path,
                                 const interpreter::ControlDisk& disk) {
   const auto file = disk.find(path);
   if (!file) return Error{ErrorCode::ProgramUnknown, "there is no file " + path.text()};
-  const auto parsed = klartext::parse_program(*file->bytes, file->path.text());
+  const auto parsed = iso::parse_program(*file->bytes, file->path.text());
   for (const klartext::Diagnostic& found : parsed.diagnostics) {
     if (found.severity != klartext::Severity::Error) continue;
     return Error{ErrorCode::ProgramInvalid, "line " + std::to_string(found.range.begin.line) +

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+/// The codes of DIN/ISO blocks and what they are in Klartext.
+namespace fitgauge::iso {
+
+enum class CodeKind : std::uint8_t {
+  Path,          ///< how the tool moves; modal
+  Compensation,  ///< of the tool's radius
+  Plane,         ///< the tool axis of the block
+  Dimension,     ///< absolute or incremental
+  Block,         ///< a block of its own, by its pattern
+  Cycle,         ///< a cycle in Q-form
+  Absent         ///< a code of real controls that is not available here
+};
+
+/// A pattern is Klartext with `|` between blocks. `$F` is the value of the word F, `$1` that of P01, `$p` those of all
+/// P joined by `/`, `$w` all words left over, `$t` the text behind the code, `$q` the parameter behind the code, `$r`
+/// P01 as a parameter, `$a` the tool axis.
+struct Code {
+  unsigned number;
+  CodeKind kind;
+  std::string_view klartext;       ///< a word, a pattern, or of Absent what to do instead
+  std::string_view addition = {};  ///< of a path: FMAX, or the direction of rotation
+};
+
+/// @returns nullptr if there is no such code.
+const Code* find_code(unsigned number);
+
+/// The pattern of a D function with P words; empty if the text of the Klartext function stands behind D.
+std::string function_pattern(unsigned number);
+
+/// The first words of a cycle in Q-form: `TCH PROBE` and 421. G120 to G128 are the cycles 20 to 28.
+struct CycleHead {
+  std::string_view family;
+  unsigned number;
+};
+CycleHead cycle_head(unsigned code);
+
+}  // namespace fitgauge::iso

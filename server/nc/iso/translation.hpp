@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nc/iso/words.hpp"
+#include "nc/klartext/diagnostic.hpp"
+
+namespace fitgauge::iso {
+
+/// A DIN/ISO program as Klartext, and the places its lines come from.
+struct Translation {
+  struct Finding {
+    std::size_t line = 0;  ///< of the Klartext, from 0
+    klartext::DiagnosticCode code = klartext::DiagnosticCode::SyntaxError;
+    klartext::Slice<char> place;  ///< in the DIN/ISO text
+    std::string message;
+  };
+
+  std::string klartext;
+  std::vector<klartext::Slice<char>> lines;  ///< for each line of the Klartext its place
+  std::vector<Finding> unreadable;           ///< of lines that are no Klartext, in their order
+  std::vector<Finding> warnings;
+  bool is_too_large = false;  ///< the text ends early
+};
+
+/// Writes each block of a decoded text as Klartext.
+Translation translate(const std::string& source);
+
+/// Writes the Klartext lines of one block after the other.
+class LineWriter {
+ public:
+  explicit LineWriter(Translation& out) : out_(out) {}
+
+  /// The block that the next lines belong to, with what stands before their statements.
+  void begin_block(klartext::Slice<char> place, std::string prefix);
+  void start_line();
+  /// A line that goes on with the last one's block.
+  void continue_line(klartext::Slice<char> place);
+  /// A piece of a statement; its wraps become blanks.
+  LineWriter& put(std::string_view piece);
+  LineWriter& put(const Word& word);
+  void put_rest(BlockWords& words);
+  void comment(std::string_view comment);
+  bool is_written() const { return is_written_; }
+
+  /// The blocks of a pattern. @returns what is wrong with the words, or nothing.
+  std::string pattern(std::string_view pattern, BlockWords& words, char tool_axis);
+
+ private:
+  std::string value(char key, BlockWords& words, char tool_axis);
+
+  Translation& out_;
+  klartext::Slice<char> place_;
+  std::string prefix_;
+  bool is_written_ = false;
+};
+
+}  // namespace fitgauge::iso

@@ -1,0 +1,18 @@
+%ONEAXIS G71 *
+; A face across the main axis reads X+7.
+N10 T30 G17 *
+N20 G419 DATUM IN ONE AXIS ~
+    Q263=+0 ~
+    Q264=+80 ~
+    Q261=-5 ~
+    Q320=+0 ~
+    Q260=+30 ~
+    Q272=+1 ~
+    Q267=+1 ~
+    Q305=+9 ~
+    Q333=+7 ~
+    Q303=+1 *
+N30 D18: SYSREAD Q1601 = ID503 NR9 IDX1 *
+N40 D18: SYSREAD Q1602 = ID503 NR9 IDX2 *
+N50 D18: SYSREAD Q1603 = ID503 NR9 IDX3 *
+N99999999 %ONEAXIS G71 *

@@ -1,0 +1,38 @@
+%main G71 *
+; Checks, optimises and checks again; the preset is set into the sphere.
+N10 T30 G17 *
+N20 G00 X+0 Y+0 *
+N30 G00 Z+30 *
+N40 Q1 = 0 *
+N50 L1,0 *
+N60 Q1 = 2 *
+N70 L1,0 *
+N80 Q1 = 0 *
+N90 L1,0 *
+N100 M30 *
+N110 G98 L1 *
+N120 G451 MEASURE KINEMATICS ~
+    Q406=+Q1  ;MODE ~
+    Q407=+15  ;SPHERE RADIUS ~
+    Q320=+0   ;SET-UP CLEARANCE ~
+    Q408=+100 ;RETR. HEIGHT ~
+    Q253=MAX  ;F PRE-POSITIONING ~
+    Q380=+30  ;REFERENCE ANGLE ~
+    Q411=-30  ;START ANGLE A ~
+    Q412=+90  ;END ANGLE A ~
+    Q413=+0   ;INCID. ANGLE A ~
+    Q414=+4   ;MEAS. POINTS A ~
+    Q415=-90  ;START ANGLE B ~
+    Q416=+90  ;END ANGLE B ~
+    Q417=+0   ;INCID. ANGLE B ~
+    Q418=+2   ;MEAS. POINTS B ~
+    Q419=+90  ;START ANGLE C ~
+    Q420=+270 ;END ANGLE C ~
+    Q421=+0   ;INCID. ANGLE C ~
+    Q422=+3   ;MEAS. POINTS C ~
+    Q423=+4   ;NO. OF PROBE POINTS ~
+    Q431=+3   ;PRESET ~
+    Q432=+0   * ;BACKLASH, ANG. RANGE
+N130 G00 Z+30 *
+N140 G98 L0 *
+N99999999 %main G71 *

@@ -1,0 +1,71 @@
+%SPHERECAL G71 *
+; Radius, offset and length from one sphere.
+N10 T30 G17 *
+N20 G00 Z+200 *
+N30 G00 X-200.2 Y+0.3 *
+N40 G00 Z+80 *
+N50 G460 CALIBRATION OF TS ON A SPHERE ~
+    Q407=+12.5 ~
+    Q320=+1 ~
+    Q301=+0 ~
+    Q423=+4 ~
+    Q380=+40 ~
+    Q433=+0 ~
+    Q434=+0 *
+N60 D18: SYSREAD Q1610 = ID350 NR11 *
+N70 D18: SYSREAD Q1611 = ID350 NR12 *
+N80 D18: SYSREAD Q1612 = ID350 NR14 IDX1 *
+N90 D18: SYSREAD Q1613 = ID350 NR14 IDX2 *
+; and the length: the sphere stands at Z+60
+N100 G00 Z+80 *
+N110 G460 CALIBRATION OF TS ON A SPHERE ~
+    Q407=+12.5 ~
+    Q320=+1 ~
+    Q301=+1 ~
+    Q423=+5 ~
+    Q380=+0 ~
+    Q433=+1 ~
+    Q434=+60 ~
+    Q455=+0 *
+N120 D18: SYSREAD Q1620 = ID350 NR11 *
+N130 D18: SYSREAD Q1621 = ID350 NR12 *
+N140 D18: SYSREAD Q1622 = ID350 NR14 IDX1 *
+N150 D18: SYSREAD Q1623 = ID350 NR14 IDX2 *
+N160 G00 Z+200 *
+N170 G00 X+100 Y+80 *
+N180 G421 MEASURE HOLE ~
+    Q273=+100 ~
+    Q274=+80 ~
+    Q262=+25 ~
+    Q325=+0 ~
+    Q247=+90 ~
+    Q261=-5 ~
+    Q320=+0 ~
+    Q260=+30 ~
+    Q301=+0 ~
+    Q275=+25.021 ~
+    Q276=+25 ~
+    Q279=+0 ~
+    Q280=+0 ~
+    Q281=+0 ~
+    Q309=+0 ~
+    Q330=+0 *
+N190 Q1600 = Q151 *
+N200 Q1601 = Q152 *
+N210 Q1602 = Q153 *
+N220 G00 Z+200 *
+N230 G427 MEASURE COORDINATE ~
+    Q263=+20 ~
+    Q264=+20 ~
+    Q261=+0 ~
+    Q320=+0 ~
+    Q272=+3 ~
+    Q267=-1 ~
+    Q260=+30 ~
+    Q281=+0 ~
+    Q288=+0 ~
+    Q289=+0 ~
+    Q309=+0 ~
+    Q330=+0 *
+N240 Q1603 = Q160 *
+N99999999 %SPHERECAL G71 *

@@ -1,0 +1,43 @@
+%LENGTHCAL G71 *
+; The length by one touch on the ring gauge, whose upper side is Z+0.
+N10 T30 G17 *
+N20 G427 MEASURE COORDINATE ~
+    Q263=+20 ~
+    Q264=+20 ~
+    Q261=+0 ~
+    Q320=+0 ~
+    Q272=+3 ~
+    Q267=-1 ~
+    Q260=+30 ~
+    Q281=+0 ~
+    Q288=+0 ~
+    Q289=+0 ~
+    Q309=+0 ~
+    Q330=+0 *
+N30 Q1600 = Q160 *
+N40 G00 Z+200 *
+N50 G00 X-165 Y+100 *
+N60 G00 Z+5 *
+N70 G461 TS CALIBRATION OF TOOL LENGTH ~
+    Q434=+0 *
+N80 D18: SYSREAD Q1610 = ID350 NR11 *
+N90 D18: SYSREAD Q1611 = ID350 NR12 *
+N100 D18: SYSREAD Q1612 = ID350 NR14 IDX1 *
+N110 D18: SYSREAD Q1613 = ID350 NR14 IDX2 *
+N120 G00 Z+200 *
+; the same face again
+N130 G427 MEASURE COORDINATE ~
+    Q263=+20 ~
+    Q264=+20 ~
+    Q261=+0 ~
+    Q320=+0 ~
+    Q272=+3 ~
+    Q267=-1 ~
+    Q260=+30 ~
+    Q281=+0 ~
+    Q288=+0 ~
+    Q289=+0 ~
+    Q309=+0 ~
+    Q330=+0 *
+N140 Q1601 = Q160 *
+N99999999 %LENGTHCAL G71 *
