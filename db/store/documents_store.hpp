@@ -22,8 +22,9 @@ enum class DocumentKind : std::uint8_t {
   Connection = 5,
   ConnectionProgress = 6,
   Catalogue = 7,
+  Calibration = 8,
 };
-constexpr DocumentKind last_of(DocumentKind) { return DocumentKind::Catalogue; }
+constexpr DocumentKind last_of(DocumentKind) { return DocumentKind::Calibration; }
 
 struct Document {
   DocumentKind kind = DocumentKind::Uncertainty;

@@ -1,15 +1,32 @@
 #include "record/gauge_book.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 namespace fitgauge::api {
+namespace {
 
+std::optional<Timestamp> parse_date(std::string_view text, std::string_view time_of_day) {
+  if (const auto time = parse_rfc3339(text)) return *time;
+  const auto time = parse_rfc3339(std::string(text).append(time_of_day));
+  return time ? std::optional(*time) : std::nullopt;
+}
+
+}  // namespace
+
+const GaugePeriod& GaugeInUse::at(Timestamp time) const {
+  const auto next = std::upper_bound(
+      periods.begin() + 1, periods.end(), time,
+      [](Timestamp wanted, const GaugePeriod& period) { return wanted < period.from; });
+  return *(next - 1);
+}
+
+std::optional<Timestamp> parse_from(std::string_view text) {
+  return parse_date(text, "T00:00:00Z");
+}
 std::optional<Timestamp> parse_due(std::string_view text) {
-  const auto time = parse_rfc3339(text);
-  if (time) return *time;
-  const auto end = parse_rfc3339(std::string(text) + "T23:59:59.999999999Z");
-  return end ? std::optional(*end) : std::nullopt;
+  return parse_date(text, "T23:59:59.999999999Z");
 }
 
 std::optional<Length> rounded_up(double micrometres) {

@@ -228,8 +228,8 @@ const GaugeInUse* MeasurementRowReader::find_gauge(std::string_view name) {
   return last_gauge_in_use_;
 }
 
-/// What a gauge in use says: its uncertainty where the rule needs one that was not given, and that
-/// its calibration was overdue. @pre measured_at stands
+/// What a gauge in use says of that time: its uncertainty where the rule needs one that was not
+/// given, and that its calibration was overdue. @pre measured_at stands
 void MeasurementRowReader::apply_gauge() {
   app::Measurement& m = draft_.measurement;
   const bool needs = draft_.rule.kind != gauging::DecisionRule::Kind::Simple;
@@ -245,14 +245,16 @@ void MeasurementRowReader::apply_gauge() {
   const GaugeInUse* gauge = find_gauge(*m.gauge);
   m.has_unknown_gauge = gauge == nullptr && !context_.gauges->empty();
   if (gauge == nullptr) return;
-  if (draft_.gauge_of == nullptr && gauge->is_overdue(m.measured_at)) {
-    m.calibration_due = gauge->calibration_due;
+  const GaugePeriod& period = gauge->at(m.measured_at);
+  m.has_blocked_gauge = period.is_blocked;
+  if (draft_.gauge_of == nullptr && period.is_overdue(m.measured_at)) {
+    m.calibration_due = period.calibration_due;
   }
   if (needs && !m.standard_uncertainty && !given(RowField::Uncertainty) &&
-      gauge->standard_uncertainty) {
-    m.standard_uncertainty = gauge->standard_uncertainty;
-    m.degrees_of_freedom = gauge->degrees_of_freedom;
-    m.uncertainty_budget = gauge->budget;
+      period.standard_uncertainty) {
+    m.standard_uncertainty = period.standard_uncertainty;
+    m.degrees_of_freedom = period.degrees_of_freedom;
+    m.uncertainty_budget = period.budget;
   }
 }
 

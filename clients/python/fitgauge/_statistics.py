@@ -55,5 +55,13 @@ class StatisticsCalls(Transport):
         """A gauge as it was stored."""
         return self._get(path_of("gauges-in-use", name))
 
+    def record_calibration(self, name: str, calibration: Mapping[str, Any]) -> dict[str, Any]:
+        """Records a calibration of a gauge: `from`, `due`, `certificate`, `laboratory`, `status` and others."""
+        return self._compute(path_of("gauges-in-use", name, "calibrations"), calibration)
+
+    def calibrations(self, name: str) -> list[dict[str, Any]]:
+        """The calibrations of a gauge, by their beginnings."""
+        return self._get(path_of("gauges-in-use", name, "calibrations"))["calibrations"]
+
     def delete_gauge_in_use(self, name: str) -> None:
         self._perform(Request("DELETE", path_of("gauges-in-use", name), repeatable=True))

@@ -11,13 +11,17 @@ const endOf = (due) => new Date(due.length === 10 ? `${due}T23:59:59Z` : due);
 export const gaugeNames = async (signal) =>
   (await getJson(url(['gauges-in-use']), { signal, asks: false }).catch(() => ({ gauges: [] }))).gauges.map(({ name }) => name);
 
-/** {name, due, overdue, uncertainty_um} of a gauge in use; null where it is none. */
+/** {name, due, overdue, blocked, uncertainty_um} of a gauge in use, by its calibration of today; null where it is none. */
 export async function gaugeInUse(name, signal) {
   if (!name) return null;
   try {
     const gauge = await getJson(url(['gauges-in-use', name]), { signal, asks: false });
-    const due = endOf(gauge.calibration_due);
-    return { name, due, overdue: due < connection.now(), uncertainty_um: await uncertaintyOf(gauge.uncertainty, signal) };
+    const { calibrations } = await getJson(url(['gauges-in-use', name, 'calibrations']), { signal, asks: false });
+    const now = calibrations.filter(({ from }) => new Date(from) <= connection.now()).at(-1) ?? {};
+    const blocked = now.status === 'blocked';
+    const due = blocked ? new Date(now.from) : endOf(now.due ?? gauge.calibration_due);
+    return { name, due, blocked, overdue: blocked || due < connection.now(),
+      uncertainty_um: await uncertaintyOf(now.uncertainty ?? gauge.uncertainty, signal) };
   } catch (problem) {
     if ([401, 404, undefined].includes(problem.status)) return null;
     throw problem;
@@ -32,8 +36,9 @@ async function uncertaintyOf(budget, signal) {
   return um === null ? null : (Math.ceil(Number((um * 1000).toFixed(6))) / 1000).toString();
 }
 
-/** "calibrated until 31 Mar 2027 · u = 0.8 µm", or that it is overdue. */
-export function gaugeText({ name, due, overdue, uncertainty_um: um }) {
+/** "calibrated until 31 Mar 2027 · u = 0.8 µm", or that it is overdue or blocked. */
+export function gaugeText({ name, due, overdue, blocked, uncertainty_um: um }) {
+  if (blocked) return t('gauge.blocked', { gauge: name, date: date(due) });
   if (overdue) return t('gauge.overdue', { gauge: name, date: date(due) });
   return [t('gauge.due', { gauge: name, date: date(due) }), um && `u = ${number(um)} µm`].filter(Boolean).join(' · ');
 }

@@ -107,6 +107,7 @@ export default {
   'rule.conformance': 'Konformitätswahrscheinlichkeit',
 
   'gauge.due': '{gauge} kalibriert bis {date}',
+  'gauge.blocked': '{gauge} ist seit {date} gesperrt.',
   'gauge.overdue': 'Die Kalibrierung von {gauge} war am {date} fällig.',
   'gauge.unkept': 'Diese Seite nicht schließen oder neu laden: Über HTTP ohne TLS lädt der Browser sie erst wieder, wenn der Dienst zurück ist.',
   'gauge.unstored': 'Diese Seite nicht schließen oder neu laden: Dieser Browser hat keinen Platz, um zu behalten, was wartet.',

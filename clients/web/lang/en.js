@@ -107,6 +107,7 @@ export default {
   'rule.conformance': 'Probability of conformance',
 
   'gauge.due': '{gauge} calibrated until {date}',
+  'gauge.blocked': '{gauge} has been blocked since {date}.',
   'gauge.overdue': 'Calibration of {gauge} was due on {date}.',
   'gauge.unkept': 'Do not close or reload this page: over plain HTTP the browser cannot load it again before the service is back.',
   'gauge.unstored': 'Do not close or reload this page: this browser has no room to keep what waits.',

@@ -107,6 +107,7 @@ export default {
   'rule.conformance': 'Probabilità di conformità',
 
   'gauge.due': '{gauge} tarato fino al {date}',
+  'gauge.blocked': '{gauge} è bloccato dal {date}.',
   'gauge.overdue': 'La taratura di {gauge} scadeva il {date}.',
   'gauge.unkept': 'Non chiudere né ricaricare questa pagina: con HTTP senza TLS il browser la ricarica solo quando il servizio è tornato.',
   'gauge.unstored': 'Non chiudere né ricaricare questa pagina: il browser non ha spazio per conservare ciò che attende.',

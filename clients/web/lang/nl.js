@@ -107,6 +107,7 @@ export default {
   'rule.conformance': 'Kans op conformiteit',
 
   'gauge.due': '{gauge} gekalibreerd tot {date}',
+  'gauge.blocked': '{gauge} is geblokkeerd sinds {date}.',
   'gauge.overdue': 'De kalibratie van {gauge} was op {date} nodig.',
   'gauge.unkept': 'Sluit of herlaad deze pagina niet: over HTTP zonder TLS laadt de browser haar pas weer als de dienst terug is.',
   'gauge.unstored': 'Sluit of herlaad deze pagina niet: deze browser heeft geen ruimte om te bewaren wat wacht.',

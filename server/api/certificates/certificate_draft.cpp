@@ -102,7 +102,12 @@ void CertificateDraft::add(const app::Measurement& m) {
   ++verdicts_.at(static_cast<std::size_t>(m.result.verdict));
   last_id_ = app::measurement_id_text(m.id, m.origin);
   if (first_id_.empty()) first_id_ = last_id_;
-  if (m.gauge) gauges_[std::string(*m.gauge)];
+  const std::string gauge(m.gauge.value_or(""));
+  const std::string due(m.calibration_due.value_or(""));
+  if (m.gauge) {
+    const std::string budget(m.uncertainty_budget.value_or(""));
+    gauges_.insert({gauge, budget, budget.empty() ? std::nullopt : m.standard_uncertainty, due});
+  }
   if (!m.table_revision.empty()) ++revisions_[std::string(m.table_revision)];
   std::string record;
   app::append_record(record, m);
@@ -120,26 +125,8 @@ void CertificateDraft::add(const app::Measurement& m) {
                     .deviation = m.has_nominal ? format_um(m.decisive() - m.nominal_size) : "",
                     .verdict = std::string(word(m.result.verdict)),
                     .rule = rule_text(m),
-                    .gauge = std::string(m.gauge.value_or("")),
+                    .gauge = due.empty() ? gauge : gauge + "; OVERDUE when measured: " + due,
                     .measured_at = time_text(m.measured_at)});
-  overdue_.emplace_back(m.calibration_due.value_or(""));
-}
-
-void CertificateDraft::add_gauges(const GaugeBook& book) {
-  for (auto& [name, gauge] : gauges_) {
-    if (const auto known = book.find(name); known != book.end()) gauge = known->second;
-  }
-  for (std::size_t i = 0; i < lines_.size(); ++i) {
-    certificate::Line& line = lines_[i];
-    const auto used = gauges_.find(line.gauge);
-    if (used == gauges_.end()) continue;
-    const GaugeInUse& gauge = used->second;
-    if (gauge.standard_uncertainty) {
-      line.gauge += fmt::format(", u {} \u00b5m", format_um(*gauge.standard_uncertainty));
-    }
-    if (!gauge.calibration_due.empty()) line.gauge += ", due " + gauge.calibration_due;
-    if (!overdue_[i].empty()) line.gauge += "; OVERDUE when measured: " + overdue_[i];
-  }
 }
 
 std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpoint) const {
@@ -153,9 +140,9 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
   json.member("made_at", format_rfc3339(made_at)).member("count", std::uint64_t{count_});
   write_verdict_counts(json, verdicts_);
   json.key("gauges").begin_array();
-  for (const auto& [name, gauge] : gauges_) {
-    json.begin_object().member("name", name);
-    if (!gauge.calibration_due.empty()) json.member("calibration_due", gauge.calibration_due);
+  for (const UsedGauge& gauge : gauges_) {
+    json.begin_object().member("name", gauge.name);
+    if (!gauge.overdue_since.empty()) json.member("calibration_due", gauge.overdue_since);
     if (!gauge.budget.empty()) json.member("uncertainty", gauge.budget);
     if (gauge.standard_uncertainty) json.member_um("uncertainty_um", *gauge.standard_uncertainty);
     json.end_object();

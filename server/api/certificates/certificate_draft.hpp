@@ -1,13 +1,15 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "formats/certificate/certificate.hpp"
 #include "record/measurement.hpp"
-#include "service/measurements/gauges_in_use.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
@@ -35,8 +37,6 @@ class CertificateDraft {
   const std::string& last_id() const { return last_id_; }  ///< of the measurements
 
   void add(const app::Measurement& measurement);
-  /// What is known of the gauges in use.
-  void add_gauges(const GaugeBook& book);
 
   /// @param checkpoint the signed head of the log
   std::string json(Timestamp made_at, const std::string& checkpoint) const;
@@ -52,8 +52,16 @@ class CertificateDraft {
   app::VerdictTally verdicts_{};
   std::string records_;  ///< JSON, with commas between them
   std::vector<certificate::Line> lines_;
-  std::vector<std::string> overdue_;  ///< of each line: when its gauge was due; empty: it was not
-  std::map<std::string, GaugeInUse> gauges_;  ///< those that were used
+  /// What the records say of a gauge.
+  struct UsedGauge {
+    std::string name{};
+    std::string budget{};
+    std::optional<Length> standard_uncertainty{};  ///< of the budget
+    std::string overdue_since{};
+
+    friend auto operator<=>(const UsedGauge&, const UsedGauge&) = default;
+  };
+  std::set<UsedGauge> gauges_;
   std::map<std::string, int> revisions_;
   std::string first_id_;
   std::string last_id_;

@@ -51,7 +51,6 @@ http::Response written(const CertificateDraft& draft, Timestamp now,
 /// long.
 void finish(const Services& services, const std::shared_ptr<CertificateDraft>& draft,
             const SharedResponder& shared) {
-  draft->add_gauges(*services.gauges.book());
   const auto last = services.measurements.parse_id(draft->last_id());
   if (!last) return shared->fail(last.error());
   services.log.prove(

@@ -32,6 +32,18 @@ std::vector<Warning> warnings_of(const app::Measurement& m) {
                                       "correct its name",
                                       m.gauge.value_or(""))});
   }
+  if (m.has_blocked_gauge) {
+    warnings.push_back(
+        {"gauge.blocked", fmt::format("gauge '{}' was blocked when it measured this: measure again "
+                                      "with another, or record its calibration",
+                                      m.gauge.value_or(""))});
+  }
+  if (m.calibration_due) {
+    warnings.push_back(
+        {"gauge.overdue", fmt::format("the calibration of gauge '{}' was due {}: record the next "
+                                      "one, or measure again",
+                                      m.gauge.value_or(""), *m.calibration_due)});
+  }
   return warnings;
 }
 

@@ -22,7 +22,7 @@ struct Warning {
 
 /// Reasons for care that do not keep a value from the store: an acceptance zone that is empty, an
 /// uncertainty above a tenth of the tolerance that the simple rule does not see, a gauge that is
-/// not registered while others are.
+/// not registered while others are, is blocked, or is overdue for calibration.
 std::vector<Warning> warnings_of(const app::Measurement& measurement);
 
 /// Writes `"warnings":[{code, detail}]`; nothing without any.

@@ -213,11 +213,11 @@ void add_measurement_schemas(Schemas& schemas) {
                   {"record", schema::text(), "Of a correction, as it was answered", false}})),
              "In the order of their numbers, of each thing the last"}})});
   schemas.push_back({"VerdictCounts", verdict_counts()});
-  const std::string gauge =
-      schema::object({{"name", schema::text(), ""},
-                      {"calibration_due", schema::text(), "A date, of a gauge in use", false},
-                      {"uncertainty", schema::text(), "The name of its budget", false},
-                      {"uncertainty_um", schema::number(), "What it comes to", false}});
+  const std::string gauge = schema::object(
+      {{"name", schema::text(), ""},
+       {"calibration_due", schema::text(), "Of one that was overdue: since when", false},
+       {"uncertainty", schema::text(), "The name of its budget", false},
+       {"uncertainty_um", schema::number(), "What it came to", false}});
   schemas.push_back(
       {"Certificate",
        schema::object({{"order", schema::text(), "What it is of", false},
@@ -228,7 +228,7 @@ void add_measurement_schemas(Schemas& schemas) {
                        {"made_at", schema::time(), ""},
                        {"count", schema::count(), "Of the measurements"},
                        {"verdicts", schema::ref("VerdictCounts"), ""},
-                       {"gauges", schema::array(gauge), "Those that were used"},
+                       {"gauges", schema::array(gauge), "What the records say of them"},
                        {"checkpoint", schema::text(), "The signed head of the log: a note"},
                        {"measurements", schema::array(schema::ref("Measurement")), ""}})});
   schemas.push_back(

@@ -70,22 +70,17 @@ void write(const Services& services, const KindOfDocument& kind, std::string nam
            CheckedDocument checked, const http::Request& request, const SharedResponder& shared) {
   const auto caller = caller_name(request);
   std::string tag = etag_of_text(checked.text);
-  services.documents.write(
-      {.kind = kind.kind,
-       .name = std::move(name),
-       .text = std::move(checked.text),
-       .caller = caller ? std::optional<std::string>(*caller) : std::nullopt,
-       .uncertainty = std::move(checked.uncertainty),
-       .precondition = text_precondition_of(request)},
-      [&services, &kind, shared, tag = std::move(tag),
-       answer = std::move(checked.answer)](Result<bool> created) {
-        if (!created) {
-          const bool of_budget = created.error().code == ErrorCode::UncertaintyUnknown;
-          return shared->fail(of_budget ? at_member("uncertainty", created.error())
-                                        : created.error());
-        }
-        answer_change(services, kind, shared, written(*created, answer, tag));
-      });
+  services.documents.write({.kind = kind.kind,
+                            .name = std::move(name),
+                            .text = std::move(checked.text),
+                            .caller = caller ? std::optional<std::string>(*caller) : std::nullopt,
+                            .uncertainty = std::move(checked.uncertainty),
+                            .precondition = text_precondition_of(request)},
+                           [&services, &kind, shared, tag = std::move(tag),
+                            answer = std::move(checked.answer)](Result<bool> created) {
+                             if (!created) return shared->fail(at_budget(created.error()));
+                             answer_change(services, kind, shared, written(*created, answer, tag));
+                           });
 }
 
 void put(const Services& services, const KindOfDocument& kind, const http::Request& request,
@@ -153,6 +148,10 @@ void list(const Services& services, const KindOfDocument& kind, const http::Requ
 }
 
 }  // namespace
+
+Error at_budget(const Error& error) {
+  return error.code == ErrorCode::UncertaintyUnknown ? at_member("uncertainty", error) : error;
+}
 
 Result<void> describe_by_name(JsonWriter& json, const app::NamedDocument& document) {
   json.member("name", document.name);

@@ -56,6 +56,9 @@ struct KindOfDocument {
   void (*changed)(const Services& services, std::function<void(Result<void>)> done) = nullptr;
 };
 
+/// The refusal of a write: of its member `uncertainty` where its budget is not there.
+Error at_budget(const Error& error);
+
 /// The schema of a list of names and times: the answer of a kind that is described by its name.
 /// @param example a name; empty: none
 NamedSchema names_schema(std::string name, std::string_view member, std::string_view example = {});

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "api/handlers.hpp"
 #include "api/schemas.hpp"
 #include "api/service/document_routes.hpp"
 #include "api/statistics/uncertainty_resource.hpp"
+#include "api/wire/request_facts.hpp"
 #include "base/json/body_forms.hpp"
 #include "record/gauge_book.hpp"
 #include "service/measurements/gauges_in_use.hpp"
@@ -25,7 +29,7 @@ void reload_gauges(const Services& services, std::function<void(Result<void>)> d
   services.gauges.reload(std::move(done));
 }
 
-/// The form of the time to which a calibration holds.
+/// The form of the time from which or to which a calibration holds.
 struct Due {
   std::string schema(Side) const { return schema::text(); }
   bool read(FieldReader& fields, std::string_view name, std::string& to) const {
@@ -39,6 +43,7 @@ struct Due {
     }
     return is_due;
   }
+  void write(JsonWriter& json, std::string_view from) const { json.value(from); }
 };
 
 struct GaugeOrder {
@@ -59,6 +64,116 @@ Result<CheckedDocument> check_gauge(const Services&, const std::string&, std::st
   auto gauge = read_whole<GaugeOrder>(*body);
   if (!gauge) return gauge.error();
   return CheckedDocument{.text = std::string(text), .uncertainty = std::move(gauge->uncertainty)};
+}
+
+enum class Status : std::uint8_t { InUse, Blocked };
+constexpr OneOf<2> kStatuses{"in_use", "blocked"};
+constexpr Text kShort{.longest = 200};
+
+/// A calibration of a gauge, or that it is blocked from a time on.
+struct Calibration {
+  std::string from{};
+  std::optional<std::string> due{};
+  std::optional<std::string> certificate{};
+  std::optional<std::string> laboratory{};
+  Status status = Status::InUse;
+  std::optional<std::string> uncertainty{};
+  std::optional<double> as_found{};
+  std::optional<double> as_left{};
+  std::optional<std::string> comment{};
+  Timestamp recorded_at{};
+  std::optional<std::string> caller{};
+};
+void given_members(auto& v, auto& c) {
+  v.member("from", c.from, Due{}, "A date, from its beginning in UTC, or an RFC 3339 time");
+  v.optional("due", c.due, Due{}, "A date, to its end, or a time; required unless it is blocked");
+  v.optional("certificate", c.certificate, kShort, "Number of the calibration certificate");
+  v.optional("laboratory", c.laboratory, kShort, "Who calibrated it");
+  v.optional("status", c.status, kStatuses, "blocked: it must not be used from then on");
+  v.optional("uncertainty", c.uncertainty, "The name of its budget, in µm; else the gauge's own");
+  v.optional("as_found_um", c.as_found, Number{}, "Error that the calibration found");
+  v.optional("as_left_um", c.as_left, Number{}, "Error after its adjustment");
+  v.optional("comment", c.comment, Text{.longest = 2000});
+}
+
+struct CalibrationOrder {
+  Calibration given{};
+};
+void members(auto& v, CalibrationOrder& order) {
+  given_members(v, order.given);
+  v.check([&](FieldReader& fields) {
+    const Calibration& c = order.given;
+    const auto due = c.due ? parse_due(*c.due) : std::nullopt;
+    if (!due && c.status == Status::InUse) {
+      fields.report(ErrorCode::FieldMissing, "due", "due is required of a gauge in use");
+    } else if (const auto from = parse_from(c.from); due && from && *due < *from) {
+      fields.report(ErrorCode::FieldInvalid, "due", "due must be later than from");
+    }
+  });
+}
+
+}  // namespace
+
+void members(auto& v, const Calibration& calibration) {
+  given_members(v, calibration);
+  v.member("recorded_at", calibration.recorded_at, Time{}, "When it was stored, in UTC");
+  v.optional("caller", calibration.caller, "The name of the key that stored it");
+}
+
+namespace {
+
+void record_calibration(const Services& services, const http::Request& request,
+                        http::Responder responder) {
+  const auto body = parse_json(request.body());
+  if (!body) return responder.fail(body.error());
+  auto order = read_whole<CalibrationOrder>(*body);
+  if (!order) return responder.fail(order.error());
+  Calibration& given = order->given;
+  given.recorded_at = services.clock.now();
+  if (const auto caller = caller_name(request)) given.caller = std::string(*caller);
+  const std::string gauge(*request.text("name"));
+  const std::string text = body_json(given);
+  services.documents.write({.kind = app::DocumentKind::Calibration,
+                            .name = app::calibration_name(gauge, *parse_from(given.from)),
+                            .text = text,
+                            .caller = given.caller,
+                            .uncertainty = given.uncertainty,
+                            .gauge = gauge},
+                           [&services, text,
+                            shared = share(std::move(responder))](const Result<bool>& is_new) {
+                             if (!is_new) return shared->fail(at_budget(is_new.error()));
+                             services.gauges.reload([shared, text, status = *is_new ? 201 : 200](
+                                                        const Result<void>& heard) {
+                               if (!heard) return shared->fail(heard.error());
+                               shared->answer({status, "application/json", text});
+                             });
+                           });
+}
+
+void list_calibrations(const Services& services, const http::Request& request,
+                       http::Responder responder) {
+  services.documents.list_each(
+      {app::DocumentKind::GaugeInUse, app::DocumentKind::Calibration},
+      [gauge = std::string(*request.text("name")), shared = share(std::move(responder))](
+          const Result<std::vector<std::vector<app::NamedDocument>>>& lists) {
+        if (!lists) return shared->fail(lists.error());
+        std::string body;
+        JsonWriter json(body);
+        json.begin_object().key("calibrations").begin_array();
+        bool is_known = std::any_of((*lists)[0].begin(), (*lists)[0].end(),
+                                    [&](const auto& found) { return found.name == gauge; });
+        for (const app::NamedDocument& calibration : (*lists)[1]) {
+          if (app::gauge_of_calibration(calibration.name) != gauge) continue;
+          json.raw(calibration.text);
+          is_known = true;
+        }
+        json.end_array().end_object();
+        if (!is_known) {
+          return shared->fail(
+              {ErrorCode::GaugeUnknown, fmt::format("there is no gauge in use '{}'", gauge)});
+        }
+        shared->answer({200, "application/json", std::move(body)});
+      });
 }
 
 constexpr KindOfDocument kUncertainties{.kind = app::DocumentKind::Uncertainty,
@@ -98,6 +213,11 @@ constexpr KindOfDocument kGauges{.kind = app::DocumentKind::GaugeInUse,
 
 void add_documents_schemas(Schemas& schemas) {
   schemas.push_back(order_schema<GaugeOrder>("GaugeInUse"));
+  schemas.push_back(order_schema<CalibrationOrder>("NewCalibration"));
+  schemas.push_back(answer_schema<Calibration>("Calibration"));
+  schemas.push_back(
+      {"Calibrations", schema::object({{"calibrations", schema::array(schema::ref("Calibration")),
+                                        "By their beginnings"}})});
   schemas.push_back(names_schema("UncertaintyBudgetNames", "uncertainties"));
   schemas.push_back(names_schema("GaugeInUseNames", "gauges"));
 }
@@ -105,6 +225,37 @@ void add_documents_schemas(Schemas& schemas) {
 void add_documents_routes(std::vector<http::Route>& routes, const Services& services) {
   add_document_routes(routes, services, kUncertainties);
   add_document_routes(routes, services, kGauges);
+  const http::Parameter name{
+      .name = "name", .place = http::ParameterPlace::Path, .description = "Of the gauge in use"};
+  routes.push_back({
+      .method = http::Method::Post,
+      .pattern = "/v1/gauges-in-use/{name}/calibrations",
+      .handler = with(services, record_calibration),
+      .summary = "Record a calibration of a gauge in use, or that it is blocked",
+      .description = "It counts for what is measured from its beginning to that of the next. One "
+                     "with the same beginning takes its place.",
+      .parameters = {name},
+      .body = {.use = http::BodyUse::Required,
+               .media_types = {"application/json"},
+               .schema = "NewCalibration"},
+      .access = "admin",
+      .operation = "recordCalibration",
+      .tag = "statistics",
+      .outcomes = {{.meaning = "It takes the place of one", .schema = "Calibration"},
+                   {.status = 201, .meaning = "It is recorded", .schema = "Calibration"}},
+      .refusals = {404},
+  });
+  routes.push_back({
+      .pattern = "/v1/gauges-in-use/{name}/calibrations",
+      .handler = with(services, list_calibrations),
+      .summary = "The calibrations of a gauge in use",
+      .parameters = {name},
+      .access = "viewer",
+      .operation = "listCalibrations",
+      .tag = "statistics",
+      .outcomes = {{.meaning = "By their beginnings", .schema = "Calibrations"}},
+      .refusals = {404},
+  });
 }
 
 }  // namespace fitgauge::api

@@ -31,6 +31,8 @@ Facts facts_of(DocumentKind kind) {
       return {Stored::ConnectionProgress, "progress of a connection", ErrorCode::ConnectionUnknown};
     case DocumentKind::Catalogue:
       return {Stored::Catalogue, "catalogue", ErrorCode::CatalogueUnknown};
+    case DocumentKind::Calibration:
+      return {Stored::Calibration, "calibration", ErrorCode::GaugeUnknown};
     case DocumentKind::Plan: break;
   }
   return {Stored::Plan, "plan", ErrorCode::PlanUnknown};
@@ -101,6 +103,13 @@ Result<T> waited(const Begin& begin) {
 
 }  // namespace
 
+std::string calibration_name(std::string_view gauge, Timestamp from) {
+  return fmt::format("{}@{}", gauge, format_rfc3339(from));
+}
+std::string_view gauge_of_calibration(std::string_view name) {
+  return name.substr(0, name.rfind('@'));
+}
+
 void DocumentService::write(Change change, Done<bool> done) {
   database_.writer().submit(
       [change = std::move(change), at = clock_.now().nanoseconds,
@@ -117,6 +126,10 @@ void DocumentService::write(Change change, Done<bool> done) {
         if (change.uncertainty &&
             !stores.documents.find(store::DocumentKind::Uncertainty, *change.uncertainty)) {
           return unknown_document(DocumentKind::Uncertainty, *change.uncertainty);
+        }
+        if (change.gauge &&
+            !stores.documents.find(store::DocumentKind::GaugeInUse, *change.gauge)) {
+          return unknown_document(DocumentKind::GaugeInUse, *change.gauge);
         }
         return stores.documents.put({.kind = kind,
                                      .name = change.name,
@@ -154,6 +167,18 @@ void DocumentService::remove(DocumentKind kind, std::string name, Precondition p
 void DocumentService::list(DocumentKind kind, Done<std::vector<NamedDocument>> done) {
   database_.readers().submit([kind](const store::Stores& stores) { return all_of(stores, kind); },
                              std::move(done));
+}
+
+void DocumentService::list_each(std::vector<DocumentKind> kinds,
+                                Done<std::vector<std::vector<NamedDocument>>> done) {
+  database_.readers().submit(
+      [kinds = std::move(kinds)](
+          const store::Stores& stores) -> Result<std::vector<std::vector<NamedDocument>>> {
+        std::vector<std::vector<NamedDocument>> lists;
+        for (const DocumentKind kind : kinds) lists.push_back(all_of(stores, kind).value());
+        return lists;
+      },
+      std::move(done));
 }
 
 Result<NamedDocument> DocumentService::wait_for(DocumentKind kind, const std::string& name) {

@@ -25,7 +25,12 @@ enum class DocumentKind : std::uint8_t {
   Connection,
   Catalogue,
   ConnectionProgress,  ///< how far the connection of that name has come
+  Calibration,         ///< of a gauge in use, named by calibration_name()
 };
+
+/// The name of a gauge's calibration from a time on, and the gauge of such a name.
+std::string calibration_name(std::string_view gauge, Timestamp from);
+std::string_view gauge_of_calibration(std::string_view name);
 
 /// A document as it was written.
 struct NamedDocument {
@@ -53,6 +58,7 @@ class DocumentService {
     std::string text{};
     std::optional<std::string> caller{};
     std::optional<std::string> uncertainty{};  ///< a budget that must be there
+    std::optional<std::string> gauge{};        ///< the same of a gauge in use
     Precondition precondition{};
   };
 
@@ -61,7 +67,7 @@ class DocumentService {
   DocumentService(store::Database& database, const Clock& clock, bool has_centre = false)
       : database_(database), clock_(clock), has_centre_(has_centre) {}
 
-  /// Gives whether the name is new. @errors UncertaintyUnknown: of `uncertainty`;
+  /// Gives whether the name is new. @errors UncertaintyUnknown: of `uncertainty`; GaugeUnknown;
   ///   PreconditionFailed, Forbidden (the centre's), StorageUnavailable, StorageBusy.
   void write(Change change, Done<bool> done);
   /// @errors what is said of a name that is not there, StorageUnavailable.
@@ -69,6 +75,9 @@ class DocumentService {
   /// @errors as read; PreconditionFailed, Forbidden (the centre's), StorageBusy.
   void remove(DocumentKind kind, std::string name, Precondition precondition, Done<bool> done);
   void list(DocumentKind kind, Done<std::vector<NamedDocument>> done);  ///< by name
+  /// The lists of several kinds, of one state of the storage.
+  void list_each(std::vector<DocumentKind> kinds,
+                 Done<std::vector<std::vector<NamedDocument>>> done);
 
   // As above, for threads that may wait.
   Result<NamedDocument> wait_for(DocumentKind kind, const std::string& name);

@@ -1,5 +1,6 @@
 #include "service/measurements/gauges_in_use.hpp"
 
+#include <algorithm>
 #include <future>
 
 #include "base/json/json_value.hpp"
@@ -31,25 +32,49 @@ std::map<std::string, metrology::CombinedUncertainty> combined_of(const Document
   return combined;
 }
 
-GaugeBook book_of(const Documents& gauges, const Documents& budgets) {
+/// Gives a period the budget of that name.
+void set_budget(GaugePeriod& period, std::string name,
+                const std::map<std::string, metrology::CombinedUncertainty>& combined) {
+  period.budget = std::move(name);
+  const auto found = combined.find(period.budget);
+  if (found == combined.end()) return;
+  period.standard_uncertainty = rounded_up(found->second.combined);
+  const double degrees = found->second.degrees_of_freedom * 1e6;
+  if (degrees <= static_cast<double>(app::kDegreesOfFreedom.most)) {
+    period.degrees_of_freedom = static_cast<std::int64_t>(degrees);
+  }
+}
+
+GaugeBook book_of(const Documents& gauges, const Documents& calibrations,
+                  const Documents& budgets) {
   const auto combined = combined_of(budgets);
   GaugeBook book;
   for (const app::NamedDocument& document : gauges) {
     const auto body = parse_json(document.text);
     if (!body) continue;
-    GaugeInUse gauge{.budget = text_of(*body, "uncertainty"),
-                     .calibration_due = text_of(*body, "calibration_due")};
-    const auto due = parse_due(gauge.calibration_due);
-    if (!due) continue;
-    gauge.due = *due;
-    if (const auto found = combined.find(gauge.budget); found != combined.end()) {
-      gauge.standard_uncertainty = rounded_up(found->second.combined);
-      const double degrees = found->second.degrees_of_freedom * 1e6;
-      if (degrees <= static_cast<double>(app::kDegreesOfFreedom.most)) {
-        gauge.degrees_of_freedom = static_cast<std::int64_t>(degrees);
-      }
-    }
+    GaugeInUse gauge;
+    GaugePeriod& own = gauge.periods.front();
+    own.calibration_due = text_of(*body, "calibration_due");
+    own.due = parse_due(own.calibration_due);
+    if (!own.due) continue;
+    set_budget(own, text_of(*body, "uncertainty"), combined);
     book.emplace(document.name, std::move(gauge));
+  }
+  for (const app::NamedDocument& document : calibrations) {
+    const auto gauge = book.find(app::gauge_of_calibration(document.name));
+    const auto body = parse_json(document.text);
+    const auto from = body ? parse_from(body->text_of("from")) : std::nullopt;
+    if (gauge == book.end() || !from) continue;
+    GaugePeriod period = {.from = *from, .calibration_due = text_of(*body, "due")};
+    period.due = parse_due(period.calibration_due);
+    period.is_blocked = body->text_of("status") == "blocked";
+    const std::string budget = text_of(*body, "uncertainty");
+    set_budget(period, budget.empty() ? gauge->second.periods.front().budget : budget, combined);
+    gauge->second.periods.push_back(std::move(period));
+  }
+  for (auto& [name, gauge] : book) {
+    std::sort(gauge.periods.begin(), gauge.periods.end(),
+              [](const GaugePeriod& a, const GaugePeriod& b) { return a.from < b.from; });
   }
   return book;
 }
@@ -63,16 +88,13 @@ void GaugesInUse::reload(std::function<void(Result<void>)> done) {
     number = ++begun_;
   }
   const auto shared = std::make_shared<std::function<void(Result<void>)>>(std::move(done));
-  documents_.list(
-      app::DocumentKind::Uncertainty, [this, number, shared](Result<Documents> budgets) {
-        if (!budgets) return (*shared)(budgets.error());
-        documents_.list(
-            app::DocumentKind::GaugeInUse,
-            [this, number, shared, budgets = *std::move(budgets)](const Result<Documents>& gauges) {
-              if (!gauges) return (*shared)(gauges.error());
-              show(number, book_of(*gauges, budgets));
-              (*shared)({});
-            });
+  using app::DocumentKind;
+  documents_.list_each(
+      {DocumentKind::GaugeInUse, DocumentKind::Calibration, DocumentKind::Uncertainty},
+      [this, number, shared](const Result<std::vector<Documents>>& lists) {
+        if (!lists) return (*shared)(lists.error());
+        show(number, book_of((*lists)[0], (*lists)[1], (*lists)[2]));
+        (*shared)({});
       });
 }
 

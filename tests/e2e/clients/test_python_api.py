@@ -81,6 +81,8 @@ class EveryRoute(ControlTest):
         self.assertTrue(client.put_gauge_in_use("G-07", "2027-03-31", "plug"))
         self.assertEqual(client.gauge_in_use("G-07"), {"calibration_due": "2027-03-31", "uncertainty": "plug"})
         self.assertEqual([found["name"] for found in client.gauges_in_use()], ["G-07"])
+        recorded = client.record_calibration("G-07", {"from": "2026-03-31", "due": "2027-03-31", "certificate": "K-1"})
+        self.assertEqual((recorded["certificate"], client.calibrations("G-07")), ("K-1", [recorded]))
         client.delete_gauge_in_use("G-07")
         client.delete_uncertainty("plug")
         pressed = client.press_fit({"joint_diameter_mm": 50, "length_mm": 40, "max_interference_um": 40,

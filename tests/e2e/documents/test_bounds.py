@@ -49,6 +49,7 @@ BODIES = {
          "correlations": [{"between": ["a", "b"], "coefficient": 0}], "probability": 0.9},
         {"contributions": [CONTRIBUTION], "monte_carlo": {"trials": 1000, "seed": 1}}],
     "putGaugeInUse": [{"calibration_due": "2036-03-31", "comment": "c"}],
+    "recordCalibration": [{"from": "2026-03-31", "due": "2027-03-31", "certificate": "c", "laboratory": "l", "comment": "c"}],
     "computePressFit": [{"joint_diameter_mm": 40, "length_mm": 30, "friction": 0.1,
                          "hub": {"outer_diameter_mm": 80, "youngs_modulus_mpa": 2e5, "poisson_ratio": 0.3, "rz_um": 1},
                          "shaft": {"inner_diameter_mm": 0, "youngs_modulus_mpa": 2e5, "poisson_ratio": 0.3, "rz_um": 1},

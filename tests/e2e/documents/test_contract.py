@@ -279,6 +279,12 @@ class Answers(ContractTest):
             self.expect("putUncertainty", status, budget, name="plug")
             self.expect("putGaugeInUse", status, {"uncertainty": "plug", "calibration_due": "2027-03-31", "comment": "x"},
                         name="G-07")
+            calibration = {"from": "2026-03-31", "due": "2027-03-31", "certificate": "K-1", "laboratory": "x", "status": "in_use",
+                           "uncertainty": "plug", "as_found_um": 1, "as_left_um": 0.5, "comment": "x"}
+            self.expect("recordCalibration", status, calibration, name="G-07")
+        self.expect("listCalibrations", 200, name="G-07")
+        self.expect("listCalibrations", 404, name="none")
+        self.expect("recordCalibration", 404, calibration, name="none")
         for kind, plural in (("Uncertainty", "Uncertainties"), ("GaugeInUse", "GaugesInUse")):
             self.expect(f"list{plural}", 200)
             name = "plug" if kind == "Uncertainty" else "G-07"

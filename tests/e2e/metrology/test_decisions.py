@@ -402,8 +402,9 @@ class Kept(DaemonTest):
         def measure(**fields):
             answer = self.daemon.measure({"designation": "25 H7", "measured_mm": "25.0009", "gauge": "G-11", **fields})
             self.assertEqual(answer.status, 201, answer)
-            self.assertEqual(self.daemon.get(f"/v1/measurements/{answer.json['id']}").json, answer.json)
-            return answer.json
+            record = self.daemon.get(f"/v1/measurements/{answer.json['id']}").json
+            self.assertEqual({**record, "warnings": answer.json.get("warnings")}, {"warnings": None, **answer.json})
+            return record
 
         in_time = {"measured_at": "2026-03-31T23:59:59Z"}
         record = measure(rule="guard_band", **in_time)
@@ -445,6 +446,53 @@ class Kept(DaemonTest):
         self.daemon.start()
         self.assertEqual(measure(rule="guard_band")["uncertainty_um"], 2)
         self.assertEqual(self.daemon.command("verify").returncode, 0)
+
+    def test_what_counts_is_the_calibration_of_the_time_of_measuring(self):
+        for name, u in (("first", 0.5), ("second", 2)):
+            self.put(f"/v1/uncertainties/{name}", {"contributions": [{"name": "all", "standard_uncertainty": u}]})
+        self.put("/v1/gauges-in-use/G-30", {"uncertainty": "first", "calibration_due": "2026-01-01"})
+        path = "/v1/gauges-in-use/G-30/calibrations"
+        calibration = {"from": "2026-07-01", "due": "2027-07-01", "certificate": "K-1", "laboratory": "DKD",
+                       "uncertainty": "second", "as_found_um": -0.5, "as_left_um": 0.1}
+        answer = self.daemon.post(path, calibration)
+        self.assertEqual(answer.status, 201, answer)
+        self.assertEqual({**answer.json, **calibration, "status": "in_use"}, answer.json)
+        self.assertEqual(self.daemon.post(path, {"from": "2026-10-01", "status": "blocked", "comment": "fell"}).status, 201)
+        listed = self.daemon.get(path).json["calibrations"]
+        self.assertEqual([(each["from"], each["status"]) for each in listed],
+                         [("2026-07-01", "in_use"), ("2026-10-01", "blocked")])
+
+        def measure(at):
+            answer = self.daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "gauge": "G-30",
+                                          "rule": "guard_band", "measured_at": at}).json
+            stored = self.daemon.get(f"/v1/measurements/{answer['id']}").json
+            codes = [each["code"] for each in answer.pop("warnings", [])]
+            self.assertEqual(stored, answer)
+            return answer["uncertainty"], answer["uncertainty_um"], answer.get("calibration_due"), codes
+
+        self.assertEqual(measure("2025-12-31T00:00:00Z"), ("first", 0.5, None, []))
+        self.assertEqual(measure("2026-06-30T23:59:59Z"), ("first", 0.5, "2026-01-01", ["gauge.overdue"]))
+        self.assertEqual(measure("2026-07-01T00:00:00Z"), ("second", 2, None, []))
+        self.assertEqual(measure("2026-10-01T00:00:00Z"), ("first", 0.5, None, ["gauge.blocked"]))
+        # One with the same beginning takes the place of the other.
+        self.assertEqual(self.daemon.post(path, {"from": "2026-10-01T00:00:00Z", "due": "2026-11-01"}).status, 200)
+        self.assertEqual(len(self.daemon.get(path).json["calibrations"]), 2)
+        self.assertEqual(measure("2026-10-05T00:00:00Z"), ("first", 0.5, None, []))
+        # What a gauge is said to be later leaves its calibrations as they are.
+        self.put("/v1/gauges-in-use/G-30", {"calibration_due": "2099-01-01"})
+        self.assertEqual(measure("2026-08-01T00:00:00Z")[:3], ("second", 2, None))
+        self.assertEqual(self.daemon.command("verify").returncode, 0)
+        for wrong, pointer, code in (({"from": "2026-07-01"}, "/due", "field.missing"),
+                                     ({"due": "2026-07-01"}, "/from", "field.missing"),
+                                     ({"from": "2026-07-02", "due": "2026-07-01"}, "/due", "field.invalid"),
+                                     ({"from": "soon", "due": "2026-07-01"}, "/from", "time.malformed"),
+                                     ({**calibration, "uncertainty": "none"}, "/uncertainty", "uncertainty.unknown"),
+                                     ({**calibration, "status": "lost"}, "/status", "field.invalid")):
+            with self.subTest(wrong):
+                problem = self.assert_problem(self.daemon.post(path, wrong), 422, "request.invalid")
+                self.assertEqual([(e["pointer"], e["code"]) for e in problem["errors"]], [(pointer, code)])
+        self.assert_problem(self.daemon.post("/v1/gauges-in-use/none/calibrations", calibration), 404, "gauge.unknown")
+        self.assert_problem(self.daemon.get("/v1/gauges-in-use/none/calibrations"), 404, "gauge.unknown")
 
     def test_a_plan_may_leave_the_uncertainty_to_the_gauge(self):
         self.put("/v1/uncertainties/plan", self.BUDGET)

@@ -289,6 +289,10 @@ describe('a gauge in use', () => {
     await daemon.send('PUT', '/v1/uncertainties/plug', { contributions: [{ name: 'ring', standard_uncertainty: 0.3 }, { name: 'repeatability', standard_uncertainty: 0.4 }] });
     await daemon.send('PUT', '/v1/gauges-in-use/G-07', { uncertainty: 'plug', calibration_due: '2099-03-31' });
     await daemon.send('PUT', '/v1/gauges-in-use/G-08', { calibration_due: '2020-03-31' });
+    await daemon.send('PUT', '/v1/gauges-in-use/G-10', { calibration_due: '2020-03-31' });
+    await daemon.send('POST', '/v1/gauges-in-use/G-10/calibrations', { from: '2020-04-01', due: '2099-03-31' });
+    await daemon.send('PUT', '/v1/gauges-in-use/G-11', { calibration_due: '2099-03-31' });
+    await daemon.send('POST', '/v1/gauges-in-use/G-11/calibrations', { from: '2026-05-01', status: 'blocked' });
   });
 
   it('is offered, says until when it is calibrated, and gives a guard band its uncertainty', async () => {
@@ -301,7 +305,7 @@ describe('a gauge in use', () => {
     await page.keyboard.type('25.0205\n'); // nearer to the limit than 2 u
     await page.waitForSelector('.verdict[data-verdict="indeterminate"]:not([data-provisional])');
     await page.click('.more summary');
-    await page.waitForFunction(() => [...document.querySelectorAll('#offered-gauge option')].map((name) => name.value).join() === 'G-07,G-08');
+    await page.waitForFunction(() => [...document.querySelectorAll('#offered-gauge option')].map((name) => name.value).join() === 'G-07,G-08,G-10,G-11');
     await page.fill('[name="gauge"]', 'G-08');
     await page.keyboard.press('Tab');
     await says('Calibration of G-08 was due on 31 Mar 2020.');
@@ -312,6 +316,11 @@ describe('a gauge in use', () => {
     await page.waitForFunction(() => /uncertainty/.test(document.querySelector('#entry-note')?.textContent));
     await page.keyboard.press('Escape');
     await page.click('.more summary');
+    for (const [gauge, text] of [['G-10', 'G-10 calibrated until 31 Mar 2099'], ['G-11', 'G-11 has been blocked since 1 May 2026.']]) {
+      await page.fill('[name="gauge"]', gauge);
+      await page.keyboard.press('Tab');
+      await says(text);
+    }
     await page.fill('[name="gauge"]', 'some other');
     await page.keyboard.press('Tab');
     await says('');

@@ -330,11 +330,11 @@ TEST_CASE("a wrong row is named when rows before it were taken already, and so a
 TEST_CASE("a gauge in use says its uncertainty where the rule needs one, and that it is overdue") {
   const Timestamp due = parse_rfc3339("2026-03-31T23:59:59.999999999Z").value();
   const GaugeBook book = {{"G-07",
-                           {.budget = "ring",
-                            .standard_uncertainty = Length::nanometres(501),
-                            .calibration_due = "2026-03-31",
-                            .due = due}},
-                          {"G-08", {.calibration_due = "2026-03-31", .due = due}}};
+                           {{{.budget = "ring",
+                              .standard_uncertainty = Length::nanometres(501),
+                              .calibration_due = "2026-03-31",
+                              .due = due}}}},
+                          {"G-08", {{{.calibration_due = "2026-03-31", .due = due}}}}};
   const auto judged = [&](const std::string& fields, std::string_view type = "application/json") {
     const std::string body = R"({"designation":"25 H7","measured_mm":25.0005)" + fields + "}";
     const std::string padded = body + std::string(64, '\0');
