@@ -11,29 +11,13 @@
 namespace fitgauge::store {
 namespace {
 
-constexpr std::array kTables = {kTableSets,
-                                kTableRevisions,
-                                kApiKeys,
-                                kIdempotentAnswers,
-                                kFileRevisions,
-                                kDocuments,
-                                kRuns,
-                                kRunTraces,
-                                kRunFiles,
-                                kEvents,
-                                kLog,
-                                kLogKeys,
-                                kLogBranches,
-                                kLogMarks,
-                                kOrigins,
-                                kOriginKeys,
-                                kOriginBases,
-                                kOriginForks,
-                                kOriginRevisions,
-                                kForwarding,
-                                kReceived,
-                                kTableRevisionIds,
-                                kNotes};
+constexpr std::array kTables = {
+    kTableSets,     kTableRevisions, kApiKeys,          kIdempotentAnswers,
+    kFileRevisions, kDocuments,      kChanges,          kRuns,
+    kRunTraces,     kRunFiles,       kEvents,           kLog,
+    kLogKeys,       kLogBranches,    kLogMarks,         kOrigins,
+    kOriginKeys,    kOriginBases,    kOriginForks,      kOriginRevisions,
+    kForwarding,    kReceived,       kTableRevisionIds, kNotes};
 
 std::vector<std::string_view> names_of(std::string_view columns) {
   std::vector<std::string_view> names;

@@ -41,6 +41,8 @@ inline constexpr SealedTable kFileRevisions{"file_revisions", "revision",
                                             "path, path_key, content, modified_at, caller"};
 inline constexpr SealedTable kDocuments{"documents", "name",
                                         "kind, name, text, modified_at, caller", "kind, name"};
+inline constexpr SealedTable kChanges{
+    "changes", "id", "id, at, caller, kind, name, action, before_text, after_text, leaf"};
 inline constexpr SealedTable kRuns{
     "runs", "id", "status, program, program_key, request, result, created_at, finished_at, caller"};
 inline constexpr SealedTable kRunTraces{"run_traces", "run", "run, trace"};

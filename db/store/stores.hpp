@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "base/clock.hpp"
+#include "db/store/changes_store.hpp"
 #include "db/store/documents_store.hpp"
 #include "db/store/events_store.hpp"
 #include "db/store/files_store.hpp"
@@ -35,6 +36,7 @@ struct Stores {
   KeysStore keys;
   FilesStore files;
   DocumentsStore documents;
+  ChangesStore changes;
   RunsStore runs;
   EventsStore events;
   LogStore log;

@@ -38,6 +38,8 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
 void add_notes_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/log and the proof of a measurement.
 void add_log_routes(std::vector<http::Route>& routes, const Services& services);
+/// /v1/changes: what was changed of all that decides.
+void add_changes_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/log/{origin}/{from}: what stations forward.
 void add_intake_routes(std::vector<http::Route>& routes, const Services& services);
 /// What a centre hands on to its stations.

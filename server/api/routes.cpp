@@ -23,6 +23,7 @@ http::RouteTable make_routes(const Services& services, std::vector<http::Route> 
   add_measurements_routes(routes, services);
   add_notes_routes(routes, services);
   add_log_routes(routes, services);
+  add_changes_routes(routes, services);
   add_intake_routes(routes, services);
   add_revisions_routes(routes, services);
   add_certificates_routes(routes, services);

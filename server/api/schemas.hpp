@@ -11,6 +11,7 @@ void add_limits_schemas(Schemas& schemas);
 void add_gauges_schemas(Schemas& schemas);
 void add_statistics_schemas(Schemas& schemas);
 void add_uncertainty_schemas(Schemas& schemas);
+void add_changes_schemas(Schemas& schemas);
 void add_documents_schemas(Schemas& schemas);
 void add_compensation_schemas(Schemas& schemas);
 void add_measurement_schemas(Schemas& schemas);

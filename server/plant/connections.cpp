@@ -154,11 +154,13 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
   return *is_new;
 }
 
-Result<void> Connections::remove(const std::string& name) {
+Result<void> Connections::remove(const std::string& name,
+                                 const std::optional<std::string>& caller) {
   const auto found = find(name);
   if (found && found->definition.name == name && found->is_read_only) return read_only(name);
   // Also one that was stored and not started.
-  const auto removed = plant_.documents.remove_and_wait(app::DocumentKind::Connection, name);
+  const auto removed =
+      plant_.documents.remove_and_wait(app::DocumentKind::Connection, name, caller);
   if (!removed) return removed.error();
   if (found && found->definition.name == name) end(ascii_lower(name));
   return forget_progress(plant_.documents, name);

@@ -51,7 +51,7 @@ class Connections {
                    const std::optional<std::string>& caller);
   /// Ends a connection and forgets how far it came. @errors ConnectionUnknown,
   ///   ConnectionReadOnly, those of storage.
-  Result<void> remove(const std::string& name);
+  Result<void> remove(const std::string& name, const std::optional<std::string>& caller);
   /// Sends again from a place: what goes out has its ids as before. @errors ConnectionUnknown;
   ///   RequestInvalid, also of a connection that brings measurements; those of JSON and storage.
   Result<void> replay(const std::string& name, std::string_view body);

@@ -128,15 +128,13 @@ http::AsyncHandler by(Connections& all, Change change) {
 }
 
 Result<http::Response> put(Connections& all, const http::Request& request) {
-  const auto caller = api::caller_name(request);
-  const auto is_new = all.put(name_of(request), request.body(),
-                              caller ? std::optional<std::string>(*caller) : std::nullopt);
+  const auto is_new = all.put(name_of(request), request.body(), api::caller_text(request));
   if (!is_new) return is_new.error();
   return one(all, name_of(request), *is_new ? 201 : 200);
 }
 
 Result<http::Response> remove(Connections& all, const http::Request& request) {
-  const auto removed = all.remove(name_of(request));
+  const auto removed = all.remove(name_of(request), api::caller_text(request));
   if (!removed) return removed.error();
   return http::Response(204);
 }

@@ -7,6 +7,7 @@
 #include "base/json/field_reader.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"
+#include "service/log/changes.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -30,23 +31,6 @@ const Kind* named_kind(const JsonValue& body, api::FieldErrors& errors) {
 constexpr std::string_view kSecrets = "secrets";
 constexpr std::string_view kPassword = "password";
 constexpr std::string_view kHeaders = "headers";
-
-/// The part that may be shown: the number of secrets instead of them, that there is a password, and
-/// the names of headers.
-JsonValue shown(JsonValue body) {
-  for (auto& [name, value] : body.members) {
-    if (name == kSecrets) {
-      name = "secret_count";
-      value = {.kind = JsonValue::Kind::Number, .text = std::to_string(value.items.size())};
-    } else if (name == kPassword) {
-      name = "password_set";
-      value = {.kind = JsonValue::Kind::Boolean, .boolean = true};
-    } else if (name == kHeaders) {
-      for (auto& [header, secret] : value.members) secret = JsonValue();
-    }
-  }
-  return body;
-}
 
 /// Whether both have the same text there, or none.
 bool is_same(const JsonValue& a, const JsonValue& b, std::string_view name) {
@@ -113,7 +97,7 @@ Result<Definition> read_definition(std::string name, const JsonValue& body,
   }
   if (auto error = errors.take()) return *std::move(error);
   definition.text = text_of(body);
-  definition.shown = text_of(shown(body));
+  definition.shown = text_of(app::without_secrets(body));
   return definition;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/result.hpp"
 
@@ -24,6 +25,8 @@ class VerifierKey {
   static Result<VerifierKey> parse(std::string_view vkey);
 
   const std::string& name() const { return name_; }
+  /// The same key under another name. @pre is_key_name(name).
+  VerifierKey named(std::string name) const { return {std::move(name), key_}; }
   /// The first four bytes of SHA-256(name || "\n" || 0x01 || key), big-endian.
   std::uint32_t id() const { return id_; }
   /// The vkey that parse() reads.
@@ -59,6 +62,8 @@ class SigningKey {
   std::string text() const;
 
   const VerifierKey& verifier() const { return verifier_; }
+  /// The same key under another name. @pre is_key_name(name).
+  SigningKey named(std::string name) const { return {std::move(name), seed_}; }
   VerifierKey::Signature sign(std::string_view message) const;
 
  private:

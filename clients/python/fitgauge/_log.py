@@ -5,10 +5,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Iterator
 
 from ._json import loads
-from ._transport import Transport, path_of
+from ._transport import Parameter, Transport, path_of
 
 
 
@@ -31,6 +31,22 @@ class LogCalls(Transport):
     def log_tile(self, path: str) -> bytes:
         """A tile of the log as C2SP tlog-tiles names it: `0/000`, `entries/000.p/3`."""
         return self._bytes("/v1/log/tile/" + path)
+
+    def changes(self, page: int = 1000, **filters: Parameter) -> Iterator[dict[str, Any]]:
+        """What was changed of all that decides, oldest first: `kind`, `name`, `from_` and `to` choose."""
+        return self._pages("/v1/changes", "changes", {**filters, "limit": page})
+
+    def changes_checkpoint(self) -> str:
+        """The signed head of the log of changes."""
+        return self._bytes("/v1/log/changes/checkpoint").decode()
+
+    def changes_keys(self) -> list[str]:
+        """The keys that verify its checkpoints (vkeys), the newest first."""
+        return self._bytes("/v1/log/changes/key").decode().split()
+
+    def changes_tile(self, path: str) -> bytes:
+        """A tile of the log of changes; an entry is a change."""
+        return self._bytes("/v1/log/changes/tile/" + path)
 
     def put_log(self, origin: str, place: int, batch: bytes) -> dict[str, Any]:
         """Forwards records of another data folder, as a station does; the head of its log that is here then."""

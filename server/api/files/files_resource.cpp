@@ -55,17 +55,12 @@ app::FileService::Precondition precondition_of(const http::Request& request) {
   };
 }
 
-std::optional<std::string> caller_of(const http::Request& request) {
-  const auto name = caller_name(request);
-  return name ? std::optional<std::string>(*name) : std::nullopt;
-}
-
 void put_file(const Services& services, const http::Request& request, http::Responder responder) {
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
   const std::string location = href(path->text());
   services.files.write(
-      *std::move(path), request.body(), caller_of(request), precondition_of(request),
+      *std::move(path), request.body(), caller_text(request), precondition_of(request),
       [location, shared = share(std::move(responder))](Result<app::FileService::Written> written) {
         if (!written) return shared->fail(written.error());
         http::Response response(written->created ? 201 : 200);
@@ -93,7 +88,7 @@ void delete_file(const Services& services, const http::Request& request,
                  http::Responder responder) {
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
-  services.files.remove(*std::move(path), caller_of(request), precondition_of(request),
+  services.files.remove(*std::move(path), caller_text(request), precondition_of(request),
                         [shared = share(std::move(responder))](const Result<bool>& removed) {
                           if (!removed) return shared->fail(removed.error());
                           shared->answer(http::Response(204));

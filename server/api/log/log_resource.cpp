@@ -11,25 +11,41 @@ namespace {
 
 constexpr std::string_view kText = "text/plain; charset=utf-8";
 
-http::Response checkpoint(const Services& services) {
-  return http::Response(200, std::string(kText), services.log.head()->note)
-      .with("Cache-Control", "no-store");
+http::Response text_response(std::string text, std::string_view caching) {
+  return http::Response(200, std::string(kText), std::move(text))
+      .with("Cache-Control", std::string(caching));
 }
 
-http::Response keys(const Services& services) {
-  return http::Response(200, std::string(kText), services.log.verifier_keys())
-      .with("Cache-Control", "no-cache");
+/// The head of the measurements, or that of the changes.
+template <bool of_changes>
+void checkpoint(const Services& services, const http::Request&, http::Responder responder) {
+  if constexpr (!of_changes) {
+    responder.answer(text_response(services.log.head()->note, "no-store"));
+  } else {
+    services.log.changes_head([shared = share(std::move(responder))](Result<std::string> note) {
+      if (!note) return shared->fail(note.error());
+      shared->answer(text_response(*std::move(note), "no-store"));
+    });
+  }
 }
 
+template <bool of_changes>
+void keys(const Services& services, const http::Request&, http::Responder responder) {
+  responder.answer(text_response(
+      of_changes ? services.log.changes_keys() : services.log.verifier_keys(), "no-cache"));
+}
+
+template <bool of_changes>
 void tile(const Services& services, const http::Request& request, http::Responder responder) {
-  services.log.tile(*request.text("path"), [shared = share(std::move(responder))](
-                                               Result<app::LogService::TileBytes> tile) {
-    if (!tile) return shared->fail(tile.error());
-    http::Response response(200, "application/octet-stream", std::move(tile->bytes));
-    response.with("Cache-Control",
-                  tile->is_full ? "private, max-age=31536000, immutable" : "no-cache");
-    shared->answer(std::move(response));
-  });
+  services.log.tile(
+      *request.text("path"), of_changes,
+      [shared = share(std::move(responder))](Result<app::LogService::TileBytes> tile) {
+        if (!tile) return shared->fail(tile.error());
+        http::Response response(200, "application/octet-stream", std::move(tile->bytes));
+        response.with("Cache-Control",
+                      tile->is_full ? "private, max-age=31536000, immutable" : "no-cache");
+        shared->answer(std::move(response));
+      });
 }
 
 std::string proof_json(const app::LogService::Proof& proof) {
@@ -57,56 +73,67 @@ void prove(const Services& services, const http::Request& request, http::Respond
       });
 }
 
-}  // namespace
-
-void add_log_routes(std::vector<http::Route>& routes, const Services& services) {
+/// A tree's head, keys and tiles.
+template <bool of_changes>
+void add_tree_routes(std::vector<http::Route>& routes, const Services& services) {
+  const std::string path = of_changes ? "/v1/log/changes/" : "/v1/log/";
+  const std::string of = of_changes ? "Changes" : "";
+  const std::string log = of_changes ? "the log of changes" : "the log";
   routes.push_back({
-      .pattern = "/v1/log/checkpoint",
-      .handler = [&services](const http::Request&) -> Result<http::Response> {
-        return checkpoint(services);
-      },
-      .summary = "The signed head of the log",
-      .description =
-          "A C2SP tlog-checkpoint: the log's name, its size and the root of its tree as a "
-          "signed note. A new one at most once a second.",
+      .pattern = path + "checkpoint",
+      .handler = with(services, checkpoint<of_changes>),
+      .summary = "The signed head of " + log,
+      .description = of_changes
+                         ? "As that of the log, whose name its own begins with: `…/changes`."
+                         : "A C2SP tlog-checkpoint: the log's name, its size and the root of its "
+                           "tree as a signed note. A new one at most once a second.",
       .response_types = {},
       .access = "viewer",
-      .operation = "getCheckpoint",
+      .operation = "get" + of + "Checkpoint",
       .tag = "log",
       .outcomes = {{.meaning = "A signed note", .media_types = {"text/plain"}}},
   });
   routes.push_back({
-      .pattern = "/v1/log/key",
-      .handler = [&services](const http::Request&) -> Result<http::Response> {
-        return keys(services);
-      },
-      .summary = "The keys that verify checkpoints",
-      .description = "C2SP vkeys, one a line, the newest first.",
+      .pattern = path + "key",
+      .handler = with(services, keys<of_changes>),
+      .summary = of_changes ? "The keys that verify checkpoints of changes"
+                            : "The keys that verify checkpoints",
+      .description = of_changes ? "Those of the log under the name of the log of changes."
+                                : "C2SP vkeys, one a line, the newest first.",
       .response_types = {},
       .access = "viewer",
-      .operation = "getLogKeys",
+      .operation = of_changes ? "getChangesKeys" : "getLogKeys",
       .tag = "log",
       .outcomes = {{.meaning = "Verifier keys", .media_types = {"text/plain"}}},
   });
   routes.push_back({
-      .pattern = "/v1/log/tile/{path*}",
-      .handler = with(services, tile),
-      .summary = "A tile of the log",
-      .description =
-          "As C2SP tlog-tiles name them: `0/000`, `1/x001/067.p/3`, and `entries/000` for "
-          "the records themselves.",
+      .pattern = path + "tile/{path*}",
+      .handler = with(services, tile<of_changes>),
+      .summary = "A tile of " + log,
+      .description = of_changes ? "An entry is a change as /v1/changes answers it, in the order of "
+                                  "its ids; a change longer than 65,535 bytes has `before_sha256` "
+                                  "and `after_sha256`, of the texts, in their place."
+                                : "As C2SP tlog-tiles name them: `0/000`, `1/x001/067.p/3`, and "
+                                  "`entries/000` for the records themselves.",
       .parameters = {{.name = "path",
                       .place = http::ParameterPlace::Path,
                       .description = "Level or `entries`, index, and `.p/` with its width where it "
                                      "is not full"}},
       .response_types = {},
       .access = "viewer",
-      .operation = "getTile",
+      .operation = "get" + of + "Tile",
       .tag = "log",
-      .outcomes = {{.meaning = "Hashes, or records with their lengths",
+      .outcomes = {{.meaning = "Hashes, or entries with their lengths",
                     .media_types = {"application/octet-stream"}}},
       .refusals = {404},
   });
+}
+
+}  // namespace
+
+void add_log_routes(std::vector<http::Route>& routes, const Services& services) {
+  add_tree_routes<false>(routes, services);
+  add_tree_routes<true>(routes, services);
   routes.push_back({
       .pattern = "/v1/measurements/{id}/proof",
       .handler = with(services, prove),

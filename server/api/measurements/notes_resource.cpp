@@ -92,7 +92,7 @@ void add_note(const SharedPosting& posting, const app::RecordName& measurement) 
   auto note = read_note(posting->request.body());
   if (!note) return posting->responder.fail(note.error());
   note->received_at = posting->services.clock.now();
-  if (const auto caller = caller_name(posting->request)) note->caller = std::string(*caller);
+  note->caller = caller_text(posting->request);
   posting->services.measurements.add_note(
       measurement, *std::move(note), posting->scope,
       {.answer =

@@ -97,7 +97,7 @@ Result<app::RunOrder> read_order(const SharedPosting& posting) {
       !loaded) {
     return loaded.error();
   }
-  if (const auto caller = caller_name(posting->request)) order->caller = std::string(*caller);
+  order->caller = caller_text(posting->request);
   return order;
 }
 

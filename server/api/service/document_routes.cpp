@@ -68,12 +68,11 @@ void answer_change(const Services& services, const KindOfDocument& kind,
 
 void write(const Services& services, const KindOfDocument& kind, std::string name,
            CheckedDocument checked, const http::Request& request, const SharedResponder& shared) {
-  const auto caller = caller_name(request);
   std::string tag = etag_of_text(checked.text);
   services.documents.write({.kind = kind.kind,
                             .name = std::move(name),
                             .text = std::move(checked.text),
-                            .caller = caller ? std::optional<std::string>(*caller) : std::nullopt,
+                            .caller = caller_text(request),
                             .uncertainty = std::move(checked.uncertainty),
                             .precondition = text_precondition_of(request)},
                            [&services, &kind, shared, tag = std::move(tag),
@@ -115,7 +114,7 @@ void get(const Services& services, const KindOfDocument& kind, const http::Reque
 void remove(const Services& services, const KindOfDocument& kind, const http::Request& request,
             http::Responder responder) {
   services.documents.remove(
-      kind.kind, name_in_path(kind, request), text_precondition_of(request),
+      kind.kind, name_in_path(kind, request), text_precondition_of(request), caller_text(request),
       [&services, &kind, shared = share(std::move(responder))](const Result<bool>& removed) {
         if (!removed) return shared->fail(removed.error());
         answer_change(services, kind, shared, http::Response(204));

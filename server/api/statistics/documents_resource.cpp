@@ -130,24 +130,24 @@ void record_calibration(const Services& services, const http::Request& request,
   if (!order) return responder.fail(order.error());
   Calibration& given = order->given;
   given.recorded_at = services.clock.now();
-  if (const auto caller = caller_name(request)) given.caller = std::string(*caller);
+  given.caller = caller_text(request);
   const std::string gauge(*request.text("name"));
   const std::string text = body_json(given);
-  services.documents.write({.kind = app::DocumentKind::Calibration,
-                            .name = app::calibration_name(gauge, *parse_from(given.from)),
-                            .text = text,
-                            .caller = given.caller,
-                            .uncertainty = given.uncertainty,
-                            .gauge = gauge},
-                           [&services, text,
-                            shared = share(std::move(responder))](const Result<bool>& is_new) {
-                             if (!is_new) return shared->fail(at_budget(is_new.error()));
-                             services.gauges.reload([shared, text, status = *is_new ? 201 : 200](
-                                                        const Result<void>& heard) {
-                               if (!heard) return shared->fail(heard.error());
-                               shared->answer({status, "application/json", text});
-                             });
-                           });
+  services.documents.write(
+      {.kind = app::DocumentKind::Calibration,
+       .name = app::calibration_name(gauge, *parse_from(given.from)),
+       .text = text,
+       .caller = given.caller,
+       .uncertainty = given.uncertainty,
+       .gauge = gauge},
+      [&services, text, shared = share(std::move(responder))](const Result<bool>& is_new) {
+        if (!is_new) return shared->fail(at_budget(is_new.error()));
+        services.gauges.reload(
+            [shared, text, status = *is_new ? 201 : 200](const Result<void>& heard) {
+              if (!heard) return shared->fail(heard.error());
+              shared->answer({status, "application/json", text});
+            });
+      });
 }
 
 void list_calibrations(const Services& services, const http::Request& request,

@@ -360,6 +360,7 @@ void add_statistics_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<Pairing>("Pairing"));
   add_uncertainty_schemas(schemas);
   add_documents_schemas(schemas);
+  add_changes_schemas(schemas);
   add_compensation_schemas(schemas);
 }
 

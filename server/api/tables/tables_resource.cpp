@@ -111,7 +111,8 @@ void put_column(const Services& services, Feature feature, const http::Request& 
   const auto shared = share(std::move(responder));
   services.tables.put_column(
       {.feature = feature, .name = *std::move(name), .rows = *std::move(rows)},
-      revisions_to_match(request), [shared](Result<app::TableCatalog::ColumnStored> stored) {
+      revisions_to_match(request), caller_text(request),
+      [shared](Result<app::TableCatalog::ColumnStored> stored) {
         if (stored) return answer_change(shared, stored->created ? 201 : 200, *stored);
         Error error = std::move(stored).error();
         if (error.code == ErrorCode::TableRowsInvalid) error.code = ErrorCode::RequestInvalid;
@@ -125,6 +126,7 @@ void remove_column(const Services& services, Feature feature, const http::Reques
   if (!name) return responder.fail(name.error());
   const auto shared = share(std::move(responder));
   services.tables.remove_column(feature, *std::move(name), revisions_to_match(request),
+                                caller_text(request),
                                 [shared](Result<app::TableCatalog::ColumnStored> stored) {
                                   if (!stored) return shared->fail(stored.error());
                                   answer_change(shared, 204, *stored);

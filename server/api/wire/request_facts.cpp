@@ -138,6 +138,11 @@ std::optional<std::string_view> caller_name(const http::Request& request) {
   return std::string_view(caller->name);
 }
 
+std::optional<std::string> caller_text(const http::Request& request) {
+  const auto name = caller_name(request);
+  return name ? std::optional<std::string>(*name) : std::nullopt;
+}
+
 std::string etag_of_text(std::string_view text) {
   constexpr std::size_t kTagDigits = 32;
   return '"' + to_hex(sha256(text)).substr(0, kTagDigits) + '"';

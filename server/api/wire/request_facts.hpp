@@ -56,5 +56,7 @@ void add_precondition_parameters(std::vector<http::Parameter>& parameters);
 
 /// The name of the key that sent the request, if one did.
 std::optional<std::string_view> caller_name(const http::Request& request);
+/// The same as a text of its own.
+std::optional<std::string> caller_text(const http::Request& request);
 
 }  // namespace fitgauge::api

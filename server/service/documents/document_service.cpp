@@ -5,6 +5,7 @@
 #include <future>
 
 #include "db/store/database.hpp"
+#include "service/log/changes.hpp"
 #include "service/revisions/revision.hpp"
 
 namespace fitgauge::app {
@@ -131,7 +132,7 @@ void DocumentService::write(Change change, Done<bool> done) {
             !stores.documents.find(store::DocumentKind::GaugeInUse, *change.gauge)) {
           return unknown_document(DocumentKind::GaugeInUse, *change.gauge);
         }
-        return stores.documents.put({.kind = kind,
+        return put_document(stores, {.kind = kind,
                                      .name = change.name,
                                      .text = change.text,
                                      .modified_at_ns = at,
@@ -147,9 +148,10 @@ void DocumentService::read(DocumentKind kind, std::string name, Done<NamedDocume
 }
 
 void DocumentService::remove(DocumentKind kind, std::string name, Precondition precondition,
-                             Done<bool> done) {
+                             std::optional<std::string> caller, Done<bool> done) {
   database_.writer().submit(
       [kind, name = std::move(name), precondition = std::move(precondition),
+       caller = std::move(caller), at = clock_.now().nanoseconds,
        has_centre = has_centre_](store::Stores& stores) -> Result<bool> {
         if (has_centre) {
           if (const auto own = check_owner(stores, kind, name); !own) return own.error();
@@ -159,7 +161,7 @@ void DocumentService::remove(DocumentKind kind, std::string name, Precondition p
         if (const auto allowed = check_change(precondition, kind, name, current); !allowed) {
           return allowed.error();
         }
-        return stores.documents.remove(stored_kind(kind), name);
+        return remove_document(stores, stored_kind(kind), name, at, caller);
       },
       std::move(done));
 }
@@ -196,9 +198,9 @@ Result<bool> DocumentService::write_and_wait(Change change) {
 }
 
 Result<bool> DocumentService::remove_and_wait(DocumentKind kind, const std::string& name,
-                                              Precondition precondition) {
+                                              std::optional<std::string> caller) {
   return waited<bool>(
-      [&](Done<bool> done) { remove(kind, name, std::move(precondition), std::move(done)); });
+      [&](Done<bool> done) { remove(kind, name, {}, std::move(caller), std::move(done)); });
 }
 
 }  // namespace fitgauge::app

@@ -73,7 +73,8 @@ class DocumentService {
   /// @errors what is said of a name that is not there, StorageUnavailable.
   void read(DocumentKind kind, std::string name, Done<NamedDocument> done);
   /// @errors as read; PreconditionFailed, Forbidden (the centre's), StorageBusy.
-  void remove(DocumentKind kind, std::string name, Precondition precondition, Done<bool> done);
+  void remove(DocumentKind kind, std::string name, Precondition precondition,
+              std::optional<std::string> caller, Done<bool> done);
   void list(DocumentKind kind, Done<std::vector<NamedDocument>> done);  ///< by name
   /// The lists of several kinds, of one state of the storage.
   void list_each(std::vector<DocumentKind> kinds,
@@ -84,7 +85,7 @@ class DocumentService {
   Result<std::vector<NamedDocument>> wait_for_list(DocumentKind kind);
   Result<bool> write_and_wait(Change change);
   Result<bool> remove_and_wait(DocumentKind kind, const std::string& name,
-                               Precondition precondition = {});
+                               std::optional<std::string> caller = {});
 
  private:
   store::Database& database_;

@@ -5,7 +5,9 @@
 #include <chrono>
 #include <utility>
 
+#include "base/json/json_writer.hpp"
 #include "db/store/database.hpp"
+#include "service/log/changes.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -42,6 +44,25 @@ std::optional<Role> role_from_word(std::string_view text) {
     if (text == word(role)) return role;
   }
   return std::nullopt;
+}
+
+void log_key(store::Stores& stores, const std::string& name, std::int64_t now_ns, bool is_made) {
+  const auto key = stores.keys.newest(name);
+  if (!key) return;
+  std::string text;
+  api::JsonWriter json(text);
+  json.begin_object().member("role", word(static_cast<Role>(key->role)));
+  if (key->expires_at_ns) json.member("expires_at", format_rfc3339({*key->expires_at_ns}));
+  json.end_object();
+  store::Change change{.at_ns = now_ns, .kind = "key", .name = name};
+  (is_made ? change.after : change.before) = std::move(text);
+  log_change(stores, std::move(change));
+}
+
+Result<void> revoke_key(store::Stores& stores, const std::string& name, std::int64_t now_ns) {
+  if (const auto revoked = stores.keys.revoke(name, now_ns); !revoked) return revoked.error();
+  log_key(stores, name, now_ns, false);
+  return {};
 }
 
 KeyService::KeyService(store::Database& database, const Clock& clock, Tell tell)
@@ -112,9 +133,12 @@ std::string KeyService::new_token() { return store::new_token(); }
 Result<std::string> KeyService::create(const std::string& name, Role role, std::string token,
                                        std::optional<Timestamp> expires) {
   if (token.empty()) token = store::new_token();
+  const std::int64_t now = clock_.now().nanoseconds;
   const auto created = database_.writer().wait([&](store::Stores& stores) -> Result<store::ApiKey> {
-    return stores.keys.create(name, static_cast<store::Role>(role), token, clock_.now().nanoseconds,
-                              expires ? std::optional(expires->nanoseconds) : std::nullopt);
+    auto key = stores.keys.create(name, static_cast<store::Role>(role), token, now,
+                                  expires ? std::optional(expires->nanoseconds) : std::nullopt);
+    if (key) log_key(stores, name, now, true);
+    return key;
   });
   if (!created) return created.error();
   if (const auto loaded = reload(); !loaded) return loaded.error();
@@ -125,8 +149,10 @@ Result<std::string> KeyService::replace(const std::string& name, const std::stri
   const std::int64_t now = clock_.now().nanoseconds;
   const auto replaced =
       database_.writer().wait([&](store::Stores& stores) -> Result<store::ApiKey> {
-        if (const auto revoked = stores.keys.revoke(name, now); !revoked) return revoked.error();
-        return stores.keys.create(name, store::Role::Admin, token, now);
+        if (const auto revoked = revoke_key(stores, name, now); !revoked) return revoked.error();
+        auto key = stores.keys.create(name, store::Role::Admin, token, now);
+        if (key) log_key(stores, name, now, true);
+        return key;
       });
   if (!replaced) return replaced.error();
   if (const auto loaded = reload(); !loaded) return loaded.error();
@@ -135,7 +161,7 @@ Result<std::string> KeyService::replace(const std::string& name, const std::stri
 
 Result<void> KeyService::revoke(const std::string& name) {
   const auto revoked = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
-    if (const auto done = stores.keys.revoke(name, clock_.now().nanoseconds); !done) {
+    if (const auto done = revoke_key(stores, name, clock_.now().nanoseconds); !done) {
       return done.error();
     }
     return true;

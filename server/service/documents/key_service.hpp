@@ -18,6 +18,7 @@
 namespace fitgauge::store {
 class Database;
 class KeyRing;
+struct Stores;
 }  // namespace fitgauge::store
 
 namespace fitgauge::app {
@@ -35,6 +36,11 @@ bool may(Role role, Role needed);
 /// `viewer`, `operator`, `admin`, `station`.
 std::string_view word(Role role);
 std::optional<Role> role_from_word(std::string_view text);
+
+/// Revokes a key and logs the change. Used inside a write job. @errors NotFound.
+Result<void> revoke_key(store::Stores& stores, const std::string& name, std::int64_t now_ns);
+/// Logs that the newest key of that name was made, or revoked: its role and expiry, no secret.
+void log_key(store::Stores& stores, const std::string& name, std::int64_t now_ns, bool is_made);
 
 /// A caller that a token was given to.
 struct KnownCaller {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include "base/guarded.hpp"
@@ -20,6 +21,7 @@ namespace fitgauge::app {
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{1'100};
+constexpr std::string_view kOfChanges = "/changes";
 
 Error unknown_tile(std::string_view path) {
   return {ErrorCode::NotFound,
@@ -120,18 +122,65 @@ void LogService::end_waiters(std::unique_lock<std::mutex>& lock) {
   lock.lock();
 }
 
-void LogService::tile(std::string_view path, Done<TileBytes> done) {
+void LogService::tile(std::string_view path, bool of_changes, Done<TileBytes> done) {
   const auto tile = tlog::parse_tile(path);
-  if (!tile || !tlog::has_tile(head_.get()->checkpoint.size, *tile)) {
+  if (!tile || (!of_changes && !tlog::has_tile(head_.get()->checkpoint.size, *tile))) {
     return done(unknown_tile(path));
   }
   database_.readers().submit(
-      [this, tile = *tile](const store::Stores& stores) -> Result<TileBytes> {
+      [this, of_changes, tile = *tile,
+       path = std::string(path)](const store::Stores& stores) -> Result<TileBytes> {
+        if (of_changes &&
+            !tlog::has_tile(static_cast<std::uint64_t>(stores.changes.size()), tile)) {
+          return unknown_tile(path);
+        }
         const RowNames names = row_names(tables_, origins_);
-        return TileBytes{.bytes = LogReader(stores, names).tile(tile),
+        const std::int64_t of = of_changes ? LogReader::kChanges : 0;
+        return TileBytes{.bytes = LogReader(stores, names, of).tile(tile),
                          .is_full = tile.width == tlog::kTileWidth};
       },
       std::move(done));
+}
+
+void LogService::changes(store::ChangeFilter filter, std::int64_t after, std::int64_t limit,
+                         Done<store::ChangesStore::Page> done) const {
+  database_.readers().submit(
+      [filter = std::move(filter), after,
+       limit](const store::Stores& stores) -> Result<store::ChangesStore::Page> {
+        return stores.changes.list(filter, after, limit);
+      },
+      std::move(done));
+}
+
+void LogService::changes_head(Done<std::string> done) {
+  database_.readers().submit(
+      [this](const store::Stores& stores) -> Result<std::string> {
+        const auto size = static_cast<std::uint64_t>(stores.changes.size());
+        const auto kept = changes_head_.get();
+        if (kept && kept->checkpoint.size == size) return kept->note;
+        const RowNames names = row_names(tables_, origins_);
+        LogReader reader(stores, names, LogReader::kChanges);
+        const tlog::SigningKey named = signer_->named(name_ + std::string(kOfChanges));
+        const tlog::SigningKey* const key = &named;
+        Head head{.checkpoint = {.origin = named.verifier().name(),
+                                 .size = size,
+                                 .root = reader.frontier(size).root()},
+                  .note = {}};
+        head.note = tlog::sign_note(head.checkpoint.text(), {&key, 1});
+        changes_head_.set(std::make_shared<const Head>(head));
+        return head.note;
+      },
+      std::move(done));
+}
+
+std::string LogService::changes_keys() const {
+  std::istringstream lines(verifier_keys());
+  std::string keys;
+  for (std::string line; std::getline(lines, line);) {
+    const auto key = tlog::VerifierKey::parse(line);
+    if (key) keys += key->named(key->name() + std::string(kOfChanges)).text() + "\n";
+  }
+  return keys;
 }
 
 }  // namespace fitgauge::app

@@ -6,6 +6,7 @@
 
 #include "db/store/storage_failure.hpp"
 #include "record/record.hpp"
+#include "service/log/changes.hpp"
 
 namespace fitgauge::app {
 
@@ -19,13 +20,27 @@ std::vector<tlog::Hash> LogReader::leaves(std::int64_t after, std::int64_t count
     count -= below;
     if (count == 0) return leaves;
   }
-  stores_.measurements.log_hashes(origin_, after, count,
-                                  [&](const Digest& leaf) { leaves.push_back(leaf); });
+  const auto take = [&](const Digest& leaf) { leaves.push_back(leaf); };
+  if (origin_ == kChanges) {
+    stores_.changes.leaves(after, count, take);
+  } else {
+    stores_.measurements.log_hashes(origin_, after, count, take);
+  }
   return leaves;
 }
 
 std::vector<std::string> LogReader::records(std::int64_t after, std::int64_t count) const {
   std::vector<std::string> records;
+  if (origin_ == kChanges) {
+    for (bool has_more = true; has_more && count > 0;) {
+      const auto page = stores_.changes.list({}, after, count);
+      for (const store::Change& change : page.changes) records.push_back(change_entry(change));
+      after += static_cast<std::int64_t>(page.changes.size());
+      count -= static_cast<std::int64_t>(page.changes.size());
+      has_more = page.has_more;
+    }
+    return records;
+  }
   stores_.measurements.list_log(origin_, after, count, [&](const store::MeasurementRow& row) {
     append_record(records.emplace_back(), from_store(row, names_));
   });
@@ -39,6 +54,11 @@ std::vector<tlog::Hash> LogReader::hashes(unsigned tile_level, std::uint64_t fir
   std::vector<tlog::Hash> hashes;
   if (tile_level == 0) {
     hashes = leaves(begin, many);
+  } else if (origin_ == kChanges) {  // few, so that no nodes are kept
+    for (std::uint64_t index = first; index < first + count; ++index) {
+      hashes.push_back(
+          root_of(this->hashes(tile_level - 1, index * tlog::kTileWidth, tlog::kTileWidth)));
+    }
   } else {
     // Those that are whole below the branch were kept there.
     const std::int64_t below =
@@ -68,8 +88,11 @@ std::vector<tlog::Hash> LogReader::hashes(unsigned tile_level, std::uint64_t fir
 
 tlog::Hash LogReader::node(const tlog::Node& node) {
   const unsigned above = node.level % tlog::kTileHeight;
-  std::vector<tlog::Hash> level =
-      hashes(node.level / tlog::kTileHeight, node.index << above, std::uint64_t{1} << above);
+  return root_of(
+      hashes(node.level / tlog::kTileHeight, node.index << above, std::uint64_t{1} << above));
+}
+
+tlog::Hash LogReader::root_of(std::vector<tlog::Hash> level) {
   for (; level.size() > 1; level.resize(level.size() / 2)) {
     for (std::size_t i = 0; i < level.size() / 2; ++i) {
       level[i] = hasher_.node(level[2 * i], level[2 * i + 1]);

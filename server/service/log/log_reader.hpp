@@ -13,14 +13,17 @@
 
 namespace fitgauge::app {
 
-/// Reads the log of this folder, or that of one whose records were forwarded, in one state of the
-/// database: records, leaves and nodes. Used inside a read job.
+/// Reads the log of this folder, that of its changes, or that of one whose records were forwarded,
+/// in one state of the database: records, leaves and nodes. Used inside a read job.
 class LogReader {
  public:
+  /// In place of an origin: the changes of this folder.
+  static constexpr std::int64_t kChanges = -1;
+
   /// @param origin 0: this folder.
   LogReader(const store::Stores& stores, const RowNames& names, std::int64_t origin = 0)
       : stores_(stores), names_(names), origin_(origin) {
-    if (origin != 0) base_ = stores.origins.base(origin);
+    if (origin > 0) base_ = stores.origins.base(origin);
   }
 
   /// The leaves of the rows after `after`, at most `count`.
@@ -40,6 +43,7 @@ class LogReader {
   std::string tile(const tlog::Tile& tile);
 
  private:
+  tlog::Hash root_of(std::vector<tlog::Hash> level);
   std::vector<tlog::Hash> hashes(unsigned tile_level, std::uint64_t first, std::uint64_t count);
 
   const store::Stores& stores_;

@@ -17,6 +17,7 @@
 #include "base/result.hpp"
 #include "base/snapshot.hpp"
 #include "base/thread.hpp"
+#include "db/store/changes_store.hpp"
 #include "db/store/log_store.hpp"
 #include "proof/checkpoint.hpp"
 #include "proof/frontier.hpp"
@@ -119,8 +120,19 @@ class LogService {
     std::string bytes;
     bool is_full = false;  ///< it never changes
   };
-  /// @param path what stands behind `tile/`. @errors NotFound; those of storage.
-  void tile(std::string_view path, Done<TileBytes> done);
+  /// @param path what stands behind `tile/`. @param of_changes of the tree of changes instead.
+  /// @errors NotFound; those of storage.
+  void tile(std::string_view path, bool of_changes, Done<TileBytes> done);
+
+  /// The changes behind `after`, a page, oldest first. @errors those of storage.
+  void changes(store::ChangeFilter filter, std::int64_t after, std::int64_t limit,
+               Done<store::ChangesStore::Page> done) const;
+  /// The signed head of the tree of changes, of all that there are. Its name is that of the log
+  /// with `/changes` behind it, so that nobody takes it for a head of the measurements.
+  /// @errors those of storage.
+  void changes_head(Done<std::string> done);
+  /// The keys of that name: verifier_keys() under it.
+  std::string changes_keys() const;
 
   /// What verification needs to know of the log, as it is now.
   struct Facts {
@@ -193,6 +205,7 @@ class LogService {
   std::optional<tlog::SigningKey> signer_;  ///< the key in use
   Snapshot<std::string> verifier_keys_;
   Snapshot<Head> head_;
+  Snapshot<Head> changes_head_;  ///< the newest that was asked for
   tlog::Frontier frontier_;  ///< of the thread
 
   mutable std::mutex mutex_;

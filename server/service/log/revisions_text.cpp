@@ -24,17 +24,9 @@ void write_custom_columns(JsonWriter& json, const std::vector<iso286::CustomColu
     json.begin_object()
         .member("feature", word(column.feature))
         .member("tolerance_class", column.name)
-        .key("rows")
-        .begin_array();
-    for (const auto& [range, deviations] : column.rows) {
-      json.begin_object()
-          .member_mm("over_mm", range.over)
-          .member_mm("up_to_mm", range.up_to)
-          .member_um("upper_um", deviations.upper)
-          .member_um("lower_um", deviations.lower)
-          .end_object();
-    }
-    json.end_array().end_object();
+        .key("rows");
+    write_custom_rows(json, column.rows);
+    json.end_object();
   }
   json.end_array();
 }

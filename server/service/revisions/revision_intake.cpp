@@ -9,6 +9,8 @@
 #include "db/store/database.hpp"
 #include "proof/tree_hash.hpp"
 #include "record/origins.hpp"
+#include "service/documents/key_service.hpp"
+#include "service/log/changes.hpp"
 #include "service/log/leaf.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/tables/table_catalog.hpp"
@@ -17,13 +19,14 @@ namespace fitgauge::app {
 namespace {
 
 /// Keeps what this folder has made itself under a name that is free.
-std::string keep_own(store::Stores& stores, store::Document own) {
+std::string keep_own(store::Stores& stores, store::Document own, std::int64_t now_ns) {
   const std::string name = own.name;
   own.name = name + " (local)";
   for (int i = 2; stores.documents.find(own.kind, own.name); ++i) {
     own.name = fmt::format("{} (local {})", name, i);
   }
-  stores.documents.put(own);
+  own.modified_at_ns = now_ns;
+  put_document(stores, own);
   return own.name;
 }
 
@@ -93,7 +96,7 @@ struct RevisionIntake::Job {
                         !(before && before->digest == sha256(current->text));
     if (revision.is_removed) {
       if (current && before && !is_own) {
-        stores.documents.remove(kind, revision.name);
+        remove_document(stores, kind, revision.name, now, {});
         ++outcome.taken;
       }
       if (before) {
@@ -103,14 +106,14 @@ struct RevisionIntake::Job {
       return;
     }
     if (is_own) {
-      const std::string kept = keep_own(stores, *current);
+      const std::string kept = keep_own(stores, *current, now);
       told.emplace_back("revision_replaced",
                         fmt::format("the centre's {} '{}' takes the place of one of this folder, "
                                     "which is called '{}' now",
                                     word(revision.kind), revision.name, kept));
     }
     if (!current || current->text != revision.text) {
-      stores.documents.put({.kind = kind,
+      put_document(stores, {.kind = kind,
                             .name = revision.name,
                             .text = revision.text,
                             .modified_at_ns = now,
@@ -126,7 +129,7 @@ struct RevisionIntake::Job {
     const bool is_valid = current && !current->revoked_at_ns;
     const bool is_received = before && is_valid && before->digest == current->token_hash;
     if (revision.is_removed || (is_received && current->token_hash != revision.token_hash)) {
-      if (is_received && stores.keys.revoke(revision.name, now)) ++outcome.taken;
+      if (is_received && revoke_key(stores, revision.name, now)) ++outcome.taken;
       if (revision.is_removed) return;
     } else if (is_valid && current->token_hash == revision.token_hash) {
       return set_received(revision, revision.token_hash);
@@ -139,6 +142,7 @@ struct RevisionIntake::Job {
                       "that name, or has revoked this one",
                       revision.name));
     }
+    log_key(stores, revision.name, now, true);
     ++outcome.taken;
     set_received(revision, revision.token_hash);
   }

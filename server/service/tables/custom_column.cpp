@@ -4,6 +4,19 @@
 
 namespace fitgauge::api {
 
+void write_custom_rows(JsonWriter& json, const std::vector<iso286::CustomRow>& rows) {
+  json.begin_array();
+  for (const auto& [range, deviations] : rows) {
+    json.begin_object()
+        .member_mm("over_mm", range.over)
+        .member_mm("up_to_mm", range.up_to)
+        .member_um("upper_um", deviations.upper)
+        .member_um("lower_um", deviations.lower)
+        .end_object();
+  }
+  json.end_array();
+}
+
 Result<std::vector<iso286::CustomRow>> decode_custom_rows(const JsonValue& body) {
   FieldErrors errors;
   std::vector<iso286::CustomRow> rows;

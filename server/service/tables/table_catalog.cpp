@@ -4,9 +4,12 @@
 
 #include <algorithm>
 
+#include "base/json/json_writer.hpp"
 #include "db/store/database.hpp"
+#include "service/log/changes.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/revisions/revision.hpp"
+#include "service/tables/custom_column.hpp"
 #include "tables/iso286/table_rules.hpp"
 #include "tables/standards/standard.hpp"
 
@@ -77,6 +80,19 @@ auto find_column(std::vector<iso286::CustomColumn>& columns, iso286::Feature fea
   });
 }
 
+/// What the log of changes has of a column: its rows, as they are sent; none if it is not there.
+std::optional<std::string> column_text(std::vector<iso286::CustomColumn>& columns,
+                                       const TableCatalog::ColumnName& column) {
+  const auto found = find_column(columns, column.feature, column.name);
+  if (found == columns.end()) return std::nullopt;
+  std::string text;
+  api::JsonWriter json(text);
+  json.begin_object().key("rows");
+  api::write_custom_rows(json, found->rows);
+  json.end_object();
+  return text;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<TableCatalog>> TableCatalog::open(store::Database& database,
@@ -124,7 +140,7 @@ void TableCatalog::at_revision(std::string revision, Callback<Tables> done) {
 
 void TableCatalog::put_column(iso286::CustomColumn column,
                               std::optional<std::vector<std::string>> condition,
-                              Callback<ColumnStored> done) {
+                              std::optional<std::string> caller, Callback<ColumnStored> done) {
   if (const auto checked = iso286::check_custom_column(column); !checked) {
     return done(checked.error());
   }
@@ -141,12 +157,12 @@ void TableCatalog::put_column(iso286::CustomColumn column,
         }
         return created;
       },
-      std::move(condition), std::move(done));
+      std::move(condition), std::move(caller), std::move(done));
 }
 
 void TableCatalog::remove_column(iso286::Feature feature, std::string name,
                                  std::optional<std::vector<std::string>> condition,
-                                 Callback<ColumnStored> done) {
+                                 std::optional<std::string> caller, Callback<ColumnStored> done) {
   ColumnName removed{feature, name};
   change(
       std::move(removed),
@@ -160,20 +176,20 @@ void TableCatalog::remove_column(iso286::Feature feature, std::string name,
         columns.erase(found);
         return false;
       },
-      std::move(condition), std::move(done));
+      std::move(condition), std::move(caller), std::move(done));
 }
 
 void TableCatalog::change(ColumnName column, Edit edit,
                           std::optional<std::vector<std::string>> condition,
-                          Callback<ColumnStored> done) {
+                          std::optional<std::string> caller, Callback<ColumnStored> done) {
   struct Changed {
     bool created = false;
     store::TableRevision revision;
     std::shared_ptr<const TableState> state;
   };
   database_.writer().submit(
-      [this, column = std::move(column), edit = std::move(edit),
-       condition = std::move(condition)](store::Stores& stores) -> Result<Changed> {
+      [this, column = std::move(column), edit = std::move(edit), condition = std::move(condition),
+       caller = std::move(caller)](store::Stores& stores) -> Result<Changed> {
         if (has_centre_ && stores.revisions.received(store::RevisionKind::Tables, "")) {
           return centre_decides("the tables with their own columns");
         }
@@ -186,15 +202,22 @@ void TableCatalog::change(ColumnName column, Edit edit,
         const TableState state = audit(latest);
         if (state.tables == nullptr) return inconsistent(state.findings);
         auto data = from_store(latest.content).value();
+        auto before = column_text(data.custom_columns, column);
         const auto created = edit(data.custom_columns);
         if (!created) return created.error();
         const std::int64_t now = clock_.now().nanoseconds;
         const auto imported = stores.tables.import({.content = to_store(data),
                                                     .source = "custom column",
                                                     .parent = latest.revision.number,
-                                                    .caller = {}},
+                                                    .caller = caller},
                                                    now);
         if (!imported) return imported.error();
+        log_change(stores, {.at_ns = now,
+                            .caller = caller,
+                            .kind = "tables",
+                            .name = fmt::format("{}/{}", word(column.feature), column.name),
+                            .before = std::move(before),
+                            .after = column_text(data.custom_columns, column)});
         auto loaded = stores.tables.load_latest().value();
         stores.events.append(kChangedEvent, change_text(column, loaded.revision.id), now);
         // Audited here, so that nothing is left to do between the commit and the first reader.
@@ -237,7 +260,14 @@ Result<TableCatalog::Received> TableCatalog::receive(
                                               .id = id},
                                              now_ns);
   if (!imported) return imported.error();
-  stores.events.append(kChangedEvent, fmt::format(R"({{"table_revision":"{}"}})", id), now_ns);
+  const auto revision_text = [](const std::string& of) {
+    return fmt::format(R"({{"table_revision":"{}"}})", of);
+  };
+  log_change(stores, {.at_ns = now_ns,
+                      .kind = "tables",
+                      .before = revision_text(before.id),
+                      .after = revision_text(id)});
+  stores.events.append(kChangedEvent, revision_text(id), now_ns);
   return Received{
       .number = imported->number,
       .id = id,

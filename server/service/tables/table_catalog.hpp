@@ -68,10 +68,11 @@ class TableCatalog {
   /// Stores the column in a new revision; from then on every reader sees it, and the event
   /// `table.changed` says so.
   /// @param condition the revisions a change may follow (If-Match), or none for any.
+  /// @param caller who changes them.
   /// @errors TableRowsInvalid, PreconditionFailed, Forbidden (the centre's), StorageUnavailable,
   /// StorageBusy.
   void put_column(iso286::CustomColumn column, std::optional<std::vector<std::string>> condition,
-                  Callback<ColumnStored> done);
+                  std::optional<std::string> caller, Callback<ColumnStored> done);
 
   /// Tables of a centre, stored and not yet in force.
   struct Received {
@@ -112,7 +113,7 @@ class TableCatalog {
   /// Back to the standard. @errors ClassUnknown when the class is not custom; those of put_column.
   void remove_column(iso286::Feature feature, std::string name,
                      std::optional<std::vector<std::string>> condition,
-                     Callback<ColumnStored> done);
+                     std::optional<std::string> caller, Callback<ColumnStored> done);
 
  private:
   TableCatalog(store::Database& database, const Clock& clock, bool has_centre)
@@ -122,7 +123,7 @@ class TableCatalog {
 
   using Edit = std::function<Result<bool>(std::vector<iso286::CustomColumn>&)>;
   void change(ColumnName column, Edit edit, std::optional<std::vector<std::string>> condition,
-              Callback<ColumnStored> done);
+              std::optional<std::string> caller, Callback<ColumnStored> done);
 
   store::Database& database_;
   const Clock& clock_;

@@ -83,6 +83,10 @@ class EveryRoute(ControlTest):
         self.assertEqual([found["name"] for found in client.gauges_in_use()], ["G-07"])
         recorded = client.record_calibration("G-07", {"from": "2026-03-31", "due": "2027-03-31", "certificate": "K-1"})
         self.assertEqual((recorded["certificate"], client.calibrations("G-07")), ("K-1", [recorded]))
+        self.assertEqual([each["after"] for each in client.changes(page=1, kind="calibration", name="G-07")], [recorded])
+        origin, size = client.changes_checkpoint().split("\n")[:2]
+        self.assertEqual(origin, client.changes_keys()[0].split("+")[0])
+        self.assertEqual(len(client.changes_tile(f"0/000.p/{size}")), 32 * int(size))
         client.delete_gauge_in_use("G-07")
         client.delete_uncertainty("plug")
         pressed = client.press_fit({"joint_diameter_mm": 50, "length_mm": 40, "max_interference_um": 40,

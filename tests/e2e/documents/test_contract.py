@@ -198,6 +198,10 @@ class Answers(ContractTest):
         self.expect("getMeasurement", 200, id=first)
         self.expect("getProof", 200, id=first)
         self.expect("getCheckpoint", 200)
+        self.expect("getChangesCheckpoint", 200)
+        self.expect("getChangesKeys", 200)
+        self.expect("getChangesTile", 200, path="entries/000.p/1")
+        self.expect("getChangesTile", 404, path="entries/999")
         self.expect("getLogKeys", 200)
         self.expect("getTile", 200, path="entries/000.p/1")
         self.expect("listMeasurements", 200, history="all", limit=2)
@@ -285,7 +289,8 @@ class Answers(ContractTest):
         self.expect("listCalibrations", 200, name="G-07")
         self.expect("listCalibrations", 404, name="none")
         self.expect("recordCalibration", 404, calibration, name="none")
-        for kind, plural in (("Uncertainty", "Uncertainties"), ("GaugeInUse", "GaugesInUse")):
+        self.expect("listChanges", 200, kind="gauge", limit=1)
+        for kind, plural in (("GaugeInUse", "GaugesInUse"), ("Uncertainty", "Uncertainties")):
             self.expect(f"list{plural}", 200)
             name = "plug" if kind == "Uncertainty" else "G-07"
             self.expect(f"get{kind}", 200, name=name)

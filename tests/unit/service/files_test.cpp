@@ -122,7 +122,7 @@ TEST_CASE("a named setup is kept as it was written") {
   REQUIRE(listed->size() == 1);
   CHECK((*listed)[0].name == "mill");
   CHECK(wait_for<bool>([&](auto done) {
-          documents.remove(kSetup, "mill", {}, std::move(done));
+          documents.remove(kSetup, "mill", {}, {}, std::move(done));
         }).has_value());
   CHECK(documents.wait_for(kSetup, "mill").error().code == ErrorCode::SetupUnknown);
 }

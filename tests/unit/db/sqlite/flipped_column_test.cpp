@@ -83,6 +83,15 @@ struct Everything : Fixture {
                          .operator_id = "Kim",
                          .caller = "press-3",
                          .received_at_ns = 1});
+    stores.changes.append({.id = 1,
+                           .at_ns = 1,
+                           .caller = "press-3",
+                           .kind = "gauge",
+                           .name = "G-07",
+                           .action = "replaced",
+                           .before = "{}",
+                           .after = "[]"},
+                          sha256("leaf"));
     stores.events.append("table_changed", "{}", 1);
     const std::int64_t run = stores.runs.create(
         {.program = "TNC:\\a.h", .request = "{}", .created_at_ns = 1, .caller = "press-3"});
@@ -158,7 +167,8 @@ std::vector<Column> columns_of(sqlite::Connection& connection) {
 /// Changes the newest row's value as a bit that flips would.
 std::string flip(const Column& column) {
   return fmt::format(
-      "DROP TRIGGER measurements_are_not_updated; DROP TRIGGER notes_are_not_updated; PRAGMA "
+      "DROP TRIGGER measurements_are_not_updated; DROP TRIGGER notes_are_not_updated; "
+      "DROP TRIGGER changes_are_not_updated; PRAGMA "
       "foreign_keys = OFF; "
       "PRAGMA ignore_check_constraints = ON; UPDATE {0} SET {1} = CASE typeof({1}) "
       "WHEN 'integer' THEN {1} + 1 WHEN 'null' THEN 1 "
@@ -169,7 +179,9 @@ std::string flip(const Column& column) {
       "CREATE TRIGGER measurements_are_not_updated BEFORE UPDATE ON measurements\nBEGIN "
       "SELECT RAISE(ABORT, 'a measurement is never changed: store a correction'); END; "
       "CREATE TRIGGER notes_are_not_updated BEFORE UPDATE ON notes\nBEGIN "
-      "SELECT RAISE(ABORT, 'a note is never changed: add another'); END",
+      "SELECT RAISE(ABORT, 'a note is never changed: add another'); END; "
+      "CREATE TRIGGER changes_are_not_updated BEFORE UPDATE ON changes\nBEGIN "
+      "SELECT RAISE(ABORT, 'a change is never altered'); END",
       column.first, column.second);
 }
 
@@ -204,7 +216,8 @@ TEST_CASE("a changed row is not told to a reader") {
                             {"run_files", "content"},
                             {"file_revisions", "content"},
                             {"documents", "text"},
-                            {"notes", "cause"}};
+                            {"notes", "cause"},
+                            {"changes", "after_text"}};
   {
     sqlite::Connection connection(sample.directory.file(), sqlite::Mode::Write);
     for (const Column& column : changed) connection.execute(flip(column));
@@ -228,6 +241,7 @@ TEST_CASE("a changed row is not told to a reader") {
   CHECK(refused(
       [](const Stores& stores) { stores.documents.find(DocumentKind::GaugeInUse, "G-07"); }));
   CHECK(refused([](const Stores& stores) { static_cast<void>(stores.notes.list(1)); }));
+  CHECK(refused([](const Stores& stores) { static_cast<void>(stores.changes.list({}, 0, 1)); }));
   CHECK_FALSE(refused([](const Stores& stores) { stores.keys.list(); }));
   CHECK(sample.database->health().state == HealthState::Damaged);
 }

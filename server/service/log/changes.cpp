@@ -1,0 +1,118 @@
+#include "service/log/changes.hpp"
+
+#include "base/clock.hpp"
+#include "base/json/json_writer.hpp"
+#include "proof/tree_hash.hpp"
+#include "service/documents/document_service.hpp"
+
+namespace fitgauge::app {
+namespace {
+
+constexpr std::size_t kLongestEntry = 65'535;
+
+/// As lists of changes name the kind; empty: its changes are not logged.
+std::string_view word(store::DocumentKind kind) {
+  using Kind = store::DocumentKind;
+  switch (kind) {
+    case Kind::Uncertainty: return "budget";
+    case Kind::GaugeInUse: return "gauge";
+    case Kind::Calibration: return "calibration";
+    case Kind::Setup: return "setup";
+    case Kind::Plan: return "plan";
+    case Kind::Connection: return "connection";
+    case Kind::Catalogue: return "catalogue";
+    case Kind::ConnectionProgress: break;
+  }
+  return {};
+}
+
+std::string shown_text(store::DocumentKind kind, const std::string& text) {
+  const auto settings =
+      kind == store::DocumentKind::Connection ? parse_json(text) : Result<JsonValue>(JsonValue());
+  if (!settings || settings->is(JsonValue::Kind::Null)) return settings ? text : "{}";
+  std::string shown;
+  api::JsonWriter json(shown);
+  write_json(json, without_secrets(*settings));
+  return shown;
+}
+
+void log_document(store::Stores& stores, store::DocumentKind kind, const std::string& name,
+                  std::int64_t at_ns, const std::optional<std::string>& caller,
+                  const std::optional<std::string>& after) {
+  if (word(kind).empty()) return;
+  store::Change change{.at_ns = at_ns, .caller = caller, .kind = std::string(word(kind))};
+  change.name = kind == store::DocumentKind::Calibration ? gauge_of_calibration(name) : name;
+  if (const auto before = stores.documents.find(kind, name)) {
+    change.before = shown_text(kind, before->text);
+  }
+  if (after) change.after = shown_text(kind, *after);
+  log_change(stores, std::move(change));
+}
+
+/// RFC 8785 of the members, but for the texts, which stand as they were stored.
+std::string text_of(const store::Change& change, bool has_digests) {
+  std::string text;
+  api::JsonWriter json(text);
+  const auto write = [&](std::string_view name, std::string_view digest_name,
+                         const std::optional<std::string>& value) {
+    if (has_digests && value) {
+      json.member(digest_name, to_hex(sha256(*value)));
+    } else {
+      json.key(name).raw(value ? std::string_view(*value) : "null");
+    }
+  };
+  json.begin_object().member("action", change.action);
+  write("after", "after_sha256", change.after);
+  json.member("at", format_rfc3339({change.at_ns}));
+  write("before", "before_sha256", change.before);
+  change.caller ? json.member("caller", *change.caller) : json.key("caller").null();
+  json.member("id", change.id).member("kind", change.kind).member("name", change.name);
+  json.end_object();
+  return text;
+}
+
+}  // namespace
+
+JsonValue without_secrets(JsonValue settings) {
+  for (auto& [name, value] : settings.members) {
+    if (name == "secrets") {
+      name = "secret_count";
+      value = {.kind = JsonValue::Kind::Number, .text = std::to_string(value.items.size())};
+    } else if (name == "password") {
+      name = "password_set";
+      value = {.kind = JsonValue::Kind::Boolean, .boolean = true};
+    } else if (name == "headers") {
+      for (auto& [header, secret] : value.members) secret = JsonValue();
+    }
+  }
+  return settings;
+}
+
+std::string change_json(const store::Change& change) { return text_of(change, false); }
+
+std::string change_entry(const store::Change& change) {
+  std::string entry = text_of(change, false);
+  return entry.size() <= kLongestEntry ? entry : text_of(change, true);
+}
+
+void log_change(store::Stores& stores, store::Change change) {
+  if (change.before == change.after) return;
+  change.id = stores.changes.size() + 1;
+  const std::string_view gone = change.kind == "key" ? "revoked" : "deleted";
+  change.action = !change.before ? "created" : change.after ? "replaced" : gone;
+  stores.changes.append(change, tlog::leaf_hash(change_entry(change)));
+}
+
+bool put_document(store::Stores& stores, const store::Document& document) {
+  log_document(stores, document.kind, document.name, document.modified_at_ns, document.caller,
+               document.text);
+  return stores.documents.put(document);
+}
+
+bool remove_document(store::Stores& stores, store::DocumentKind kind, const std::string& name,
+                     std::int64_t at_ns, const std::optional<std::string>& caller) {
+  log_document(stores, kind, name, at_ns, caller, std::nullopt);
+  return stores.documents.remove(kind, name);
+}
+
+}  // namespace fitgauge::app

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/json/json_value.hpp"
+#include "db/store/stores.hpp"
+
+// Changes of what decides: tables, plans, budgets, gauges, calibrations, setups, catalogues,
+// connections and keys. Each stands in the job that makes it.
+
+namespace fitgauge::app {
+
+/// Logs a change under the next id, as created, replaced, deleted or (a key) revoked.
+/// @param change without id and action; its texts are JSON. Nothing is logged where they are alike.
+void log_change(store::Stores& stores, store::Change change);
+
+/// Stores or removes a document and logs it, a connection without its secrets.
+/// @returns whether it is new, or was there.
+bool put_document(store::Stores& stores, const store::Document& document);
+bool remove_document(store::Stores& stores, store::DocumentKind kind, const std::string& name,
+                     std::int64_t at_ns, const std::optional<std::string>& caller);
+
+/// The settings of a connection that may be shown: the number of secrets instead of them, that
+/// there is a password, and the names of headers.
+JsonValue without_secrets(JsonValue settings);
+
+/// A change as /v1/changes answers it.
+std::string change_json(const store::Change& change);
+
+/// What a leaf of the tree of changes is the hash of: the same, with the SHA-256 of the texts where
+/// it would be longer than an entry of a tile.
+std::string change_entry(const store::Change& change);
+
+}  // namespace fitgauge::app

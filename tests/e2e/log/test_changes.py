@@ -1,0 +1,141 @@
+"""The log of changes: what was changed of all that decides, by whom, with before and after."""
+
+import base64
+import hashlib
+import json
+import sqlite3
+import sys
+import unittest
+
+from support.daemon import ROOT, DaemonTest
+
+sys.path.insert(0, str(ROOT / "clients" / "python"))
+
+import check_proof  # noqa: E402 - what an auditor runs
+
+BUDGET = {"contributions": [{"name": "all", "standard_uncertainty": 0.8}]}
+SETUP = {"machine": {"tools": [{"number": 5, "radius_mm": 2}], "presets": [{"number": 1}], "active_preset": 1}}
+COLUMN = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": -3}]}
+
+
+def tree(leaves):
+    """The root of RFC 6962."""
+    if len(leaves) == 1:
+        return leaves[0]
+    split = 1 << (len(leaves) - 1).bit_length() - 1
+    return hashlib.sha256(b"\1" + tree(leaves[:split]) + tree(leaves[split:])).digest()
+
+
+class Changes(DaemonTest):
+    def put(self, path, body, status=201):
+        answer = self.daemon.request("PUT", path, body)
+        self.assertEqual(answer.status, status, answer)
+
+    def delete(self, path):
+        self.assertEqual(self.daemon.request("DELETE", path).status, 204)
+
+    def changes(self, query=""):
+        answer = self.daemon.get(f"/v1/changes?{query}")
+        self.assertEqual(answer.status, 200, answer)
+        return answer.json["changes"]
+
+    def test_each_kind_is_logged_with_before_and_after(self):
+        other = {"contributions": [{"name": "all", "standard_uncertainty": 0.1}]}
+        self.put("/v1/uncertainties/bore", BUDGET)
+        self.put("/v1/uncertainties/bore", BUDGET, 200)  # which changes nothing
+        self.put("/v1/uncertainties/bore", other, 200)
+        self.delete("/v1/uncertainties/bore")
+        logged = self.changes("kind=budget&name=bore")
+        self.assertEqual([(each["action"], each["before"], each["after"]) for each in logged],
+                         [("created", None, BUDGET), ("replaced", BUDGET, other), ("deleted", other, None)])
+        self.put("/v1/gauges-in-use/G-9", {"calibration_due": "2027-03-31"})
+        calibration = self.daemon.post("/v1/gauges-in-use/G-9/calibrations", {"from": "2026-07-01", "due": "2027-07-01"}).json
+        self.assertEqual([each["after"] for each in self.changes("kind=calibration&name=G-9")], [calibration])
+        self.put("/v1/catalogues/c", {"causes": ["a"], "measures": ["b"]})
+        self.put("/v1/plans/P-9", {"characteristics": [{"name": "bore", "designation": "25 H7"}]})
+        self.put("/v1/setups/mill", SETUP)
+        self.put("/v1/tables/hole/classes/SHOP", COLUMN)
+        self.assertEqual(self.daemon.command("key", "create", "--role", "viewer", "--name", "panel").returncode, 0)
+        self.assertEqual(self.daemon.command("key", "revoke", "--name", "panel").returncode, 0)
+        self.put("/v1/connections/hook", {"kind": "mqtt", "broker": "mqtt://127.0.0.1:1", "user": "u", "password": "hidden",
+                                          "topic": "a"})
+        last = {each["kind"]: each for each in self.changes()}
+        self.assertEqual(set(last), {"budget", "gauge", "calibration", "catalogue", "plan", "setup", "tables", "key", "connection"})
+        self.assertEqual((last["tables"]["name"], last["tables"]["after"]), ("hole/SHOP", COLUMN))
+        self.assertEqual((last["key"]["action"], last["key"]["before"], last["key"]["after"]), ("revoked", {"role": "viewer"}, None))
+        self.assertTrue(last["connection"]["after"]["password_set"])
+        self.assertNotIn("hidden", self.daemon.get("/v1/changes").text)
+        self.assertEqual([each["id"] for each in self.changes()], list(range(1, len(self.changes()) + 1)))
+
+    def test_a_list_is_read_in_pages_and_by_time(self):
+        for number in range(5):
+            self.put(f"/v1/uncertainties/page-{number}", BUDGET)
+        all_of_them = self.changes()
+        ids, after = [], ""
+        while after is not None:
+            page = self.daemon.get(f"/v1/changes?limit=2{after and '&after=' + after}").json
+            ids += [each["id"] for each in page["changes"]]
+            after = page["next"]
+        self.assertEqual(ids, [each["id"] for each in all_of_them])
+        at = all_of_them[-2]["at"]
+        self.assertEqual(self.changes(f"to={at}") + self.changes(f"from={at}"), all_of_them)
+        self.assertEqual(self.changes("name=none"), [])
+        self.assert_problem(self.daemon.get("/v1/changes?kind=verdict"), 400, "query.invalid")
+
+    def test_the_changes_are_a_tree_that_others_verify(self):
+        large = {"features": [{"type": "bore", "center_mm": [0, 0], "diameter_mm": 10}] * 1200}
+        self.put("/v1/setups/large", {**SETUP, "workpiece": large})
+        for number in range(260):
+            self.put(f"/v1/uncertainties/tree-{number}", BUDGET)
+        note = self.daemon.get("/v1/log/changes/checkpoint").text
+        name, size, root = note.split("\n")[:3]
+        size = int(size)
+        self.assertEqual(name, self.daemon.get("/v1/log/checkpoint").text.split("\n")[0] + "/changes")
+        self.assertTrue(check_proof.is_signed(note, self.daemon.get("/v1/log/changes/key").text.split()))
+        self.assertFalse(check_proof.is_signed(note, self.daemon.get("/v1/log/key").text.split()))
+        entries, hashes = [], b""
+        for first in range(0, size, 256):
+            width = min(256, size - first)
+            path = f"{first // 256:03d}" + (f".p/{width}" if width < 256 else "")
+            bundle = self.daemon.get(f"/v1/log/changes/tile/entries/{path}").body
+            hashes += self.daemon.get(f"/v1/log/changes/tile/0/{path}").body
+            while bundle:
+                length = int.from_bytes(bundle[:2], "big")
+                entries.append(bundle[2:2 + length])
+                bundle = bundle[2 + length:]
+        leaves = [hashlib.sha256(b"\0" + entry).digest() for entry in entries]
+        self.assertEqual((b"".join(leaves), len(leaves)), (hashes, size))
+        self.assertEqual(base64.b64encode(tree(leaves)).decode(), root)
+        self.assertEqual(self.daemon.get("/v1/log/changes/tile/1/000.p/1").body, tree(leaves[:256]))
+        listed = self.changes("limit=1000")
+        for entry, change in zip(map(json.loads, entries), listed, strict=True):
+            if "after_sha256" in entry:
+                self.assertEqual((change["name"], entry["before"]), ("large", None))
+                text = self.daemon.get("/v1/setups/large").body
+                self.assertEqual(entry["after_sha256"], hashlib.sha256(text).hexdigest())
+            else:
+                self.assertEqual(entry, change)
+        self.assertEqual(sum(b"after_sha256" in entry for entry in entries), 1)
+        self.assert_problem(self.daemon.get(f"/v1/log/changes/tile/0/001.p/{size % 256 + 1}"), 404, "resource.not_found")
+        # One more leaf is another root; the same ones are the same note after a restart.
+        self.assertEqual(self.daemon.get("/v1/log/changes/checkpoint").text, note)
+        self.daemon.stop()
+        self.daemon.start()
+        self.assertEqual(self.daemon.get("/v1/log/changes/checkpoint").text, note)
+        self.put("/v1/uncertainties/one-more", BUDGET)
+        self.assertNotEqual(self.daemon.get("/v1/log/changes/checkpoint").text.split("\n")[2], root)
+
+    def test_a_change_is_altered_by_nobody(self):
+        self.put("/v1/uncertainties/kept", BUDGET)
+        self.daemon.stop()
+        with sqlite3.connect(self.daemon.database) as database:
+            for statement in ("UPDATE changes SET name = 'x'", "DELETE FROM changes"):
+                with self.assertRaisesRegex(sqlite3.IntegrityError, "a change is never"):
+                    database.execute(statement)
+        database.close()
+        self.daemon.start()
+        self.assertEqual(self.daemon.command("verify").returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
