@@ -88,6 +88,7 @@ export default {
   'error.program.unknown': 'Dieses Programm gibt es nicht.',
   'error.program.invalid': 'Das Programm hat Fehler.',
   'error.run.unknown': 'Diesen Lauf gibt es nicht.',
+  'error.document.in_use': 'Anderes verwendet es noch.',
   'error.run.finished': 'Der Lauf ist schon zu Ende.',
   'error.run.unfinished': 'Der Lauf ist noch nicht zu Ende.',
   'error.cycle.unknown': 'Diesen Zyklus gibt es nicht.',

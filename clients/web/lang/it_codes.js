@@ -88,6 +88,7 @@ export default {
   'error.program.unknown': 'Questo programma non esiste.',
   'error.program.invalid': 'Il programma ha errori.',
   'error.run.unknown': 'Questa esecuzione non esiste.',
+  'error.document.in_use': 'Altro lo usa ancora.',
   'error.run.finished': 'L’esecuzione è già terminata.',
   'error.run.unfinished': 'L’esecuzione non è ancora terminata.',
   'error.cycle.unknown': 'Questo ciclo non esiste.',

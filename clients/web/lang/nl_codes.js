@@ -88,6 +88,7 @@ export default {
   'error.program.unknown': 'Dit programma bestaat niet.',
   'error.program.invalid': 'Het programma heeft fouten.',
   'error.run.unknown': 'Deze run bestaat niet.',
+  'error.document.in_use': 'Iets anders gebruikt het nog.',
   'error.run.finished': 'De run is al afgelopen.',
   'error.run.unfinished': 'De run is nog niet afgelopen.',
   'error.cycle.unknown': 'Deze cyclus bestaat niet.',

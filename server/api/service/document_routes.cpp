@@ -230,7 +230,7 @@ void add_document_routes(std::vector<http::Route>& routes, const Services& servi
       .operation = "delete" + operation,
       .tag = tag,
       .outcomes = {{.status = 204, .meaning = "It is gone"}},
-      .refusals = {404, 412},
+      .refusals = {404, 409, 412},
   });
   add_precondition_parameters(routes.back().parameters);
 }

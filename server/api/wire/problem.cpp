@@ -50,6 +50,7 @@ int status_of(ErrorCode code) {
     case ErrorCode::MeasurementCorrected:
     case ErrorCode::MeasurementSimulated:
     case ErrorCode::ConnectionReadOnly:
+    case ErrorCode::DocumentInUse:
     case ErrorCode::RunFinished:
     case ErrorCode::RunUnfinished: return 409;
     case ErrorCode::LengthRequired: return 411;

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <future>
 
+#include "base/json/json_value.hpp"
 #include "db/store/database.hpp"
 #include "service/log/changes.hpp"
 #include "service/revisions/revision.hpp"
@@ -70,6 +72,44 @@ Result<void> check_owner(const store::Stores& stores, DocumentKind kind, const s
   const auto as = static_cast<store::RevisionKind>(stored_kind(kind));
   if (!stores.revisions.received(as, name)) return {};
   return centre_decides(called(kind, name));
+}
+
+/// Nothing current names what is removed. @errors DocumentInUse with the names
+Result<void> check_free(const store::Stores& stores, DocumentKind kind, const std::string& name) {
+  struct Use {
+    DocumentKind by;
+    DocumentKind of;
+    std::string_view member;
+  };
+  static constexpr Use kUses[] = {
+      {DocumentKind::GaugeInUse, DocumentKind::Uncertainty, "uncertainty"},
+      {DocumentKind::Calibration, DocumentKind::Uncertainty, "uncertainty"},
+      {DocumentKind::Plan, DocumentKind::GaugeInUse, "gauge"},
+      {DocumentKind::Plan, DocumentKind::Catalogue, "catalogue"}};
+  std::vector<std::string> users;
+  for (const Use& use : kUses) {
+    if (use.of != kind) continue;
+    for (const store::Document& document : stores.documents.list(stored_kind(use.by))) {
+      const auto body = parse_json(document.text);
+      if (!body) continue;
+      const auto names_it = [&](const JsonValue& each) { return each.text_of(use.member) == name; };
+      const auto& list = body->member("characteristics").items;
+      if (!names_it(*body) && std::none_of(list.begin(), list.end(), names_it)) continue;
+      const std::string user = use.by == DocumentKind::Calibration
+                                   ? std::string(gauge_of_calibration(document.name))
+                                   : document.name;
+      // Calibrations outlive their gauge, and are nobody's then.
+      if (use.by == DocumentKind::Calibration &&
+          !stores.documents.find(store::DocumentKind::GaugeInUse, user)) {
+        continue;
+      }
+      users.push_back(called(use.by, user));
+    }
+  }
+  if (users.empty()) return {};
+  return Error{ErrorCode::DocumentInUse,
+               fmt::format("{} is named by {}: change or delete them first", called(kind, name),
+                           fmt::join(users, ", "))};
 }
 
 NamedDocument named_document(store::Document document) {
@@ -161,6 +201,7 @@ void DocumentService::remove(DocumentKind kind, std::string name, Precondition p
         if (const auto allowed = check_change(precondition, kind, name, current); !allowed) {
           return allowed.error();
         }
+        if (const auto free = check_free(stores, kind, name); !free) return free.error();
         return remove_document(stores, stored_kind(kind), name, at, caller);
       },
       std::move(done));

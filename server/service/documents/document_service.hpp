@@ -72,7 +72,8 @@ class DocumentService {
   void write(Change change, Done<bool> done);
   /// @errors what is said of a name that is not there, StorageUnavailable.
   void read(DocumentKind kind, std::string name, Done<NamedDocument> done);
-  /// @errors as read; PreconditionFailed, Forbidden (the centre's), StorageBusy.
+  /// @errors as read; PreconditionFailed, Forbidden (the centre's), DocumentInUse (with the names
+  ///   of those that name it), StorageBusy.
   void remove(DocumentKind kind, std::string name, Precondition precondition,
               std::optional<std::string> caller, Done<bool> done);
   void list(DocumentKind kind, Done<std::vector<NamedDocument>> done);  ///< by name

@@ -289,6 +289,7 @@ class Answers(ContractTest):
         self.expect("listCalibrations", 200, name="G-07")
         self.expect("listCalibrations", 404, name="none")
         self.expect("recordCalibration", 404, calibration, name="none")
+        self.expect("deleteUncertainty", 409, name="plug")
         self.expect("listChanges", 200, kind="gauge", limit=1)
         for kind, plural in (("GaugeInUse", "GaugesInUse"), ("Uncertainty", "Uncertainties")):
             self.expect(f"list{plural}", 200)

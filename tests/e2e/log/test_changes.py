@@ -1,4 +1,4 @@
-"""The log of changes: what was changed of all that decides, by whom, with before and after."""
+"""The log of changes: what was changed of all that decides, by whom, with before and after, and what is in use."""
 
 import base64
 import hashlib
@@ -14,6 +14,7 @@ sys.path.insert(0, str(ROOT / "clients" / "python"))
 import check_proof  # noqa: E402 - what an auditor runs
 
 BUDGET = {"contributions": [{"name": "all", "standard_uncertainty": 0.8}]}
+PLAN = {"characteristics": [{"name": "bore", "designation": "25 H7", "gauge": "G-1", "catalogue": "causes"}]}
 SETUP = {"machine": {"tools": [{"number": 5, "radius_mm": 2}], "presets": [{"number": 1}], "active_preset": 1}}
 COLUMN = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": -3}]}
 
@@ -81,6 +82,21 @@ class Changes(DaemonTest):
         self.assertEqual(self.changes(f"to={at}") + self.changes(f"from={at}"), all_of_them)
         self.assertEqual(self.changes("name=none"), [])
         self.assert_problem(self.daemon.get("/v1/changes?kind=verdict"), 400, "query.invalid")
+
+    def test_what_others_name_is_not_deleted(self):
+        self.put("/v1/uncertainties/used", BUDGET)
+        self.put("/v1/uncertainties/calibrated", BUDGET)
+        self.put("/v1/gauges-in-use/G-1", {"uncertainty": "used", "calibration_due": "2027-03-31"})
+        self.daemon.post("/v1/gauges-in-use/G-1/calibrations",
+                         {"from": "2026-07-01", "due": "2027-07-01", "uncertainty": "calibrated"})
+        self.put("/v1/catalogues/causes", {"causes": ["a"], "measures": ["b"]})
+        self.put("/v1/plans/P-1", PLAN)
+        paths = ("/v1/uncertainties/used", "/v1/uncertainties/calibrated", "/v1/gauges-in-use/G-1", "/v1/catalogues/causes")
+        for path, by in zip(paths, ("gauge in use 'G-1'", "calibration 'G-1'", "plan 'P-1'", "plan 'P-1'")):
+            problem = self.assert_problem(self.daemon.request("DELETE", path), 409, "document.in_use")
+            self.assertIn(by, problem["detail"])
+        for path in ("/v1/plans/P-1", *reversed(paths)):
+            self.delete(path)
 
     def test_the_changes_are_a_tree_that_others_verify(self):
         large = {"features": [{"type": "bore", "center_mm": [0, 0], "diameter_mm": 10}] * 1200}
