@@ -96,6 +96,7 @@ int status_of(ErrorCode code) {
     case ErrorCode::FieldInvalid:
     case ErrorCode::FieldTooLong:
     case ErrorCode::FieldConflict:
+    case ErrorCode::DrawingNoSizes:
     case ErrorCode::SetupInvalid:
     case ErrorCode::ProgramInvalid:
     case ErrorCode::LogRootMismatch:

@@ -1,0 +1,476 @@
+#include "formats/step/drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/digest.hpp"
+#include "base/text.hpp"
+#include "formats/step/faces.hpp"
+
+namespace fitgauge::step {
+namespace {
+
+using gauging::Quantity;
+using iso286::Feature;
+using Kind = Parameter::Kind;
+
+enum class Group : std::uint8_t {
+  Size, Location, Angle, Value, Tolerance, Face, Part, Callout, Product, Note, NotGauged
+};
+
+struct Entity {
+  std::string_view name;
+  Group group;
+  std::string_view words{};  ///< of what is not gauged
+};
+
+/// The entities that are looked for; whatever else is followed from them.
+constexpr std::array kEntities = {
+    Entity{"DIMENSIONAL_SIZE", Group::Size},
+    Entity{"DIMENSIONAL_SIZE_WITH_DATUM_FEATURE", Group::Size},
+    Entity{"DIMENSIONAL_SIZE_WITH_PATH", Group::Size},
+    Entity{"DIMENSIONAL_LOCATION", Group::Location},
+    Entity{"DIRECTED_DIMENSIONAL_LOCATION", Group::Location},
+    Entity{"DIMENSIONAL_LOCATION_WITH_PATH", Group::Location},
+    Entity{"ANGULAR_SIZE", Group::Angle},
+    Entity{"ANGULAR_LOCATION", Group::Angle},
+    Entity{"DIMENSIONAL_CHARACTERISTIC_REPRESENTATION", Group::Value},
+    Entity{"PLUS_MINUS_TOLERANCE", Group::Tolerance},
+    Entity{"GEOMETRIC_ITEM_SPECIFIC_USAGE", Group::Face},
+    Entity{"SHAPE_ASPECT_RELATIONSHIP", Group::Part},
+    Entity{"SHAPE_ASPECT_DERIVING_RELATIONSHIP", Group::Part},
+    Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION", Group::Callout},
+    Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION_WITH_PLACEHOLDER", Group::Callout},
+    Entity{"PRODUCT", Group::Product},
+    Entity{"DRAUGHTING_CALLOUT", Group::Note, "a note, a datum or another text"},
+    Entity{"ANGULARITY_TOLERANCE", Group::NotGauged, "an angularity"},
+    Entity{"CIRCULAR_RUNOUT_TOLERANCE", Group::NotGauged, "a circular run-out"},
+    Entity{"COAXIALITY_TOLERANCE", Group::NotGauged, "a coaxiality"},
+    Entity{"CONCENTRICITY_TOLERANCE", Group::NotGauged, "a concentricity"},
+    Entity{"CYLINDRICITY_TOLERANCE", Group::NotGauged, "a cylindricity"},
+    Entity{"FLATNESS_TOLERANCE", Group::NotGauged, "a flatness"},
+    Entity{"LINE_PROFILE_TOLERANCE", Group::NotGauged, "a profile of a line"},
+    Entity{"PARALLELISM_TOLERANCE", Group::NotGauged, "a parallelism"},
+    Entity{"PERPENDICULARITY_TOLERANCE", Group::NotGauged, "a perpendicularity"},
+    Entity{"POSITION_TOLERANCE", Group::NotGauged, "a position of a feature"},
+    Entity{"ROUNDNESS_TOLERANCE", Group::NotGauged, "a roundness"},
+    Entity{"STRAIGHTNESS_TOLERANCE", Group::NotGauged, "a straightness"},
+    Entity{"SURFACE_PROFILE_TOLERANCE", Group::NotGauged, "a profile of a surface"},
+    Entity{"SYMMETRY_TOLERANCE", Group::NotGauged, "a symmetry"},
+    Entity{"TOTAL_RUNOUT_TOLERANCE", Group::NotGauged, "a total run-out"},
+    Entity{"GEOMETRIC_TOLERANCE", Group::NotGauged, "a tolerance of form or place"},
+    Entity{"SURFACE_TEXTURE_REPRESENTATION", Group::NotGauged, "a surface texture"},
+};
+
+constexpr auto kNames = [] {
+  std::array<std::string_view, kEntities.size()> names{};
+  for (std::size_t i = 0; i < names.size(); ++i) names.at(i) = kEntities.at(i).name;
+  return names;
+}();
+
+/// Where a relation has its two ends: the places of its parameters.
+struct Relation {
+  Group group;
+  std::size_t from;
+  std::size_t to;
+};
+constexpr std::array kRelations = {Relation{Group::Value, 0, 1}, Relation{Group::Tolerance, 1, 0},
+                                   Relation{Group::Face, 2, 4}, Relation{Group::Part, 2, 3},
+                                   Relation{Group::Callout, 2, 4}};
+
+/// Which instances refer to which, by the first.
+class Links {
+ public:
+  void add(std::uint32_t from, std::uint32_t to) { all_.emplace_back(from, to); }
+  void sort() { std::stable_sort(all_.begin(), all_.end(), [](auto& a, auto& b) { return a.first < b.first; }); }
+  std::span<const std::pair<std::uint32_t, std::uint32_t>> of(std::uint32_t from) const {
+    const auto [first, last] = std::equal_range(all_.begin(), all_.end(), std::pair(from, 0U),
+                                                [](auto& a, auto& b) { return a.first < b.first; });
+    return {first, last};
+  }
+  const auto& all() const { return all_; }
+
+ private:
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> all_;
+};
+
+/// What the name of a DIMENSIONAL_SIZE says of the quantity, by a part of it.
+constexpr std::array<std::pair<std::string_view, Quantity>, 10> kQuantities = {{
+    {"diameter", Quantity::Diameter}, {"radius", Quantity::Radius}, {"curve", Quantity::Distance},
+    {"depth", Quantity::Distance}, {"thickness", Quantity::Width}, {"width", Quantity::Width},
+    {"length", Quantity::Width}, {"height", Quantity::Width}, {"size", Quantity::Width}, {"linear", Quantity::Width},
+}};
+
+/// Millimetres of a metre with a prefix of SI_UNIT.
+constexpr std::array<std::pair<std::string_view, double>, 7> kMetres = {{
+    {"", 1e3}, {".MILLI.", 1}, {".CENTI.", 10}, {".DECI.", 100}, {".MICRO.", 1e-3}, {".NANO.", 1e-6}, {".KILO.", 1e6},
+}};
+
+/// A number with its unit: a length, or an angle.
+struct Value {
+  std::string name{};
+  std::string qualifier{};
+  std::optional<Length> length{};
+  double number = 0;  ///< in mm
+};
+
+/// All that the file says of one dimension.
+struct Found {
+  std::optional<Length> nominal{};
+  std::optional<Length> upper{};  ///< deviations
+  std::optional<Length> lower{};
+  std::string class_name{};
+  std::optional<Feature> zone{};  ///< of the class
+  bool is_angle = false;
+  bool has_limits() const { return upper || lower || !class_name.empty(); }
+};
+
+std::string signed_um(Length length) { return (length > Length() ? "+" : "") + format_um(length); }
+
+class Walker {
+ public:
+  Walker(const Part21& file, const iso286::ToleranceTables& tables, Drawing& drawing)
+      : file_(file), tables_(tables), to_(drawing) {}
+
+  void walk() {
+    each({Group::Value, Group::Tolerance, Group::Face, Group::Part, Group::Callout}, [&](auto id, const Entity& entity) {
+      const auto relation = std::find_if(kRelations.begin(), kRelations.end(), [&](const Relation& r) { return r.group == entity.group; });
+      link(id, *relation, entity.name);
+    });
+    for (Links& each : links_) each.sort();
+    each({Group::Product}, [&](auto id, const Entity& entity) {
+      to_.part = seen_.empty() ? text(id, entity.name, 0) : std::string();
+      seen_.insert(id);
+    });
+    each({Group::Size, Group::Location, Group::Angle}, [&](auto id, const Entity& entity) {
+      if (seen_.insert(id).second) dimension(id, entity);
+    });
+    each({Group::NotGauged}, [&](auto id, const Entity& entity) {
+      if (seen_.insert(id).second) refuse(id, name_of(id, entity.name), fmt::format("{} is not gauged here", entity.words));
+    });
+    std::set<std::uint32_t> used;
+    for (const auto& [definition, callout] : links(Group::Callout).all()) {
+      if (seen_.contains(definition)) used.insert(callout);
+    }
+    each({Group::Note}, [&](auto id, const Entity& entity) {
+      if (!used.contains(id)) refuse(id, text(id, entity.name, 0), fmt::format("{} is not gauged here", entity.words));
+    });
+  }
+
+ private:
+  template <class Each>
+  void each(std::initializer_list<Group> groups, const Each& what) {
+    for (std::size_t i = 0; i < kEntities.size(); ++i) {
+      if (std::find(groups.begin(), groups.end(), kEntities.at(i).group) == groups.end()) continue;
+      for (const std::uint32_t id : file_.of_name(i)) what(id, kEntities.at(i));
+    }
+  }
+  Links& links(Group group) { return links_[static_cast<std::size_t>(group)]; }
+
+  /// The parameters of the record with that name.
+  std::vector<Parameter> record(std::uint32_t id, std::string_view name, std::uint32_t from = 0) const {
+    for (const Record& each : file_.records(id, from != 0 ? from : id)) {
+      if (each.name == name) return file_.parameters(each.list);
+    }
+    return {};
+  }
+  std::string text(std::uint32_t id, std::string_view name, std::size_t at, std::uint32_t from = 0) const {
+    const auto all = record(id, name, from);
+    return at < all.size() ? std::string(trim(text_of(all[at]))) : std::string();
+  }
+  std::vector<std::uint32_t> references(const Parameter& in) const {
+    if (in.is(Kind::Reference)) return {in.id};
+    std::vector<std::uint32_t> found;
+    if (!in.is(Kind::List) && !in.is(Kind::Typed)) return found;
+    for (const Parameter& item : file_.parameters(in.text)) {
+      const auto more = references(item);
+      found.insert(found.end(), more.begin(), more.end());
+    }
+    return found;
+  }
+
+  void link(std::uint32_t id, const Relation& relation, std::string_view name) {
+    const auto all = record(id, name);
+    if (all.size() <= std::max(relation.from, relation.to) || !all[relation.from].is(Kind::Reference)) return;
+    for (const std::uint32_t to : references(all[relation.to])) {
+      links(relation.group).add(all[relation.from].id, to);
+      if (++link_count_ > kMostLinks) return file_.fail(id, "more relations than are read: export fewer parts");
+    }
+  }
+
+  void refuse(std::uint32_t id, std::string name, std::string why) {
+    if (to_.not_read.size() == kMostListed) file_.fail(id, "more than 20000 tolerances and notes: export fewer parts");
+    if (file_.error()) return;
+    to_.not_read.push_back({fmt::format("#{}", id), std::move(name), std::move(why)});
+  }
+
+  std::string callout_of(std::uint32_t id) {
+    std::string name;
+    for (const auto& [_, callout] : links(Group::Callout).of(id)) {
+      if (name.empty()) name = text(callout, "DRAUGHTING_CALLOUT", 0, id);
+    }
+    return name;
+  }
+  /// Of the callout that shows it, else its own, else of its entity in words.
+  std::string name_of(std::uint32_t id, std::string_view entity) {
+    std::string name = callout_of(id);
+    if (name.empty()) name = text(id, entity, 0);
+    if (name.empty()) name = text(id, "GEOMETRIC_TOLERANCE", 0);
+    if (!name.empty()) return name;
+    name = ascii_lower(entity);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+  }
+  std::string unique(std::string name) {
+    constexpr std::size_t kLongestName = 180;
+    name = first_characters(name, kLongestName);
+    const int count = ++names_[name];
+    return count == 1 ? name : unique(fmt::format("{} ({})", name, count));
+  }
+
+  std::vector<std::uint32_t> faces_of(std::uint32_t aspect) {
+    constexpr std::size_t kMostAspects = 4096;
+    std::vector<std::uint32_t> aspects{aspect};
+    std::vector<std::uint32_t> faces;
+    std::set<std::uint32_t> known{aspect};
+    for (std::size_t i = 0; i < aspects.size() && i < kMostAspects; ++i) {
+      for (const auto& [_, face] : links(Group::Face).of(aspects[i])) faces.push_back(face);
+      for (const auto& [_, part] : links(Group::Part).of(aspects[i])) {
+        if (known.insert(part).second) aspects.push_back(part);
+      }
+    }
+    return faces;
+  }
+
+  /// Millimetres of a unit of length; fails if it is another, or refers to itself.
+  double millimetres(std::uint32_t id, std::uint32_t from, int deep = 8) {
+    if (const auto known = units_.find(id); known != units_.end()) return known->second;
+    double factor = 0;
+    for (const Record& each : file_.records(id, from)) {
+      const auto all = file_.parameters(each.list);
+      if (each.name == "SI_UNIT" && all.size() >= 2 && all.back().text == ".METRE.") {
+        const Parameter& prefix = all[all.size() - 2];
+        const auto found = std::find_if(kMetres.begin(), kMetres.end(), [&](const auto& p) {
+          return p.first == (prefix.is(Kind::Word) ? prefix.text : std::string_view());
+        });
+        if (found != kMetres.end()) factor = found->second;
+      } else if (each.name == "CONVERSION_BASED_UNIT" && !all.empty() && all.back().is(Kind::Reference) && deep > 0) {
+        factor = value(all.back().id, id, deep - 1).number;
+      }
+    }
+    if (!(factor > 0) || !std::isfinite(factor)) {
+      file_.fail(from, fmt::format("#{} has the unit #{}, which is no length: export the file with lengths in mm or inch", from, id));
+    }
+    units_[id] = factor;
+    return factor;
+  }
+
+  Value value(std::uint32_t id, std::uint32_t from, int deep = 8) {
+    Value read;
+    for (const Record& each : file_.records(id, from)) {
+      const auto all = file_.parameters(each.list);
+      if (each.name.ends_with("REPRESENTATION_ITEM") && !all.empty() && all[0].is(Kind::Text)) read.name = trim(text_of(all[0]));
+      if (each.name == "QUALIFIED_REPRESENTATION_ITEM" && !all.empty()) {
+        for (const std::uint32_t qualifier : references(all[0])) {
+          if (auto word = text(qualifier, "TYPE_QUALIFIER", 0, id); !word.empty()) read.qualifier = std::move(word);
+        }
+      }
+      for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+        if (all[i].is(Kind::Typed) && all[i + 1].is(Kind::Reference)) measure(all[i], all[i + 1].id, id, deep, read);
+      }
+    }
+    return read;
+  }
+
+  void measure(const Parameter& typed, std::uint32_t unit, std::uint32_t id, int deep, Value& read) {
+    const std::string_view type = typed.text.substr(0, typed.text.find_first_of("( "));
+    const auto number = file_.parameters(typed.text);
+    if (!type.ends_with("LENGTH_MEASURE") || number.size() != 1) return;
+    std::string_view digits = number[0].text;
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    std::from_chars(digits.data(), digits.data() + digits.size(), read.number);
+    read.number *= millimetres(unit, id, deep);
+    const auto length = Length::nearest_mm(read.number);
+    if (!length || *length > kLongest || *length < -kLongest) {
+      return file_.fail(id, fmt::format("#{} is a length beyond 1000 km: export the file again", id));
+    }
+    read.length = *length;
+  }
+
+  /// Nominal value, limits and words of the representation. @returns why it cannot be used
+  std::string take_values(std::uint32_t id, Found& found, DrawnSize& size) {
+    std::optional<Length> upper;
+    std::optional<Length> lower;
+    for (const auto& [_, each] : links(Group::Value).of(id)) {
+      for (const Record& representation : file_.records(each, id)) {
+        const auto all = file_.parameters(representation.list);
+        const auto items = std::find_if(all.begin(), all.end(), [](const Parameter& p) { return p.is(Kind::List); });
+        if (items == all.end()) continue;
+        for (const std::uint32_t item : references(*items)) take_value(item, each, found, upper, lower, size);
+      }
+    }
+    if (!found.nominal && lower) {
+      found.nominal = lower;
+      size.remarks.emplace_back("the file has limits and no nominal size: it is the lower limit here");
+    }
+    if (!found.nominal) return found.is_angle ? "an angle is not gauged here" : "the file has no value of it: take it from the drawing";
+    if (upper) found.upper = *upper - *found.nominal;
+    if (lower) found.lower = *lower - *found.nominal;
+    return {};
+  }
+
+  void take_value(std::uint32_t id, std::uint32_t from, Found& found, std::optional<Length>& upper,
+                  std::optional<Length>& lower, DrawnSize& size) {
+    if (std::string words = text(id, "DESCRIPTIVE_REPRESENTATION_ITEM", 1, from); !words.empty()) {
+      size.modifiers.push_back(std::move(words));
+      return;
+    }
+    const Value read = value(id, from);
+    if (!read.length) {
+      found.is_angle = true;
+      return;
+    }
+    const bool is_limit = read.name == "upper limit" || read.name == "lower limit";
+    if (read.name == "upper limit" || read.qualifier == "maximum") upper = read.length;
+    if (read.name == "lower limit" || read.qualifier == "minimum") lower = read.length;
+    if (!is_limit) found.nominal = read.length;
+  }
+
+  /// Class or deviations of the tolerances. @returns why they cannot be used
+  std::string take_tolerances(std::uint32_t id, Found& found, DrawnSize& size) {
+    for (const auto& [_, each] : links(Group::Tolerance).of(id)) {
+      const auto fit = record(each, "LIMITS_AND_FITS", id);
+      if (fit.size() >= 3) {
+        std::string grade = text_of(fit[2]);
+        if (ascii_upper(grade).starts_with("IT")) grade.erase(0, 2);
+        found.class_name = std::string(trim(text_of(fit[0]))) + std::string(trim(grade));
+        found.zone = iso286::feature_from_word(ascii_lower(trim(text_of(fit[1]))));
+      }
+      const auto range = record(each, "TOLERANCE_VALUE", id);
+      if (range.size() != 2 || !range[0].is(Kind::Reference) || !range[1].is(Kind::Reference)) continue;
+      const auto low = value(range[0].id, each).length;
+      const auto high = value(range[1].id, each).length;
+      if (!low || !high) return "an angle is not gauged here";
+      const std::string both = fmt::format("lower deviation {} µm, upper deviation {} µm", signed_um(*low), signed_um(*high));
+      if (*low == *high) return both + ": the file lacks a sign or a tolerance";
+      if (*low > *high && *high > Length()) return both + ": the sign or the order is wrong in the file";
+      if (*low > *high) size.remarks.push_back(both + " in the file: the order is wrong there");
+      const Length upper = std::max(*low, *high);
+      const Length lower = std::min(*low, *high);
+      const bool contradicts = (found.upper && *found.upper != upper) || (found.lower && *found.lower != lower);
+      if (contradicts) return both + ": its limits say otherwise";
+      found.upper = upper;
+      found.lower = lower;
+    }
+    return {};
+  }
+
+  /// @returns why the class cannot be used
+  std::string take_class(const Found& found, DrawnSize& size) {
+    const auto nominal = iso286::NominalSize::make(size.nominal);
+    if (!nominal) return nominal.error().message;
+    const auto limits = tables_.limits_of_size(*nominal, found.class_name);
+    if (!limits) return limits.error().message;
+    const auto contradiction = [&](std::string_view other) {
+      return fmt::format("{} {} is {} {} µm of a {}, and {}: choose one from the drawing", format_mm(size.nominal),
+                         found.class_name, signed_um(limits->deviations.upper), signed_um(limits->deviations.lower),
+                         word(limits->feature), other);
+    };
+    const bool agrees = found.upper.value_or(limits->deviations.upper) == limits->deviations.upper &&
+                        found.lower.value_or(limits->deviations.lower) == limits->deviations.lower;
+    if (!agrees) {
+      return contradiction(fmt::format("the limits of the file are {} {} µm", found.upper ? signed_um(*found.upper) : "none",
+                                       found.lower ? signed_um(*found.lower) : "none"));
+    }
+    if (found.zone && *found.zone != limits->feature) return contradiction(fmt::format("the file calls it a {}", word(*found.zone)));
+    if (size.feature && *size.feature != limits->feature) return contradiction(fmt::format("its faces are those of a {}", word(*size.feature)));
+    size.feature = limits->feature;
+    size.tolerance_class = found.class_name;
+    return {};
+  }
+
+  std::string take_size(std::uint32_t id, const Entity& entity, DrawnSize& size) {
+    if (entity.group == Group::Angle) return "an angle is not gauged here";
+    size.quantity = Quantity::Distance;
+    if (entity.group == Group::Size) {
+      const auto own = record(id, entity.name == "DIMENSIONAL_SIZE_WITH_PATH" ? entity.name : "DIMENSIONAL_SIZE");
+      const std::string name = own.size() > 1 ? ascii_lower(text_of(own[1])) : std::string();
+      for (const auto& [part, quantity] : kQuantities) {
+        if (name.find(part) == std::string::npos) continue;
+        size.quantity = quantity;
+        break;
+      }
+      if (!own.empty() && own[0].is(Kind::Reference)) {
+        const Shape shape = shape_of(file_, faces_of(own[0].id));
+        size.count = shape.count;
+        if (gauging::has_feature(size.quantity)) size.feature = shape.feature;
+      }
+    }
+    Found found;
+    if (std::string why = take_values(id, found, size); !why.empty()) return why;
+    size.nominal = *found.nominal;
+    if (std::string why = take_tolerances(id, found, size); !why.empty()) return why;
+    for (const std::string_view word : {"theoretical", "auxiliary", "basic", "reference"}) {
+      if (std::find(size.modifiers.begin(), size.modifiers.end(), word) != size.modifiers.end()) {
+        return fmt::format("{} mm is {}: it has no limits", format_mm(size.nominal), word);
+      }
+    }
+    if (!found.has_limits()) {
+      return fmt::format("{} mm has no limits in the file: add those of the drawing's general tolerances", format_mm(size.nominal));
+    }
+    if (!found.class_name.empty()) return take_class(found, size);
+    size.upper = found.upper;
+    size.lower = found.lower;
+    // Without faces a width is a distance: outside of its limits a part is a reject.
+    if (size.quantity == Quantity::Width && !size.feature) size.quantity = Quantity::Distance;
+    if (gauging::has_feature(size.quantity) && !size.feature) {
+      return fmt::format("{} mm, {} {} µm: its faces do not show a hole or a shaft, add it with its feature", format_mm(size.nominal),
+                         size.upper ? signed_um(*size.upper) : "none", size.lower ? signed_um(*size.lower) : "none");
+    }
+    return {};
+  }
+
+  void dimension(std::uint32_t id, const Entity& entity) {
+    DrawnSize size;
+    size.entity = fmt::format("#{}", id);
+    const std::string why = take_size(id, entity, size);
+    if (to_.sizes.size() == kMostListed) file_.fail(id, "more than 20000 sizes: export fewer parts");
+    if (!why.empty()) return refuse(id, name_of(id, entity.name), why);
+    std::string name = callout_of(id);
+    if (name.empty()) name = fmt::format("{} {}", word(size.quantity), format_mm(size.nominal));
+    size.name = unique(std::move(name));
+    to_.sizes.push_back(std::move(size));
+  }
+
+  static constexpr std::size_t kMostLinks = std::size_t{2} << 20;
+  static constexpr std::size_t kMostListed = 20'000;
+
+  const Part21& file_;
+  const iso286::ToleranceTables& tables_;
+  Drawing& to_;
+  std::size_t link_count_ = 0;
+  std::array<Links, kEntities.size()> links_;
+  std::map<std::uint32_t, double> units_;
+  std::map<std::string, int> names_;
+  std::set<std::uint32_t> seen_;
+};
+
+}  // namespace
+
+Result<Drawing> read_drawing(std::string_view text, const iso286::ToleranceTables& tables, std::size_t most_instances) {
+  const auto file = Part21::read(text, kNames, most_instances);
+  if (!file) return file.error();
+  Drawing drawing;
+  Walker(*file, tables, drawing).walk();
+  if (file->error()) return *file->error();
+  drawing.digest = to_hex(sha256(text));
+  return drawing;
+}
+
+}  // namespace fitgauge::step

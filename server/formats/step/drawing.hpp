@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/json/body_forms.hpp"
+#include "formats/step/part21.hpp"
+#include "metrology/gauging/quantity.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
+
+// The sizes of a drawing: what a STEP file with product manufacturing information (AP242, AP203,
+// AP214) says of dimensions and their limits, and what of it is not gauged here.
+
+namespace fitgauge::step {
+
+/// A size that a characteristic of a plan is made of: with a class or with deviations.
+struct DrawnSize {
+  std::string name{};  ///< of its callout, else of what it is; unique in the drawing
+  Length nominal{};
+  std::optional<std::string> tolerance_class{};
+  std::optional<Length> upper{};
+  std::optional<Length> lower{};
+  std::optional<iso286::Feature> feature{};
+  gauging::Quantity quantity = gauging::Quantity::Diameter;
+  std::int64_t count = 1;
+  std::string entity{};  ///< `#120`
+  std::vector<std::string> modifiers{};
+  std::vector<std::string> remarks{};
+};
+
+/// What stands in the file and is not gauged here, or cannot be as it stands.
+struct NotRead {
+  std::string entity{};
+  std::string name{};
+  std::string why{};
+};
+
+struct Drawing {
+  std::string part{};    ///< the number of the one product; empty if there are several
+  std::string digest{};  ///< SHA-256 of the file in hexadecimal
+  std::vector<DrawnSize> sizes{};
+  std::vector<NotRead> not_read{};
+};
+
+void members(auto& v, const DrawnSize& size) {
+  v.member("name", size.name, "Of its callout, else of what it is; unique in the drawing");
+  v.member("nominal_mm", size.nominal, api::Millimetres{}, "");
+  v.optional("tolerance_class", size.tolerance_class, "With it there are no deviations");
+  v.optional("upper_um", size.upper, api::Micrometres{}, "Upper deviation");
+  v.optional("lower_um", size.lower, api::Micrometres{}, "Lower deviation");
+  v.optional("feature", size.feature, api::Words{iso286::Feature::Shaft}, "As the faces show; of a diameter or width");
+  v.member("quantity", size.quantity, api::Words{gauging::Quantity::Deviation}, "What is measured");
+  v.member("count", size.count, api::Integer{.least = 1}, "Of axes that have it: 4 of 4X");
+  v.member("entity", size.entity, "Its instance in the file: #120");
+  v.member("modifiers", size.modifiers, api::List<std::string, api::Text>{}, "In the words of the file");
+  v.member("remarks", size.remarks, api::List<std::string, api::Text>{}, "What to look at before it is used");
+}
+void members(auto& v, const NotRead& other) {
+  v.member("entity", other.entity, "Its instance in the file");
+  v.member("name", other.name, "Of its callout, else of its entity");
+  v.member("why", other.why, "And what to do");
+}
+void members(auto& v, const Drawing& drawing) {
+  v.member("part", drawing.part, "The number of the product; empty if there are several");
+  v.member("digest", drawing.digest, "SHA-256 of the file, in hexadecimal");
+  v.member("sizes", drawing.sizes, "Which a plan can have as they are");
+  v.member("not_read", drawing.not_read, "Tolerances of form and place, notes, and sizes that lack something");
+}
+
+/// @param text a whole file; lengths are converted to mm and rounded to the nearest nanometre
+/// @param tables of the classes that the file names
+/// @errors DrawingMalformed with the line: the file is none, is cut, or contradicts itself.
+Result<Drawing> read_drawing(std::string_view text, const iso286::ToleranceTables& tables,
+                             std::size_t most_instances = Part21::kMostInstances);
+
+}  // namespace fitgauge::step

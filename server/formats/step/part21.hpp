@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+
+// A STEP file as text: ISO 10303-21, editions 2 and 3, read strictly and in one pass. What stands
+// in memory is eight bytes an instance; an instance is read again from the text when it is asked
+// for.
+
+namespace fitgauge::step {
+
+/// A parameter of a record, as views of the text.
+struct Parameter {
+  enum class Kind : std::uint8_t { Absent, Number, Text, Word, Reference, List, Typed, Binary };
+  Kind kind = Kind::Absent;  ///< of `$` and `*`
+  std::string_view text{};   ///< as written: `'a''b'`, `.T.`, `(#1,#2)`, `LENGTH_MEASURE(35.)`
+  std::uint32_t id = 0;      ///< of a reference
+
+  bool is(Kind other) const { return kind == other; }
+};
+
+/// `NAME(…)`: a record of an instance or a typed parameter.
+struct Record {
+  std::string_view name;
+  std::string_view list;  ///< its parameters with their parentheses
+};
+
+/// The text of a string parameter as UTF-8, without its controls; empty for another parameter.
+std::string text_of(const Parameter& parameter);
+
+/// Reads what is known to be well-formed, since Part21::read has seen it. Refers to the text, which
+/// outlives it. After the first failure every reading is empty and error() says which. One thread.
+class Part21 {
+ public:
+  static constexpr std::size_t kMostInstances = std::size_t{8} << 20;
+  static constexpr std::size_t kLongestText = std::size_t{1} << 20;  ///< of a string, in bytes
+  static constexpr int kDeepest = 32;                                ///< lists within lists
+  static constexpr std::size_t kMostItems = std::size_t{1} << 16;    ///< of a list that is read
+
+  /// @param names of the records that of_name() gives
+  /// @errors DrawingMalformed with the line, what is wrong there and what to do.
+  static Result<Part21> read(std::string_view text, std::span<const std::string_view> names,
+                             std::size_t most_instances = kMostInstances);
+
+  /// The instances with a record of that name, in the order of the file.
+  std::span<const std::uint32_t> of_name(std::size_t name) const { return by_name_[name]; }
+
+  /// One record, or those of a complex instance. A missing instance is a failure at `from`.
+  std::vector<Record> records(std::uint32_t id, std::uint32_t from) const;
+  /// The parameters of a list; of a typed parameter the one in it.
+  std::vector<Parameter> parameters(std::string_view list) const;
+
+  /// Fails at the instance; the first failure stays.
+  void fail(std::uint32_t id, std::string message) const;
+  const std::optional<Error>& error() const { return error_; }
+
+ private:
+  struct Instance {
+    std::uint32_t id;
+    std::uint32_t at;  ///< of what stands behind the `=`
+  };
+  friend class Part21Scanner;
+
+  Part21() = default;
+  const Instance* find(std::uint32_t id) const;
+  bool walk(std::string_view text) const;
+
+  std::string_view text_;
+  std::deque<Instance> instances_;  // by id; grows without a second copy
+  std::vector<std::vector<std::uint32_t>> by_name_;
+  mutable std::size_t walked_ = 0;  ///< bytes read again
+  mutable std::optional<Error> error_;
+};
+
+}  // namespace fitgauge::step

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "base/text.hpp"
+#include "formats/step/part21.hpp"
+
+namespace fitgauge::step {
+
+/// An error at a place of the text, with its line.
+inline Error error_at(std::string_view text, std::size_t at, std::string_view message) {
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  return {ErrorCode::DrawingMalformed, fmt::format("line {}: {}", line, message),
+          fmt::format("line {}", line)};
+}
+
+/// The tokens of a text, each checked as it is passed.
+class Lexer {
+ public:
+  explicit Lexer(std::string_view text) : text_(text) {}
+
+  std::size_t at() const { return at_; }
+  void go_to(std::size_t at) { at_ = at; }
+  std::string_view from(std::size_t begin) const { return text_.substr(begin, at_ - begin); }
+  char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  bool is_at_end() const { return at_ >= text_.size(); }
+
+  /// Passes white space and comments.
+  void skip();
+  /// Passes the character and what is white behind it.
+  bool take(char c) {
+    if (peek() != c || is_at_end()) return false;
+    ++at_;
+    skip();
+    return true;
+  }
+  /// `ADVANCED_FACE`, `!OWN`, `END-ISO-10303-21`; empty where none stands.
+  std::string_view keyword();
+  /// Any parameter, with what stands in it. @param deep how many lists may still be opened
+  bool parameter(Parameter& to, int deep);
+  /// `(…)`; @param each gets every parameter
+  template <class Each>
+  bool list(int deep, const Each& each);
+  bool list(int deep) {
+    return list(deep, [](const Parameter&) { return true; });
+  }
+
+  bool fail(std::string_view message);
+  const std::optional<Error>& error() const { return error_; }
+
+ private:
+  bool text();
+  bool number();
+  bool between(char delimiter, bool (*is_allowed)(char), std::string_view what);
+  bool reference(Parameter& to);
+  std::size_t digits();
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::optional<Error> error_;
+};
+
+template <class Each>
+bool Lexer::list(int deep, const Each& each) {
+  if (deep == 0) return fail("lists stand more than 32 deep");
+  if (!take('(')) return fail("( expected");
+  if (take(')')) return true;
+  for (;;) {
+    Parameter item;
+    if (!parameter(item, deep - 1) || !each(item)) return false;
+    if (take(')')) return true;
+    if (!take(',')) return fail(", or ) expected");
+  }
+}
+
+}  // namespace fitgauge::step

@@ -1,0 +1,208 @@
+#include "formats/step/drawing.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "formats/step/plan.hpp"
+
+namespace fitgauge::step {
+namespace {
+
+const iso286::ToleranceTables& tables() {
+  static const auto made = iso286::ToleranceTables::make(iso286::compiled_in_tables(), {"1"});
+  return *made;
+}
+
+/// The corpus of the fuzz target has a drawing with sizes in every form.
+const std::string& housing() {
+  static const std::string text = [] {
+    std::ifstream in(FITGAUGE_SOURCE_DIR "/tests/fuzz/corpus/step/housing.stp");
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  }();
+  return text;
+}
+
+std::string replaced(std::string text, std::string_view what, std::string_view by) {
+  const std::size_t at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, what.size(), by);
+}
+
+/// A file with nothing but these instances.
+std::string with_data(std::string_view data) {
+  return fmt::format("ISO-10303-21;HEADER;FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));ENDSEC;\nDATA;\n{}ENDSEC;END-ISO-10303-21;", data);
+}
+
+std::string error_of(std::string_view text, std::size_t most = Part21::kMostInstances) {
+  const auto read = read_drawing(text, tables(), most);
+  if (read) return {};
+  CHECK(read.error().code == ErrorCode::DrawingMalformed);
+  return read.error().message;
+}
+
+std::string limits_of(const DrawnSize& size) {
+  std::string text = format_mm(size.nominal);
+  if (size.tolerance_class) text += " " + *size.tolerance_class;
+  if (size.upper) text += " " + format_um(*size.upper);
+  if (size.lower) text += " " + format_um(*size.lower);
+  return fmt::format("{} {} {}", text, word(size.quantity), size.feature ? word(*size.feature) : "-");
+}
+
+}  // namespace
+
+TEST_CASE("sizes of a drawing are read in every form that writers have") {
+  const auto drawing = read_drawing(housing(), tables());
+  REQUIRE(drawing.has_value());
+  CHECK(drawing->part == "4711-A");
+  CHECK(drawing->digest.size() == 64);
+  REQUIRE(drawing->sizes.size() == 5);
+  const auto& sizes = drawing->sizes;
+  CHECK(sizes[0].name == "Bore Ø A");
+  CHECK(limits_of(sizes[0]) == "25 H7 diameter hole");
+  CHECK(sizes[0].count == 2);
+  CHECK(sizes[0].modifiers == std::vector<std::string>{"envelope requirement"});
+  CHECK(limits_of(sizes[1]) == "25 g6 diameter shaft");
+  CHECK(limits_of(sizes[2]) == "8 0 -36 width hole");
+  CHECK(sizes[2].remarks.size() == 1);  // the order of its deviations
+  CHECK(limits_of(sizes[3]) == "8.001 -20 -50 width shaft");
+  CHECK(limits_of(sizes[4]) == "40 100 -100 distance -");
+  CHECK(sizes[4].name == "distance 40");
+}
+
+TEST_CASE("what is not gauged is listed with its name and why") {
+  const auto drawing = read_drawing(housing(), tables());
+  REQUIRE(drawing.has_value());
+  const auto why = [&](std::string_view entity) {
+    for (const NotRead& other : drawing->not_read) {
+      if (other.entity == entity) return other.name + ": " + other.why;
+    }
+    return std::string();
+  };
+  CHECK(drawing->not_read.size() == 8);
+  CHECK(why("#180").find("lacks a sign") != std::string::npos);
+  CHECK(why("#185").find("theoretical") != std::string::npos);
+  CHECK(why("#191").find("25 H7 is +21 0 µm of a hole, and the limits of the file are +25 0 µm") != std::string::npos);
+  CHECK(why("#203").find("do not show a hole or a shaft") != std::string::npos);
+  CHECK(why("#190") == "angle: an angle is not gauged here");
+  CHECK(why("#200") == "Position.1: a position of a feature is not gauged here");
+  CHECK(why("#201") == "Flatness.1: a flatness is not gauged here");
+  CHECK(why("#202") == "Note.1: a note, a datum or another text is not gauged here");
+}
+
+TEST_CASE("signs and orders of deviations are read or named, never guessed") {
+  const auto slot = [](std::string_view lower, std::string_view upper) {
+    std::string text = replaced(housing(), "#139=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(0.)",
+                                fmt::format("#139=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({})", lower));
+    text = replaced(std::move(text), "#140=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(-0.036)",
+                    fmt::format("#140=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({})", upper));
+    const auto drawing = read_drawing(text, tables());
+    REQUIRE(drawing.has_value());
+    for (const DrawnSize& size : drawing->sizes) {
+      if (size.entity == "#130") return limits_of(size) + (size.remarks.empty() ? "" : " !");
+    }
+    return std::string("not read");
+  };
+  CHECK(slot("-0.036", "0.") == "8 0 -36 width hole");
+  CHECK(slot("0.", "-0.036") == "8 0 -36 width hole !");
+  CHECK(slot("0.1", "-0.2") == "8 100 -200 width hole !");
+  CHECK(slot("+1.E-1", "2.E-1") == "8 200 100 width hole");
+  CHECK(slot("0.2", "0.1") == "not read");
+  CHECK(slot("0.1", "0.1") == "not read");
+  CHECK(slot("0.", "0.") == "not read");
+}
+
+TEST_CASE("a file that is cut anywhere is an error with its line") {
+  const std::string& whole = housing();
+  REQUIRE(error_of(whole).empty());
+  for (std::size_t size = 0; size < whole.rfind(';'); ++size) {
+    const std::string error = error_of(std::string_view(whole).substr(0, size));
+    REQUIRE_MESSAGE(error.starts_with("line "), size);
+  }
+}
+
+TEST_CASE("what a file may not have is an error with its line") {
+  CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(0.),#5", "LENGTH_MEASURE(0.),#9")).find(
+            "#139 has the unit #9, which is no length") != std::string::npos);
+  CHECK(error_of(replaced(housing(), "#7=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#5)",
+                          "#7=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#6)")).starts_with("line "));
+  CHECK(error_of(replaced(housing(), "(#125),$);\n#125", "(#999),$);\n#125")).find("refers to #999, which is missing") !=
+        std::string::npos);
+  CHECK(error_of(replaced(housing(), "#103=", "#102=")).find("#102 stands twice") != std::string::npos);
+  CHECK(error_of(replaced(housing(), "AP242_", "IFC4_")).find("line 6: FILE_SCHEMA is not") != std::string::npos);
+  CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(8.)", "LENGTH_MEASURE(8.E30)")).find("1000 km") != std::string::npos);
+  CHECK(error_of(housing() + "more").starts_with("line "));
+  for (const std::string_view bad : {"#1=A(1E5);\n", "#1=A(,);\n", "#1=A('x);\n", "#1=A(.T);\n", "#1=A(B());\n", "#1=a();\n",
+                                     "#4294967296=A();\n", "#1=A() B();\n", "#=A();\n", "1=A();\n", "#1=A(/*);\n", "#1=();\n"}) {
+    CHECK_MESSAGE(error_of(with_data(bad)).starts_with("line "), bad);
+  }
+  CHECK(error_of(with_data(fmt::format("#1=A{:(>40}1{:)>40};\n", "", ""))).find("32 deep") != std::string::npos);
+  CHECK(error_of(with_data(fmt::format("#1=A('{:x>1048577}');\n", ""))).find("1048576 bytes") != std::string::npos);
+}
+
+TEST_CASE("aspects that refer to each other in a ring end") {
+  const std::string ring = replaced(housing(), "#104=SHAPE_ASPECT_RELATIONSHIP('',$,#101,#102);",
+                                    "#104=SHAPE_ASPECT_RELATIONSHIP('',$,#101,#102);#98=SHAPE_ASPECT_RELATIONSHIP('',$,#102,#101);");
+  const auto drawing = read_drawing(ring, tables());
+  REQUIRE(drawing.has_value());
+  CHECK(drawing->sizes.size() == 5);
+}
+
+TEST_CASE("a million instances are read, one more than the bound is an error") {
+  std::string data;
+  for (int i = 1; i <= 1'000'000; ++i) data += fmt::format("#{}=A(#{});\n", i, i % 1'000'000 + 1);
+  CHECK(error_of(with_data(data)).empty());
+  CHECK(error_of(with_data(data), 999'999).starts_with("line 1000002: more than 999999 instances"));
+}
+
+TEST_CASE("edition 3 and texts in every coding are read") {
+  std::string text = replaced(housing(), "DATA;\n", "ANCHOR;\n<a>=#100{tag:'x'};ENDSEC;REFERENCE;#900=<b.stp#c>;ENDSEC;DATA('',('A'));\n");
+  text += "SIGNATURE;\nTWlJ;ENDSEC;";
+  CHECK(error_of(text).empty());
+  const auto name = [](std::string_view written) {
+    const auto drawing = read_drawing(replaced(housing(), R"(Bore \X2\00D8\X0\ A)", written), tables());
+    REQUIRE(drawing.has_value());
+    return drawing->sizes[0].name;
+  };
+  CHECK(name("It''s") == "It's");
+  CHECK(name(R"(\X2\D83DDE00\X0\\X4\0001F600\X0\)") == "😀😀");
+  CHECK(name(R"(a\X\D8b\S\Xc\PA\d\\)") == "aØbØcd\\");
+  CHECK(name("\xD8 latin") == "Ø latin");
+  CHECK(name("Ø utf-8") == "Ø utf-8");
+  CHECK(name(R"(\X2\D83D)") == "diameter 25");
+}
+
+TEST_CASE("a plan keeps what people gave its characteristics and says what a new drawing changed") {
+  const auto drawing = read_drawing(housing(), tables());
+  REQUIRE(drawing.has_value());
+  const auto first = plan_of(*drawing, "4711-A", nullptr);
+  REQUIRE(first.has_value());
+  CHECK(first->added.size() == 5);
+  const auto before = parse_json(R"({"part":"4711-A","name":"Housing","characteristics":[
+    {"name":"Bore Ø A","nominal_mm":25,"tolerance_class":"H8","gauge":"G-07","entity":"#9"},
+    {"name":"slot of old","nominal_mm":8,"upper_um":1,"lower_um":0,"feature":"hole","entity":"#10"},
+    {"name":"by hand","designation":"30 k6"}]})");
+  REQUIRE(before.has_value());
+  const auto next = plan_of(*drawing, "4711-A", &*before);
+  REQUIRE(next.has_value());
+  CHECK(next->added.size() == 4);
+  CHECK(next->gone == std::vector<std::string>{"slot of old"});
+  REQUIRE(next->changed.size() == 1);
+  CHECK(next->changed[0].before == "nominal_mm 25, tolerance_class H8");
+  CHECK(next->changed[0].after == "designation 25 H7 (E)");
+  const auto plan = parse_json(next->text);
+  REQUIRE(plan.has_value());
+  CHECK(plan->text_of("name") == "Housing");
+  CHECK(plan->member("drawing").text_of("digest") == drawing->digest);
+  const auto& all = plan->member("characteristics").items;
+  REQUIRE(all.size() == 6);
+  CHECK(all[0].text_of("gauge") == "G-07");
+  CHECK(all[0].text_of("entity") == "#100");
+  CHECK(all[5].text_of("name") == "by hand");
+  CHECK(plan_of(Drawing{}, "x", nullptr).error().code == ErrorCode::DrawingNoSizes);
+}
+
+}  // namespace fitgauge::step
