@@ -31,6 +31,14 @@ class ServiceCalls(Transport):
         """Stores a plan; True when it is new."""
         return self._put(path_of("plans", part), dumps(plan).encode(), "application/json").status == 201
 
+    def plan_from_drawing(self, part: str, drawing: bytes) -> dict[str, Any]:
+        """Makes a plan of a STEP file: what was `added`, `gone` and `changed`, and what was `not_read`."""
+        return loads(self._put(path_of("plans", part), drawing, "model/step").body)
+
+    def read_drawing(self, drawing: bytes) -> dict[str, Any]:
+        """The `sizes` of a STEP file, and what was `not_read`; nothing is stored."""
+        return loads(self._perform(Request("POST", "/v1/drawings", drawing, {"Content-Type": "model/step"})).body)
+
     def delete_plan(self, part: str) -> None:
         self._perform(Request("DELETE", path_of("plans", part)))
 

@@ -36,7 +36,7 @@ export function ownLimits(one) {
   if (upper === undefined && lower === undefined) return null;
   const nominal = nmFromMm(one.nominal_mm);
   return {
-    nominal_mm: one.nominal_mm, feature: one.feature, basis: 'explicit',
+    nominal_mm: one.nominal_mm, feature: one.feature, ...(one.quantity && { quantity: one.quantity }), basis: 'explicit',
     ...(upper !== undefined && { upper_deviation_um: one.upper_um, upper_limit_mm: mmText(nominal + upper, 0) }),
     ...(lower !== undefined && { lower_deviation_um: one.lower_um, lower_limit_mm: mmText(nominal + lower, 0) }),
     ...(upper !== undefined && lower !== undefined && { tolerance_um: umText(upper - lower) }),

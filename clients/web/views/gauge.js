@@ -168,7 +168,7 @@ export function mount(main, route) {
     const given = FIELDS.map((name) => [name, job.fields.of(name)]).filter(([, value]) => value);
     const exact = (value) => (value === undefined ? undefined : new Decimal(String(value)));
     const limits = own ? {
-      nominal_mm: exact(own.nominal_mm), feature: own.feature, upper_um: exact(own.upper_deviation_um), lower_um: exact(own.lower_deviation_um),
+      nominal_mm: exact(own.nominal_mm), feature: own.feature, ...(own.quantity && { quantity: own.quantity }), upper_um: exact(own.upper_deviation_um), lower_um: exact(own.lower_deviation_um),
     } : { designation, feature };
     return { ...limits, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...(subgroup && { subgroup }), ...job.rule.body };
   }

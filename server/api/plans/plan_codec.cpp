@@ -16,11 +16,13 @@ namespace {
 constexpr std::size_t kLongestText = 200;
 constexpr std::size_t kLongestReaction = 2000;
 constexpr std::int64_t kLargestSubgroup = 25;
+constexpr std::int64_t kMostAlike = 10'000;
+constexpr std::size_t kLongestEntity = 32;
 
 /// What a measurement of the characteristic gets as it stands here.
-constexpr std::array<std::string_view, 10> kMeasurementFields = {
-    "designation", "nominal_mm", "tolerance_class", "feature",         "upper_um",
-    "lower_um",    "gauge",      "uncertainty_um",  "coverage_factor", "rule"};
+constexpr std::array<std::string_view, 11> kMeasurementFields = {
+    "designation", "nominal_mm", "tolerance_class", "feature",         "upper_um", "lower_um",
+    "quantity",    "gauge",      "uncertainty_um",  "coverage_factor", "rule"};
 
 void check_length(FieldReader& reader, std::string_view name,
                   const std::optional<std::string>& text, std::size_t longest) {
@@ -46,6 +48,8 @@ void read_own_fields(FieldReader& reader, std::set<std::string>& names) {
   read_text(reader, "picture", kLongestText);
   read_text(reader, "reaction", kLongestReaction);
   read_text(reader, "catalogue", kLongestText);
+  reader.integer_or("count", 1, 1, kMostAlike);
+  read_text(reader, "entity", kLongestEntity);
 }
 
 /// Judges some value as a measurement of the characteristic would be.
@@ -112,6 +116,14 @@ Result<std::string> read_plan(const JsonValue& body, std::string_view part,
       plan.report(ErrorCode::FieldConflict, "part", "the path names another part number");
     }
     read_text(plan, "name", kLongestText);
+    if (plan.has("drawing")) {
+      if (const JsonValue* drawing = plan.object("drawing")) {
+        FieldReader fields(*drawing, "/drawing", errors);
+        check_length(fields, "digest", fields.text("digest"), 64);
+        read_text(fields, "part", kLongestText);
+        fields.refuse_unknown();
+      }
+    }
     if (const JsonValue* list = plan.array("characteristics")) {
       read_characteristics(*list, context, plan, errors);
     }

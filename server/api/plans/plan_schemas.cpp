@@ -1,5 +1,6 @@
 #include "api/plans/plan_codec.hpp"
 #include "api/schemas.hpp"
+#include "formats/step/plan.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -21,6 +22,9 @@ Fields characteristic_fields() {
              {"feature", feature_words(), "Of a drawing's own limits"},
              {"upper_um", schema::exact(), "Upper deviation of a drawing's own limits"},
              {"lower_um", schema::exact(), "Lower deviation of a drawing's own limits"},
+             {"quantity", quantity_words(), "What is measured; a diameter when absent"},
+             {"count", schema::integer(1, 10000), "Of features that have this size: 4 of 4X"},
+             {"entity", schema::text(32), "The dimension of the drawing that it came from: #120"},
              {"gauge", schema::text(200), "What it is measured with"},
              {"rule", rule_words(), "Decision rule; simple when absent"},
              {"uncertainty_um", schema::exact(),
@@ -39,7 +43,14 @@ Fields characteristic_fields() {
 }  // namespace
 
 void add_plan_schemas(Schemas& schemas) {
-  const Fields name = {{"name", schema::text(200), "Of the part", false}};
+  schemas.push_back(answer_schema<step::Drawing>("Drawing"));
+  schemas.push_back(answer_schema<step::DrawnPlan>("DrawnPlan"));
+  const Fields name = {
+      {"name", schema::text(200), "Of the part", false},
+      {"drawing",
+       schema::object({{"digest", schema::text(64), "SHA-256 of its file"}, {"part", schema::text(200), "Its product", false}},
+                      Others::Refused),
+       "The STEP file that characteristics with an entity came from", false}};
   const Fields characteristics = {
       {"characteristics",
        schema::array(schema::object(characteristic_fields(), Others::Refused), 1,

@@ -1,15 +1,27 @@
 #include "api/resources.hpp"
 
+#include "api/handlers.hpp"
 #include "api/plans/plan_codec.hpp"
 #include "api/service/document_routes.hpp"
+#include "formats/step/plan.hpp"
+#include "service/jobs.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::api {
 namespace {
 
+constexpr std::size_t kLongestJson = std::size_t{1} << 20;
+constexpr std::size_t kLongestDrawing = std::size_t{64} << 20;
+/// Of a drawing over HTTP: eight bytes each.
+constexpr std::size_t kMostInstances = std::size_t{2} << 20;
+constexpr std::string_view kStep = "model/step";
+
 Result<CheckedDocument> check_plan(const Services& services, const std::string& part,
                                    std::string_view text) {
+  if (text.size() > kLongestJson) {
+    return Error{ErrorCode::BodyTooLarge, "A plan as JSON may have 1048576 bytes; a drawing is model/step"};
+  }
   const auto body = parse_json(text);
   if (!body) return body.error();
   const auto tables = services.tables.tables();
@@ -20,6 +32,42 @@ Result<CheckedDocument> check_plan(const Services& services, const std::string& 
                 {.tables = **tables, .received_at = services.clock.now(), .gauges = gauges.get()});
   if (!plan) return plan.error();
   return CheckedDocument{.text = *std::move(plan)};
+}
+
+Result<step::Drawing> drawing_of(const Services& services, std::string_view text) {
+  const auto tables = services.tables.tables();
+  if (!tables) return tables.error();
+  return step::read_drawing(text, **tables, kMostInstances);
+}
+
+/// The plan of a drawing, with what people gave the characteristics of the plan before.
+Result<CheckedDocument> check_drawn(const Services& services, const std::string& part, std::string_view text) {
+  const auto drawing = drawing_of(services, text);
+  if (!drawing) return drawing.error();
+  const auto stored = services.documents.wait_for(app::DocumentKind::Plan, part);
+  if (!stored && stored.error().code != ErrorCode::PlanUnknown) return stored.error();
+  std::optional<JsonValue> before;
+  if (stored) {
+    auto read = parse_stored_json(stored->text, "plan");
+    if (!read) return read.error();
+    before = *std::move(read);
+  }
+  const auto plan = step::plan_of(*drawing, part, before ? &*before : nullptr);
+  if (!plan) return plan.error();
+  auto checked = check_plan(services, part, plan->text);
+  if (!checked) return checked.error();
+  checked->answer = body_json(*plan);
+  checked->before = stored ? stored->text : std::string();
+  return checked;
+}
+
+void read_drawing(const Services& services, const http::Request& request, http::Responder responder) {
+  services.jobs.figures.run(
+      [&services, &request]() -> Result<http::Response> {
+        const auto drawing = drawing_of(services, request.body());
+        return json_response(drawing ? Result<std::string>(body_json(*drawing)) : drawing.error());
+      },
+      answer_by(share(std::move(responder))));
 }
 
 Result<void> describe_plan(JsonWriter& json, const app::NamedDocument& plan) {
@@ -44,13 +92,34 @@ constexpr KindOfDocument kPlans{.kind = app::DocumentKind::Plan,
                                 .schema = "Plan",
                                 .body_schema = "PlanOrder",
                                 .list_schema = "Plans",
+                                .answered = "DrawnPlan",
                                 .describe = describe_plan,
-                                .check = check_plan};
+                                .check = check_plan,
+                                .other_type = kStep,
+                                .longest_other = kLongestDrawing,
+                                .check_other = check_drawn};
 
 }  // namespace
 
 void add_plans_routes(std::vector<http::Route>& routes, const Services& services) {
   add_document_routes(routes, services, kPlans);
+  routes.push_back({
+      .method = http::Method::Post,
+      .pattern = "/v1/drawings",
+      .handler = with(services, read_drawing),
+      .summary = "Read the sizes of a STEP drawing",
+      .description = "AP242, AP203 or AP214 with product manufacturing information. Nothing is stored: PUT the file to "
+                     "/v1/plans/{part} to make a plan of it.",
+      .body = {.use = http::BodyUse::Required,
+               .media_types = {std::string(kStep)},
+               .limit = kLongestDrawing,
+               .when_too_large = "`fitgauge plan from FILE` reads larger drawings"},
+      .access = "viewer",
+      .operation = "readDrawing",
+      .tag = "plans",
+      .outcomes = {{.meaning = "What was read, and what was not", .schema = "Drawing"}},
+      .refusals = {422},
+  });
 }
 
 }  // namespace fitgauge::api

@@ -69,12 +69,19 @@ void answer_change(const Services& services, const KindOfDocument& kind,
 void write(const Services& services, const KindOfDocument& kind, std::string name,
            CheckedDocument checked, const http::Request& request, const SharedResponder& shared) {
   std::string tag = etag_of_text(checked.text);
+  auto precondition = text_precondition_of(request);
+  if (checked.before) {
+    precondition = [given = std::move(precondition),
+                    before = *std::move(checked.before)](std::optional<std::string_view> text) {
+      return text.value_or("") == before && (!given || given(text));
+    };
+  }
   services.documents.write({.kind = kind.kind,
                             .name = std::move(name),
                             .text = std::move(checked.text),
                             .caller = caller_text(request),
                             .uncertainty = std::move(checked.uncertainty),
-                            .precondition = text_precondition_of(request)},
+                            .precondition = std::move(precondition)},
                            [&services, &kind, shared, tag = std::move(tag),
                             answer = std::move(checked.answer)](Result<bool> created) {
                              if (!created) return shared->fail(at_budget(created.error()));
@@ -87,9 +94,10 @@ void put(const Services& services, const KindOfDocument& kind, const http::Reque
   auto name = name_to_write(kind, request);
   if (!name) return responder.fail(name.error());
   const SharedResponder shared = share(std::move(responder));
-  JobPool& pool = kind.is_figure ? services.jobs.figures : services.jobs.orders;
-  pool.run([&services, &kind, &request,
-            name = *name] { return kind.check(services, name, request.body()); },
+  const bool is_other = !kind.other_type.empty() && request.media_type() == kind.other_type;
+  JobPool& pool = kind.is_figure || is_other ? services.jobs.figures : services.jobs.orders;
+  pool.run([&services, &request, check = is_other ? kind.check_other : kind.check,
+            name = *name] { return check(services, name, request.body()); },
            [&services, &kind, &request, name = *name, shared](Result<CheckedDocument> checked) {
              if (!checked) return shared->fail(checked.error());
              write(services, kind, name, *std::move(checked), request, shared);
@@ -219,6 +227,10 @@ void add_document_routes(std::vector<http::Route>& routes, const Services& servi
                    {.status = 201, .meaning = "It is new", .schema = answered}},
       .refusals = {412},
   });
+  if (!kind.other_type.empty()) {
+    routes.back().body.media_types.emplace_back(kind.other_type);
+    routes.back().body.limit = kind.longest_other;
+  }
   add_precondition_parameters(routes.back().parameters);
   routes.push_back({
       .method = http::Method::Delete,

@@ -22,6 +22,7 @@ struct CheckedDocument {
   std::string text{};                        ///< what is kept, and what a GET answers
   std::string answer{};                      ///< to its PUT; empty: nothing
   std::optional<std::string> uncertainty{};  ///< a budget that must be there
+  std::optional<std::string> before{};       ///< the text it was made from; another refuses it
 };
 
 /// Writes what a list says of a document, but for its time.
@@ -50,8 +51,13 @@ struct KindOfDocument {
   DescribeDocument describe = describe_by_name;
   bool is_figure = false;  ///< its check computes, which may take long
   /// Runs on a thread that may wait. @errors whatever is wrong with the body.
-  Result<CheckedDocument> (*check)(const Services& services, const std::string& name,
-                                   std::string_view body){};
+  using Check = Result<CheckedDocument> (*)(const Services& services, const std::string& name,
+                                            std::string_view body);
+  Check check{};
+  // A second form of a body: its media type, its most bytes and its check, which computes.
+  std::string_view other_type{};
+  std::size_t longest_other = 0;
+  Check check_other{};
   /// Runs after a change was stored and before it is answered; null: nothing.
   void (*changed)(const Services& services, std::function<void(Result<void>)> done) = nullptr;
 };

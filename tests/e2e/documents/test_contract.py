@@ -141,6 +141,10 @@ class Answers(ContractTest):
                     temperature_c=23, part_material="steel", temperature_uncertainty_c=0.1)
         self.expect("getVerdict", 422, designation="25H7", measured_mm=25.02, rule="conformance", uncertainty_um=9)
         self.expect("listTables", 200)
+        housing = (ROOT / "tests/fuzz/corpus/step/housing.stp").read_bytes()
+        self.expect("readDrawing", 200, housing, {"Content-Type": "model/step"})
+        self.expect("putPlan", 201, housing, {"Content-Type": "model/step"}, part="drawn")
+        self.expect("getPlan", 200, part="drawn")
         column = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": "-3"}]}
         for table, name in (("Hole", "SHOP"), ("Shaft", "shop")):
             self.expect(f"put{table}TableColumn", 201, column, name=name)

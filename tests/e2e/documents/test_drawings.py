@@ -1,0 +1,62 @@
+"""Drawings: the sizes of a STEP file, and the plan that is made of it."""
+
+import hashlib
+
+from support.daemon import ROOT, DaemonTest
+
+HOUSING = (ROOT / "tests/fuzz/corpus/step/housing.stp").read_bytes()
+STEP = {"Content-Type": "model/step"}
+
+
+class Drawings(DaemonTest):
+    def put(self, part, drawing):
+        return self.daemon.request("PUT", f"/v1/plans/{part}", drawing, STEP)
+
+    def plan(self, part):
+        return self.daemon.request("GET", f"/v1/plans/{part}").json
+
+    def test_a_drawing_is_read_and_nothing_is_stored(self):
+        read = self.daemon.request("POST", "/v1/drawings", HOUSING, STEP).json
+        self.assertEqual(read["digest"], hashlib.sha256(HOUSING).hexdigest())
+        self.assertEqual(read["sizes"][1], {
+            "name": "diameter 25", "nominal_mm": 25, "tolerance_class": "g6", "feature": "shaft", "quantity": "diameter",
+            "count": 1, "entity": "#120", "modifiers": [], "remarks": []})
+        self.assertEqual([one["name"] for one in read["sizes"]], ["Bore Ø A", "diameter 25", "width 8", "width 8.001", "distance 40"])
+        self.assertEqual(len(read["not_read"]), 8)
+        self.assert_problem(self.daemon.request("GET", "/v1/plans/read"), 404, "plan.unknown")
+
+    def test_what_is_no_drawing_is_refused_with_its_line(self):
+        for body in (b"", b"ISO-10303-21;", HOUSING[:-40], HOUSING.replace(b"AP242_", b"IFC4_")):
+            for method, path in (("POST", "/v1/drawings"), ("PUT", "/v1/plans/no")):
+                problem = self.daemon.request(method, path, body, STEP)
+                self.assert_problem(problem, 400, "drawing.malformed")
+                self.assertRegex(problem.json["detail"], r"^line \d+: ")
+        self.assert_problem(self.put("no", HOUSING.replace(b"DIMENSIONAL_", b"OTHER_")), 422, "drawing.no_sizes")
+        self.assert_problem(self.daemon.request("POST", "/v1/drawings", HOUSING, {"Content-Type": "text/plain"}), 415, "media_type.unsupported")
+        self.assert_problem(self.daemon.request("PUT", "/v1/plans/no", b'{"name":"' + b"x" * (1 << 20) + b'"}', {"Content-Type": "application/json"}),
+                            413, "request.body_too_large")
+
+    def test_a_revision_says_what_it_changed_and_keeps_what_people_gave(self):
+        first = self.put("4711-A", HOUSING)
+        self.assertEqual((first.status, len(first.json["added"])), (201, 5))
+        plan = self.plan("4711-A")
+        self.assertEqual(plan["drawing"], {"digest": hashlib.sha256(HOUSING).hexdigest(), "part": "4711-A"})
+        plan["characteristics"][1]["gauge"] = "G-07"
+        plan["characteristics"].append({"name": "by hand", "designation": "30 k6"})
+        self.assertEqual(self.daemon.request("PUT", "/v1/plans/4711-A", plan).status, 200)
+        revision = HOUSING.replace(b"'g6','shaft'", b"'f7','shaft'").replace(b"#170=DIMENSIONAL_LOCATION", b"#170=OTHER_LOCATION")
+        second = self.put("4711-A", revision)
+        self.assertEqual(second.status, 200)
+        self.assertEqual(second.json["changed"], [{"name": "diameter 25", "before": "nominal_mm 25, tolerance_class g6",
+                                                   "after": "nominal_mm 25, tolerance_class f7"}])
+        self.assertEqual((second.json["added"], second.json["gone"]), ([], ["distance 40"]))
+        now = self.plan("4711-A")["characteristics"]
+        self.assertEqual((now[1]["gauge"], now[-1]["name"]), ("G-07", "by hand"))
+
+    def test_characteristics_of_a_drawing_are_measured_as_they_are(self):
+        self.put("measured", HOUSING)
+        for one, measured in zip(self.plan("measured")["characteristics"], (25.01, 24.99, 7.98, 7.97, 40)):
+            limits = {name: value for name, value in one.items() if name in ("nominal_mm", "tolerance_class", "designation", "feature",
+                                                                              "quantity", "upper_um", "lower_um")}
+            stored = self.daemon.request("POST", "/v1/measurements", {**limits, "measured_mm": measured, "characteristic": one["name"]})
+            self.assertEqual((stored.status, stored.json["verdict"]), (201, "good"), stored)
