@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/plan_command.hpp"
 #include "cli/record_commands.hpp"
 #include "cli/statistics_commands.hpp"
 
@@ -78,11 +79,21 @@ void add_listed(CLI::App& app, Action& chosen) {
   note->add_option("--operator", said->operator_name, "Who says so");
 }
 
+void add_plans(CLI::App& app, Action& chosen) {
+  CLI::App* plan = app.add_subcommand("plan", "Inspection plans");
+  plan->require_subcommand(1);
+  const auto options = std::make_shared<PlanOptions>();
+  CLI::App* from = add_command(*plan, "from", "Read the sizes of a STEP drawing, which --part makes a plan", chosen, options, run_plan_from);
+  from->add_option("file", options->file, "STEP file of AP242, AP203 or AP214")->required();
+  from->add_option("--part", options->part, "Part number whose plan it becomes");
+}
+
 }  // namespace
 
 void add_records(CLI::App& app, Action& chosen) {
   add_listed(app, chosen);
   add_figures(app, chosen);
+  add_plans(app, chosen);
 }
 
 }  // namespace fitgauge::cli

@@ -5,7 +5,7 @@ _fitgauge() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
   local common='--server --key-file --ca --cert --cert-key --json --retry --help'
   local commands='limits fit fits limit-gauge standards gauge measure list export summary capability chart statistics
-    correct note nc setups budgets gauges runs control replay tables watch version completion'
+    correct note plan nc setups budgets gauges runs control replay tables watch version completion'
   COMPREPLY=()
 
   # What the option before takes.
@@ -84,6 +84,9 @@ _fitgauge() {
     statistics)
       options='--lower --upper --reference --tolerance'
       ((${#words[@]} > 1)) || options+=' summary anova capability chart type1 grr pairing uncertainty' ;;
+    plan)
+      options='--part'
+      ((${#words[@]} > 1)) || options+=' from' ;;
     setups | budgets | gauges) ((${#words[@]} > 1)) || options='ls put get rm' ;;
     runs)
       case ${words[1]-} in
@@ -113,7 +116,7 @@ _fitgauge() {
       esac ;;
   esac
   case ${words[*]} in
-    measure | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
+    measure | plan\ from\ * | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
   esac
   _fitgauge_words "$options $common"
 }

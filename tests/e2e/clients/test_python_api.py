@@ -8,7 +8,7 @@ from datetime import datetime, timedelta, timezone
 from decimal import Decimal
 
 from support.control import FOREVER, ControlTest, setup
-from support.daemon import fitgauge
+from support.daemon import ROOT, fitgauge
 
 PART = {"designation": "25 H7", "measured_mm": "25.0215", "part_id": "SN-1", "characteristic": "bore-A"}
 COLUMN = [{"over_mm": 18, "up_to_mm": 30, "upper_um": Decimal("15.5"), "lower_um": -3}]
@@ -183,6 +183,9 @@ class EveryRoute(ControlTest):
         self.assertTrue(client.put_plan("4711/A", plan))
         self.assertEqual(client.plan("4711/A"), {"part": "4711/A", **plan})
         self.assertEqual([(each["part"], each["characteristics"]) for each in client.plans()], [("4711/A", 1)])
+        housing = (ROOT / "tests/fuzz/corpus/step/housing.stp").read_bytes()
+        self.assertEqual(len(client.read_drawing(housing)["sizes"]), 5)
+        self.assertEqual(len(client.plan_from_drawing("4711/A", housing)["added"]), 5)
         client.delete_plan("4711/A")
         catalogue = {"causes": ["Insert worn"], "measures": []}
         self.assertTrue(client.put_catalogue("turning", **catalogue))

@@ -2,13 +2,14 @@
 
 import hashlib
 
-from support.daemon import ROOT, DaemonTest
+from support.cli import ClientTest
+from support.daemon import ROOT
 
 HOUSING = (ROOT / "tests/fuzz/corpus/step/housing.stp").read_bytes()
 STEP = {"Content-Type": "model/step"}
 
 
-class Drawings(DaemonTest):
+class Drawings(ClientTest):
     def put(self, part, drawing):
         return self.daemon.request("PUT", f"/v1/plans/{part}", drawing, STEP)
 
@@ -60,3 +61,15 @@ class Drawings(DaemonTest):
                                                                               "quantity", "upper_um", "lower_um")}
             stored = self.daemon.request("POST", "/v1/measurements", {**limits, "measured_mm": measured, "characteristic": one["name"]})
             self.assertEqual((stored.status, stored.json["verdict"]), (201, "good"), stored)
+
+    def test_the_command_line_reads_a_drawing_and_makes_its_plan(self):
+        (self.client.folder / "housing.stp").write_bytes(HOUSING)
+        listed = self.assert_runs(0, "plan", "from", "housing.stp")
+        self.assertRegex(listed, r"#130 +width 8 +8 0 / -36 +width hole\n")
+        self.assert_runs(0, "plan", "from", "housing.stp", "--part", "by line")
+        self.put("by%20wire", HOUSING)
+        self.assertEqual(self.plan("by%20line")["characteristics"], self.plan("by%20wire")["characteristics"])
+        (self.client.folder / "cut.stp").write_bytes(HOUSING[:2000])
+        cut = self.client.run("plan", "from", "cut.stp")
+        self.assertEqual(cut.returncode, 5)
+        self.assertRegex(cut.stderr_text, r"cut\.stp: line \d+: ")

@@ -1,0 +1,101 @@
+#include "cli/plan_command.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "base/descriptor.hpp"
+#include "cli/address.hpp"
+#include "cli/limits_commands.hpp"
+#include "formats/step/plan.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+/// The bytes of a file where the kernel has them: a file of 200 MB is not copied.
+class MappedFile {
+ public:
+  explicit MappedFile(const std::string& path) {
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    struct stat status {};
+    if (file.get() < 0 || ::fstat(file.get(), &status) != 0 || status.st_size == 0) return;
+    size_ = static_cast<std::size_t>(status.st_size);
+    bytes_ = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file.get(), 0);
+  }
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+  ~MappedFile() {
+    if (is_mapped()) ::munmap(bytes_, size_);
+  }
+  bool is_mapped() const { return bytes_ != MAP_FAILED; }
+  std::string_view text() const { return {static_cast<const char*>(bytes_), size_}; }
+
+ private:
+  void* bytes_ = MAP_FAILED;
+  std::size_t size_ = 0;
+};
+
+Failure local(const std::string& file, std::string_view why) {
+  return {ExitCode::LocalFile, fmt::format("{}: {}", file, why)};
+}
+
+std::string size_text(const step::DrawnSize& size) {
+  std::string limits = size.tolerance_class.value_or("");
+  for (const auto& each : {size.upper, size.lower}) {
+    if (each) limits += (limits.empty() ? "" : " / ") + signed_text(format_um(*each));
+  }
+  return fmt::format("{:6} {:24} {:>10} {:18} {} {}{}", size.entity, size.name, format_mm(size.nominal), limits, word(size.quantity),
+                     size.feature ? word(*size.feature) : "", size.count > 1 ? fmt::format(" {}X", size.count) : "");
+}
+
+void print(const Context& context, const step::Drawing& drawing) {
+  if (context.json) return context.print_document(api::body_json(drawing));
+  for (const step::DrawnSize& size : drawing.sizes) {
+    context.print("{}\n", size_text(size));
+    for (const std::string& remark : size.remarks) context.note(fmt::format("{}: {}", size.name, remark));
+  }
+  for (const step::NotRead& other : drawing.not_read) context.note(fmt::format("not read: {} {}: {}", other.entity, other.name, other.why));
+}
+
+/// Stores the plan, and says what is other than in the one before.
+Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing, const PlanOptions& options) {
+  const std::string target = "/v1/plans/" + percent_encoded(options.part);
+  const auto stored = context.client.send({.target = target});
+  if (!stored) return stored.error();
+  constexpr long kNotThere = 404;
+  std::optional<JsonValue> before;
+  if (stored->status != kNotThere) {
+    const auto found = expect_ok(stored, context.client.url());
+    if (!found) return found.error();
+    auto read = read_document(*found, context.client.url());
+    if (!read) return read.error();
+    before = *std::move(read);
+  }
+  const auto plan = step::plan_of(drawing, options.part, before ? &*before : nullptr);
+  if (!plan) return local(options.file, plan.error().message);
+  const auto answer = expect_ok(context.client.send({.method = "PUT", .target = target, .content_type = "application/json", .body = plan->text}),
+                                context.client.url());
+  if (!answer) return answer.error();
+  for (const std::string& name : plan->added) context.note("added: " + name);
+  for (const std::string& name : plan->gone) context.note("gone: " + name);
+  for (const auto& one : plan->changed) context.note(fmt::format("changed: {}: {}, before {}", one.name, one.after, one.before));
+  return ExitCode::Good;
+}
+
+}  // namespace
+
+Outcome<ExitCode> run_plan_from(const Context& context, const PlanOptions& options) {
+  const MappedFile file(options.file);
+  if (!file.is_mapped()) return local(options.file, std::generic_category().message(errno));
+  const auto tables = iso286::ToleranceTables::make(iso286::compiled_in_tables(), {});
+  if (!tables) return Failure(ExitCode::Defect, tables.error().message);
+  const auto drawing = step::read_drawing(file.text(), *tables);
+  if (!drawing) return local(options.file, drawing.error().message);
+  print(context, *drawing);
+  return options.part.empty() ? ExitCode::Good : store(context, *drawing, options);
+}
+
+}  // namespace fitgauge::cli
