@@ -164,6 +164,10 @@ struct Commands {
     verify = app.add_subcommand("verify", "Check database, tables, log and every stored verdict");
     verify->add_option("--checkpoint", checkpoints,
                        "A checkpoint that was kept elsewhere: the log must begin with it");
+    qualify =
+        app.add_subcommand("qualify", "Compare what this program computes with published figures");
+    qualify->add_option("--out", folder, "The folder for qualification.json and qualification.pdf")
+        ->required();
     log_key = app.add_subcommand("log-key",
                                  "Make a new key for the log, which signs from the next start on");
     forward = app.add_subcommand("forward", "Forward the log of a stopped service to a centre");
@@ -179,7 +183,9 @@ struct Commands {
     list = key->add_subcommand("list", "List the keys");
   }
 
-  Result<int> run(const Config& config) const {
+  /// @param has_data whether the data folder is given, not assumed
+  Result<int> run(const Config& config, bool has_data) const {
+    if (*qualify) return run_qualify(config, folder, has_data);
     if (*backup) return run_backup(config, file);
     if (*verify) return run_verify(config, checkpoints);
     if (*log_key) return run_log_key(config);
@@ -191,6 +197,7 @@ struct Commands {
 
   CLI::App* backup = nullptr;
   CLI::App* verify = nullptr;
+  CLI::App* qualify = nullptr;
   CLI::App* log_key = nullptr;
   CLI::App* forward = nullptr;
   CLI::App* key = nullptr;
@@ -199,6 +206,7 @@ struct Commands {
   CLI::App* list = nullptr;
   bool all = false;
   std::string file;
+  std::string folder;
   std::vector<std::string> checkpoints;
   std::string name;
   std::string role;
@@ -221,11 +229,14 @@ int dispatch(const CLI::App& app, const Arguments& arguments, const Commands& co
     return healthy ? 0 : complain(healthy.error());
   }
   if (!app.get_subcommands().empty()) {
-    const auto done = commands.run(*config);
+    const bool has_data = !arguments.settings.at("data").empty() || config->data != Config{}.data;
+    const auto done = commands.run(*config, has_data);
     if (done) return *done;
     complain(done.error());
-    // Findings of verify are 1: that it could not look is another thing.
-    return *commands.verify || done.error().code == ErrorCode::ConfigInvalid ? kUsage : kFailed;
+    // Findings of verify and qualify are 1: that they could not look is another thing.
+    return *commands.verify || *commands.qualify || done.error().code == ErrorCode::ConfigInvalid
+               ? kUsage
+               : kFailed;
   }
   open_log(config->log_level);
   const auto served = serve(*config, arguments.port_file);

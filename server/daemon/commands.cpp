@@ -15,9 +15,12 @@
 #include <memory>
 #include <system_error>
 
+#include "api/service/version.hpp"
+#include "base/folder.hpp"
 #include "daemon/application_options.hpp"
 #include "http/server.hpp"
 #include "service/log/log_keys.hpp"
+#include "service/qualification/qualification.hpp"
 
 namespace fitgauge::daemon {
 namespace {
@@ -113,6 +116,41 @@ Result<int> run_verify(const Config& config, const std::vector<std::string>& che
                  "all of it was replaced\n";
   }
   return verification->findings.empty() ? 0 : 1;
+}
+
+Result<int> run_qualify(const Config& config, const std::string& folder, bool signs) try {
+  std::vector<tlog::SigningKey> keys;
+  if (signs) {
+    auto read = app::read_log_keys(config.data);
+    if (!read) return read.error();
+    if (read->empty()) {
+      return Error{ErrorCode::ConfigInvalid,
+                   config.data +
+                       " has no key of a log: start the service on it once, or "
+                       "leave out --data"};
+    }
+    keys = *std::move(read);
+  }
+  std::filesystem::create_directories(folder);
+  const auto out = Folder::open(folder);
+  if (!out) return out.error();
+  const auto made = app::qualification::qualify(std::string(api::kVersion), kClock.now());
+  const auto files = files_of(made, signs ? &keys.front() : nullptr);
+  for (const auto& [name, text] : files) {
+    if (const auto written = out->write(name, text); !written) return written.error();
+  }
+  std::size_t failed = 0;
+  for (const app::qualification::Check& check : made.checks) {
+    if (check.passed) continue;
+    ++failed;
+    std::cout << fmt::format("{}: expected {}, got {}, limit {}\n", check.id, check.expected,
+                             static_cast<double>(check.got), check.limit);
+  }
+  std::cout << fmt::format("{} checks, {} failed; see {}\n", made.checks.size(), failed, folder);
+  return made.passed ? 0 : 1;
+} catch (const std::exception& failure) {
+  return Error{ErrorCode::StorageUnavailable,
+               fmt::format("the qualification could not run: {}", failure.what())};
 }
 
 Result<int> run_log_key(const Config& config) {

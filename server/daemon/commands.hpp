@@ -17,6 +17,10 @@ Result<int> run_backup(const Config& config, const std::string& file);
 /// `fitgauged verify`: 1 when there are findings. @param checkpoints files that were kept
 /// elsewhere.
 Result<int> run_verify(const Config& config, const std::vector<std::string>& checkpoints);
+/// `fitgauged qualify`: compares the figures of this program with published ones, and writes
+/// qualification.json and qualification.pdf to the folder; 1 when one differs.
+/// @param signs whether the data folder's log key signs both, in qualification.note.
+Result<int> run_qualify(const Config& config, const std::string& folder, bool signs);
 /// `fitgauged log-key`: the log gets a new key, which signs from the next start on.
 Result<int> run_log_key(const Config& config);
 /// `fitgauged key create|revoke|list`. @param expires RFC 3339; empty: never.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fitgauge::certificate {
@@ -19,7 +21,14 @@ struct Line {
   std::string measured_at{};
 };
 
-/// What an inspection certificate says.
+/// A column of the table and its share of the width.
+struct Column {
+  std::string_view name;
+  float share = 0;
+  std::string Line::*text = nullptr;
+};
+
+/// What an inspection certificate says, or another report of that form.
 struct Certificate {
   std::string title{};
   std::vector<std::string> facts{};  ///< lines below the title: what it is of, when it was made
@@ -28,6 +37,7 @@ struct Certificate {
   std::vector<std::string> proof{};  ///< lines at the end: how what it says is checked
   std::string code{};                ///< the text of a QR code; empty for none
   std::vector<std::string> signatures{};
+  std::span<const Column> columns{};  ///< empty: those of an inspection
 };
 
 enum class Paper { A4, Letter };

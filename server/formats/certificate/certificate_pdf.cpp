@@ -29,13 +29,7 @@ constexpr float kTitle = 16;
 constexpr float kLeading = 1.35F;
 constexpr float kCode = 84;
 
-struct Column {
-  std::string_view name;
-  float share;  ///< of the width
-  std::string Line::*text;
-};
-
-constexpr std::array<Column, 10> kColumns = {{
+constexpr std::array<Column, 10> kInspection = {{
     {"Part", 0.11F, &Line::part},
     {"Characteristic", 0.11F, &Line::characteristic},
     {"Size", 0.08F, &Line::size},
@@ -179,10 +173,12 @@ class Writer {
   float y_ = 0;
 };
 
-void write_table_head(Writer& out) {
+using Columns = std::span<const Column>;
+
+void write_table_head(Writer& out, Columns columns) {
   out.advance(kText * 2);
   float x = out.left();
-  for (const Column& column : kColumns) {
+  for (const Column& column : columns) {
     out.text(x, out.y(), kText, std::string(column.name));
     x += column.share * out.width();
   }
@@ -190,29 +186,28 @@ void write_table_head(Writer& out) {
   out.rule(0.8F);
 }
 
-void write_line(Writer& out, const Line& line) {
+void write_line(Writer& out, const Line& line, Columns columns) {
   constexpr float kGap = 6;
-  std::array<std::vector<std::string>, kColumns.size()> cells;
+  std::vector<std::vector<std::string>> cells;
   std::size_t most = 1;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    cells.at(i) =
-        out.wrapped(line.*kColumns.at(i).text, kText, kColumns.at(i).share * out.width() - kGap);
-    most = std::max(most, cells.at(i).size());
+  for (const Column& column : columns) {
+    cells.push_back(out.wrapped(line.*column.text, kText, column.share * out.width() - kGap));
+    most = std::max(most, cells.back().size());
   }
   const float height = static_cast<float>(most) * kText * kLeading + kText / 2;
   if (out.is_full(height)) {
     out.begin_page();
-    write_table_head(out);
+    write_table_head(out, columns);
   }
   const float top = out.y();
   float x = out.left();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     float y = top;
-    for (const std::string& text : cells.at(i)) {
+    for (const std::string& text : cells[i]) {
       y -= kText * kLeading;
       out.text(x, y, kText, text);
     }
-    x += kColumns.at(i).share * out.width();
+    x += columns[i].share * out.width();
   }
   out.advance(height);
   out.rule(0.2F);
@@ -270,8 +265,9 @@ std::string to_pdf(const Certificate& certificate, Paper paper) {
   out.paragraph(kTitle, certificate.title);
   out.advance(kText / 2);
   for (const std::string& fact : certificate.facts) out.paragraph(kText, fact);
-  write_table_head(out);
-  for (const Line& line : certificate.lines) write_line(out, line);
+  const Columns columns = certificate.columns.empty() ? Columns(kInspection) : certificate.columns;
+  write_table_head(out, columns);
+  for (const Line& line : certificate.lines) write_line(out, line, columns);
   write_end(out, certificate);
   out.number_pages(certificate.title + ", ");
   return saved(document.get());

@@ -61,7 +61,7 @@ class Manual(unittest.TestCase):
     def test_every_option_is_in_the_manual_and_no_other(self):
         offered = options(FITGAUGE).union(*(options(FITGAUGE, *command) for command in SUBCOMMANDS))
         self.assertEqual(self.documented("fitgauge.1"), offered)
-        commands = [(), ("backup",), ("key", "create"), ("key", "revoke"), ("key", "list"), ("verify",), ("log-key",), ("forward",)]
+        commands = [(), ("backup",), ("key", "create"), ("key", "revoke"), ("key", "list"), ("verify",), ("qualify",), ("log-key",), ("forward",)]
         offered = set().union(*(options(FITGAUGED, *command) for command in commands))
         self.assertEqual(self.documented("fitgauged.8"), offered)
 

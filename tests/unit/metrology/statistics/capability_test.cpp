@@ -122,14 +122,8 @@ TEST_CASE("what has no capability is refused with its code") {
 
 TEST_CASE("Anderson-Darling is scipy's") {
   const auto statistic = [](const char* name) {
-    std::ifstream file(std::string("tests/reference/nist/") + name + ".txt");
-    Decimals values;
-    std::string line;
-    bool in_values = false;
-    while (std::getline(file, line)) {
-      if (in_values) REQUIRE(values.add(line).has_value());
-      in_values = in_values || line == "values";
-    }
+    const std::string folder = "server/service/qualification/references/nist/";
+    const Decimals values = subgroups_of(folder + name + ".txt", 1, 1000).values;
     std::vector<Wide> rising(values.counts().begin(), values.counts().end());
     std::sort(rising.begin(), rising.end());
     const auto n = static_cast<double>(rising.size());

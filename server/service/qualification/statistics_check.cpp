@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "metrology/statistics/anova.hpp"
+#include "metrology/statistics/capability.hpp"
+#include "metrology/statistics/chart_constants.hpp"
+#include "metrology/statistics/gauge_study.hpp"
+#include "service/qualification/qualification.hpp"
+
+namespace fitgauge::app::qualification {
+namespace {
+
+using namespace metrology;
+
+/// The words of rows, from `first` on.
+Decimals decimals(const std::vector<Words>& rows, std::size_t first = 0) {
+  Decimals values;
+  for (const Words& row : rows) {
+    for (std::size_t i = first; i < row.size(); ++i) values.add(row[i]).value();
+  }
+  return values;
+}
+
+Exact exact(std::string_view text) { return parse_exact(text).value().exact(); }
+
+/// @param rows of group and value
+void add_anova(const std::string& name, const std::vector<Words>& rows, Figures& to) {
+  Groups groups{.values = decimals(rows, 1), .ends = {}};
+  for (std::size_t i = 1; i <= rows.size(); ++i) {
+    if (i == rows.size() || rows[i][0] != rows[i - 1][0]) groups.ends.push_back(i);
+  }
+  const Anova anova = analyse_variance(groups.counts()).value();
+  const auto add = [&](const std::string& side, const Variation& of) {
+    to.add(name, fmt::format(".df_{0} .ss_{0} .ms_{0}", side),
+           {static_cast<long double>(of.degrees_of_freedom), nearest(of.sum_of_squares),
+            nearest(of.mean_square())});
+  };
+  add("between", anova.between);
+  add("within", anova.within);
+  to.add(name, ".f .r2 .s", {anova.test.f, anova.r_squared, anova.residual_standard_deviation});
+}
+
+void add_nist(const References& references, Figures& to) {
+  for (const char* set : {"PiDigits", "Lottery", "Lew", "Mavro", "Michelso", "NumAcc1", "NumAcc2",
+                          "NumAcc3", "NumAcc4"}) {
+    const Summary summary = summarise(decimals(references.rows(fmt::format("nist/{}.txt", set))));
+    to.add(fmt::format("nist.{}", set), ".mean .s .r1",
+           {nearest(summary.moments.mean), summary.moments.standard_deviation(),
+            summary.autocorrelation_lag_1});
+  }
+  for (const char* set : {"AtmWtAg", "SiRstv"}) {
+    add_anova(fmt::format("nist.{}", set), references.rows(fmt::format("nist/{}.txt", set)), to);
+  }
+  for (int number = 1; number <= 9; ++number) {
+    add_anova(fmt::format("nist.SmLs0{}", number), simon_and_lesage(number), to);
+  }
+}
+
+void add_gauge_studies(const References& references, Figures& to) {
+  const auto rows = references.set("msa.study");
+  Readings readings{.values = decimals(rows),
+                    .part = {},
+                    .operators = {},
+                    .parts = rows.at(0).size(),
+                    .operator_count = 3};
+  for (std::size_t i = 0; i < readings.values.size(); ++i) {
+    readings.part.push_back(i % readings.parts);
+    readings.operators.push_back(3 * i / readings.values.size());
+  }
+  for (const StudyMethod method : {StudyMethod::Anova, StudyMethod::AverageRange}) {
+    const GaugeStudy study = study_gauge(readings, method, StudyModel::Auto).value();
+    const std::string name = fmt::format("msa.{}.", word(method));
+    to.add(name, "ev av grr pv percent ndc",
+           {study.ev, study.av, study.grr, study.pv, 100 * study.grr / study.tv,
+            static_cast<long double>(study.ndc.value())});
+    if (method != StudyMethod::Anova) continue;
+    to.add(name, "parts operators",
+           {nearest(study.anova[0].variation.sum_of_squares),
+            nearest(study.anova[1].variation.sum_of_squares)});
+  }
+  const auto lines = references.set("msa.linearity");
+  std::vector<Exact> masters;
+  for (const Words& line : lines) masters.insert(masters.end(), line.size() - 1, exact(line[0]));
+  const LinearityStudy linearity = study_linearity(decimals(lines, 1), masters).value();
+  to.add("msa.linearity.", "slope intercept", {linearity.slope.value, linearity.intercept.value});
+  const Type1Study type1 =
+      study_type1(decimals(references.set("bosch.type1")), exact("6.002"), exact("0.06")).value();
+  to.add("bosch.", "cg cgk t", {type1.cg, type1.cgk, std::abs(type1.t)});
+}
+
+}  // namespace
+
+std::vector<Words> simon_and_lesage(int number) {
+  const std::string whole[] = {"1", "1000000", "1000000000000"};
+  const int replicates[] = {21, 201, 2001};
+  std::vector<Words> rows;
+  for (int group = 1; group <= 9; ++group) {
+    const int tenth = group == 1 ? 4 : group % 2 == 0 ? 3 : 5;
+    for (int i = 0; i < replicates[(number - 1) % 3]; ++i) {
+      const int own = i == 0 ? tenth : i % 2 == 1 ? tenth - 1 : tenth + 1;
+      rows.push_back({std::to_string(group), whole[(number - 1) / 3] + '.' + std::to_string(own)});
+    }
+  }
+  return rows;
+}
+
+void add_statistics(const References& references, Figures& to) {
+  add_nist(references, to);
+  add_gauge_studies(references, to);
+  const Subgroups sizes{.values = decimals(references.set("capability"))};
+  const Capability c =
+      assess_capability(sizes, {.lower = Exact(25), .upper = exact("25.021")}, 0.95L).value();
+  to.add("capability.", "cp cpk pp ppk",
+         {c.cp.value().value, c.cpk.value().value, c.pp.value().value, c.ppk.value().value});
+  for (const std::size_t n : {2UL, 5UL, 10UL, 25UL}) {
+    const RangeConstants range = range_constants(n);
+    to.add(fmt::format("chart.{}.", n), "d2 d3 c4", {range.d2, range.d3, c4(n)});
+  }
+  to.add("distribution.", "normal95 normal99865 t7 t30 chi9 f",
+         {normal_quantile(0.95L), normal_quantile(0.99865L), t_quantile(0.975L, 7),
+          t_quantile(0.995L, 30), chi_squared_quantile(0.025L, 9), f_above(3.5L, 4, 20)});
+}
+
+}  // namespace fitgauge::app::qualification
