@@ -55,10 +55,10 @@ std::string to_json(const Qualification& made) {
 std::string to_pdf(const Qualification& made, const std::vector<std::string>& proof) {
   using certificate::Line;
   static constexpr certificate::Column kColumns[] = {
-      {"Check", 0.16F, &Line::part},     {"Source", 0.21F, &Line::characteristic},
-      {"Quantity", 0.24F, &Line::size},  {"Expected", 0.12F, &Line::limits},
-      {"Got", 0.11F, &Line::measured},   {"Digits", 0.04F, &Line::deviation},
-      {"Result", 0.06F, &Line::verdict}, {"Limit", 0.06F, &Line::rule}};
+      {"Check", 0.16F, &Line::part},     {"Source", 0.18F, &Line::characteristic},
+      {"Quantity", 0.22F, &Line::size},  {"Expected", 0.14F, &Line::limits},
+      {"Got", 0.14F, &Line::measured},   {"Digits", 0.05F, &Line::deviation},
+      {"Result", 0.06F, &Line::verdict}, {"Limit", 0.05F, &Line::rule}};
   certificate::Certificate pdf{.title = "Operational qualification",
                                .proof = proof,
                                .signatures = {"Executed by, date", "Reviewed by, date"},
@@ -76,6 +76,31 @@ std::string to_pdf(const Qualification& made, const std::vector<std::string>& pr
 }
 
 }  // namespace
+
+std::vector<Words> References::rows(const std::string& file) const {
+  std::vector<Words> rows;
+  std::istringstream in(files.at(file));
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream words(line);
+    rows.emplace_back();
+    for (std::string word; words >> word;) rows.back().push_back(word);
+  }
+  return rows;
+}
+
+std::vector<Words> References::set(const std::string& name) const {
+  std::vector<Words> set;
+  bool is_in = false;
+  for (Words& row : rows("data.txt")) {
+    if (row[0] == "==") {
+      is_in = row[1] == name;
+    } else if (is_in) {
+      set.push_back(std::move(row));
+    }
+  }
+  return set;
+}
 
 void Figures::add(const std::string& prefix, const std::string& names,
                   std::initializer_list<long double> figures) {

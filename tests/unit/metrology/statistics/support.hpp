@@ -17,6 +17,22 @@ inline Decimals decimals(const std::string& texts) {
   return values;
 }
 
+/// The values of a set of what `fitgauged qualify` computes its figures of.
+inline std::string reference_set(const std::string& name) {
+  std::ifstream file("server/service/qualification/references/data.txt");
+  REQUIRE(file.is_open());
+  std::string all;
+  bool is_in = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("=="))
+      is_in = line == "== " + name;
+    else if (is_in && !line.starts_with('#'))
+      all += line + ' ';
+  }
+  REQUIRE_FALSE(all.empty());
+  return all;
+}
+
 /// Subgroups from lines of a file of the reference, at most `most` of them.
 inline Subgroups subgroups_of(const std::string& path, std::size_t size, std::size_t most) {
   std::ifstream file(path);

@@ -8,37 +8,6 @@ using namespace fitgauge;
 using namespace fitgauge::metrology;
 using doctest::Approx;
 
-TEST_CASE("GUM H.1: the end gauge has u_c 31.7 nm, 16 degrees of freedom and U99 93 nm") {
-  // JCGM 100, H.1.6 and H.1.7: standard, comparator, expansion, temperature; in nm.
-  const Budget budget{.contributions = {{.standard_uncertainty = 25, .degrees_of_freedom = 18},
-                                        {.standard_uncertainty = 9.7, .degrees_of_freedom = 25.6},
-                                        {.standard_uncertainty = 2.9, .degrees_of_freedom = 50},
-                                        {.standard_uncertainty = 16.6, .degrees_of_freedom = 2}},
-                      .correlations = {},
-                      .probability = 0.99};
-  const CombinedUncertainty u = combine(budget).value();
-  CHECK(std::abs(u.combined - 31.7) < 0.05);
-  CHECK(u.degrees_of_freedom == 16);
-  CHECK(u.welch_satterthwaite == Approx(16.76).epsilon(1e-3));
-  CHECK(std::abs(u.coverage_factor - 2.92) < 0.005);
-  CHECK(std::abs(u.expanded - 93) < 0.6);
-}
-
-TEST_CASE("GUM H.2: correlated quantities of one series") {
-  // From rounded correlations. The resistance R = V / I * cos(phi) of H.2.4 with its sensitivities
-  // and correlations.
-  const double v = 4.9990;
-  const double i = 19.661e-3;
-  const double phi = 1.04446;
-  const Budget budget{
-      .contributions = {{.standard_uncertainty = 0.0032, .sensitivity = std::cos(phi) / i},
-                        {.standard_uncertainty = 0.0095e-3,
-                         .sensitivity = -v * std::cos(phi) / (i * i)},
-                        {.standard_uncertainty = 0.00075, .sensitivity = -v * std::sin(phi) / i}},
-      .correlations = {{0, 1, -0.36}, {0, 2, 0.86}, {1, 2, -0.65}}};
-  CHECK(std::abs(combine(budget).value().combined - 0.071) < 0.0015);
-}
-
 TEST_CASE("what cannot be correlated is refused") {
   const Contribution one{.standard_uncertainty = 1};
   const Budget impossible{.contributions = {one, one, one},

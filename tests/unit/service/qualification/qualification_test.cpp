@@ -39,16 +39,21 @@ References references_with(const std::string& file, std::string_view from, std::
   return references;
 }
 
-/// The tables with another value in one cell.
-iso286::TableData tables_with(std::string_view column, double over_mm, std::int64_t change_nm) {
+/// Cells to change: column and how much, in nm.
+using Changes = std::vector<std::pair<std::string_view, std::int64_t>>;
+
+/// The tables with other values in cells of the step over `over_mm`.
+iso286::TableData tables_with(std::int64_t over_mm, const Changes& changes) {
   iso286::TableData data = iso286::compiled_in_tables();
-  const auto cell =
-      std::find_if(data.cells.begin(), data.cells.end(), [&](const iso286::TableCell& c) {
-        return c.column == column && c.range.over.count() == std::llround(over_mm * 1e6);
-      });
-  REQUIRE(cell != data.cells.end());
-  REQUIRE(cell->value);
-  cell->value = *cell->value + Length::nanometres(change_nm);
+  for (const auto& [column, nm] : changes) {
+    const auto cell =
+        std::find_if(data.cells.begin(), data.cells.end(), [&](const iso286::TableCell& c) {
+          return c.column == column && c.range.over.count() == over_mm * 1'000'000;
+        });
+    REQUIRE(cell != data.cells.end());
+    REQUIRE(cell->value.has_value());
+    cell->value = *cell->value + Length::nanometres(nm);
+  }
   return data;
 }
 
@@ -85,25 +90,26 @@ TEST_CASE("this program computes what was published, each figure within its limi
 
 TEST_CASE("twenty wrong constants are planted one at a time, and each is found where it is") {
   struct Plant {
-    const char* where;  ///< the check that has to fail
+    std::string where;  ///< the check that has to fail
     std::function<Qualification()> with;
   };
-  const auto in_tables = [](const char* column, double over_mm, std::int64_t change_nm) {
-    return [=] { return qualified({}, tables_with(column, over_mm, change_nm)); };
+  const auto in_tables = [](std::int64_t over_mm, const Changes& changes) {
+    return [=] { return qualified({}, tables_with(over_mm, changes)); };
   };
   const auto in_reference = [](const char* file, const char* from, const char* to) {
     return [=] { return qualified(references_with(file, from, to)); };
   };
   const std::vector<Plant> plants{
-      // Of the product's own tables: a cell that keeps all their rules.
-      {"iso286.H", in_tables("IT9", 18, 1000)},
-      {"iso286.h", in_tables("IT12", 400, -10'000)},
-      {"iso286.JS", in_tables("IT01", 30, 100)},
-      {"iso286.k", in_tables("ei_k_IT4_to_IT7", 120, 1000)},
-      {"iso286.zc", in_tables("ei_zc", 450, 10'000)},
-      {"iso286.T", in_tables("ES_T_gt_IT7", 24, -1000)},
-      {"iso286.P", in_tables("delta_IT7", 80, 1000)},
-      {"iso286.cd", in_tables("es_cd", 3, -1000)},
+      // Of the product's own tables: cells that keep all the rules of a table, and cells that do
+      // not.
+      {"iso286.H", in_tables(18, {{"IT9", 1000}})},
+      {"iso286.h", in_tables(400, {{"IT12", -10'000}})},
+      {"iso286.JS", in_tables(30, {{"IT01", 100}})},
+      {"iso286.zc", in_tables(450, {{"ei_zc", 10'000}, {"ES_ZC_gt_IT7", -10'000}})},
+      {"iso286.T", in_tables(24, {{"ei_t", 1000}, {"ES_T_gt_IT7", -1000}})},
+      {"iso286.cd", in_tables(3, {{"es_cd", -1000}, {"EI_CD", 1000}})},
+      {"iso286.rules", in_tables(120, {{"ei_k_IT4_to_IT7", 1000}})},
+      {"iso286.rules", in_tables(80, {{"delta_IT7", 1000}})},
       // Of the data that the figures are computed from, as if the computation was wrong.
       {"nist.Lew.s", in_reference("nist/Lew.txt", "-213", "-213.00000001")},
       {"nist.NumAcc4.s", in_reference("nist/NumAcc4.txt", "10000000.3", "10000000.30000001")},
@@ -125,12 +131,11 @@ TEST_CASE("twenty wrong constants are planted one at a time, and each is found w
     const Qualification made = plant.with();
     CHECK_FALSE(made.passed);
     CHECK(failed(made).count(plant.where) == 1);
-    CHECK(failed(made).size() < 60);
   }
 }
 
 TEST_CASE("a wrong cell of a table is named with its class and size") {
-  const Qualification made = qualified({}, tables_with("IT9", 18, 1000));
+  const Qualification made = qualified({}, tables_with(18, {{"IT9", 1000}}));
   const auto wrong = std::find_if(made.checks.begin(), made.checks.end(),
                                   [](const Check& c) { return c.id == "iso286.H9.18.000001"; });
   REQUIRE(wrong != made.checks.end());
