@@ -334,6 +334,8 @@ export default {
   'programs.found': '{errors} Fehler, {warnings} Warnungen',
   'programs.in_order': 'Nichts zu beanstanden.',
   'programs.line': 'Zeile {line}',
+  'programs.at_block': 'Satz {block}',
+  'programs.called': '{name}, gerufen von {by}',
   'programs.severity.error': 'Fehler',
   'programs.severity.warning': 'Warnung',
   'programs.run_title': 'Auf der simulierten Maschine ausführen',

@@ -334,6 +334,8 @@ export default {
   'programs.found': '{errors} errors, {warnings} warnings',
   'programs.in_order': 'Nothing to complain about.',
   'programs.line': 'line {line}',
+  'programs.at_block': 'block {block}',
+  'programs.called': '{name}, called by {by}',
   'programs.severity.error': 'Error',
   'programs.severity.warning': 'Warning',
   'programs.run_title': 'Run on the simulated machine',

@@ -334,6 +334,8 @@ export default {
   'programs.found': '{errors} errori, {warnings} avvisi',
   'programs.in_order': 'Nulla da segnalare.',
   'programs.line': 'riga {line}',
+  'programs.at_block': 'blocco {block}',
+  'programs.called': '{name}, chiamato da {by}',
   'programs.severity.error': 'Errore',
   'programs.severity.warning': 'Avviso',
   'programs.run_title': 'Esecuzione sulla macchina simulata',

@@ -334,6 +334,8 @@ export default {
   'programs.found': '{errors} fouten, {warnings} waarschuwingen',
   'programs.in_order': 'Niets op aan te merken.',
   'programs.line': 'regel {line}',
+  'programs.at_block': 'blok {block}',
+  'programs.called': '{name}, aangeroepen door {by}',
   'programs.severity.error': 'Fout',
   'programs.severity.warning': 'Waarschuwing',
   'programs.run_title': 'Uitvoeren op de gesimuleerde machine',

@@ -6,7 +6,7 @@ import {
 } from '../bundled/codemirror.js';
 import { h } from '../dom.js';
 import { findingText, t } from '../i18n.js';
-import { klartext } from './klartext.js';
+import { blockNumbers, isNumbered, klartext } from './klartext.js';
 
 /** The words of CodeMirror, each a text of the page. */
 const PHRASES = {
@@ -18,7 +18,7 @@ const PHRASES = {
 const THEME = EditorView.theme({
   '&': { color: 'var(--ink)', backgroundColor: 'var(--sheet)', fontSize: '.875rem', borderRadius: '8px' },
   '&.cm-focused': { outline: '2px solid var(--focus)', outlineOffset: '2px' },
-  '.cm-scroller': { fontFamily: 'ui-monospace, "Cascadia Mono", "JetBrains Mono", "DejaVu Sans Mono", monospace', lineHeight: '1.6', maxHeight: '32rem', overflow: 'auto' },
+  '.cm-scroller': { fontFamily: 'ui-monospace, "Cascadia Mono", "JetBrains Mono", "DejaVu Sans Mono", monospace', lineHeight: '1.6', maxHeight: 'var(--editor-height, 32rem)', overflow: 'auto' },
   '.cm-content': { caretColor: 'var(--ink)', padding: '.5rem 0' },
   '.cm-cursor': { borderLeftColor: 'var(--ink)', borderLeftWidth: '2px' },
   '.cm-gutters': { color: 'var(--soft)', backgroundColor: 'var(--sheet)', borderRight: '1px solid var(--line)' },
@@ -77,19 +77,22 @@ export class Editor {
     return this.view.state.doc.toString();
   }
 
-  /** Another text, with a history of its own. */
+  /** Another text, with a history of its own. Beside a program stand the numbers of its blocks, unless its text has them. */
   show(text, { label, isProgram, readOnly }) {
     const lineOf = (view, at) => view.state.doc.lineAt(at).number;
     this.view.setState(EditorState.create({
       doc: text,
       extensions: [
         THEME, findings, here, history(), drawSelection(), highlightActiveLine(), isProgram ? klartext : [], search({ top: true }),
-        lineNumbers({ domEventHandlers: { click: (view, block) => { this.onLine(lineOf(view, block.from)); return false; } } }),
+        isProgram && isNumbered(text) ? [] : lineNumbers({
+          ...(isProgram && { formatNumber: (line, { doc }) => blockNumbers(doc)[line - 1] ?? '' }),
+          domEventHandlers: { click: (view, block) => { this.onLine(lineOf(view, block.from)); return false; } },
+        }),
         EditorState.readOnly.of(readOnly),
         EditorState.phrases.of(Object.fromEntries(Object.entries(PHRASES).map(([phrase, name]) => [phrase, t(`editor.${name}`)]))),
         EditorView.contentAttributes.of({ 'aria-label': label, tabindex: '0' }),
         keymap.of([{ key: 'Mod-s', preventDefault: true, run: () => { this.onStore(); return true; } }, ...searchKeymap, ...historyKeymap, ...defaultKeymap]),
-        EditorView.domEventHandlers({ click: (_, view) => { this.onLine(lineOf(view, view.state.selection.main.head)); return false; } }),
+        EditorView.domEventHandlers({ mouseup: (_, view) => { this.onLine(lineOf(view, view.state.selection.main.head)); return false; } }),
         EditorView.updateListener.of(({ docChanged, transactions, view }) => {
           const byKeys = transactions.some((each) => each.isUserEvent('select') && !each.isUserEvent('select.pointer'));
           if (docChanged) this.onChange();

@@ -2,11 +2,15 @@
 
 import { h } from '../dom.js';
 import { findingText, t } from '../i18n.js';
+import { fileName } from './disk.js';
+
+/** Where something is, as the control counts it: the block, or the line of a text whose blocks have no numbers. */
+export const placeText = ({ block, line }) => (Number.isInteger(block) ? t('programs.at_block', { block }) : t('programs.line', { line }));
 
 /** @param own findings of the program that is open; @param others of those it calls; @param onGo takes a finding */
 export const findingList = (own, others, onGo) => [
-  ...others.map((each) => h('li', said(each), h('p.aside', each.program), h('code', each.source))),
-  ...own.map((each) => h('li', h('button.quiet', { type: 'button', onclick: () => onGo(each) }, t('programs.line', { line: each.line })), said(each))),
+  ...others.map((each) => h('li', said(each), h('p.aside', `${fileName(each.program)} · ${placeText(each)}`), h('code', each.source))),
+  ...own.map((each) => h('li', h('button.quiet', { type: 'button', onclick: () => onGo(each) }, placeText(each)), said(each))),
 ];
 
 const said = (each) => h('p', { class: `finding ${each.severity}` },

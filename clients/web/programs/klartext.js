@@ -25,6 +25,27 @@ const language = StreamLanguage.define({
   languageData: { commentTokens: { line: ';' } },
 });
 
+/** Whether the blocks of a text have numbers of their own. */
+export const isNumbered = (text) => /^(?:.*\n)?\s*N?\d+\s/.test(text);
+
+const numbers = new WeakMap();
+/** The number of the block that begins in each line of a document, as the control counts; '' where none does. */
+export function blockNumbers(doc) {
+  if (numbers.has(doc)) return numbers.get(doc);
+  let next = 0;
+  let goesOn = false;
+  const found = doc.toString().split('\n').map((text) => {
+    const begins = !goesOn && text.trim() !== '';
+    goesOn = /~\s*$/.test(text);
+    if (!begins) return '';
+    const written = /^\s*\/?\s*(\d+)/.exec(text)?.[1];
+    next = Number(written ?? next) + 1;
+    return String(next - 1);
+  });
+  numbers.set(doc, found);
+  return found;
+}
+
 const colours = HighlightStyle.define([
   { tag: tags.comment, color: 'var(--soft)' },
   { tag: tags.meta, color: 'var(--soft)' },

@@ -1,11 +1,15 @@
 /** Goes through the moves of a run: where the machine is, with which feed, and which line of the program it comes from. */
 
-import { h } from '../dom.js';
+import { h, refill } from '../dom.js';
 import { number, t } from '../i18n.js';
 import { fileName } from './disk.js';
+import { placeText } from './findings.js';
 
 const AXES = ['X', 'Y', 'Z'];
 const place = (point) => AXES.filter((axis) => axis in point).map((axis) => `${axis} ${number(String(point[axis]))}`).join('  ');
+/** What a move changes is bold. */
+const changed = ({ start_mm: start, end_mm: end }) => AXES.filter((axis) => axis in end)
+  .flatMap((axis, i) => [i > 0 && '  ', h(start[axis] === end[axis] ? 'span' : 'strong', place({ [axis]: end[axis] }))]);
 
 export class MoveSlider {
   /** @param trace a Trace; @param onMove takes the move that is shown */
@@ -57,7 +61,8 @@ export class MoveSlider {
 
   #say(move) {
     const contact = move.contact_mm && `${t('programs.kind.contact')} ${place(move.contact_mm)}`;
-    this.said.textContent = [t('programs.move_of', { at: this.#at + 1, count: this.trace.length }), `${fileName(move.program)} ${t('programs.line', { line: move.line })}`,
-      t(`programs.kind.${move.kind}`), place(move.end_mm), move.kind !== 'rapid' && `F ${number(String(move.feed_mm_min))}`, contact].filter(Boolean).join(' · ');
+    const parts = [t('programs.move_of', { at: this.#at + 1, count: this.trace.length }), `${fileName(move.program)} ${placeText(move)}`,
+      t(`programs.kind.${move.kind}`), changed(move), move.kind !== 'rapid' && `F ${number(String(move.feed_mm_min))}`, contact].filter(Boolean);
+    refill(this.said, parts.flatMap((part, i) => [i > 0 && ' · ', part]));
   }
 }

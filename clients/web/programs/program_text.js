@@ -3,6 +3,7 @@
 import { h, refill } from '../dom.js';
 import { t } from '../i18n.js';
 import { Latest } from '../latest.js';
+import { CalledProgram } from './called_program.js';
 import { check, fileName, isProgram, readFile, relative, writeFile } from './disk.js';
 import { Editor } from './editor.js';
 import { findingList } from './findings.js';
@@ -22,7 +23,7 @@ export class ProgramText {
 
   /**
    * @param leaving the signal of the view that is left
-   * @param onLine takes the number of a line that was touched; @param onState is called when the text is stored or not any more
+   * @param onLine takes the number of a line that was touched, and its program where that is a called one; @param onState is called when the text is stored or not any more
    * @param onStore called on Ctrl+S
    */
   constructor({ leaving, onLine, onState, onStore }) {
@@ -31,10 +32,12 @@ export class ProgramText {
     this.editor = new Editor({ onLine, onStore, onChange: () => this.#edited() });
     this.list = h('ol.findings');
     this.note = h('p.aside', { hidden: true });
-    this.element = h('div.listing', this.editor.element, this.note, this.list);
+    this.called = new CalledProgram(onLine);
+    this.element = h('div.texts', h('div.listing', this.editor.element, this.note, this.list), this.called.element);
     leaving.addEventListener('abort', () => {
       clearTimeout(this.#timer);
       this.editor.destroy();
+      this.called.destroy();
     });
   }
 
@@ -56,6 +59,7 @@ export class ProgramText {
     const file = draft?.tag === null ? { text: null, ...draft, stored: null } : await readFile(path);
     if (this.#opening !== path) return false;
     this.path = path;
+    this.called.close();
     this.tag = draft ? draft.tag : file.tag;
     this.stored = draft?.tag === null ? null : file.text;
     this.lineBreak = file.text?.includes('\r\n') ? '\r\n' : '\n';
@@ -86,8 +90,12 @@ export class ProgramText {
     refill(this.list, findingList(own, diagnostics.filter((each) => !isOwn(each)), (each) => this.editor.goTo(each)));
   }
 
+  /** Shows the line of a move; the text of a called program stands below that of the one that is open. */
   showLine(program, line) {
-    this.editor.showLine(fileName(program).toLowerCase() === fileName(this.path).toLowerCase() ? line : 0);
+    const isOwn = fileName(program).toLowerCase() === fileName(this.path).toLowerCase();
+    this.editor.showLine(isOwn ? line : 0);
+    if (isOwn) this.called.close();
+    else this.called.show(program, line, this.path);
   }
 
   /** One after the other: the second of a pair of keys finds nothing left to store. @errors precondition.failed where somebody else stored the file meanwhile */

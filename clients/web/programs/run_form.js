@@ -28,7 +28,7 @@ export class RunForm {
     this.setupText.addEventListener('input', () => this.#typedSetup());
     this.workpiece = new WorkpieceForm((features) => this.#shaped(features));
     this.setupName = h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false' });
-    this.parameters = h('textarea', { rows: 2, spellcheck: 'false', placeholder: 'Q1 = 25\nQS1 = H7' });
+    this.parameters = h('textarea', { rows: 1, spellcheck: 'false', placeholder: 'Q1 = 25' });
     this.subject = Object.fromEntries(['part_id', 'order'].map((name) => [name, h('input', { type: 'text', name, autocomplete: 'off', spellcheck: 'false', maxlength: 200 })]));
     this.note = h('p.note', { role: 'alert' });
     this.start = h('button.primary', { type: 'submit' }, t('programs.run'));
@@ -39,12 +39,13 @@ export class RunForm {
       h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.run(); } },
         h('div.pair', field(t('programs.setup'), this.setup), field(t('programs.parameters'), this.parameters),
           Object.entries(this.subject).map(([name, input]) => field(t(`field.${name}`), input))),
+        h('p.actions', this.start, this.cancel),
         h('details', { ontoggle: ({ target }) => target.open && this.#showWorkpiece() }, h('summary', t('programs.setup_text')), this.workpiece.element,
           h('details', h('summary', t('programs.setup_whole')), field(t('programs.setup_json'), this.setupText)),
           h('div.line', field(t('programs.setup_name'), this.setupName),
             h('button', { type: 'button', onclick: () => this.#storeSetup() }, t('programs.store_setup')))),
-        h('p.actions', this.start, this.cancel), this.note),
-      this.earlier, this.state, this.report);
+        this.note),
+      this.earlier, this.state);
   }
 
   /** @param chosen the name of a setup */
@@ -57,9 +58,9 @@ export class RunForm {
     await this.#listEarlier();
   }
 
-  /** The line of the program that was touched: shows the move that it commands. */
-  toLine(line) {
-    this.slider?.toLine(this.program, line);
+  /** The line of a program that was touched, this one or one that it calls: shows the move that it commands. */
+  toLine(line, program = this.program) {
+    this.slider?.toLine(program, line);
   }
 
   /** Another program is opened: what comes of a run of the one before is not shown below it. */

@@ -8,6 +8,7 @@ import { Trace } from '../figures/trace.js';
 import { explain, number, signed, t } from '../i18n.js';
 import { limitsText, verdictMark } from '../verdict.js';
 import { fileName } from './disk.js';
+import { placeText } from './findings.js';
 import { logFrame } from './log_frame.js';
 import { MoveSlider } from './move_slider.js';
 
@@ -20,12 +21,12 @@ export async function runReport(run, { onMoves, onMove }) {
   return [
     h('div.line', h('p.headline', t(`run.${run.status}`)), run.verdict && verdictMark(run.verdict),
       h('p.aside', t('programs.ran', { blocks: run.blocks_executed, seconds: number((run.machining_time_s ?? 0).toFixed(1)) }))),
+    path,
     run.messages?.length > 0 && h('ul.messages', run.messages.map((message) => h('li',
       h('strong', message.number ? `${message.number} ` : '', message.text),
-      h('span.aside', [fileName(message.program ?? ''), message.line && t('programs.line', { line: message.line })].filter(Boolean).join(' · '))))),
-    run.screen?.length > 0 && screenOf(run.screen),
+      h('span.aside', [fileName(message.program ?? ''), message.line && placeText(message)].filter(Boolean).join(' · '))))),
     run.measurements?.length > 0 && measured(run.measurements),
-    path,
+    run.screen?.length > 0 && screenOf(run.screen),
     files(run),
     parameters(run.parameters ?? {}),
   ].filter(Boolean);

@@ -16,7 +16,7 @@ export function mount(main, route) {
   const leaving = new AbortController();
   const files = new FileList({ onPick: (path) => pick(path), onUpload: upload, onBegin: begin });
   const source = new ProgramText({
-    leaving: leaving.signal, onLine: (line) => form.toLine(line), onState: showState, onStore: () => attempt(store),
+    leaving: leaving.signal, onLine: (line, called) => form.toLine(line, called), onState: showState, onStore: () => attempt(store),
   });
   const form = new RunForm({
     onDiagnostics: (found) => source.show(found), onRun: (run, setup) => remember({ run, setup }),
@@ -31,7 +31,8 @@ export function mount(main, route) {
   const actions = h('p.actions', storing, dropping,
     h('button', { type: 'button', onclick: () => attempt(checkCurrent) }, t('programs.check')),
     h('button', { type: 'button', onclick: () => attempt(remove) }, t('programs.delete')));
-  const program = h('div.program', h('div.line', title, actions), source.element, form.element);
+  const heading = h('div.line', title, actions);
+  const program = h('div.program', heading, form.element, h('div.bench', source.element, form.report));
   const examples = h('p.actions', EXAMPLES.map((one) => h('button', { type: 'button', onclick: () => attempt(() => tryOut(one)) },
     h('strong', one.name), h('span.aside', t(`example.${one.name}`)))));
   const nothing = h('section.empty', h('p', t('programs.pick')), h('h2', t('example.title')), h('p', t('example.how')), examples);
@@ -79,12 +80,15 @@ export function mount(main, route) {
   }
 
   async function open(options = {}) {
+    if (current) heading.after(note);
+    else nothing.before(note);
     nothing.hidden = current !== '';
     program.hidden = current === '';
     if (!current) return;
     if (!await source.open(current)) return;
     name.textContent = fileName(current);
     form.element.hidden = !isProgram(current);
+    form.report.hidden = !isProgram(current);
     if (!isProgram(current)) return;
     await form.show(current, options.setup);
     if (options.run) await form.showRun(options.run);

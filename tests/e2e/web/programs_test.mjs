@@ -68,12 +68,23 @@ describe('the programs', () => {
     const first = moves.findIndex((move) => move.contact_mm);
     await page.$eval('.moves input', (slider, at) => { slider.value = at; slider.dispatchEvent(new Event('input')); }, first);
     const said = () => page.textContent('.moves output');
-    assert.match(await said(), new RegExp(`^${first + 1} of ${moves.length} · .*line ${moves[first].line} · Probing · X .*F .*Contact X`));
+    assert.match(await said(), new RegExp(`^${first + 1} of ${moves.length} · .*block ${moves[first].block} · Probing · X .*F .*Contact X`));
     assert.equal((await page.$$('.path-view .here circle')).length, 2);
+    // The text of the program that is called stands at its line, one number a row; a touch of it goes to its move.
+    await page.waitForSelector('.called .cm-line.cm-here');
+    assert.match(await page.textContent('.called h3'), /82551\.h, called by 8255\.h/i);
+    assert.match(await page.textContent('.called .cm-here'), new RegExp(`^\\s*${moves[first].block} `));
+    assert.equal((await page.$$('.cm-lineNumbers')).length, 0);
+    assert.ok((await page.$$('.moves output strong')).length > 0, 'what the move changes is not marked');
+    const before = moves.findLastIndex((move, i) => i < first && move.block !== moves[first].block && move.program === moves[first].program);
+    await page.$$eval('.called .cm-line', (rows, start) => rows.find((row) => row.textContent.trimStart().startsWith(start)).scrollIntoView(), `${moves[before].block} `);
+    await drawn(page);
+    await page.click(`.called .cm-line:text-matches("^\\\\s*${moves[before].block} ")`);
+    assert.match(await said(), new RegExp(`82551\\.h block ${moves[before].block} `, 'i'));
     const own = moves.findIndex((move) => /8255\.h$/i.test(move.program));
     if (own >= 0) {
       await page.click(`.cm-line >> nth=${moves[own].line - 1}`);
-      assert.match(await said(), new RegExp(`8255\\.h line ${moves[own].line} `, 'i'));
+      assert.match(await said(), new RegExp(`8255\\.h block ${moves[own].block} `, 'i'));
       assert.equal(await page.$eval('.cm-line.cm-here', (row) => [...row.parentNode.querySelectorAll('.cm-line')].indexOf(row) + 1), moves[own].line);
     }
     const ran = hash();
@@ -135,7 +146,8 @@ describe('the programs', () => {
     await page.keyboard.type('\nCALL LBL 9 ; nowhere');
     await page.waitForSelector('.cm-line.cm-error');
     assert.equal(await page.textContent('.cm-line.cm-error'), 'CALL LBL 9 ; nowhere');
-    assert.match(await page.textContent('.findings'), /line 3/);
+    assert.match(await page.textContent('.findings'), /block 2/);
+    assert.deepEqual(await page.$$eval('.cm-lineNumbers .cm-gutterElement', (all) => all.slice(1).map(({ textContent }) => textContent)), ['0', '1', '2', '3', '']);
     assert.equal(await there(), text);
     assert.match(await page.textContent('.title'), /not stored yet/);
     const colours = await page.$$eval('.cm-line >> nth=2 >> span', (words) => new Set(words.map((word) => getComputedStyle(word).color)).size);
@@ -168,7 +180,7 @@ describe('the programs', () => {
     assert.match(await there(), /L X\+10 Y\+5 R0 F500\r\n/);
     await page.click('.cm-line >> nth=3');
     await page.keyboard.press('ArrowUp');
-    assert.match(await page.textContent('.moves output'), /line 3 · Rapid/i);
+    assert.match(await page.textContent('.moves output'), /block 2 · Rapid/i);
   });
 
   it('are run and stored once, and what is typed while another is opened stays its own', async () => {
@@ -197,7 +209,7 @@ describe('the programs', () => {
     // The run of the one is over where its button can be pressed again, and is not shown below the other.
     await page.waitForFunction(() => document.querySelector('.run button[type="submit"]')?.disabled === false);
     await eventually(async () => assert.equal((await daemon.json('/v1/runs?program=TNC:%5Cnc_prog%5Cone.h&status=completed')).runs.length, 1));
-    assert.equal(await page.textContent('.run .report'), '');
+    assert.equal(await page.textContent('.report'), '');
     assert.doesNotMatch(hash(), /run=/);
     await page.click('.files button:has-text("one.h")');
     await page.waitForSelector('.cm-line:has-text("; of one")');
