@@ -1,7 +1,7 @@
 /** What the page takes from three.js (scripts/cmake/bundle_web.mjs). */
 
 export {
-  BackSide, BoxGeometry, BufferAttribute, BufferGeometry, CanvasTexture, Color, CylinderGeometry, DirectionalLight, Group, HemisphereLight,
-  LineBasicMaterial, LineDashedMaterial, LineSegments, Mesh, MeshLambertMaterial, PerspectiveCamera, Points, PointsMaterial, Scene, SphereGeometry, Vector3, WebGLRenderer,
+  BackSide, BufferAttribute, BufferGeometry, CanvasTexture, Color, CylinderGeometry, DirectionalLight, ExtrudeGeometry, Group, HemisphereLight,
+  LineBasicMaterial, LineDashedMaterial, LineSegments, Mesh, MeshLambertMaterial, OrthographicCamera, Path, Points, PointsMaterial, Scene, Shape, SphereGeometry, Vector3, WebGLRenderer,
 } from 'three';
 export { OrbitControls } from 'three/addons/controls/OrbitControls.js';

@@ -1,26 +1,31 @@
 /** The part, the stylus, the path of a run and its contacts in space. Drawn only when something changes. */
 
 import {
-  BackSide, BoxGeometry, BufferAttribute, BufferGeometry, CanvasTexture, Color, CylinderGeometry, DirectionalLight, Group, HemisphereLight,
-  LineBasicMaterial, LineDashedMaterial, LineSegments, Mesh, MeshLambertMaterial, OrbitControls, PerspectiveCamera, Points, PointsMaterial, Scene, SphereGeometry,
-  Vector3, WebGLRenderer,
+  BackSide, BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, HemisphereLight, LineBasicMaterial, LineDashedMaterial, LineSegments,
+  MeshLambertMaterial, OrbitControls, OrthographicCamera, Points, PointsMaterial, Scene, Vector3, WebGLRenderer,
 } from '../bundled/three.js';
 import { h } from '../dom.js';
-import { t } from '../i18n.js';
+import { number, t } from '../i18n.js';
 import { boundsOf } from './path_bounds.js';
+import { SceneLabels } from './scene_labels.js';
+import { ball, boresOf, solidsOf, stylusOf, tableOf } from './scene_solids.js';
+import { poseName, touchedSpheres } from './touched_sphere.js';
 
 /** What is drawn in which colour of the page. */
-const COLOURS = { rapid: '--edge', feed: '--ink', arc: '--ink', probe: '--focus', contact: '--focus', here: '--alarm', part: '--line', hole: '--edge', stylus: '--reject' };
+const COLOURS = { rapid: '--edge', feed: '--ink', arc: '--ink', probe: '--focus', contact: '--focus', here: '--alarm', axes: '--ink', part: '--line', hole: '--edge', ghost: '--line', stylus: '--reject' };
 const STYLUS_RADIUS_MM = 2;
-const STYLUS_LENGTH = 12; // of its ball's radius
 const CONTACT_PIXELS = 11;
-/** Points in a cylinder's circle. */
-const ROUND = 64;
-const VIEW_ANGLE = 35;
 const AXES = ['X', 'Y', 'Z'];
+/** From where the part is seen. */
+const VIEWS = { corner: [0.45, -0.75, 0.5], top: [0, -1e-4, 1], front: [0, -1, 0], right: [1, 0, 0] };
+const SEEN = 1.15; // of the size of what matters
 
-/** {element, show, destroy}: `show` puts the stylus to the end of a move. @param trace a Trace; @param context of WebGL @param radius of the ball, in mm */
-export function pathScene(trace, features, { canvas, context, radius = STYLUS_RADIUS_MM }) {
+/**
+ * {element, show, destroy}: `show` puts the stylus to the end of a move.
+ * @param trace a Trace; @param context of WebGL; @param radius of the stylus' ball, in mm
+ * @param sphere {center_mm, radius_mm} of the calibration sphere on the table, if there is one
+ */
+export function pathScene(trace, features, { canvas, context, radius = STYLUS_RADIUS_MM, sphere }) {
   const bounds = boundsOf(trace, features);
   const size = Math.max(extentOf(bounds), 1);
   const materials = materialsOf(size);
@@ -28,7 +33,22 @@ export function pathScene(trace, features, { canvas, context, radius = STYLUS_RA
   scene.add(new HemisphereLight(0xffffff, 0x999999, 2.2), lightFrom(1, -2, 3));
   for (const [kind, ends] of Object.entries(trace.endsByKind)) scene.add(lines(ends, materials[kind]));
   scene.add(new Points(geometryOf(trace.contacts), materials.contact));
-  for (const feature of features) if (feature.type in SOLIDS) scene.add(SOLIDS[feature.type](feature, materials));
+  const bores = features.filter((one) => one.type === 'block').flatMap((block) => boresOf(block, features));
+  let solids = null;
+  const section = h('button', { type: 'button', hidden: !bores.length, 'aria-pressed': 'true', onclick: () => cut(section.getAttribute('aria-pressed') === 'false') }, t('programs.section'));
+  const spots = sphere ? touchedSpheres(trace) : [];
+  const table = spots.length > 0 && tableOf(sphere, materials);
+  if (table) scene.add(table, ...spots.map(({ centre }) => ball(centre, sphere.radius_mm, materials.ghost)));
+  const origin = AXES.map((axis) => Math.min(Math.max(0, bounds.low[axis]), bounds.high[axis]));
+  const arms = AXES.map((_, i) => origin.map((value, k) => value + (i === k ? size / 6 : 0)));
+  const across = bores.map(({ center_mm: [x, y], top_mm: top = 0, diameter_mm: d }) => [x - d / 2, y, top, x + d / 2, y, top]);
+  const measures = lines(Float32Array.from([...arms.flatMap((arm) => [...origin, ...arm]), ...across.flat()]), materials.axes);
+  measures.renderOrder = 1;
+  scene.add(measures);
+  const labels = new SceneLabels([
+    ...AXES.map((text, i) => ({ text, at: arms[i] })),
+    ...bores.map(({ diameter_mm: d }, i) => ({ text: `Ø ${number(d.toFixed(3))}`, at: across[i].slice(3) })),
+  ]);
   const stylus = stylusOf(radius, materials.stylus);
   const marked = new LineSegments(geometryOf(trace.ends.slice(0, 6)), materials.here);
   marked.frustumCulled = false;
@@ -37,7 +57,7 @@ export function pathScene(trace, features, { canvas, context, radius = STYLUS_RA
 
   const renderer = new WebGLRenderer({ canvas, context });
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-  const camera = new PerspectiveCamera(VIEW_ANGLE);
+  const camera = new OrthographicCamera();
   camera.up.set(0, 0, 1);
   const controls = new OrbitControls(camera, canvas);
   const dark = matchMedia('(prefers-color-scheme: dark)');
@@ -47,6 +67,7 @@ export function pathScene(trace, features, { canvas, context, radius = STYLUS_RA
     frame ||= requestAnimationFrame(() => {
       frame = 0;
       renderer.render(scene, camera);
+      labels.draw(camera, { width: canvas.clientWidth, height: canvas.clientHeight });
     });
   }
 
@@ -61,13 +82,14 @@ export function pathScene(trace, features, { canvas, context, radius = STYLUS_RA
     const { clientWidth: width, clientHeight: height } = canvas;
     if (!width || !height) return;
     renderer.setSize(width, height, false);
-    camera.aspect = width / height;
+    const half = (SEEN * size) / 2 / Math.min(1, width / height);
+    Object.assign(camera, { left: -half * width / height, right: half * width / height, top: half, bottom: -half });
     camera.updateProjectionMatrix();
     draw();
   }
 
   const resized = new ResizeObserver(fit);
-  lookAt(camera, controls, bounds, size);
+  lookAt(camera, controls, bounds, size, VIEWS.corner);
   // A wheel and a finger scroll the page until the figure is taken up; then the wheel comes nearer.
   controls.enableZoom = false;
   canvas.style.touchAction = 'pan-y';
@@ -83,6 +105,25 @@ export function pathScene(trace, features, { canvas, context, radius = STYLUS_RA
   canvas.setAttribute('aria-label', `${t('programs.space')}: ${t('programs.path_summary', { moves: trace.length, contacts: trace.contacts.length / 3 })}`);
   controls.update();
   paint();
+  cut(bores.length > 0);
+
+  /** Takes away what stands before the first bore, or puts it back. */
+  function cut(isCut) {
+    section.setAttribute('aria-pressed', isCut);
+    if (solids) {
+      scene.remove(solids);
+      solids.traverse(({ geometry }) => geometry?.dispose());
+    }
+    solids = solidsOf(features, isCut ? bores[0].center_mm[1] : null, materials);
+    scene.add(solids);
+    draw();
+  }
+
+  function lookFrom(name) {
+    lookAt(camera, controls, bounds, size, VIEWS[name]);
+    controls.update();
+    draw();
+  }
   addEventListener('beforeprint', fit);
 
   function show(move) {
@@ -90,9 +131,18 @@ export function pathScene(trace, features, { canvas, context, radius = STYLUS_RA
     const ends = marked.geometry.attributes.position;
     [move.start_mm, move.end_mm].forEach((point, i) => ends.setXYZ(i, ...AXES.map((axis) => point[axis])));
     ends.needsUpdate = true;
+    stand(move.end_deg);
     draw();
   }
   show(trace.at(trace.length - 1));
+
+  /** The table as the axes stand: it turns with them, against their sense, and the part with it. */
+  function stand(degrees) {
+    const spot = spots.find(({ name }) => name === poseName(degrees));
+    if (!spot) return;
+    table.position.set(...spot.centre);
+    table.rotation.set(...['A', 'B', 'C'].map((axis) => (-(degrees[axis] ?? 0) * Math.PI) / 180), 'XYZ');
+  }
 
   function destroy() {
     cancelAnimationFrame(frame);
@@ -104,7 +154,8 @@ export function pathScene(trace, features, { canvas, context, radius = STYLUS_RA
     renderer.dispose();
     renderer.forceContextLoss();
   }
-  return { element: h('figure.scene', canvas, h('figcaption', t('programs.space_hint'))), show, destroy };
+  const views = h('div.views', Object.keys(VIEWS).map((name) => h('button', { type: 'button', onclick: () => lookFrom(name) }, t(`programs.view.${name}`))), section);
+  return { element: h('figure.scene', views, h('div.canvas', canvas, labels.element), h('figcaption', t('programs.space_hint'))), show, destroy };
 }
 
 const geometryOf = (numbers) => new BufferGeometry().setAttribute('position', new BufferAttribute(numbers, 3));
@@ -128,8 +179,10 @@ function materialsOf(size) {
     arc: new LineDashedMaterial({ dashSize: size / 300, gapSize: size / 200 }),
     probe: new LineBasicMaterial(),
     here: new LineBasicMaterial({ depthTest: false }),
+    axes: new LineBasicMaterial({ depthTest: false }),
     contact: new PointsMaterial({ size: CONTACT_PIXELS, sizeAttenuation: false, alphaTest: 0.5, map: disc() }),
-    part: new MeshLambertMaterial({ ...part, transparent: true, opacity: 0.55, depthWrite: false }),
+    part: new MeshLambertMaterial(part),
+    ghost: new MeshLambertMaterial({ transparent: true, opacity: 0.45, depthWrite: false }),
     hole: new MeshLambertMaterial({ ...part, side: BackSide, transparent: true, opacity: 0.8 }),
     stylus: new MeshLambertMaterial(),
   };
@@ -145,42 +198,13 @@ function disc() {
   return new CanvasTexture(canvas);
 }
 
-function cylinder({ center_mm: [x, y], diameter_mm: diameter, top_mm: top = 0 }, length, material) {
-  const mesh = new Mesh(new CylinderGeometry(diameter / 2, diameter / 2, length, ROUND, 1, material.side === BackSide), material);
-  mesh.rotation.x = Math.PI / 2; // its axis is Y
-  mesh.position.set(x, y, top - length / 2);
-  return mesh;
-}
-
-/** The features that have a simple shape; the others are known by their contacts. */
-const SOLIDS = {
-  block: ({ min_mm: low, max_mm: high }, { part }) => {
-    const mesh = new Mesh(new BoxGeometry(...high.map((value, i) => value - low[i])), part);
-    mesh.position.set(...high.map((value, i) => (value + low[i]) / 2));
-    return mesh;
-  },
-  bore: (feature, { hole }) => cylinder(feature, feature.depth_mm ?? 0, hole),
-  boss: (feature, { part }) => cylinder(feature, feature.height_mm ?? 0, part),
-};
-
-function stylusOf(radius, material) {
-  const length = radius * STYLUS_LENGTH;
-  const shank = new Mesh(new CylinderGeometry(radius / 2, radius / 2, length, 24), material);
-  shank.rotation.x = Math.PI / 2;
-  shank.position.z = length / 2;
-  const stylus = new Group();
-  stylus.add(new Mesh(new SphereGeometry(radius, 32, 16), material), shank);
-  return stylus;
-}
-
 const vector = (point) => new Vector3(...AXES.map((axis) => point[axis]));
 const extentOf = ({ low, high }) => vector(low).distanceTo(vector(high));
 
-/** From the front, right and above, so that all that matters is in sight. */
-function lookAt(camera, controls, { low, high }, size) {
-  const distance = (0.6 * size) / Math.tan((VIEW_ANGLE * Math.PI) / 360);
+/** From a side, so that all that matters is in sight. */
+function lookAt(camera, controls, { low, high }, size, from) {
   controls.target.addVectors(vector(low), vector(high)).multiplyScalar(0.5);
-  camera.position.copy(controls.target).add(new Vector3(0.45, -0.75, 0.5).normalize().multiplyScalar(distance));
-  camera.near = size / 500;
-  camera.far = size * 100;
+  camera.position.copy(controls.target).add(new Vector3(...from).normalize().multiplyScalar(4 * size));
+  Object.assign(camera, { near: size / 100, far: size * 20, zoom: 1 });
+  camera.updateProjectionMatrix();
 }

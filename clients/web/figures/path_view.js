@@ -4,9 +4,9 @@ import { h } from '../dom.js';
 import { t } from '../i18n.js';
 import { pathFigure, pathLegend } from './path_figure.js';
 
-/** {element, show, destroy}. @param trace a Trace; @param space of prepareSpace; @param radius of the stylus' ball, in mm */
-export async function pathView(trace, features, space, radius) {
-  const scene = space && await sceneOf(trace, features, space, radius);
+/** {element, show, destroy}. @param trace a Trace; @param space of prepareSpace; @param setup {radius, sphere}: of the stylus' ball in mm, and the calibration sphere */
+export async function pathView(trace, features, space, setup) {
+  const scene = space && await sceneOf(trace, features, space, setup);
   const legend = pathLegend(trace);
   if (!scene) {
     const { element, show } = pathFigure(trace, features);
@@ -42,10 +42,10 @@ export function prepareSpace() {
 }
 
 /** Nothing where the library does not load. */
-async function sceneOf(trace, features, { canvas, context, library }, radius) {
+async function sceneOf(trace, features, { canvas, context, library }, setup) {
   try {
     const { pathScene } = await library;
-    return pathScene(trace, features, { canvas, context, radius });
+    return pathScene(trace, features, { canvas, context, ...setup });
   } catch {
     return null;
   }

@@ -54,7 +54,8 @@ async function drawPath(run, place, { onMoves, onMove }) {
       get(url(['runs', run.id, 'trace'])).then((answer) => answer.arrayBuffer()), getJson(url(['runs', run.id, 'request']))]);
     const trace = new Trace(new Uint8Array(bytes));
     if (!trace.length) return;
-    const figure = await pathView(trace, order.setup?.workpiece?.features ?? [], space, radiusOf(order.setup?.machine?.tools));
+    const figure = await pathView(trace, order.setup?.workpiece?.features ?? [], space,
+      { radius: radiusOf(order.setup?.machine?.tools), sphere: order.setup?.machine?.calibration_sphere });
     const slider = new MoveSlider(trace, (move) => {
       figure.show(move);
       onMove(move);

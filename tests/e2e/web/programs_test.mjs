@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { afterEach, before, describe, it } from 'node:test';
 
+import { sphereCentre, touchedSpheres } from '../../../clients/web/figures/touched_sphere.js';
 import { KINDS, Trace } from '../../../clients/web/figures/trace.js';
 import { close, drawn, hashOf, open, openIn, picture } from './support/browser.mjs';
 import { eventually } from './support/eventually.mjs';
@@ -297,6 +298,21 @@ describe('the programs', () => {
     await page.$eval('.moves input', (slider) => { slider.value = 3; slider.dispatchEvent(new Event('input')); });
     const moved = await settled();
     assert.notEqual(moved.sum, first.sum, 'the stylus did not move');
+    // Axes, the bore and the scale are written on it; a side and the section are buttons.
+    const labels = () => page.$$eval('.scene-labels > span', (all) => all.map(({ textContent }) => textContent));
+    assert.deepEqual(await labels(), ['X', 'Y', 'Z', 'Ø 25.013', '20 mm']);
+    const places = () => page.$$eval('.scene-labels > span', (all) => all.slice(0, 3).map((one) => one.getBoundingClientRect()).map(({ x, y }) => [Math.round(x), Math.round(y)]));
+    await page.click('.views button:has-text("Front")');
+    const front = await settled();
+    const [x0, , z0] = await places();
+    assert.ok(x0[0] > z0[0] && x0[1] > z0[1], 'from the front X goes to the right and Z up');
+    await page.click('.views button:has-text("Section")');
+    assert.equal(await page.getAttribute('.views button:has-text("Section")', 'aria-pressed'), 'false');
+    assert.notEqual((await settled()).sum, front.sum, 'the whole part is seen as its section is');
+    await page.click('.views button:has-text("Section")');
+    assert.equal((await settled()).sum, front.sum);
+    await page.click('.views button:has-text("3-D")');
+    assert.equal((await settled()).sum, moved.sum);
     const { x, y, width, height } = await (await page.$('.scene canvas')).boundingBox();
     await page.mouse.move(x + width / 2, y + height / 2);
     await page.mouse.down();
@@ -311,6 +327,20 @@ describe('the programs', () => {
     await page.click('.path .switch button:last-child');
     assert.equal((await page.$$('.path-view .here circle')).length, 2);
     return undefined;
+  });
+
+  it('find the sphere on a turned table in the middle of what was touched', async () => {
+    page = await open(browser, daemon, '#/programs');
+    const touched = [[0, 0, 15], [15, 0, 0], [0, 15, 0], [-15, 0, 0], [0, -15, 0]];
+    assert.deepEqual(sphereCentre(touched).map((value) => Math.round(value * 1e6) / 1e6 + 0), [0, 0, 0]);
+    assert.equal(sphereCentre(touched.slice(1)), null); // in one plane
+    const moves = [0, 60].flatMap((C) => touched.map(([X, Y, Z]) => {
+      const at = { X: X + C, Y: Y - C, Z };
+      return { kind: 'probe', line: 1, program: 'a.h', start_mm: at, end_mm: at, end_deg: { A: 0, C }, contact_mm: at };
+    }));
+    const spots = touchedSpheres(new Trace(new TextEncoder().encode(JSON.stringify({ moves }))));
+    assert.deepEqual(spots.map(({ degrees: { C } }) => C), [0, 60]);
+    spots.forEach(({ centre, degrees: { C } }) => centre.forEach((value, i) => assert.ok(Math.abs(value - [C, -C, 0][i]) < 1e-6)));
   });
 
   it('fall back to the drawing where there is no WebGL', async () => {
