@@ -7,7 +7,7 @@ import { number, signed, t, time } from '../i18n.js';
 import { brush } from './brush.js';
 import { histogram } from './histogram.js';
 import { axes, coloursOf, DENSE, inSight, marked, stepped } from './plot.js';
-import { rangeOf } from './series.js';
+import { eventsOf, rangeOf } from './series.js';
 
 const TOP = 22;
 const VALUES = 300;
@@ -23,7 +23,7 @@ const HISTOGRAM = 150;
 const WIDE = 620;
 const LETTERING = 13;
 /** Of labels from each other: of times, of control limits, of the numbers of rules. */
-const APART = { time: 150, control: 14, rules: 18, beyond: 70 };
+const APART = { time: 150, control: 14, rules: 18, beyond: 70, events: 14 };
 const LONGEST_PART = 18;
 /** Of the range, so many parts from its edge are a mark beyond it. */
 const EDGE = 30;
@@ -61,6 +61,7 @@ export class ControlChart {
    */
   constructor(figure, points, singles, chart, { width, dots = 1, onPick, onStretch }) {
     Object.assign(this, { points, dots, colours: coloursOf(figure), rules: rulesAt(chart), font: `${LETTERING * dots}px ${getComputedStyle(figure).fontFamily}` });
+    this.events = eventsOf(points);
     const [own, spread] = chart?.charts ?? [];
     const beside = width >= WIDE && HISTOGRAM;
     const control = own ? [own.upper_limit, own.lower_limit].map((value) => value * NM_PER_UM) : [];
@@ -175,7 +176,7 @@ export class ControlChart {
     });
   }
 
-  /** The numbers of the rules broken, and where the point stands that was picked. */
+  /** The numbers of the rules broken, the letters of what was done, and where the point stands that was picked. */
   #drawOver() {
     const { plot, plot: { ctx, bbox }, dots, colours, rules, row, picked } = this;
     const size = dots * uPlot.pxRatio;
@@ -187,6 +188,9 @@ export class ControlChart {
       ctx.fillText(...text);
     };
     for (const [i, x] of inSight(plot, this.firsts, APART.rules * size)) write([...rules.get(i)].join(','), x, plot.valToPos(row.data[i], 'nm', true) - 13 * size);
+    // What was done at a value stands below it, at the foot of the values.
+    const foot = plot.valToPos(this.range.low, 'nm', true) - 4 * size;
+    for (const [i, x] of inSight(plot, this.events.keys(), APART.events * size)) write(this.events.get(i).map((name) => t(`trend.event.${name}`)).join(''), x, foot);
     // A point beyond the edge: an arrow with its distance.
     for (const [i, x] of inSight(plot, this.beyond, APART.beyond * size)) {
       const isHigh = this.points[i].deviation > this.range.high;

@@ -7,7 +7,7 @@ const PAGE = 1000;
 
 /** At most `count` records, the newest last. More than a page are read as they come, without a trip for each page. */
 export async function newestValues(filter, count, signal) {
-  const wanted = { ...filter, sort: 'newest' };
+  const wanted = { ...filter, sort: 'newest', notes: 'shown' };
   if (count <= PAGE) return (await getJson(url(['measurements'], { ...wanted, limit: count }), { signal })).measurements.reverse();
   const { body } = await get(url(['measurements'], { ...wanted, format: 'ndjson' }), { signal });
   const reader = body.pipeThrough(new TextDecoderStream()).getReader();

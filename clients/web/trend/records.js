@@ -4,7 +4,7 @@ import { h } from '../dom.js';
 import { umText } from '../exact.js';
 import { dateTime, signed, t } from '../i18n.js';
 import { fragment } from '../route.js';
-import { distanceText, measuredText, verdictMark } from '../verdict.js';
+import { distanceText, measuredText, noteText, verdictMark } from '../verdict.js';
 
 const ROWS = 12;
 const HEAD = ['trend.verdict', 'trend.value', 'trend.distance', 'field.part_id', 'trend.time'];
@@ -19,7 +19,8 @@ export function pointDetail({ record, members, deviation }, broken) {
   return h('div.line', verdictMark(record.verdict), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)),
     record.part_id && h('a', { href: fragment({ view: 'parts', options: { part_id: record.part_id } }) }, record.part_id),
     h('span.aside', [record.characteristic, record.machine, record.operator, record.gauge, dateTime(new Date(record.measured_at))].filter(Boolean).join(' · ')),
-    marks);
+    record.correction_of !== undefined && h('span.aside', t('trend.corrected')),
+    (record.notes ?? []).map((one) => h('span', noteText(one))), marks);
 }
 
 /** The last values, the newest first. */

@@ -48,6 +48,14 @@ export function meanPoint(members) {
   };
 }
 
+/** What may have been done at a value. A mean has what was done at any of its values. */
+export const EVENTS = ['note', 'correction'];
+const HAS = { note: ({ notes }) => notes?.length > 0, correction: (record) => record.correction_of !== undefined };
+
+/** {index: names of events}, in order. */
+export const eventsOf = (points) => new Map(points.map(({ record, members }, i) => [i, EVENTS.filter((name) =>
+  (members ?? [{ record }]).some((one) => HAS[name](one.record)))]).filter(([, names]) => names.length));
+
 const greatest = (values) => values.reduce((most, value) => Math.max(most, value), -Infinity);
 const least = (values) => values.reduce((most, value) => Math.min(most, value), Infinity);
 

@@ -14,7 +14,7 @@ import { capability, controlChart } from '../trend/figures.js';
 import { HeldValues } from '../trend/held_values.js';
 import { inFigures } from '../trend/in_figures.js';
 import { lastRows, pointDetail } from '../trend/records.js';
-import { meanPoint, pointOf, subgroupsOf } from '../trend/series.js';
+import { eventsOf, meanPoint, pointOf, subgroupsOf } from '../trend/series.js';
 import { capabilityTiles, countTiles } from '../trend/tiles.js';
 
 const COUNTS = [50, 100, 200, 500, 1000, 5000, 10000, 100000];
@@ -147,7 +147,7 @@ export function mount(main, route) {
     const { picked, shown } = chart;
     if (told?.picked === picked && told.shown === shown) return;
     told = { picked, shown };
-    refill(detail, picked === null ? h('p.aside', [left && t('trend.left_out', { count: left }), priceText()].filter(Boolean).join(' '))
+    refill(detail, picked === null ? h('p.aside', [left && t('trend.left_out', { count: left }), priceText(), eventsOf(shown.points).size > 0 && t('trend.events')].filter(Boolean).join(' '))
       : pointDetail(shown.points[picked], rulesAt(shown.chart).get(picked)));
   }
 

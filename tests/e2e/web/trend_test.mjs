@@ -242,6 +242,31 @@ describe('the trend', () => {
     await picture(page, 'trend-control', { fullPage: true });
   });
 
+  it('marks where a note was added or a value was corrected', async () => {
+    const content = { designation: '25 H7', characteristic: 'events' };
+    const stored = [];
+    for (const [i, mm] of ['25.010', '25.012', '25.011', '25.013'].entries()) {
+      stored.push(await (await daemon.send('POST', '/v1/measurements', { ...content, measured_mm: mm, part_id: `E-${i}` })).json());
+    }
+    page = await openChart(browser, daemon, '#/trend?characteristic=events');
+    await untilPoints(page, 4);
+    assert.deepEqual((await lettering(page)).filter((text) => /^[NC]+$/.test(text)), []);
+    assert.doesNotMatch(await page.textContent('.detail'), /N: a note/);
+    await daemon.send('POST', `/v1/measurements/${stored[1].id}/notes`, { cause: 'Insert worn', measure: 'Insert changed' });
+    await daemon.send('POST', `/v1/measurements/${stored[3].id}/corrections`, { measured_mm: '25.014', operator: 'Kim', reason: 'Misread' });
+    await close(page);
+    page = await openChart(browser, daemon, '#/trend?characteristic=events');
+    await untilPoints(page, 4);
+    assert.deepEqual((await lettering(page)).filter((text) => /^[NC]+$/.test(text)), ['N', 'C']);
+    assert.match(await page.textContent('.detail'), /N: a note, C: a corrected value/);
+    await page.focus('.trend figure');
+    await page.keyboard.press('ArrowLeft');
+    assert.match(await page.textContent('.detail'), /E-3.*corrected/);
+    await page.keyboard.press('ArrowLeft');
+    await page.keyboard.press('ArrowLeft');
+    assert.match(await page.textContent('.detail'), /E-1.*Insert worn → Insert changed/);
+  });
+
   it('shows 10,000 values, a stretch of them that is drawn across, and the record of a point in it', async () => {
     const size = (i) => (25.01 + ((i * 7919) % 1000) / 200_000 + (i === 9000 ? 0.02 : 0)).toFixed(6);
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 10_000 }, (_, i) => ({ designation: '25 H7', measured_mm: size(i), characteristic: 'many', part_id: `T-${i}` })));
