@@ -26,7 +26,8 @@ ExitCode exit_code_of(const Answer& answer) {
 
 std::string sentence(const Problem& problem) {
   std::string text = problem.title;
-  if (!problem.detail.empty()) text += ": " + problem.detail;
+  // The detail repeats the first field, which the list has with its place.
+  if (!problem.detail.empty() && problem.fields.empty()) text += ": " + problem.detail;
   for (const FieldProblem& field : problem.fields) {
     text += fmt::format("; {}: {}", field.pointer, field.detail);
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,5 +21,15 @@ struct Error {
 
   friend bool operator==(const Error&, const Error&) = default;
 };
+
+/// One error of all that were found: its message is the first, with the number of the others.
+/// @param count of all, where only some of them are listed
+inline Error listed(ErrorCode code, std::vector<Error> found, std::size_t count = 0) {
+  std::string message = found.front().message;
+  count = std::max(count, found.size());
+  if (count > 1) message += " (and " + std::to_string(count - 1) + " more)";
+  if (count > found.size()) message += "; the first " + std::to_string(found.size()) + " are listed";
+  return {code, std::move(message), {}, std::move(found)};
+}
 
 }  // namespace fitgauge

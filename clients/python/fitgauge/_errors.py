@@ -32,7 +32,9 @@ class Problem(FitgaugeError):
         self.errors: list[FieldError] = document.get("errors", [])
         self.retry_after = retry_after
         fields = "".join(f"; {e.get('pointer')} {e.get('code')}: {e.get('detail')}" for e in self.errors)
-        super().__init__(f"{status} {self.code}: {self.detail or self.title}{fields}")
+        # The detail repeats the first field, which the list has with its place.
+        said = self.title if fields else self.detail or self.title
+        super().__init__(f"{status} {self.code}: {said}{fields}")
 
     @property
     def pointer(self) -> str | None:

@@ -115,7 +115,9 @@ void put_column(const Services& services, Feature feature, const http::Request& 
       [shared](Result<app::TableCatalog::ColumnStored> stored) {
         if (stored) return answer_change(shared, stored->created ? 201 : 200, *stored);
         Error error = std::move(stored).error();
-        if (error.code == ErrorCode::TableRowsInvalid) error.code = ErrorCode::RequestInvalid;
+        if (error.code == ErrorCode::TableRowsInvalid) {
+          error = listed(ErrorCode::RequestInvalid, std::move(error.details));
+        }
         shared->fail(std::move(error));
       });
 }

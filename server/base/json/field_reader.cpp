@@ -29,10 +29,7 @@ void FieldErrors::rollback(Mark mark) {
 
 std::optional<Error> FieldErrors::take() {
   if (empty()) return std::nullopt;
-  std::string message = count_ == 1 ? "1 field cannot be accepted"
-                                    : fmt::format("{} fields cannot be accepted", count_);
-  if (count_ > kMostListed) message += fmt::format("; the first {} are listed", kMostListed);
-  return Error{ErrorCode::RequestInvalid, std::move(message), {}, std::move(entries_)};
+  return listed(ErrorCode::RequestInvalid, std::move(entries_), count_);
 }
 
 FieldReader::FieldReader(const JsonValue& object, std::string pointer, FieldErrors& errors)

@@ -47,10 +47,7 @@ class Findings {
 
   Result<void> result() && {
     if (found_.empty()) return {};
-    return Error{ErrorCode::SetupInvalid,
-                 fmt::format("The setup has {} invalid field(s); each is listed.", found_.size()),
-                 {},
-                 std::move(found_)};
+    return listed(ErrorCode::SetupInvalid, std::move(found_));
   }
 
  private:

@@ -109,7 +109,7 @@ std::string told(std::string_view file_name, const Error& error) {
         slash == std::string::npos ? std::string() : field.where.substr(slash + 1) + ": ";
     text += fmt::format("{}{}{}\n", line, name, field.message);
   }
-  if (count > 1) text += fmt::format("\n{}.\n", error.message);
+  if (count >= kMostTold) text += "\nThere can be more: these are the first.\n";
   text +=
       "\nPut it right and put the file back into the folder above. Names of columns and constants "
       "are settings of the connection: map, set, time_zone, encoding, length_unit.\n";

@@ -68,11 +68,7 @@ Result<void> MeshFiles::load(machine::Setup& setup, std::string_view pointer,
     }
   });
   if (found.empty()) return {};
-  return Error{
-      ErrorCode::RequestInvalid,
-      fmt::format("{} file(s) of the workpiece cannot be used; each is listed.", found.size()),
-      {},
-      std::move(found)};
+  return listed(ErrorCode::RequestInvalid, std::move(found));
 }
 
 }  // namespace fitgauge::app

@@ -32,6 +32,17 @@ class BadInput(DaemonTest):
             self.assertEqual((answer.status, answer.json["code"]), (400, code))
             self.assertEqual([(e["pointer"], e["line"], e["code"]) for e in answer.json["errors"]], [(row, 2, code)])
 
+    def test_the_detail_is_the_first_error_and_counts_the_others(self):
+        row = {"designation": "25 H7"}
+        for rows, more in (({**GOOD, "measured_mm": None}, ""), ([row], ""), ([row, row, row], " (and 2 more)"),
+                           ([row] * 150, " (and 149 more); the first 100 are listed")):
+            problem = self.daemon.measure(rows, JSON).json
+            self.assertEqual(problem["detail"], problem["errors"][0]["detail"] + more)
+        column = {"rows": [{"over_mm": 18, "up_to_mm": 10, "upper_um": 5, "lower_um": 9}]}
+        problem = self.daemon.request("PUT", "/v1/tables/hole/classes/Own", json.dumps(column), JSON).json
+        first, *others = problem["errors"]
+        self.assertEqual(problem["detail"], first["detail"] + (f" (and {len(others)} more)" if others else ""))
+
     def test_sizes(self):
         for nominal, code in ((0, "size.out_of_range"), (-1, "size.out_of_range"),
                               ("3150.000001", "size.out_of_range"), ("25.0000001", "length.too_fine")):
