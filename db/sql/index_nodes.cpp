@@ -86,7 +86,7 @@ bool IndexNodes::lacks(const IndexNode& node, std::span<const FieldValue> values
 /// Sums that are stale have more values than the current rows, never fewer.
 bool IndexNodes::lacks(const IndexNode& node, const FieldValue& wanted,
                        const MeasurementFilter& filter) {
-  if (wanted.field > static_cast<int>(kTextColumns.size())) return false;
+  if (wanted.field > static_cast<int>(kSummedColumns.size())) return false;
   for (Rows rows = aggregates(node, wanted.field, wanted.value); rows.next();) {
     if (is_asked(filter, rows.get<int>(1))) return false;
   }

@@ -247,9 +247,10 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
           rows.get<std::optional<std::string_view>>(BlockColumn::Texts + static_cast<int>(field));
       const bool is_new = row == 0 || place.value != value;
       if (is_new) place = {.value = value ? std::optional<std::string>(*value) : std::nullopt};
-      if (is_new) {
+      const bool is_summed = field < kSummedColumns.size();
+      if (is_new && is_summed) {
         columns.add_text(field, value);
-      } else {
+      } else if (is_summed) {
         columns.repeat_text(field);
       }
       if (column.field == TextField::ToleranceClass) {
@@ -265,7 +266,7 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
           if (designation.rows != nullptr) designation.rows->add(row);
         }
       }
-      if (is_current && values[field].size() <= kMostValues[0]) {
+      if (is_summed && is_current && values[field].size() <= kMostValues[0]) {
         if (place.statistics == nullptr || place.kind != kind) {
           values[field].insert(place.value);
           place.kind = kind;
@@ -281,7 +282,7 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
       }
     }
   }
-  for (const TextColumn& column : kTextColumns) {
+  for (const TextColumn& column : kSummedColumns) {
     if (values[index_of(column.field)].size() > kMostValues[0]) {
       drop_field(index, number_of(column.field));
     }
@@ -317,7 +318,7 @@ NodeIndex MeasurementIndexer::derive_parent(const IndexNode& node) {
         ExactStatistics::decode(rows.get<Blob>(4).bytes));
   }
   const std::size_t most = kMostValues.at(static_cast<std::size_t>(node.level));
-  for (const TextColumn& column : kTextColumns) {
+  for (const TextColumn& column : kSummedColumns) {
     const int field = number_of(column.field);
     const bool complete = children[field].size() == static_cast<std::size_t>(kFanOut);
     if (complete && values[field].size() <= most) continue;

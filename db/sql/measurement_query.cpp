@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -21,6 +22,8 @@ constexpr std::size_t kMostKept = 64;
 constexpr std::int64_t kRowsAtATime = 1024;
 /// Smaller nodes are not worth a look: their blocks are found as soon.
 constexpr int kLeastLookedAt = 2;
+constexpr std::int64_t kFirstTime = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t kLastTime = std::numeric_limits<std::int64_t>::max();
 
 /// Calls `add(condition, value)` for each condition a row `m` has to meet.
 template <class Add>
@@ -43,12 +46,14 @@ void for_each_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.to_ns) add("m.measured_at < ?", *filter.to_ns);
   if (filter.received_from_ns) add("m.received_at >= ?", *filter.received_from_ns);
   if (filter.received_to_ns) add("m.received_at < ?", *filter.received_to_ns);
-  if (filter.cause) {
-    add("EXISTS (SELECT 1 FROM notes n WHERE n.measurement = m.id AND n.cause = ?)",
-        std::string_view(*filter.cause));
-  }
-  if (filter.has_notes) {
-    add("(SELECT count(*) FROM notes n WHERE n.measurement = m.id) >= ?", 1);
+  if (filter.confirmed) add("coalesce(m.confirmed, 0) = ?", *filter.confirmed ? 1 : 0);
+  if (filter.asks_of_notes()) {
+    // One note meets all: the parenthesis ends with the last condition.
+    add("EXISTS (SELECT 1 FROM notes n WHERE n.measurement = m.id AND n.received_at >= ?",
+        filter.noted_from_ns.value_or(kFirstTime));
+    add(filter.cause ? "n.received_at < ?" : "n.received_at < ?)",
+        filter.noted_to_ns.value_or(kLastTime));
+    if (filter.cause) add("n.cause = ?)", std::string_view(*filter.cause));
   }
   if (!filter.history) {
     static const CurrentCondition current("?");
@@ -77,7 +82,7 @@ void for_each_inside_condition(const MeasurementFilter& filter, Add&& add) {
 
 /// Whether postings tell the rows that match where all times do, but for what was corrected.
 bool is_said_by_index(const MeasurementFilter& filter) {
-  return !filter.cause && !filter.has_notes && (!filter.run_id || filter.run_origin == 0);
+  return !filter.asks_of_notes() && !filter.confirmed && (!filter.run_id || filter.run_origin == 0);
 }
 
 std::string_view direction(ListOrder order) {
@@ -219,7 +224,8 @@ std::vector<FieldValue> MeasurementQuery::postings_of(const MeasurementFilter& f
   if (filter.run_id)
     postings.push_back({number_of(IndexField::Run), std::to_string(*filter.run_id)});
   for (const TextField field : {TextField::Subgroup, TextField::Order, TextField::Characteristic,
-                                TextField::Operation, TextField::Gauge, TextField::Operator}) {
+                                TextField::Operation, TextField::Gauge, TextField::Operator,
+                                TextField::Tool}) {
     add_text(field);
   }
   if (filter.designation) {
@@ -247,7 +253,7 @@ bool MeasurementQuery::is_source(const FieldValue& posting) {
 bool MeasurementQuery::run_indexed(const Reading& reading, Statement& matching, const IdSpan& ids) {
   if (ids.empty()) return true;
   const auto& [filter, order, visit, read_block, is_current] = reading;
-  if (filter.cause || filter.has_notes) return run_noted(reading, matching, ids);
+  if (filter.asks_of_notes()) return run_noted(reading, matching, ids);
   std::vector<FieldValue> postings = postings_of(filter);
   if (postings.empty() && !filter.has_times() && !read_block) {
     return scan(matching, ids, order, visit);
@@ -366,15 +372,17 @@ Statement& MeasurementQuery::matching_blocks(const Reading& reading,
 bool MeasurementQuery::run_noted(const Reading& reading, Statement& matching, const IdSpan& ids) {
   const MeasurementFilter& filter = reading.filter;
   const std::vector<FieldValue> postings = postings_of(filter);
-  const std::string where = fmt::format("FROM notes WHERE measurement BETWEEN ? AND ?{}",
-                                        filter.cause ? " AND cause = ?" : "");
+  const std::string where = fmt::format(
+      "FROM notes WHERE measurement BETWEEN ? AND ? AND received_at >= ? AND received_at < ?{}",
+      filter.cause ? " AND cause = ?" : "");
   const bool newest = reading.order == ListOrder::NewestFirst;
   Statement& next =
       statement(fmt::format("SELECT {}(measurement) {}", newest ? "max" : "min", where));
   Statement& in_block = statement("SELECT measurement " + where);
-  if (filter.cause) {
-    next.bind(3, std::string_view(*filter.cause));
-    in_block.bind(3, std::string_view(*filter.cause));
+  for (Statement* notes : {&next, &in_block}) {
+    notes->bind(3, filter.noted_from_ns.value_or(kFirstTime));
+    notes->bind(4, filter.noted_to_ns.value_or(kLastTime));
+    if (filter.cause) notes->bind(5, std::string_view(*filter.cause));
   }
   for (IdSpan left = ids; !left.empty();) {
     next.bind(1, left.first);

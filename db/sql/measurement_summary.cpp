@@ -14,6 +14,8 @@ namespace {
 using sql::Blob;
 using sql::Rows;
 
+bool is_summed(TextField field) { return index_of(field) < kSummedColumns.size(); }
+
 }  // namespace
 
 MeasurementSummary::MeasurementSummary(sql::Connection& c, TextField group_by)
@@ -80,9 +82,11 @@ void MeasurementSummary::look_at_filter() {
     const auto& text = filter.text(column.field);
     if (text && column.field != group_by_) others_.push_back({number_of(column.field), *text});
   }
-  is_additive_ = !filter.run_id && !filter.as_of_id && !filter.cause && !filter.has_notes &&
+  is_additive_ = !filter.run_id && !filter.as_of_id && !filter.asks_of_notes() &&
+                 !filter.confirmed && is_summed(group_by_) &&
                  std::none_of(others_.begin(), others_.end(),
-                              [&](const auto& other) { return is_rare(other); });
+                              [&](const auto& other) { return is_rare(other); }) &&
+                 !filter.text(TextField::Tool);
 }
 
 /// Whether the blocks with a value are so few that they are found sooner than nodes.
@@ -232,7 +236,7 @@ void MeasurementSummary::add_rows(const IdSpan& ids) {
   MeasurementQuery::BlockReader by_columns;
   // The index knows runs by their numbers, which other folders have too, and rows that are current
   // now.
-  if (!filter_->run_id && !filter_->as_of_id) {
+  if (!filter_->run_id && !filter_->as_of_id && is_summed(group_by_)) {
     by_columns = [&](std::int64_t block, const RowSet& rows, const IdSpan& among) {
       return add_block(block, rows, among);
     };

@@ -33,7 +33,7 @@ std::size_t most_tuples(const IndexNode& node) {
 /// Calls `visit` with the fields of each pair that can be kept: whatever is grouped by is a text.
 template <class Visit>
 void for_each_pair(const Visit& visit) {
-  for (int by = 1; by <= static_cast<int>(kTextColumns.size()); ++by) {
+  for (int by = 1; by <= static_cast<int>(kSummedColumns.size()); ++by) {
     for (std::size_t column = 0; column < kBlockColumns; ++column) {
       if (const int field = field_of_column(column); field != by) visit(field, by);
     }
@@ -102,7 +102,7 @@ void PairIndex::derive_from_columns(const IndexNode& node, Node& index) {
   }
   counter.visit_pairs(most_statistics(node), [&](std::size_t column, std::size_t by_column,
                                                  const PairStatistics& pairs) {
-    if (by_column >= kTextColumns.size()) return;
+    if (by_column >= kSummedColumns.size()) return;
     index.pairs[{field_of_column(column), field_of_column(by_column)}] = encode(pairs);
   });
   add_tuples(counter.tuples(most_tuples(node)), index);

@@ -19,8 +19,8 @@ namespace fitgauge::store {
 // and what was measured, column by column and a few bits each. Any row of any column is read
 // without the others, a hundred times as fast as from the table.
 
-/// The text fields by index_of(), then the designation.
-inline constexpr std::size_t kBlockColumns = kTextColumns.size() + 1;
+/// The summed columns by index_of(), then the designation.
+inline constexpr std::size_t kBlockColumns = kSummedColumns.size() + 1;
 constexpr std::size_t column_of_field(int field) { return static_cast<std::size_t>(field) - 1; }
 constexpr int field_of_column(std::size_t column) { return static_cast<int>(column) + 1; }
 

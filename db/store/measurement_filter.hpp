@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,6 +27,7 @@ enum class TextField : std::uint8_t {
   ToleranceClass = 9,
   Caller = 10,
   Subgroup = 11,
+  Tool = 16,
 };
 
 struct TextColumn {
@@ -34,19 +36,23 @@ struct TextColumn {
   std::optional<std::string_view> MeasurementRow::*text = nullptr;
 };
 
-/// By number.
+/// By their places.
 inline constexpr auto kTextColumns = [] {
   std::array<TextColumn, app::kTextFilters.size()> columns{};
   columns.fill({TextField::ToleranceClass, "tolerance_class", &MeasurementRow::tolerance_class});
   for (const app::MeasurementField& field : app::kMeasurementFields) {
     if (field.filter == 0) continue;
-    columns.at(static_cast<std::size_t>(field.filter) - 1) = {static_cast<TextField>(field.filter),
-                                                              field.column, field.text};
+    columns.at(app::filter_place(field.filter)) = {static_cast<TextField>(field.filter),
+                                                   field.column, field.text};
   }
   return columns;
 }();
 
-constexpr std::size_t index_of(TextField field) { return static_cast<std::size_t>(field) - 1; }
+constexpr std::size_t index_of(TextField field) {
+  return app::filter_place(static_cast<int>(field));
+}
+/// Blocks keep the rows of each value of the other columns; of these sums and pairs too.
+inline constexpr auto kSummedColumns = std::span(kTextColumns).first(11);
 constexpr std::string_view column_of(TextField field) {
   return kTextColumns[index_of(field)].column;
 }
@@ -69,8 +75,12 @@ struct MeasurementFilter {
   std::optional<std::int64_t> to_ns{};             ///< measured_at < to
   std::optional<std::int64_t> received_from_ns{};  ///< from <= received_at
   std::optional<std::int64_t> received_to_ns{};    ///< received_at < to
-  std::optional<std::string> cause{};              ///< named by a note, exactly so
-  bool has_notes = false;                          ///< only rows with a note
+  // Of one note beside the row:
+  std::optional<std::string> cause{};         ///< that it names, exactly so
+  std::optional<std::int64_t> noted_from_ns{};  ///< from <= its received_at
+  std::optional<std::int64_t> noted_to_ns{};    ///< its received_at < to
+  bool has_notes = false;                     ///< only rows with a note
+  std::optional<bool> confirmed{};            ///< by a person, or not
   bool history = false;                            ///< also rows that a later one corrects
   /// The state when this was the newest id, so that a list read in pages is of one piece.
   std::optional<std::int64_t> as_of_id{};
@@ -78,6 +88,7 @@ struct MeasurementFilter {
   std::optional<std::string>& text(TextField field) { return texts[index_of(field)]; }
   const std::optional<std::string>& text(TextField field) const { return texts[index_of(field)]; }
 
+  bool asks_of_notes() const { return cause || noted_from_ns || noted_to_ns || has_notes; }
   bool has_times() const { return from_ns || to_ns || received_from_ns || received_to_ns; }
 };
 

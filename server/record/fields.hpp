@@ -26,6 +26,7 @@ struct MeasurementFields {
   std::optional<std::string_view> unit{};
   std::optional<std::string_view> comment{};
   std::optional<std::string_view> subgroup{};
+  std::optional<std::string_view> tool{};
 
   // In millionths of a degree Celsius, and of µm/(m·K):
   std::optional<std::int64_t> temperature{};
@@ -41,6 +42,7 @@ struct MeasurementFields {
   std::optional<std::int64_t> scale_expansion_uncertainty{};
 
   std::optional<std::int64_t> offset{};              ///< a correction made before this part, in nm
+  std::optional<std::int64_t> confirmed{};           ///< 1: a person confirmed a far value
   std::optional<std::int64_t> degrees_of_freedom{};  ///< of the uncertainty, in millionths
   std::optional<std::string_view> size_operator{};   ///< of ISO 14405-1: LP, GG
   std::optional<std::string_view> envelope{};        ///< `required`
@@ -67,6 +69,7 @@ struct Accepted {
   std::int64_t most = 0;
   std::string_view range{};
   bool is_thermal = false;  ///< the field corrects to 20 °C
+  bool is_truth = false;    ///< a number that is 1 for true; false is as good as not given
 
   constexpr bool nothing() const { return longest == 0 && most == 0; }
 };
@@ -90,6 +93,7 @@ inline constexpr Accepted kDegreesOfFreedom{
     .least = 1'000'000, .most = 1'000'000'000'000, .range = "lies from 1 to 1000000"};
 inline constexpr Accepted kSizeOperator{.longest = 8};
 inline constexpr Accepted kEnvelopeWord{.longest = 16};
+inline constexpr Accepted kTruth{.most = 1, .is_truth = true};
 inline constexpr Accepted kNotGiven{};
 
 /// One of MeasurementFields, wherever it is read, written, stored and described.
@@ -129,6 +133,11 @@ struct MeasurementField {
   int filter = 0;              ///< number in the index of the store, never changed; 0: no filter
 };
 
+/// The place of a filter: the index has other fields from 12 to 15.
+constexpr std::size_t filter_place(int number) {
+  return static_cast<std::size_t>(number > 15 ? number - 5 : number - 1);
+}
+
 using Of = MeasurementFields;
 
 /// Every field once: the labels, the fields that correct to 20 °C, the other fields of a request,
@@ -145,6 +154,7 @@ inline constexpr MeasurementField kMeasurementFields[] = {
     {"unit", &Of::unit, "unit", 29, kIdentifier, "Line, cell or plant", 8},
     {"comment", &Of::comment, "comment", 30, kRemark, "Anything else"},
     {"subgroup", &Of::subgroup, "subgroup", 31, kIdentifier, "Parts that were made together", 11},
+    {"tool", &Of::tool, "tool", 65, kIdentifier, "What cut it: the tool in the spindle", 16},
 
     {"temperature_c", &Of::temperature, 6, "temperature", 21, kCelsius,
      "Of the part, -273.15 to 10000; corrects with an expansion"},
@@ -180,6 +190,8 @@ inline constexpr MeasurementField kMeasurementFields[] = {
      "required: the size has the modifier (E) of ISO 14405-1"},
     {"go_gauge", &Of::go_gauge, "go_gauge", 59, kEnvelopeWord,
      "passes or fails: the GO gauge, which verifies the envelope"},
+    {"confirmed", &Of::confirmed, 0, "confirmed", 66, kTruth,
+     "true: a person confirmed the value, which was called far outside"},
 
     {"caller", &Of::caller, "caller", 32, kNotGiven, {}, 10},
     {"cycle", &Of::cycle, 0, "cycle", 34, kNotGiven},
@@ -233,7 +245,7 @@ inline constexpr auto kTextFilters = [] {
   std::array<std::string_view, static_cast<std::size_t>(kCount)> names{};
   names.fill("tolerance_class");
   for (const MeasurementField& field : kMeasurementFields) {
-    if (field.filter != 0) names.at(static_cast<std::size_t>(field.filter) - 1) = field.name;
+    if (field.filter != 0) names.at(filter_place(field.filter)) = field.name;
   }
   return names;
 }();

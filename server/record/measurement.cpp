@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/decimal.hpp"
 #include "base/text.hpp"
 #include "record/origins.hpp"
 
@@ -78,6 +79,10 @@ KeptMeasurement::KeptMeasurement(const Measurement& measurement) : measurement_(
     if (field.text != nullptr) keep(measurement_.*field.text);
   }
   keep(measurement_.class_name);
+}
+
+std::string number_text(const MeasurementField& field, std::int64_t number) {
+  return field.accepted.is_truth ? "true" : format_decimal(number, field.scale);
 }
 
 void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,

@@ -121,6 +121,9 @@ class KeptMeasurement {
   Measurement measurement_;
 };
 
+/// A number of a measurement as a request gives it.
+std::string number_text(const MeasurementField& field, std::int64_t number);
+
 /// Takes the limits of a class of the tables.
 void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
                   const iso286::ToleranceTables& tables);

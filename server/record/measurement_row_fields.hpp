@@ -32,7 +32,7 @@ struct RowField {
     Count = Thermal + app::kGivenFields.size() - app::kLabels.size(),
   };
 
-  enum class Kind : std::uint8_t { Length, Decimal, Text, Time, Feature, Quantity, Rule };
+  enum class Kind : std::uint8_t { Length, Decimal, Text, Time, Feature, Quantity, Rule, Truth };
 
   std::string_view name{};
   Kind kind = Kind::Text;
@@ -72,8 +72,9 @@ inline constexpr std::array<RowField, RowField::Count> kRowFields = [] {
   std::size_t at = RowField::Labels;
   for (const app::MeasurementField& field : app::kGivenFields) {
     if (at == RowField::MeasuredAt) at = RowField::Thermal;
-    fields.at(at++) = {field.name,
-                       field.text != nullptr ? RowField::Kind::Text : RowField::Kind::Decimal,
+    using Kind = RowField::Kind;
+    const Kind of_number = field.accepted.is_truth ? Kind::Truth : Kind::Decimal;
+    fields.at(at++) = {field.name, field.text != nullptr ? Kind::Text : of_number,
                        field.accepted.longest, field.meaning, &field};
   }
   return fields;

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "base/decimal.hpp"
+#include "base/text.hpp"
 #include "record/measurement_row_fields.hpp"
 #include "record/thermal_codec.hpp"
 
@@ -30,7 +31,9 @@ std::string_view name_of(RawValue::Kind kind) {
 }  // namespace
 
 RawValue raw_value(const JsonValue& value) {
-  return {.kind = static_cast<RawValue::Kind>(value.kind), .text = value.text};
+  const bool is_truth = value.is(JsonValue::Kind::Boolean);
+  return {.kind = static_cast<RawValue::Kind>(value.kind),
+          .text = is_truth ? (value.boolean ? "true" : "false") : std::string_view(value.text)};
 }
 
 bool MeasurementRowReader::knows(std::string_view name) {
@@ -143,6 +146,8 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
       const app::MeasurementField& plain = *kRowFields[field].plain;
       if (plain.text != nullptr) {
         m.*plain.text = text(field, value);
+      } else if (plain.accepted.is_truth) {
+        m.*plain.number = truth(field, value);
       } else {
         m.*plain.number = decimal_in(field, value, plain.accepted.least, plain.accepted.most,
                                      plain.accepted.range);
@@ -216,6 +221,16 @@ std::optional<std::string_view> MeasurementRowReader::text(std::size_t field,
     return std::nullopt;
   }
   return value.text;
+}
+
+std::optional<std::int64_t> MeasurementRowReader::truth(std::size_t field, const RawValue& value) {
+  const bool can_be = value.kind == RawValue::Kind::Boolean || value.kind == RawValue::Kind::String;
+  if (can_be && ascii_iequals(value.text, "true")) return 1;
+  if (!can_be || !ascii_iequals(value.text, "false")) {
+    const std::string_view name = kRowFields[field].name;
+    report(ErrorCode::FieldType, name, fmt::format("{} is true or false", name));
+  }
+  return std::nullopt;
 }
 
 void MeasurementRowReader::take_gauge(const app::Measurement& other) { draft_.gauge_of = &other; }

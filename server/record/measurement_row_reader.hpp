@@ -19,7 +19,7 @@ struct RawValue {
   enum class Kind : std::uint8_t { Null, Boolean, Number, String, Array, Object };
 
   Kind kind = Kind::Null;
-  std::string_view text{};     ///< digits of a number, characters of a string
+  std::string_view text{};     ///< digits of a number, characters of a string, true or false
   bool decimal_comma = false;  ///< CSV with `;` or quotes
 };
 
@@ -88,6 +88,7 @@ class MeasurementRowReader {
                                          std::int64_t least, std::int64_t most,
                                          std::string_view range);
   std::optional<std::string_view> text(std::size_t field, const RawValue& value);
+  std::optional<std::int64_t> truth(std::size_t field, const RawValue& value);
   bool given(std::size_t field) const { return (draft_.given >> field & 1) != 0; }
 
   void apply_gauge();

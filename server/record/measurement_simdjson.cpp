@@ -71,6 +71,7 @@ bool scalar(ondemand::value& content, MeasurementBatch& batch, RawValue& value) 
   }
   if (token == "true" || token == "false") {
     value.kind = RawValue::Kind::Boolean;
+    value.text = token;
     return true;
   }
   value.kind = RawValue::Kind::Number;

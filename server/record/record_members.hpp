@@ -142,6 +142,8 @@ constexpr auto plain_member() {
   return RecordMember{kMeasurementFields[I].name, kMeasurementFields[I].place, [](M m, auto to) {
                         if constexpr (kMeasurementFields[I].text != nullptr) {
                           to.text(m.*kMeasurementFields[I].text);
+                        } else if constexpr (kMeasurementFields[I].accepted.is_truth) {
+                          to.truth((m.*kMeasurementFields[I].number).has_value());
                         } else {
                           to.decimal(m.*kMeasurementFields[I].number, kMeasurementFields[I].scale);
                         }

@@ -35,6 +35,14 @@ class Record {
     return taken(name, parse_decimal(value->text, {.scale = scale, .exponent = true}));
   }
 
+  /// 1 where it is there.
+  std::optional<std::int64_t> truth(std::string_view name) {
+    const JsonValue* value = json_.find(name);
+    if (value == nullptr) return std::nullopt;
+    if (!value->is(JsonValue::Kind::Boolean) || !value->boolean) wrong(name);
+    return 1;
+  }
+
   std::optional<Length> length(std::string_view name, int scale) {
     // So near that no sum of such lengths overflows.
     constexpr std::int64_t kFarthest = 1'000'000'000'000'000'000;
@@ -177,6 +185,8 @@ void read_plain(Record& record, Measurement& m) {
   for (const app::MeasurementField& field : app::kMeasurementFields) {
     if (field.text != nullptr) {
       m.*field.text = record.text(field.name);
+    } else if (field.accepted.is_truth) {
+      m.*field.number = record.truth(field.name);
     } else {
       m.*field.number = record.decimal(field.name, field.scale);
     }

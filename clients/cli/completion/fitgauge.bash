@@ -22,7 +22,7 @@ _fitgauge() {
     --go-gauge) _fitgauge_words 'passes fails'; return ;;
     --from | --to | --limit | --reason | --program | --upper-um | --lower-um | --offset-um | --group-by) return ;;
     --min-um | --max-um | --size-mm | --lower | --upper | --reference | --tolerance) return ;;
-    --designation | --tolerance-class | --caller | --subgroup | --target-mm | --confidence | --rules) return ;;
+    --designation | --tolerance-class | --caller | --subgroup | --tool | --confirmed | --target-mm | --confidence | --rules) return ;;
     --kind) _fitgauge_words 'i_mr xbar_r xbar_s ewma cusum'; return ;;
     --subgroups) _fitgauge_words 'use ignore'; return ;;
     --map | --time-zone) return ;;
@@ -57,7 +57,7 @@ _fitgauge() {
   done
 
   local options=
-  local filters='--part-id --characteristic --order --operation --machine --operator --gauge --unit --subgroup
+  local filters='--part-id --characteristic --order --operation --machine --operator --gauge --unit --subgroup --tool
                  --tolerance-class --caller --designation --verdict --source --from --to --history'
   case ${words[0]-} in
     '') _fitgauge_words "$commands $common --version"; return ;;
@@ -65,7 +65,7 @@ _fitgauge() {
       options='--rule --uncertainty-um --coverage-factor --probability --part-material --part-expansion
                --scale-temperature-c --scale-material --scale-expansion --temperature-uncertainty-c
                --part-expansion-uncertainty --scale-temperature-uncertainty-c --scale-expansion-uncertainty --record
-               --part-id --characteristic --order --operation --machine --operator --gauge --unit --subgroup --offset-um --measured-at --temperature-c --comment --feature --upper-um --lower-um
+               --part-id --characteristic --order --operation --machine --operator --gauge --unit --subgroup --tool --offset-um --confirmed --measured-at --temperature-c --comment --feature --upper-um --lower-um
                --degrees-of-freedom --quantity --size-operator --envelope --go-gauge
                --serial --baud --pattern' ;;
     measure) options='--state --chunk --map --set --time-zone --length-unit --encoding --leave-out-others --again --exit-verdict' ;;

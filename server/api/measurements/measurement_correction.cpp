@@ -28,7 +28,8 @@ struct Replaced {
   std::string_view field;
   std::string_view by;
 };
-constexpr std::array<Replaced, 8> kReplaced = {{
+constexpr std::array<Replaced, 9> kReplaced = {{
+    {"confirmed", "measured_mm"},  // another value is confirmed anew
     {"part_expansion_um_per_m_k", "part_material"},
     {"part_material", "part_expansion_um_per_m_k"},
     {"scale_expansion_um_per_m_k", "scale_material"},
@@ -107,7 +108,7 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
     if (field.text != nullptr) {
       offer(reader, field.name, original.*field.text);
     } else if (const auto& number = original.*field.number) {
-      offer(reader, field.name, format_decimal(*number, field.scale));
+      offer(reader, field.name, app::number_text(field, *number));
     }
   }
   offer(reader, "measured_at", format_rfc3339(original.measured_at));

@@ -183,6 +183,12 @@ std::vector<http::Parameter> measurement_filter_parameters(std::string_view pref
       {.name = "received_from", .type = http::Time{}, .description = "received_at from then on"},
       {.name = "received_to", .type = http::Time{}, .description = "received_at before then"},
       {.name = "cause", .description = "With a note that names exactly this cause"},
+      {.name = "notes_from", .type = http::Time{}, .description = "With a note received from then on"},
+      {.name = "notes_to", .type = http::Time{}, .description = "With a note received before then"},
+      {.name = "confirmed",
+       .type = http::Words{{"true", "false"}},
+       .description = "false leaves out values that a person confirmed although they were called "
+                      "far outside; true shows these alone"},
       {.name = "history",
        .type = http::Words{{"current", "all"}},
        .description = "all shows corrected rows too"},
@@ -203,7 +209,12 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
   }
   if (const auto text = text_of("designation")) {
     auto designation = parse_designation(*text);
-    if (!designation) return designation.error();
+    if (!designation) {
+      // Of a path it would be 404 or 422; a filter is an argument.
+      Error error = std::move(designation).error();
+      if (error.code != ErrorCode::DesignationMalformed) error.code = ErrorCode::QueryInvalid;
+      return error;
+    }
     query.designation = *std::move(designation);
   }
   if (const auto text = text_of("run_id")) {
@@ -224,6 +235,9 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
   query.received_from = request.time(named("received_from"));
   query.received_to = request.time(named("received_to"));
   if (const auto cause = text_of("cause")) query.cause.emplace(*cause);
+  query.noted_from = request.time(named("notes_from"));
+  query.noted_to = request.time(named("notes_to"));
+  if (const auto confirmed = text_of("confirmed")) query.confirmed = *confirmed == "true";
   query.history = text_of("history") == "all";
   return query;
 }

@@ -23,7 +23,7 @@ std::vector<std::pair<std::string_view, std::string>> other_fields(const app::Me
     if (field.text != nullptr) {
       if (m.*field.text) fields.emplace_back(field.name, *(m.*field.text));
     } else if (m.*field.number) {
-      fields.emplace_back(field.name, format_decimal(*(m.*field.number), field.scale));
+      fields.emplace_back(field.name, app::number_text(field, *(m.*field.number)));
     }
   };
   for (const app::MeasurementField& field : app::kLabels) {

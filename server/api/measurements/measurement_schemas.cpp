@@ -25,6 +25,7 @@ std::string given_json(const RowField& field) {
     case RowField::Kind::Feature: return feature_words();
     case RowField::Kind::Quantity: return quantity_words();
     case RowField::Kind::Rule: return schema::words({"simple", "guard_band", "conformance"});
+    case RowField::Kind::Truth: return schema::boolean();
   }
   return {};
 }

@@ -33,6 +33,9 @@ store::MeasurementFilter measurement_filter(const MeasurementQuery& query) {
   if (query.received_from) filter.received_from_ns = query.received_from->nanoseconds;
   if (query.received_to) filter.received_to_ns = query.received_to->nanoseconds;
   filter.cause = query.cause;
+  if (query.noted_from) filter.noted_from_ns = query.noted_from->nanoseconds;
+  if (query.noted_to) filter.noted_to_ns = query.noted_to->nanoseconds;
+  filter.confirmed = query.confirmed;
   filter.has_notes = query.has_notes;
   filter.history = query.history;
   filter.as_of_id = query.as_of;

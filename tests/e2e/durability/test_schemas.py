@@ -128,7 +128,8 @@ class Schemas(unittest.TestCase):
         for record in records:
             self.assertEqual(daemon.get(f"/v1/measurements/{json.loads(record)['id']}").text, record)
         more = daemon.measure({"designation": "25 H7", "measured_mm": "25.013", "temperature_c": 21,
-                               "part_material": "steel", "temperature_uncertainty_c": 1, "offset_um": -2.5})
+                               "part_material": "steel", "temperature_uncertainty_c": 1, "offset_um": -2.5, "tool": "T30", "confirmed": True})
+        self.assertEqual((more.json["tool"], more.json["confirmed"]), ("T30", True))
         self.assertEqual((more.status, "added_uncertainty_um" in more.json, more.json["offset_um"]), (201, True, -2.5), more)
         daemon.stop()
         verified = daemon.command("verify", "--database", cluster.address())

@@ -81,6 +81,23 @@ class Notes(DaemonTest):
         lines = self.daemon.request("GET", "/v1/measurements?order=N-1&notes=shown&format=ndjson").body.decode().splitlines()
         self.assertEqual([line.count('"notes"') for line in lines], [1, 1, 0])
 
+    def test_are_listed_by_the_time_they_were_received(self):
+        old, new, plain = (self.record(order="N-2", part_id=f"SN-{i}") for i in range(3))
+        first = self.note(old, {"text": "first"}).json["received_at"]
+        second = self.note(new, WORN).json["received_at"]
+        self.assertLess(first, second)
+
+        def listed(query):
+            return [m["id"] for m in self.daemon.get(f"/v1/measurements?order=N-2&{query}").json["measurements"]]
+        self.assertEqual(listed(f"notes_from={first}"), [old["id"], new["id"]])
+        self.assertEqual(listed(f"notes_from={second}&notes=shown"), [new["id"]])
+        self.assertEqual(listed(f"notes_to={second}"), [old["id"]])
+        self.assertEqual(listed(f"notes_from={first}&notes_to={first}"), [])
+        self.assertEqual(listed(f"notes_from={first}&cause=Insert+worn&sort=newest"), [new["id"]])
+        self.note(old, WORN)
+        self.assertEqual(listed(f"notes_to={second}&cause=Insert+worn"), [], "the note in time names another cause")
+        self.assert_problem(self.daemon.get("/v1/measurements?notes_from=now"), 400, "query.invalid")
+
     def test_is_told_as_an_event(self):
         record = self.record()
         heard = []

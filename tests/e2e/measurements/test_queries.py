@@ -231,10 +231,41 @@ class Statistics(DaemonTest):
         self.assertEqual(group["mean_mm"], 25.01)
 
 
+class Confirmed(DaemonTest):
+    """Values that a person confirmed although they were called far outside."""
+
+    def test_is_kept_filtered_and_left_out_of_figures(self):
+        def measure(**fields):
+            return self.daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "characteristic": "c", **fields})
+        plain = [measure().json["id"] for _ in range(5)]
+        far = measure(measured_mm="2009", confirmed=True).json
+        self.assertIs(far["confirmed"], True)
+        self.assertNotIn("confirmed", measure(characteristic="d", confirmed=False).json)
+        for wrong in (1, "yes", None):
+            answer = measure(confirmed=wrong)
+            self.assertEqual([(e["pointer"], e["code"]) for e in answer.json["errors"]], [("/confirmed", "field.type")])
+        listed = lambda query: [m["id"] for m in self.daemon.get(f"/v1/measurements?characteristic=c&{query}").json["measurements"]]
+        self.assertEqual((listed("confirmed=true"), listed("confirmed=false"), listed("")), ([far["id"]], plain, [*plain, far["id"]]))
+        groups = lambda query: [g["count"] for g in self.daemon.get(f"/v1/measurements/summary?characteristic=c&{query}").json["groups"]]
+        self.assertEqual((groups("confirmed=false"), groups("confirmed=true"), groups("")), ([5], [1], [6]))
+        charted = lambda query: len(self.daemon.get(f"/v1/measurements/chart?characteristic=c&{query}").json["charts"][0]["points"])
+        self.assertEqual((charted("confirmed=false"), charted("")), (5, 6))
+        csv_row = "designation,measured_mm,characteristic,confirmed\n25H7,25.5,e,TRUE\n"
+        self.assertEqual(self.daemon.measure(csv_row, {"Content-Type": "text/csv"}).status, 201)
+        stored, = self.daemon.get("/v1/measurements?characteristic=e").json["measurements"]
+        self.assertIs(stored["confirmed"], True)
+        again = {"measured_mm": "25.4", "reason": "misread", "confirmed": True}
+        kept = self.daemon.post(f"/v1/measurements/{stored['id']}/corrections", again).json
+        self.assertIs(kept["confirmed"], True)
+        other = self.daemon.post(f"/v1/measurements/{kept['id']}/corrections", {"measured_mm": "25.01", "reason": "misread"}).json
+        self.assertNotIn("confirmed", other)
+
+
 class EveryFilter(DaemonTest):
     """Each field that filters, alone, and what summaries make of it."""
 
-    FIELDS = ("part_id", "characteristic", "order", "operation", "machine", "operator", "gauge", "unit", "subgroup")
+    FIELDS = ("part_id", "characteristic", "order", "operation", "machine", "operator", "gauge", "unit", "subgroup",
+              "tool")
 
     def ids(self, **query):
         page = self.daemon.get("/v1/measurements?" + urllib.parse.urlencode({"limit": 1000, **query}))
@@ -267,7 +298,8 @@ class EveryFilter(DaemonTest):
         received = stored[0]["received_at"]
         self.assertEqual(self.ids(received_from=received), ids)
         self.assertEqual(self.ids(received_to=received), [])
-        for query, code in (("designation=H7", "designation.malformed"), ("run_id=1", "query.invalid"),
+        for query, code in (("designation=H7", "designation.malformed"), ("designation=0H7", "query.invalid"),
+                            ("designation=4000H7", "query.invalid"), ("run_id=1", "query.invalid"),
                             ("received_from=now", "query.invalid")):
             answer = self.daemon.get(f"/v1/measurements?{query}")
             self.assertEqual((answer.status, answer.json["code"]), (400, code), answer)

@@ -41,6 +41,7 @@ struct Sample {
       row.nominal_nm += static_cast<std::int64_t>(random() % 2);
       row.measured_nm += static_cast<std::int64_t>(random() % 9000);
       row.verdict = row.measured_nm > row.upper_limit_nm() ? Verdict::Reject : Verdict::Good;
+      if (i % 7 == 0) row.confirmed = 1;
       rows.push_back(row);
     }
   }
@@ -122,6 +123,7 @@ struct Sample {
            (!filter.received_from_ns || row.received_at_ns >= *filter.received_from_ns) &&
            (!filter.received_to_ns || row.received_at_ns < *filter.received_to_ns) &&
            (!filter.has_notes || notes.contains(i)) &&
+           (!filter.confirmed || row.confirmed.has_value() == *filter.confirmed) &&
            (!filter.cause || has_note(i, *filter.cause));
   }
 
@@ -179,6 +181,7 @@ inline MeasurementFilter any_filter(std::mt19937& random, std::size_t size) {
   if (random() % 4 == 0) filter.as_of_id = random() % (size + 10);
   if (random() % 6 == 0) filter.cause = kTexts[random() % 5];
   filter.has_notes = random() % 8 == 0;
+  if (random() % 6 == 0) filter.confirmed = random() % 2 == 0;
   return filter;
 }
 
