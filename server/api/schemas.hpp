@@ -33,6 +33,8 @@ Schemas make_schemas(const Schemas& of_plant = {});
 schema::Fields limits_fields();
 /// Beside the limits: the measured value and what follows from it.
 schema::Fields verdict_fields();
+/// The warnings beside a verdict.
+schema::Fields warnings_field();
 
 /// What an answer was computed by.
 schema::Fields formula_fields();

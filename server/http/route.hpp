@@ -107,7 +107,7 @@ struct Route {
   /// For Accept: the first is the default; none of them acceptable is 406. Empty skips the check.
   std::vector<std::string> response_types{"application/json"};
   std::string access{};        ///< what the guard asks for; the engine does not read it
-  std::string query_access{};  ///< the same of a request with a query; empty: no more than access
+  std::string query_access{};  ///< the same with a query; empty: no more than access
   // For the API's description alone:
   std::string operation{};          ///< the operation's name in generated clients: `getLimits`
   std::string tag{};                ///< the group of operations it stands in

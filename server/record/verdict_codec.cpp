@@ -34,6 +34,25 @@ KnownU known_of(const RuleWords& words) {
 
 }  // namespace
 
+void write_warnings(JsonWriter& json, std::span<const Warning> warnings) {
+  if (warnings.empty()) return;
+  json.key("warnings").begin_array();
+  for (const Warning& warning : warnings) {
+    json.begin_object().member("code", warning.code).member("detail", warning.detail).end_object();
+  }
+  json.end_array();
+}
+
+void warn_of_no_acceptance(const gauging::DecisionRule& rule, Length tolerance,
+                           std::vector<Warning>& warnings) {
+  if (!gauging::has_no_acceptance(rule, tolerance)) return;
+  warnings.push_back({"rule.no_acceptance",
+                      fmt::format("no value can be good: the guard bands of {} um times {} leave "
+                                  "nothing of the tolerance of {} um",
+                                  format_um(rule.standard_uncertainty()),
+                                  format(rule.coverage_factor()), format_um(tolerance))});
+}
+
 Result<void> check_measured(Length measured, gauging::Quantity quantity) {
   const bool is_signed = gauging::is_signed(quantity);
   const bool is_above = is_signed ? measured >= -kLargestMeasured : measured > Length();

@@ -2,6 +2,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/json/json_writer.hpp"
 #include "base/result.hpp"
@@ -12,6 +16,18 @@ namespace fitgauge::api {
 
 /// The largest measured value: 100 km.
 inline constexpr Length kLargestMeasured = Length::millimetres(100'000'000);
+
+/// A remark beside an answer; of a stored value never in its leaf.
+struct Warning {
+  std::string_view code;
+  std::string detail;
+};
+/// Writes `"warnings":[{code, detail}]`; nothing without any.
+void write_warnings(JsonWriter& json, std::span<const Warning> warnings);
+
+/// Adds `rule.no_acceptance` where the guard bands leave no value that is good.
+void warn_of_no_acceptance(const gauging::DecisionRule& rule, Length tolerance,
+                           std::vector<Warning>& warnings);
 
 /// @errors LengthOutOfRange unless 0 < measured <= kLargestMeasured; a position, distance or
 ///   deviation lies from -kLargestMeasured on.

@@ -17,21 +17,23 @@ from ._values import Parameter
 class LimitsCalls(Transport):
     """The standard, and verdicts that are not stored."""
 
-    def limits(self, designation: str) -> Limits:
+    def limits(self, designation: str, *, revision: str | None = None) -> Limits:
         """Limits of size of `25 H7`, `Ø25H7`, `132,5 a13`; of `M10-6H`, `25 ISO 2768-m`."""
-        return self._get(path_of("limits", designation))
+        return self._get(path_of("limits", designation), {"revision": revision})
 
-    def limits_of(self, nominal_mm: Size, tolerance_class: str) -> Limits:
+    def limits_of(self, nominal_mm: Size, tolerance_class: str, *, revision: str | None = None) -> Limits:
         """The same from a size and a class."""
-        return self._get("/v1/limits", {"nominal_mm": nominal_mm, "tolerance_class": tolerance_class})
+        return self._get("/v1/limits", {"nominal_mm": nominal_mm, "tolerance_class": tolerance_class,
+                                        "revision": revision})
 
     def fit(self, designation: str, *, hole: Mapping[str, Parameter] | None = None,
-            shaft: Mapping[str, Parameter] | None = None, subgroups: Literal["use", "ignore"] | None = None) -> Fit:
+            shaft: Mapping[str, Parameter] | None = None, subgroups: Literal["use", "ignore"] | None = None,
+            revision: str | None = None) -> Fit:
         """The fit `25 H7/g6`. With filters of stored holes and shafts, `hole={"characteristic": "bore"}`, also how
         likely those interfere: `statistical.stored`."""
         chosen = {f"{side}_{name}": value for side, filters in (("hole", hole), ("shaft", shaft))
                   for name, value in (filters or {}).items()}
-        return self._get(path_of("fits", designation), {**chosen, "subgroups": subgroups})
+        return self._get(path_of("fits", designation), {**chosen, "subgroups": subgroups, "revision": revision})
 
     def fits(self, nominal_mm: Size, *, min_clearance_um: Size | None = None, max_clearance_um: Size | None = None,
              limit: int | None = None) -> dict[str, Any]:
@@ -53,12 +55,12 @@ class LimitsCalls(Transport):
 
     def verdict(self, designation: str, measured_mm: Size, *, rule: RuleWord | None = None,
                 uncertainty_um: Size | None = None, coverage_factor: Size | None = None,
-                probability: Size | None = None, **temperatures: Parameter) -> Verdict:
-        """Judges a value and stores nothing. `rule` is simple, or guard_band or conformance, which need
+                probability: Size | None = None, revision: str | None = None, **temperatures: Parameter) -> Verdict:
+        """Judges a value, by an older `revision` of the tables on request, and stores nothing. `rule` is simple, or guard_band or conformance, which need
         `uncertainty_um`. `temperatures` correct to 20 degrees: `temperature_c` with `part_material`, say."""
         return self._get(path_of("verdicts", designation), {
             "measured_mm": measured_mm, "rule": rule, "uncertainty_um": uncertainty_um,
-            "coverage_factor": coverage_factor, "probability": probability, **temperatures})
+            "coverage_factor": coverage_factor, "probability": probability, "revision": revision, **temperatures})
 
     def tables(self) -> dict[str, Any]:
         """The revision in use, and the classes of the hole and the shaft table."""

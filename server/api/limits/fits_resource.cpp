@@ -83,7 +83,7 @@ Result<iso286::FitDesignation> of_one_segment(const http::Request& request) {
 template <class Designation>
 http::AsyncHandler answer_fit(const Services& services, const std::shared_ptr<ResponseCache>& cache,
                               const Designation& designation_of) {
-  auto from_tables = ResponseCache::cached(
+  auto from_tables = ResponseCache::of_revision(
       cache,
       [designation_of](const http::Request& request,
                        const ToleranceTables& tables) -> Result<http::Response> {
@@ -97,22 +97,24 @@ http::AsyncHandler answer_fit(const Services& services, const std::shared_ptr<Re
       });
   return [&services, designation_of, from_tables = std::move(from_tables)](
              const http::Request& request, http::Responder responder) {
-    if (request.query().empty()) {
-      auto made = from_tables(request);
-      return made ? responder.answer(*std::move(made)) : responder.fail(made.error());
+    if (request.query().empty() || asks_for_revision_alone(request)) {
+      return from_tables(request, std::move(responder));
     }
-    const auto tables = services.tables.tables();
-    if (!tables) return responder.fail(tables.error());
-    const auto designation = designation_of(request);
-    if (!designation) return responder.fail(designation.error());
-    const auto fit = find_fit(*designation, **tables);
-    if (!fit) return responder.fail(fit.error());
-    read_fit_of_values(services, request, *fit,
-                       [shared = share(std::move(responder)), tables = *tables,
-                        designation = *designation, fit = *fit](Result<WriteStored> stored) {
-                         if (!stored) return shared->fail(stored.error());
-                         shared->answer(fit_response(designation, fit, *tables, *stored));
-                       });
+    const auto shared = share(std::move(responder));
+    tables_of(services.tables, request, [&services, &request, designation_of, shared](
+                                            const Result<app::TableCatalog::Tables>& tables) {
+      if (!tables) return shared->fail(tables.error());
+      const auto designation = designation_of(request);
+      if (!designation) return shared->fail(designation.error());
+      const auto fit = find_fit(*designation, **tables);
+      if (!fit) return shared->fail(fit.error());
+      read_fit_of_values(services, request, *fit,
+                         [shared, tables = *tables, designation = *designation,
+                          fit = *fit](Result<WriteStored> stored) {
+                           if (!stored) return shared->fail(stored.error());
+                           shared->answer(fit_response(designation, fit, *tables, *stored));
+                         });
+    });
   };
 }
 
@@ -120,6 +122,7 @@ http::AsyncHandler answer_fit(const Services& services, const std::shared_ptr<Re
 std::vector<http::Parameter> with_filters(std::vector<http::Parameter> parameters) {
   const auto filters = fit_filter_parameters();
   parameters.insert(parameters.end(), filters.begin(), filters.end());
+  parameters.push_back(revision_parameter());
   return parameters;
 }
 
@@ -175,7 +178,7 @@ void add_fits_routes(std::vector<http::Route>& routes, const Services& services,
       .description =
           "Limits of both and the clearances; interference is negative clearance. Filters "
           "for holes and for shafts add `statistical.stored`, from what was measured; "
-          "with a query it is for viewers.",
+          "with these it is for viewers.",
       .parameters = with_filters({{.name = "hole",
                                    .place = http::ParameterPlace::Path,
                                    .description = "Size and class of the hole: 25H7"},
@@ -206,7 +209,7 @@ void add_fits_routes(std::vector<http::Route>& routes, const Services& services,
   });
   routes.push_back({
       .pattern = "/v1/fits",
-      .handler = ResponseCache::cached(cache, search_fits),
+      .handler = ResponseCache::of_revision(cache, search_fits),
       .summary = "Fits whose clearances lie within bounds",
       .description =
           "The preferred fits of ISO 286-1 first, then the widest tolerances.",
@@ -224,7 +227,8 @@ void add_fits_routes(std::vector<http::Route>& routes, const Services& services,
                       .description = "Greatest clearance allowed"},
                      {.name = "limit",
                       .type = http::Integer{.min = 1, .max = 1000},
-                      .description = "Most fits in the answer, 1 to 1000; 100 when absent"}},
+                      .description = "Most fits in the answer, 1 to 1000; 100 when absent"},
+                     revision_parameter()},
       .access = "open",
       .operation = "findFits",
       .tag = "limits",

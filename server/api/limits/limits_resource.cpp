@@ -57,7 +57,7 @@ void add_limits_routes(std::vector<http::Route>& routes,
                        const std::shared_ptr<ResponseCache>& cache) {
   routes.push_back({
       .pattern = "/v1/limits/{designation}",
-      .handler = ResponseCache::cached(cache, limits_of_designation),
+      .handler = ResponseCache::of_revision(cache, limits_of_designation),
       .summary = "Limits of size of a designation",
       .description = "Deviations and limits of a nominal size and tolerance class (ISO 286-1), of "
                      "the pitch diameter of a thread (ISO 965-1), of a general tolerance "
@@ -65,7 +65,8 @@ void add_limits_routes(std::vector<http::Route>& routes,
       .parameters = {{.name = "designation",
                       .place = http::ParameterPlace::Path,
                       .description = "25H7, 25 H7, Ø25H7; M10-6H, M10x1.25-6g; 25 ISO 2768-m, "
-                                     "R2 ISO 2768-m; a comma may mark decimals"}},
+                                     "R2 ISO 2768-m; a comma may mark decimals"},
+                     revision_parameter()},
       .access = "open",
       .operation = "getLimits",
       .tag = "limits",
@@ -74,7 +75,7 @@ void add_limits_routes(std::vector<http::Route>& routes,
   });
   routes.push_back({
       .pattern = "/v1/limits",
-      .handler = ResponseCache::cached(cache, limits_of_query),
+      .handler = ResponseCache::of_revision(cache, limits_of_query),
       .summary = "Limits of size of a nominal size and a tolerance class",
       .parameters = {{.name = "nominal_mm",
                       .type = http::LengthIn{},
@@ -82,7 +83,8 @@ void add_limits_routes(std::vector<http::Route>& routes,
                       .description = "Nominal size, 0 < D <= 3150"},
                      {.name = "tolerance_class",
                       .required = true,
-                      .description = "H7, g6, ISO 2768-m or a column of the shop's own"}},
+                      .description = "H7, g6, ISO 2768-m or a column of the shop's own"},
+                     revision_parameter()},
       .access = "open",
       .operation = "findLimits",
       .tag = "limits",

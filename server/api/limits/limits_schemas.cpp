@@ -1,4 +1,5 @@
 #include "api/schemas.hpp"
+#include "metrology/gauging/quantity.hpp"
 
 namespace fitgauge::api {
 
@@ -38,6 +39,14 @@ schema::Fields verdict_fields() {
       {"excess_um", schema::number(),
        "Beyond the upper limit (positive) or the lower limit (negative); 0 inside"},
   };
+}
+
+schema::Fields warnings_field() {
+  const std::string warning = schema::object(
+      {{"code", schema::text(),
+        "rule.no_acceptance, uncertainty.large, gauge.unknown, query.unused"},
+       {"detail", schema::text(), "What it is of, and what to do"}});
+  return {{"warnings", schema::array(warning), "Of this answer alone, no part of a record", false}};
 }
 
 namespace {
@@ -151,7 +160,7 @@ void add_limits_schemas(Schemas& schemas) {
       {"conformance_probability", schema::number(0, 1), "Of the part, to 1e-9"},
       {"guard_band_um", schema::number(), "Of conformance: inside both limits"},
   });
-  schemas.push_back({"Verdict", schema::object(limits_fields() + verdict_fields() + rule,
+  schemas.push_back({"Verdict", schema::object(limits_fields() + verdict_fields() + rule + warnings_field(),
                                                Others::Allowed, kVerdict)});
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "api/handlers.hpp"
 #include "api/limits/limits_codec.hpp"
 #include "record/thermal_codec.hpp"
 #include "record/verdict_codec.hpp"
@@ -28,6 +29,31 @@ Result<std::optional<ThermalCorrection>> correction_of(const http::Request& requ
     return Error{ErrorCode::QueryInvalid, made.error().message, made.error().where};
   }
   return made;
+}
+
+/// A warning of each parameter that changes nothing.
+std::vector<Warning> unused_parameters(const http::Request& request, bool is_simple) {
+  std::vector<Warning> warnings;
+  const auto warn = [&](std::string_view name, std::string_view reason) {
+    if (!request.has(name)) return;
+    warnings.push_back({"query.unused", fmt::format("{} changes nothing {}", name, reason)});
+  };
+  const auto expands = [&request](std::string_view body) {
+    return request.has(fmt::format("{}_material", body)) ||
+           request.has(fmt::format("{}_expansion_um_per_m_k", body));
+  };
+  if (!expands("part")) {
+    warn("temperature_c", "without part_material or part_expansion_um_per_m_k");
+  }
+  if (!expands("scale")) {
+    warn("scale_temperature_c", "without scale_material or scale_expansion_um_per_m_k");
+  }
+  if (is_simple) warn("coverage_factor", "without rule=guard_band");
+  if (!request.has("uncertainty_um")) warn("degrees_of_freedom", "without uncertainty_um");
+  if (standards::is_designation(*request.text("designation"))) {
+    warn("revision", "here: it is of the tables of ISO 286");
+  }
+  return warnings;
 }
 
 /// The limits of a designation, of whatever standard.
@@ -96,6 +122,12 @@ Result<http::Response> verdict(const http::Request& request,
     if (const auto checked = check_uncertainty(*given); !checked) return checked.error();
   }
   const auto kind = gauging::rule_from_word(request.text("rule").value_or("simple"));
+  if (given && kind == gauging::DecisionRule::Kind::Simple) {
+    return Error{ErrorCode::QueryUnused,
+                 "rule simple does not use uncertainty_um: give rule=guard_band or "
+                 "rule=conformance, or leave it out",
+                 "uncertainty_um"};
+  }
   const RuleWords words{.kind = *kind,
                         .standard_uncertainty = given,
                         .coverage_millionths = request.integer("coverage_factor"),
@@ -114,6 +146,9 @@ Result<http::Response> verdict(const http::Request& request,
   limits->write_members(json);
   write_verdict_members(json, limits->nominal, measured, result);
   write_rule_members(json, *rule, words, limits->of, measured.decisive());
+  std::vector<Warning> warnings = unused_parameters(request, rule->kind() == gauging::DecisionRule::Kind::Simple);
+  warn_of_no_acceptance(*rule, limits->of.upper - limits->of.lower, warnings);
+  write_warnings(json, warnings);
   json.end_object();
   http::Response response(200, "application/json", std::move(body));
   response.etag = limits->etag;
@@ -140,12 +175,14 @@ http::Parameter parameter_of(const app::MeasurementField& field) {
 void add_verdicts_routes(std::vector<http::Route>& routes, const Services& services) {
   routes.push_back({
       .pattern = "/v1/verdicts/{designation}",
-      .handler = [&tables =
-                      services.tables](const http::Request& request) -> Result<http::Response> {
-        const auto current = tables.tables();
-        if (!current) return current.error();
-        return verdict(request, **current);
-      },
+      .handler =
+          [&tables = services.tables](const http::Request& request, http::Responder responder) {
+            tables_of(tables, request,
+                      [&request, answer = answer_by(share(std::move(responder)))](
+                          const Result<app::TableCatalog::Tables>& found) {
+                        answer(found ? verdict(request, **found) : found.error());
+                      });
+          },
       .summary = "Verdict on a measured value",
       .description =
           "good, rework (hole too small, shaft too large) or reject (hole too large, shaft too "
@@ -178,7 +215,8 @@ void add_verdicts_routes(std::vector<http::Route>& routes, const Services& servi
                       .description = "Of uncertainty_um; without end when absent"},
                      {.name = "probability",
                       .type = http::Decimal{.scale = 6, .min = 500'000, .max = 999'999},
-                      .description = "Of conformance, at least 0.5; 0.95 when absent"}},
+                      .description = "Of conformance, at least 0.5; 0.95 when absent"},
+                     revision_parameter()},
       .access = "open",
       .operation = "getVerdict",
       .tag = "limits",

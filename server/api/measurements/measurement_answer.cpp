@@ -11,13 +11,7 @@ std::vector<Warning> warnings_of(const app::Measurement& m) {
   std::vector<Warning> warnings;
   const bool has_tolerance = m.has_upper_limit() && m.has_lower_limit();
   const Length tolerance = m.deviations.upper - m.deviations.lower;
-  if (has_tolerance && gauging::has_no_acceptance(m.rule, tolerance)) {
-    warnings.push_back({"rule.no_acceptance",
-                        fmt::format("no value can be good: the guard bands of {} um times {} leave "
-                                    "nothing of the tolerance of {} um",
-                                    format_um(m.rule.standard_uncertainty()),
-                                    format(m.rule.coverage_factor()), format_um(tolerance))});
-  }
+  if (has_tolerance) warn_of_no_acceptance(m.rule, tolerance, warnings);
   if (has_tolerance && m.rule.kind() == Kind::Simple && m.standard_uncertainty &&
       *m.standard_uncertainty * 10 > tolerance) {
     warnings.push_back({"uncertainty.large",
@@ -45,15 +39,6 @@ std::vector<Warning> warnings_of(const app::Measurement& m) {
                                       m.gauge.value_or(""), *m.calibration_due)});
   }
   return warnings;
-}
-
-void write_warnings(JsonWriter& json, std::span<const Warning> warnings) {
-  if (warnings.empty()) return;
-  json.key("warnings").begin_array();
-  for (const Warning& warning : warnings) {
-    json.begin_object().member("code", warning.code).member("detail", warning.detail).end_object();
-  }
-  json.end_array();
 }
 
 void MeasurementAnswer::expect(std::size_t body_size) {

@@ -9,24 +9,15 @@
 #include <vector>
 
 #include "api/wire/request_facts.hpp"
-#include "base/json/json_writer.hpp"
+#include "record/verdict_codec.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
-
-/// A remark beside what is stored, never in its leaf.
-struct Warning {
-  std::string_view code;
-  std::string detail;
-};
 
 /// Reasons for care that do not keep a value from the store: an acceptance zone that is empty, an
 /// uncertainty above a tenth of the tolerance that the simple rule does not see, a gauge that is
 /// not registered while others are, is blocked, or is overdue for calibration.
 std::vector<Warning> warnings_of(const app::Measurement& measurement);
-
-/// Writes `"warnings":[{code, detail}]`; nothing without any.
-void write_warnings(JsonWriter& json, std::span<const Warning> warnings);
 
 /// The 201 to stored measurements, in the form the client prefers: the record of one, the records
 /// of all, their number with the counts of verdicts, or nothing.

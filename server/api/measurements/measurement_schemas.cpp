@@ -58,15 +58,6 @@ schema::Fields echoed_fields() {
   return fields;
 }
 
-/// The warnings in the answer to a stored value.
-schema::Fields warnings_field() {
-  const std::string warning = schema::object(
-      {{"code", schema::text(), "rule.no_acceptance, uncertainty.large, gauge.unknown"},
-       {"detail", schema::text(), "What it is of, and what to do"}});
-  return {{"warnings", schema::array(warning), "Of the answer that stores it, no part of a record",
-           false}};
-}
-
 std::string basis_of_records() {
   return schema::words({"iso286", "custom", "explicit", "standard", "none"});
 }

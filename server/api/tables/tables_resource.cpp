@@ -37,32 +37,6 @@ Result<http::Response> table_response(const http::Request& request, Feature feat
   return response;
 }
 
-/// The tables in use from the cache, an older revision from the store.
-http::AsyncHandler table_handler(const Services& services,
-                                 const std::shared_ptr<ResponseCache>& cache, Feature feature) {
-  auto current = ResponseCache::cached(
-      cache, [feature](const http::Request& request, const ToleranceTables& tables) {
-        return table_response(request, feature, tables);
-      });
-  return [&services, feature, current = std::move(current)](const http::Request& request,
-                                                            http::Responder responder) {
-    const auto revision = request.text("revision");
-    if (!revision) {
-      auto response = current(request);
-      if (!response) return responder.fail(response.error());
-      return responder.answer(*std::move(response));
-    }
-    services.tables.at_revision(std::string(*revision),
-                                [&request, feature, responder = share(std::move(responder))](
-                                    Result<app::TableCatalog::Tables> tables) {
-                                  if (!tables) return responder->fail(tables.error());
-                                  auto response = table_response(request, feature, **tables);
-                                  if (!response) return responder->fail(response.error());
-                                  responder->answer(*std::move(response));
-                                });
-  };
-}
-
 Result<http::Response> index_response(const http::Request&, const ToleranceTables& tables) {
   http::Response response(200, "application/json", table_index_json(tables));
   response.etag = etag_of(tables);
@@ -149,11 +123,15 @@ void add_feature_routes(std::vector<http::Route>& routes, const Services& servic
   const std::string table = feature == Feature::Hole ? "HoleTable" : "ShaftTable";
   routes.push_back({
       .pattern = path,
-      .handler = table_handler(services, cache, feature),
+      .handler = ResponseCache::of_revision(
+          cache,
+          [feature](const http::Request& request, const ToleranceTables& tables) {
+            return table_response(request, feature, tables);
+          }),
       .summary = "Limit deviations of every class and size range",
       .parameters = {{.name = "classes", .description = "H7,JS7: only these classes"},
                      csv_or_json(),
-                     {.name = "revision", .description = "Answers from an older revision"}},
+                     revision_parameter()},
       .response_types = {"application/json", "text/csv"},
       .access = "open",
       .operation = "get" + table,

@@ -1,5 +1,7 @@
 #include "api/wire/response_cache.hpp"
 
+#include "api/handlers.hpp"
+
 namespace fitgauge::api {
 namespace {
 
@@ -10,6 +12,34 @@ constexpr std::size_t kLongestAnswer = std::size_t{64} << 10;
 constexpr std::size_t kOverhead = 256;
 
 }  // namespace
+
+void tables_of(app::TableCatalog& catalog, const http::Request& request,
+               app::TableCatalog::Callback<app::TableCatalog::Tables> done) {
+  const auto revision = request.text("revision");
+  if (!revision) return done(catalog.tables());
+  catalog.at_revision(std::string(*revision), std::move(done));
+}
+
+bool asks_for_revision_alone(const http::Request& request) {
+  const std::string_view query = request.query();
+  return query.starts_with("revision=") && query.find('&') == std::string_view::npos;
+}
+
+http::Parameter revision_parameter() {
+  return {.name = "revision", .description = "Answers from an older revision of the tables"};
+}
+
+http::AsyncHandler ResponseCache::of_revision(std::shared_ptr<ResponseCache> cache,
+                                              TableHandler make) {
+  return [cache, make, current = cached(cache, make)](const http::Request& request,
+                                                      http::Responder responder) {
+    const auto answer = answer_by(share(std::move(responder)));
+    if (!request.has("revision")) return answer(current(request));
+    tables_of(cache->tables_, request, [&request, make, answer](const auto& tables) {
+      answer(tables ? make(request, **tables) : tables.error());
+    });
+  };
+}
 
 http::SyncHandler ResponseCache::cached(std::shared_ptr<ResponseCache> cache, TableHandler make) {
   return [cache = std::move(cache),

@@ -11,12 +11,22 @@
 
 namespace fitgauge::api {
 
+/// Gives the tables in use, or those of the revision that the request asks for.
+/// @errors RevisionUnknown, TablesInconsistent, StorageUnavailable.
+void tables_of(app::TableCatalog& catalog, const http::Request& request,
+               app::TableCatalog::Callback<app::TableCatalog::Tables> done);
+
+/// Whether a query has `revision` and nothing else.
+bool asks_for_revision_alone(const http::Request& request);
+
+http::Parameter revision_parameter();
+
 /// Answers made from the tables, serialised once per route, arguments and form, however these are
 /// spelt; dropped when the tables change. At most 4 MiB, no answer over 64 KiB. Thread-safe, shared
 /// by the routes that are given it.
 class ResponseCache {
  public:
-  explicit ResponseCache(const app::TableCatalog& tables) : tables_(tables) {}
+  explicit ResponseCache(app::TableCatalog& tables) : tables_(tables) {}
 
   using TableHandler =
       std::function<Result<http::Response>(const http::Request&, const iso286::ToleranceTables&)>;
@@ -26,6 +36,10 @@ class ResponseCache {
   /// @errors TablesInconsistent where the tables fail their audit; those of `make`.
   static http::SyncHandler cached(std::shared_ptr<ResponseCache> cache, TableHandler make);
 
+  /// The same; the parameter `revision` of a request asks for older tables, of which nothing is kept.
+  /// @errors RevisionUnknown too.
+  static http::AsyncHandler of_revision(std::shared_ptr<ResponseCache> cache, TableHandler make);
+
  private:
   using Prepared = std::shared_ptr<const http::PreparedResponse>;
 
@@ -33,7 +47,7 @@ class ResponseCache {
   void keep(const http::Request& request, std::shared_ptr<const app::TableState> state,
             Prepared response);
 
-  const app::TableCatalog& tables_;
+  app::TableCatalog& tables_;
   std::mutex mutex_;
   std::shared_ptr<const app::TableState> state_;  // the tables the answers were made from
   std::unordered_map<std::string, Prepared> answers_;

@@ -106,6 +106,11 @@ class ReadOpen(Callers):
         self.assert_needs_a_key(self.daemon.get("/v1/measurements"))
         self.assert_needs_a_key(self.daemon.measure(PART))
         self.assert_needs_a_key(self.daemon.get("/v1/events"))
+        revision = self.daemon.get("/v1/tables").json["revision"]
+        for path in ("/v1/limits/25H7", "/v1/fits/25H7/g6", "/v1/fits/25H7%2Fg6"):
+            self.assertEqual(self.daemon.get(f"{path}?revision={revision}").status, 200, path)
+        both = f"?revision={revision}&hole_characteristic=a&shaft_characteristic=b"
+        self.assert_needs_a_key(self.daemon.get("/v1/fits/25H7/g6" + both))
         # A fit is of the tables, what measured parts do is not.
         stored = "?hole_characteristic=a&shaft_characteristic=b"
         for path in ("/v1/fits/25H7/g6", "/v1/fits/25H7%2Fg6"):

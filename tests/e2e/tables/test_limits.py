@@ -94,6 +94,44 @@ class Limits(DaemonTest):
             self.assertEqual(answer["verdict"], verdict, measured)
         self.assert_problem(self.daemon.get("/v1/verdicts/25H7?measured_mm=25&rule=guard_band"), 422, "rule.invalid")
 
+    def test_an_older_revision_answers_as_it_did(self):
+        before = self.daemon.get("/v1/tables").json["revision"]
+        paths = ("/v1/limits/25H7?", "/v1/limits?nominal_mm=25&tolerance_class=H7&", "/v1/fits/25H7/g6?", "/v1/fits/25H7%2Fg6?",
+                 "/v1/fits?nominal_mm=25&min_clearance_um=5&max_clearance_um=45&", "/v1/verdicts/25H7?measured_mm=25.013&")
+        now = {path: self.daemon.get(path.rstrip("?&")) for path in paths}
+        rows = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": -3}]}
+        self.daemon.request("PUT", "/v1/tables/hole/classes/H7", rows)
+        try:
+            for path in paths:
+                older = self.daemon.get(f"{path}revision={before}")
+                self.assertEqual((older.status, older.body), (200, now[path].body), path)
+                self.assertEqual(older.headers["etag"], now[path].headers["etag"])
+                self.assertNotEqual(self.daemon.get(path.rstrip("?&")).body, older.body, path)
+                self.assert_problem(self.daemon.get(f"{path}revision=none"), 400, "revision.unknown")
+        finally:
+            self.daemon.request("DELETE", "/v1/tables/hole/classes/H7")
+
+    def test_a_parameter_that_changes_nothing_is_refused_or_warned_of(self):
+        def warned(query, designation="25H7"):
+            answer = self.limits(f"/v1/verdicts/{designation}?measured_mm=25.013{query}")
+            return [(w["code"], w["detail"].split()[0]) for w in answer.get("warnings", [])]
+        for query in ("&uncertainty_um=1", "&uncertainty_um=1&rule=simple"):
+            self.assert_problem(self.daemon.get(f"/v1/verdicts/25H7?measured_mm=25{query}"), 400, "query.unused")
+        self.assertEqual(warned(""), [])
+        for name, query in (("temperature_c", "&temperature_c=30"), ("scale_temperature_c", "&scale_temperature_c=30"),
+                            ("coverage_factor", "&coverage_factor=3"), ("degrees_of_freedom", "&degrees_of_freedom=9")):
+            self.assertEqual(warned(query), [("query.unused", name)])
+        revision = self.daemon.get("/v1/tables").json["revision"]
+        self.assertEqual(warned(f"&revision={revision}", "25%20ISO%202768-m"), [("query.unused", "revision")])
+        self.assertEqual(warned(f"&revision={revision}&temperature_c=21&part_material=steel&rule=guard_band"
+                                "&uncertainty_um=1&coverage_factor=3&degrees_of_freedom=9"), [])
+
+    def test_a_rule_without_an_acceptance_zone_says_so(self):
+        answer = self.limits("/v1/verdicts/25H7?measured_mm=25.01&rule=guard_band&uncertainty_um=6")
+        self.assertEqual((answer["verdict"], [w["code"] for w in answer["warnings"]]), ("indeterminate", ["rule.no_acceptance"]))
+        self.assert_problem(self.daemon.get("/v1/verdicts/25H7?measured_mm=25.01&rule=conformance&uncertainty_um=60"),
+                            422, "rule.no_acceptance")
+
     def test_a_negative_uncertainty_is_refused_whatever_it_is_added_to(self):
         warm = "&temperature_c=25&part_material=steel&temperature_uncertainty_c=0.1"
         for rule in ("", "&rule=simple", "&rule=guard_band", "&rule=conformance"):
