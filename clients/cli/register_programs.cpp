@@ -50,7 +50,7 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
       ->expected(1)
       ->take_all();
   run->add_option("--on-stop", options->on_stop, "At STOP: continue or end");
-  run->add_option("--language", options->language, "Of masks: english, german, dutch, italian");
+  run->add_option("--language", options->language, "Of masks: english, german, dutch, italian, polish");
   run->add_option("--part-id", options->part_id, "Part that is measured, for the records");
   run->add_option("--order", options->order, "Its order");
   run->add_flag("--block-skip", options->block_skip, "Pass over blocks that begin with /");

@@ -40,7 +40,7 @@ _fitgauge() {
       return ;;
     --source) _fitgauge_words 'gauge simulation all'; return ;;
     --on-stop) _fitgauge_words 'continue end'; return ;;
-    --language) _fitgauge_words 'english german dutch italian'; return ;;
+    --language) _fitgauge_words 'english german dutch italian polish'; return ;;
     --baud) _fitgauge_words '1200 2400 4800 9600 19200 38400 57600 115200'; return ;;
     --serial | --key-file | --ca | --cert | --cert-key | --state | --setup-file | --contacts | --output | -o) _fitgauge_files; return ;;
   esac

@@ -75,7 +75,7 @@ class ControlCalls(Transport):
     def run_program(self, program: str, setup: Union[str, Mapping[str, Any], None] = None, *,
                     parameters: Mapping[str, Size] | None = None, limits: RunLimits | None = None,
                     on_stop: Literal["continue", "end"] | None = None, block_skip: bool | None = None,
-                    language: Literal["english", "german", "dutch", "italian"] | None = None,
+                    language: Literal["english", "german", "dutch", "italian", "polish"] | None = None,
                     part_id: str | None = None, order: str | None = None,
                     idempotency_key: str | None = None) -> Run:
         """Runs `nc_prog/8255.h` or `TNC:\\nc_prog\\8255.h` and waits for its end. A program that fails is a
@@ -87,7 +87,7 @@ class ControlCalls(Transport):
     def start_run(self, program: str, setup: Union[str, Mapping[str, Any], None] = None, *,
                   parameters: Mapping[str, Size] | None = None, limits: RunLimits | None = None,
                   on_stop: Literal["continue", "end"] | None = None, block_skip: bool | None = None,
-                  language: Literal["english", "german", "dutch", "italian"] | None = None,
+                  language: Literal["english", "german", "dutch", "italian", "polish"] | None = None,
                   part_id: str | None = None, order: str | None = None,
                   idempotency_key: str | None = None) -> Run:
         """The same without waiting."""

@@ -27,7 +27,8 @@ struct LanguageForm {
   static constexpr std::array kLanguages = {std::pair{"english", klartext::MaskLanguage::English},
                                             std::pair{"german", klartext::MaskLanguage::German},
                                             std::pair{"dutch", klartext::MaskLanguage::Dutch},
-                                            std::pair{"italian", klartext::MaskLanguage::Italian}};
+                                            std::pair{"italian", klartext::MaskLanguage::Italian},
+                                            std::pair{"polish", klartext::MaskLanguage::Polish}};
 
   std::string schema(Side) const {
     std::vector<std::string_view> words;
@@ -48,7 +49,7 @@ struct LanguageForm {
       return true;
     }
     fields.report(ErrorCode::FieldInvalid, name,
-                  "language takes english, german, dutch or italian");
+                  "language takes english, german, dutch, italian or polish");
     return false;
   }
 };

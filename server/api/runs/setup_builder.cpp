@@ -94,19 +94,19 @@ void read_separator(const JsonValue& setup, const std::string& pointer,
   }
 }
 
-void read_print_folder(const JsonValue& setup, const std::string& pointer,
-                       interpreter::RunOptions& options, FieldErrors& errors) {
-  constexpr std::string_view kMember = "fn16_default_path";
-  const JsonValue* folder = setup.find(kMember);
-  if (folder == nullptr) return;
-  const std::string where = pointer_to(pointer, kMember);
-  if (!folder->is(Kind::String)) {
+/// A path of the control, with `added` behind it.
+void read_path(const JsonValue& setup, const std::string& pointer, std::string_view member, std::string_view added,
+               std::optional<interpreter::ControlPath>& to, FieldErrors& errors) {
+  const JsonValue* written = setup.find(member);
+  if (written == nullptr) return;
+  const std::string where = pointer_to(pointer, member);
+  if (!written->is(Kind::String)) {
     errors.add(ErrorCode::FieldType, where, "takes a text such as TNC:\\logs");
     return;
   }
-  auto path = interpreter::ControlPath::parse(folder->text + "\\log");
+  auto path = interpreter::ControlPath::parse(written->text + std::string(added));
   if (path) {
-    options.print_folder = *std::move(path);
+    to = *std::move(path);
   } else {
     errors.add(path.error().code, where, path.error().message);
   }
@@ -135,7 +135,8 @@ void decode_builder(const JsonValue& setup, const std::string& pointer,
   }
   read(setup, pointer);
   read_separator(setup, pointer, options, errors);
-  read_print_folder(setup, pointer, options, errors);
+  read_path(setup, pointer, "fn16_default_path", "\\log", options.print_folder, errors);
+  read_path(setup, pointer, "active_datum_table", "", options.datum_table, errors);
 }
 
 }  // namespace fitgauge::api

@@ -17,14 +17,15 @@ struct StrictPart {
   unsigned part;  ///< 0: each
   LetterSet words;
   LetterSet bare = LetterSet();
+  LetterSet incremental = kIncremental;
 };
 
 constexpr StrictPart kStrictParts[] = {
     {CycleFamily::CyclDef, 7, 0, kAxes | LetterSet(Letter::Row)},
-    {CycleFamily::CyclDef, 8, 0, kAxes, kAxes},
+    {CycleFamily::CyclDef, 8, 0, kAxes, kAxes, LetterSet()},
     {CycleFamily::CyclDef, 10, 0, LetterSet(Letter::Rot)},
     {CycleFamily::CyclDef, 11, 0, LetterSet(Letter::Scl)},
-    {CycleFamily::CyclDef, 26, 0, kAxes | LetterSet(Letter::Ccx, Letter::Ccy, Letter::Ccz)},
+    {CycleFamily::CyclDef, 26, 0, kAxes | LetterSet(Letter::Ccx, Letter::Ccy, Letter::Ccz), LetterSet(), LetterSet()},
     {CycleFamily::CyclDef, 32, 1, LetterSet(Letter::T)},
     {CycleFamily::TchProbe, 0, 1, kAxes},
     {CycleFamily::TchProbe, 1, 2, kAxes},
@@ -112,7 +113,7 @@ void parse_part_words(BlockReader& in, CycleFamily family, unsigned number, unsi
   }
   for (const StrictPart& row : kStrictParts) {
     if (row.family == family && row.number == number && (row.part == 0 || row.part == part)) {
-      parse_words(in, row.words, row.bare);
+      parse_words(in, row.words, row.bare, row.incremental);
       return;
     }
   }

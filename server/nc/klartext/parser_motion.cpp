@@ -129,7 +129,7 @@ void parse_element(BlockReader& in) {
   in.add_word({.value = static_cast<double>(number), .letter = Letter::Value});
   in.skip_blanks();
   in.expect('(');
-  WordReader words(in, kElementWords[kind]);
+  WordReader words(in, kElementWords[kind], LetterSet(), kPoint);
   while (!in.at_end() && in.peek() != ')') words.read();
   in.expect(')');
 }

@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "base/text.hpp"
@@ -57,13 +60,23 @@ bool parse_solution(BlockReader& in) {
   return false;
 }
 
+/// One word of these at most.
+void check_exclusive(BlockReader& in, Slice<Word> words, LetterSet letters, std::string_view names) {
+  const auto found = in.words(words);
+  if (std::ranges::count_if(found, [&](const Word& word) { return letters.contains(word.letter); }) < 2) return;
+  in.fail(DiagnosticCode::WordRepeated, in.here(), fmt::format("{} exclude each other: name one of them", names));
+}
+
 Statement parse_plane_kind(BlockReader& in, PlaneKind kind) {
   Plane plane{.kind = kind};
-  WordReader words(in, kEveryPlane | kPlaneWords[static_cast<std::size_t>(kind)]);
+  WordReader words(in, kEveryPlane | kPlaneWords[static_cast<std::size_t>(kind)], LetterSet(), LetterSet());
   while (!in.at_end()) {
     if (!parse_positioning(in, plane) && !parse_solution(in)) words.read();
   }
   plane.words = words.words();
+  check_exclusive(in, plane.words, LetterSet(Letter::Seq, Letter::Sym), "SEQ and SYM");
+  check_exclusive(in, plane.words, LetterSet(Letter::TableRot, Letter::CoordRot), "TABLE ROT and COORD ROT");
+  if (kind == PlaneKind::Relativ) check_exclusive(in, plane.words, kPlaneWords[5], "SPA, SPB and SPC of RELATIV");
   return plane;
 }
 
@@ -97,10 +110,15 @@ Statement parse_trans_words(BlockReader& in, Transformation kind, LetterSet word
 }
 
 Statement parse_mode(BlockReader& in) {
+  in.skip_blanks();
+  const char* begin = in.at();
   const auto found = accept_name<OperatingMode>(in, kOperatingModes);
   if (!found) {
     in.fail_expected("MILL, TURN or GRIND");
     return Empty{};
+  }
+  if (*found != OperatingMode::Mill) {
+    in.refuse(begin, fmt::format("FUNCTION MODE {}", kOperatingModes[static_cast<std::size_t>(*found)]));
   }
   FunctionMode mode{.mode = *found};
   in.skip_blanks();
@@ -108,17 +126,48 @@ Statement parse_mode(BlockReader& in) {
   return mode;
 }
 
-/// `F TCP AXIS POS PATHCTRL AXIS`, kept with one blank between words: it moves nothing here.
+/// What FUNCTION TCPM says, each once, and the words for it.
+constexpr struct {
+  std::string_view name;
+  std::array<std::string_view, 3> words;
+} kTcpmOptions[] = {{"F", {"TCP", "CONT", "CONT"}},
+                    {"AXIS", {"POS", "SPAT", "SPAT"}},
+                    {"PATHCTRL", {"AXIS", "VECTOR", "VECTOR"}},
+                    {"REFPNT", {"TIP-TIP", "TIP-CENTER", "CENTER-CENTER"}}};
+
+std::string next_word(BlockReader& in) {
+  in.skip_blanks();
+  const char* begin = in.at();
+  in.move_to(std::find_if(begin, in.end(), [](char c) { return is_blank(c) || c == ';'; }));
+  return ascii_upper(std::string_view(begin, static_cast<std::size_t>(in.at() - begin)));
+}
+
+/// `F TCP AXIS POS PATHCTRL AXIS REFPNT TIP-TIP F5000`, kept with one blank between words.
 Statement parse_tcpm(BlockReader& in) {
   std::string options;
-  while (!in.at_end()) {
+  std::array<bool, std::size(kTcpmOptions)> given{};
+  while (!in.at_end() && !in.failure()) {
     const char* begin = in.at();
-    const auto ends_word = [](char c) { return is_blank(c) || c == ';'; };
-    in.move_to(std::find_if(begin, in.end(), ends_word));
-    if (!options.empty()) options += ' ';
-    options.append(begin, in.at());
+    std::string written = next_word(in);
+    const auto* option = std::ranges::find(kTcpmOptions, std::string_view(written), [](const auto& o) { return o.name; });
+    // F with a number limits the feed of the linear axes.
+    bool is_known = written.size() > 1 && written.front() == 'F' &&
+                    (written == "FMAX" || std::all_of(written.begin() + 1, written.end(), is_digit));
+    if (option != std::end(kTcpmOptions)) {
+      const std::string value = next_word(in);
+      bool& before = given[static_cast<std::size_t>(option - kTcpmOptions)];
+      is_known = !before && std::ranges::count(option->words, value) > 0;
+      before = true;
+      written += ' ' + value;
+    }
+    if (!is_known) {
+      in.fail(DiagnosticCode::SyntaxError, in.place(begin, in.at()),
+              "FUNCTION TCPM takes, each once: F TCP or CONT, AXIS POS or SPAT, PATHCTRL AXIS or VECTOR, REFPNT TIP-TIP, "
+              "TIP-CENTER or CENTER-CENTER, and F with a number");
+    }
+    options += (options.empty() ? "" : " ") + written;
   }
-  return FunctionTcpm{.active = true, .options = in.add_text(ascii_upper(options))};
+  return FunctionTcpm{.active = true, .options = in.add_text(options)};
 }
 
 }  // namespace

@@ -8,9 +8,6 @@
 namespace fitgauge::klartext {
 namespace {
 
-constexpr LetterSet kIncremental =
-    kAxes | LetterSet(Letter::Pr, Letter::Pa, Letter::Rot, Letter::Ccx, Letter::Ccy, Letter::Ccz);
-
 /// Words that are nothing but a letter and a number.
 constexpr LetterSet kPlain = kAxes | LetterSet(Letter::F);
 
@@ -37,8 +34,8 @@ constexpr std::uint32_t kLargestM = 9999;
 
 }  // namespace
 
-WordReader::WordReader(BlockReader& in, LetterSet allowed, LetterSet bare)
-    : in_(in), allowed_(allowed), bare_(bare), plain_(allowed & kPlain), first_(in.word_count()) {}
+WordReader::WordReader(BlockReader& in, LetterSet allowed, LetterSet bare, LetterSet incremental)
+    : in_(in), allowed_(allowed), bare_(bare), incremental_(incremental), plain_(allowed & kPlain), first_(in.word_count()) {}
 
 Word WordReader::parse_name() {
   Word word;
@@ -99,6 +96,10 @@ void WordReader::read() {
   if (in_.failure()) return;
   parse_value_of(word);
   word.argument = arguments_.contains(word.letter);
+  if (word.incremental && (word.argument || !incremental_.contains(word.letter))) {
+    in_.fail(DiagnosticCode::SyntaxError, in_.place(begin, in_.at()),
+             fmt::format("{} takes no I here: write the absolute value", spelling(word.letter)));
+  }
   if (!word.argument) {
     if (!allowed_.contains(word.letter)) {
       in_.fail(DiagnosticCode::SyntaxError, in_.place(begin, in_.at()),
@@ -157,8 +158,8 @@ void WordReader::parse_m_number(Word& word) {
   }
 }
 
-Slice<Word> parse_words(BlockReader& in, LetterSet allowed, LetterSet bare) {
-  WordReader words(in, allowed, bare);
+Slice<Word> parse_words(BlockReader& in, LetterSet allowed, LetterSet bare, LetterSet incremental) {
+  WordReader words(in, allowed, bare, incremental);
   while (!in.at_end()) words.read();
   return words.words();
 }

@@ -10,12 +10,16 @@ inline constexpr LetterSet kAxes(Letter::X, Letter::Y, Letter::Z, Letter::A, Let
 inline constexpr LetterSet kFeeds(Letter::F, Letter::FMax, Letter::FAuto, Letter::Fu, Letter::Fz,
                                   Letter::Ft, Letter::FMaxT);
 
+/// The words that may count from where the last block ended: `IX+5`.
+inline constexpr LetterSet kIncremental = kAxes | LetterSet(Letter::Pr, Letter::Pa, Letter::Rot);
+
 /// Reads words of one block into the Program's pool, one at a time.
 class WordReader {
  public:
   /// @param allowed the words this block may hold.
   /// @param bare those that may stand without a value: the axes of `CYCL DEF 8.1 X Y`.
-  WordReader(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet());
+  /// @param incremental those that take I: the run reads it.
+  WordReader(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet(), LetterSet incremental = kIncremental);
 
   /// The next word, or several; fails when one is none of the allowed ones or stands there twice.
   void read();
@@ -30,6 +34,7 @@ class WordReader {
   BlockReader& in_;
   LetterSet allowed_;
   LetterSet bare_;
+  LetterSet incremental_;
   LetterSet seen_;
   LetterSet plain_;      ///< those still to come that may be read the short way
   LetterSet arguments_;  ///< of the M function read last
@@ -38,6 +43,7 @@ class WordReader {
 };
 
 /// All words up to the end of the block.
-Slice<Word> parse_words(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet());
+Slice<Word> parse_words(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet(),
+                        LetterSet incremental = kIncremental);
 
 }  // namespace fitgauge::klartext

@@ -43,7 +43,7 @@ MachineResult<ContactPoint> Control::probe(const ProbeMove& move) {
   return point;
 }
 
-/// The way back to the start is free, since the ball came along it; beyond it is looked at.
+/// The way back, at most to the start, is free, since the ball came along it.
 MachineResult<void> Control::go_back(const Position& start, const Vec3& direction,
                                      const ProbeMove& move) {
   const Position contact = state_.nose;
@@ -52,11 +52,7 @@ MachineResult<void> Control::go_back(const Position& start, const Vec3& directio
   const Position free =
       back < way ? Position{contact.linear - direction * back, contact.rotary} : start;
   // The axes may stand beyond the contact, where they came to rest.
-  const Path path = straight_path(axes_->nose(), free);
-  if (auto gone = travel(path, move.retract_feed, true); !gone || back <= way) return gone;
-  const Position end{start.linear - direction * (back - way), start.rotary};
-  if (auto checked = check_range(end); !checked) return checked;
-  return travel(straight_path(start, end), move.retract_feed);
+  return travel(straight_path(axes_->nose(), free), move.retract_feed, true);
 }
 
 /// How far the nose can go along `direction` inside its ranges, at most `distance`.

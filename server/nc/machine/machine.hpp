@@ -35,7 +35,7 @@ struct ProbeMove {
   double feed;      ///< in mm/min (F of tchprobe.tp)
   CoordinateSystem system = CoordinateSystem::Input;  ///< that `direction` is given in
   std::optional<double>
-      retract;  ///< after contact, back by that many mm (MB); without: to the start
+      retract;  ///< after contact, back by that many mm (MB), at most to the start; without: there
   Feed retract_feed;
 };
 

@@ -18,7 +18,6 @@ enum class SpindleState : std::int8_t {
   StoppedAfterM3 = 2,    ///< M5
   StoppedAfterM4 = 3,    ///< M5
 };
-enum class OperatingMode : std::uint8_t { Mill, Turn };
 
 /// What M functions and FUNCTION blocks switch.
 struct Modes {
@@ -30,7 +29,6 @@ struct Modes {
   bool tcpm = false;       ///< M128, FUNCTION TCPM: the tip follows the workpiece
   bool feed_at_circumference = false;  ///< M116: feeds of rotary axes in mm/min; FN 18 reads it
   bool kinematics_in_display = false;  ///< M144; FN 18 reads it
-  OperatingMode mode = OperatingMode::Mill;
 
   friend bool operator==(const Modes&, const Modes&) = default;
 };

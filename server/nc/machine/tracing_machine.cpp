@@ -224,10 +224,9 @@ MachineResult<void> TracingMachine::set_frames(const Frames& frames) {
 
 MachineResult<void> TracingMachine::set_modes(const Modes& modes) {
   return write(inner_.set_modes(modes), [&] {
-    std::string text = fmt::format("MODES SPINDLE {} S{:g} COOLANT {} F{:g} TCPM {} {}",
+    std::string text = fmt::format("MODES SPINDLE {} S{:g} COOLANT {} F{:g} TCPM {}",
                                    static_cast<int>(modes.spindle), modes.spindle_rpm,
-                                   modes.coolant ? 1 : 0, modes.feed_mm_min, modes.tcpm ? 1 : 0,
-                                   modes.mode == OperatingMode::Mill ? "MILL" : "TURN");
+                                   modes.coolant ? 1 : 0, modes.feed_mm_min, modes.tcpm ? 1 : 0);
     if (modes.spindle_deg != 0) text += fmt::format(" ORIENTED {:g}", modes.spindle_deg);
     return text;
   });

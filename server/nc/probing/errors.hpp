@@ -6,8 +6,8 @@
 /// from the parameters.
 namespace fitgauge::probing::errors {
 
-/// Tool axis, tool, touch probe (30 to 33 and 480 to 484: none), FUNCTION MODE MILL.
-inline constexpr ErrorSet kWithProbe{1001, 1092, 1093, 1097};
+/// Tool axis, tool, touch probe (30 to 33 and 480 to 484: none).
+inline constexpr ErrorSet kWithProbe{1001, 1092, 1093};
 /// Nothing within reach, too.
 inline constexpr ErrorSet kTouching = kWithProbe | ErrorSet{1014};
 /// Scaling factors that differ by axis, too.

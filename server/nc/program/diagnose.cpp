@@ -3,16 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 
 namespace fitgauge::interpreter {
 namespace {
 
-constexpr std::array kMFunctions{0,   1,   2,   3,   4,   5,   6,   8,   9,   13,  14,  19,  30,
-                                 89,  90,  91,  92,  94,  97,  98,  99,  101, 102, 103, 105, 106,
-                                 107, 108, 109, 110, 111, 112, 113, 114, 115, 116, 117, 118, 120,
-                                 124, 126, 127, 128, 129, 130, 134, 135, 136, 137, 138, 140, 141,
-                                 142, 143, 144, 145, 148, 149, 150, 197, 200, 201, 202, 203, 204};
+using enum MRole;
+
+constexpr MFunction kMFunctions[] = {
+#define FITGAUGE_M(number, role, text) {number, role, text},
+#include "nc/program/m_functions.inc"
+#undef FITGAUGE_M
+};
+
+/// HEIDENHAIN leaves these numbers to the builder: 300 to 399, 500 to 599 and all above 1999.
+bool is_builders_cycle(int number) {
+  return (number >= 300 && number < 400) || (number >= 500 && number < 600) || number >= 2000;
+}
 
 }  // namespace
 
@@ -41,6 +48,7 @@ Diagnostic diagnose(const klartext::Program& program, const klartext::Block& blo
 }
 
 std::string m_function_hint(int number) {
+  if (const MFunction* known = m_function(number)) return fmt::format("M{} is not available: {}", number, known->text);
   return fmt::format(
       "M{0} is not available here; if the builder of the machine made it, say in the setup what it "
       R"(does: "m_functions":{{"{0}":"ignore"}}, or {{"call":"TNC:\\oem\\m{0}.h"}})",
@@ -48,14 +56,23 @@ std::string m_function_hint(int number) {
 }
 
 std::string cycle_hint(bool is_probing, int number) {
+  if (!is_builders_cycle(number)) {
+    return fmt::format("{} {} is a cycle of HEIDENHAIN that is not available here", is_probing ? "TCH PROBE" : "CYCL DEF",
+                       number);
+  }
   return fmt::format(
       "{0} {1} is not available here; if the builder of the machine made it, say in the setup what "
       R"(it does: "cycles":{{"{1}":"ignore"}}, or {{"call":"TNC:\\oem\\{1}.h"}})",
       is_probing ? "TCH PROBE" : "CYCL DEF", number);
 }
 
-bool is_m_function(int number) {
-  return std::binary_search(kMFunctions.begin(), kMFunctions.end(), number);
+std::span<const MFunction> m_functions() { return kMFunctions; }
+
+const MFunction* m_function(int number) {
+  const auto* found = std::ranges::lower_bound(kMFunctions, number, {}, &MFunction::number);
+  return found != std::end(kMFunctions) && found->number == number ? found : nullptr;
 }
+
+bool is_m_function(int number) { return m_function(number) != nullptr; }
 
 }  // namespace fitgauge::interpreter

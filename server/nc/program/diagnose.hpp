@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/syntax.hpp"
@@ -25,7 +28,23 @@ klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::
 std::string m_function_hint(int number);
 std::string cycle_hint(bool is_probing, int number);
 
-/// Whether the M function is one of the control's; what a machine builder adds is not available.
+enum class MRole : std::uint8_t {
+  Does,    ///< the run executes it
+  Notes,   ///< the run says what it leaves out
+  Ends,    ///< switches off what `text` names, which the run leaves out: nothing to do
+  Refuses  ///< the run fails: positions would be wrong
+};
+
+struct MFunction {
+  int number = 0;
+  MRole role = MRole::Does;
+  std::string_view text{};  ///< what the run leaves out and why; of Ends the number that it ends
+};
+
+/// The M functions of the control, by number.
+std::span<const MFunction> m_functions();
+/// Null for one that only a machine builder knows.
+const MFunction* m_function(int number);
 bool is_m_function(int number);
 
 }  // namespace fitgauge::interpreter

@@ -78,7 +78,8 @@ class BlockCheck {
     for (const klartext::Word& word : program_.view(words)) {
       const auto* number = std::get_if<double>(&word.value);
       if (word.letter != klartext::Letter::M || number == nullptr) continue;
-      if (is_m_function(static_cast<int>(*number))) continue;
+      const MFunction* known = m_function(static_cast<int>(*number));
+      if (known != nullptr && known->role != MRole::Refuses) continue;
       report(Severity::Warning, DiagnosticCode::MFunctionUnknown, block_.written,
              m_function_hint(static_cast<int>(*number)));
     }

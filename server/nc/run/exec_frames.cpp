@@ -3,6 +3,7 @@
 #include <map>
 #include <string_view>
 
+#include "nc/klartext/parser_words.hpp"
 #include "nc/machine/tolerance.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/frame_commands.hpp"
@@ -128,9 +129,11 @@ NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane,
   PlaneMoves moves{.positioning = plane.positioning,
                    .feed = machine::Feed::rapid(),
                    .turns_table = words.contains(Letter::TableRot)};
-  if (words.contains(Letter::F)) {
-    const double unit = channel.linked().is_inch() ? channel.length_unit() / 10 : 1;
-    moves.feed = machine::Feed::at(get(words, Letter::F) * unit);
+  for (const klartext::Word& word : channel.program().view(plane.words)) {
+    if (!klartext::kFeeds.contains(word.letter)) continue;
+    const auto feed = read_feed(channel, word);
+    if (!feed) return feed.error();
+    moves.feed = *feed;
   }
   if (words.contains(Letter::MbMax) || words.contains(Letter::Mb)) {
     moves.retraction = MCall{.number = 140,
@@ -210,23 +213,28 @@ NcResult<void> execute(Channel& channel, const klartext::Plane& plane) {
   return tilt(channel, *rotation, *moves);
 }
 
-NcResult<void> execute(Channel& channel, const klartext::FunctionMode& mode) {
-  if (mode.mode == klartext::OperatingMode::Grind) {
-    return nc_error("FUNCTION MODE GRIND is not available");
-  }
-  machine::Modes modes = channel.machine().state().modes;
-  modes.mode = mode.mode == klartext::OperatingMode::Turn ? machine::OperatingMode::Turn
-                                                          : machine::OperatingMode::Mill;
-  return checked(channel.machine().set_modes(modes));
-}
+/// MILL, in which a run always is; the parser refuses the others.
+NcResult<void> execute(Channel&, const klartext::FunctionMode&) { return {}; }
 
 NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm) {
   const std::string_view options = channel.program().text(tcpm.options);
   const auto says = [&](std::string_view words) { return options.find(words) != options.npos; };
+  const machine::MachineState& state = channel.machine().state();
+  const machine::Tool* tool = state.active_tool();
+  if (says("CENTER") && tool != nullptr && tool->r2 + tool->dr2 + state.tool.dr2 != 0) {
+    return nc_error("REFPNT is the tip here, and R2 of the tool is not 0: program the tip with REFPNT TIP-TIP");
+  }
+  if (says("F CONT")) {
+    if (auto noted = channel.note("F CONT: F counts at the tip, as with F TCP"); !noted) return noted;
+  }
+  if (says("FMAX") || options.find_first_of("0123456789") != options.npos) {
+    auto noted = channel.note("FUNCTION TCPM F: the compensating moves of the linear axes take no feed of their own");
+    if (!noted) return noted;
+  }
   channel.spatial_angles.reset();
   if (says("AXIS SPAT")) channel.spatial_angles.emplace();
   channel.turns_along_vector = says("PATHCTRL VECTOR");
-  machine::Modes modes = channel.machine().state().modes;
+  machine::Modes modes = state.modes;
   modes.tcpm = tcpm.active;
   return checked(channel.machine().set_modes(modes));
 }

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "nc/run/channel.hpp"
 #include "nc/run/m_functions.hpp"
 #include "nc/run/motion_words.hpp"
@@ -27,11 +29,27 @@ NcResult<int> tool_number(Channel& channel, const Expr& tool) {
     if (found == nullptr) return nc_error(1092, fmt::format("tool \"{}\"", *name));
     return found->number;
   }
-  // Indexed tools (5.1) are not in a simulated tool table; the main number is meant.
   const auto value = number(channel, tool);
   if (!value) return value.error();
-  if (*value < 0 || *value > 32767.9) return nc_error(1093, fmt::format("tool {}", *value));
+  if (*value != std::floor(*value)) {
+    return nc_error(1092, fmt::format("tool {}: the tool table has no indexed rows here", *value));
+  }
+  if (*value < 0 || *value > 32767) return nc_error(1093, fmt::format("tool {}", *value));
   return static_cast<int>(*value);
+}
+
+/// What FN 27 has written into tool.t since the last TOOL CALL holds from this one on.
+NcResult<void> read_written_tools(Channel& channel) {
+  for (const auto& [number, nr, value] : channel.tables.take_tool_cells()) {
+    const machine::Tool* found = channel.machine().state().tools.find(number);
+    machine::Tool tool = found != nullptr ? *found : machine::Tool{};
+    tool.number = number;
+    if (set_tool_value(tool, nr, value) == ToolWrite::OutOfRange) {
+      return nc_error(1093, fmt::format("tool {}: tool.t holds {} in a column of whole numbers", number, value));
+    }
+    if (auto done = checked(channel.machine().write_tool(tool)); !done) return done;
+  }
+  return {};
 }
 
 std::optional<machine::Axis> tool_axis(const std::optional<klartext::Axis>& axis) {
@@ -41,18 +59,13 @@ std::optional<machine::Axis> tool_axis(const std::optional<klartext::Axis>& axis
 
 using klartext::Motion;
 
-/// What the control takes into account and the simulated machine does not.
-NcResult<void> note_what_has_no_effect(Channel& channel, const MotionWords& words) {
-  if (!words.has_m(92)) return {};
-  return channel.note("M92 counts from the machine datum, as M91: the setup has no second");
-}
-
 }  // namespace
 
 NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
   if (call.axis && *call.axis > klartext::Axis::Z) {
     return nc_error(1079, "the tool axis is X, Y or Z");
   }
+  if (auto done = read_written_tools(channel); !done) return done;
   machine::ToolCall command;
   command.axis = tool_axis(call.axis);
   if (!is_absent(call.tool)) {
@@ -118,7 +131,6 @@ NcResult<Next> execute(Channel& channel, const Motion& motion) {
     if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
     return Next{};
   }
-  if (auto noted = note_what_has_no_effect(channel, *words); !noted) return noted.error();
   if (auto done = start_m_functions(channel, words->m); !done) return done.error();
   if (auto done = orient_tool(channel, motion, *words); !done) return done.error();
   if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();

@@ -55,7 +55,12 @@ NcResult<std::vector<PatternPart>> read_elements(Channel& channel, klartext::Sli
     const auto value = number(channel, words[i].value);
     if (!value) return value.error();
     const double unit = is_length(words[i].letter) ? channel.length_unit() : 1;
-    elements.back().values[words[i].letter] = *value * unit;
+    double from = 0;
+    if (words[i].incremental) {
+      if (elements.size() < 2) return nc_error("PATTERN DEF: the first element has none before it; write it without I");
+      from = elements[elements.size() - 2].get(words[i].letter);
+    }
+    elements.back().values[words[i].letter] = from + *value * unit;
   }
   return elements;
 }

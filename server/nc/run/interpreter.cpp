@@ -46,8 +46,10 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   environment.observer.begins(channel.files, channel.parameters);
   channel.parameters.enter(channel.linked());
   Ending ending;
-  if (auto done = preset(channel.parameters, options.parameters); !done) {
-    ending.error = done.error();
+  auto ready = preset(channel.parameters, options.parameters);
+  if (ready && options.datum_table) ready = channel.tables.select_datum_table(*options.datum_table);
+  if (!ready) {
+    ending.error = ready.error();
   } else {
     ending = execute_program(channel);
   }

@@ -39,6 +39,8 @@ struct RunOptions {
   /// A file of the folder for logs and for what FN 16 names without a folder (fn16DefaultPath);
   /// without one they lie beside the program.
   std::optional<ControlPath> print_folder;
+  /// The datum table that is active at the start, until SEL TABLE.
+  std::optional<ControlPath> datum_table;
   klartext::MaskLanguage language = klartext::MaskLanguage::English;  ///< of the control's dialog
 };
 

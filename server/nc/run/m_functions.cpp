@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "nc/machine/tolerance.hpp"
+#include "nc/probing/alignment/rotation.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/tool_values.hpp"
 
@@ -75,8 +76,10 @@ NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& cal
         break;
       case 144: modes.kinematics_in_display = true; break;
       case 145: modes.kinematics_in_display = false; break;
-      case 136: channel.contour.feed_per_revolution = true; break;
-      case 137: channel.contour.feed_per_revolution = false; break;
+      case 143:
+        if (auto done = channel.contour.finish(channel.machine()); !done) return done;
+        if (auto done = probing::reset_basic_rotation(channel.machine()); !done) return from_cycle(done.error());
+        break;
       default: break;
     }
   }
@@ -101,8 +104,9 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
       case 2:
       case 30: ends = true; [[fallthrough]];
       case 5:
+      case 6:
         modes.spindle = stopped(modes.spindle);
-        if (call.number != 5) modes.coolant = false;
+        if (ends) modes.coolant = false;
         break;
       case 9: modes.coolant = false; break;
       case 89: channel.active_cycle.after_every_block = calls_cycle = true; break;

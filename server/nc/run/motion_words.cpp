@@ -25,7 +25,12 @@ int teeth(const Channel& channel) {
   return tool == nullptr ? 0 : tool->teeth;
 }
 
+}  // namespace
+
 NcResult<machine::Feed> read_feed(Channel& channel, const Word& word) {
+  if (word.letter == Letter::Ft || word.letter == Letter::FMaxT) {
+    return nc_error("FT and FMAXT, the time of a block, are not available: give the feed F");
+  }
   if (word.letter == Letter::FMax) return machine::Feed::rapid();
   if (word.letter == Letter::FAuto) return machine::Feed::at(channel.contour.tool_feed);
   const auto value = number(channel, word.value);
@@ -43,6 +48,8 @@ NcResult<machine::Feed> read_feed(Channel& channel, const Word& word) {
   // In INCH programs F counts tenths of an inch a minute.
   return machine::Feed::at(channel.linked().is_inch() ? *value * unit / 10 : *value);
 }
+
+namespace {
 
 NcResult<void> read_coordinate(Channel& channel, const Word& word, double unit,
                                std::optional<Coordinate>& target) {
@@ -65,7 +72,11 @@ NcResult<void> read_m(Channel& channel, const Word& word, std::vector<MCall>& ca
   const auto value = whole(channel, word.value);
   if (!value) return value.error();
   const int called = *value;
-  if (is_m_function(called)) {
+  if (const MFunction* known = m_function(called)) {
+    if (known->role == MRole::Refuses) return unknown_m_function(called);
+    if (known->role == MRole::Notes) {
+      if (auto noted = channel.note(fmt::format("M{}: {}", called, known->text)); !noted) return noted;
+    }
     calls.push_back({.number = called});
     return {};
   }
@@ -75,8 +86,11 @@ NcResult<void> read_m(Channel& channel, const Word& word, std::vector<MCall>& ca
   return {};
 }
 
-/// What follows an M function; most of it has no effect on a simulated machine.
+/// What follows an M function. Of those that only leave a note it has no effect.
 NcResult<void> read_argument(Channel& channel, const Word& word, std::vector<MCall>& calls) {
+  if (!calls.empty() && calls.back().number == 128) {
+    return channel.note("M128 F: the compensating moves of the linear axes take no feed of their own");
+  }
   if (calls.empty() || calls.back().number != 140) return {};
   MCall& retraction = calls.back();
   if (word.letter == Letter::MbMax) {
@@ -113,7 +127,9 @@ NcResult<void> read_word(Channel& channel, const Word& word, MotionWords& out) {
     case Letter::FMax:
     case Letter::FAuto:
     case Letter::Fu:
-    case Letter::Fz: {
+    case Letter::Fz:
+    case Letter::Ft:
+    case Letter::FMaxT: {
       const auto feed = read_feed(channel, word);
       if (!feed) return feed.error();
       out.feed = *feed;
@@ -143,8 +159,18 @@ NcResult<machine::Axis> machine_axis(Letter letter) {
 
 NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<Word> words) {
   MotionWords out;
+  const Word* feed = nullptr;
   for (const Word& word : channel.program().view(words)) {
     if (auto read = read_word(channel, word, out); !read) return read.error();
+    if (word.letter == Letter::F && !word.argument) feed = &word;
+  }
+  // M136 and M137 hold for the F of their own block.
+  const bool per_revolution = channel.contour.feed_per_revolution;
+  for (const MCall& call : out.m) {
+    if (call.number == 136 || call.number == 137) channel.contour.feed_per_revolution = call.number == 136;
+  }
+  if (feed != nullptr && channel.contour.feed_per_revolution != per_revolution) {
+    if (auto read = read_word(channel, *feed, out); !read) return read.error();
   }
   return out;
 }

@@ -48,6 +48,9 @@ struct MotionWords {
 ///   holds for coordinates, decision 3 for all others.
 NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<klartext::Word> words);
 
+/// F, FMAX, FAUTO, FU or FZ as mm/min. @errors FT and FMAXT.
+NcResult<machine::Feed> read_feed(Channel& channel, const klartext::Word& word);
+
 /// The feed of a block: its own, which becomes the modal one unless it is FMAX, or the modal feed.
 NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::Feed>& written);
 

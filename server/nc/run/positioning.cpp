@@ -41,7 +41,10 @@ NcResult<void> Positioning::run() {
     case Path::Chf: return corner(words_.chamfer, true);
     case Path::L:
     case Path::Ln:
-      if (words_.has_m(91) || words_.has_m(92)) return machine_line();
+      if (words_.has_m(91) || words_.has_m(92)) return line_in(CoordinateSystem::Reference);
+      if (words_.has_m(130) && channel_.machine().state().frames.is_tilted()) {
+        return line_in(CoordinateSystem::Workpiece);
+      }
       [[fallthrough]];
     case Path::Lp:
     case Path::Paraxial: return line();
@@ -174,12 +177,12 @@ NcResult<void> Positioning::set_pole() {
   return {};
 }
 
-NcResult<void> Positioning::machine_line() {
+NcResult<void> Positioning::line_in(CoordinateSystem system) {
   if (auto done = contour().finish(channel_.machine()); !done) return done;
   const auto feed = block_feed();
   if (!feed) return feed.error();
-  const auto from = channel_.machine().position(CoordinateSystem::Reference);
-  return move_along({plane_, {}, from.linear, target(from), *feed, CoordinateSystem::Reference});
+  const auto from = channel_.machine().position(system);
+  return move_along({plane_, {}, from.linear, target(from), *feed, system});
 }
 
 NcResult<void> Positioning::line() {

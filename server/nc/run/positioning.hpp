@@ -51,7 +51,7 @@ class Positioning {
   }
 
   /// M91, M92: coordinates of the spindle nose from the machine datum.
-  NcResult<void> machine_line();
+  NcResult<void> line_in(machine::CoordinateSystem system);
   NcResult<void> line();
   /// PATHCTRL VECTOR: the same line in pieces, where it turns the tool.
   NcResult<void> add_along_vector(const Element& line);

@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "nc/program/cycles.hpp"
+#include "nc/run/tool_values.hpp"
 #include "tables/tabfile/tab_reader.hpp"
 #include "tables/tabfile/tab_table.hpp"
 
@@ -135,6 +136,7 @@ NcResult<void> TableAccess::write(QRef first, std::int64_t row, std::string_view
   const auto named = targets(columns, first);
   if (!named) return named.error();
   TabTable& table = editable(*open_);
+  const bool is_tool_table = ascii_iequals(open_->path.file_name(), "tool.t");
   for (const auto& [column, parameter] : *named) {
     if (!parameters_.is_defined(parameter)) return undefined_error(parameter);
     const auto set = parameter.is_string()
@@ -144,6 +146,10 @@ NcResult<void> TableAccess::write(QRef first, std::int64_t row, std::string_view
                                                 unit_of(table, column, length_unit));
     if (!set) {
       return nc_error(fmt::format("table {}: {}", open_->path.text(), set.error().message));
+    }
+    if (const std::int64_t nr = tool_column(column); nr != 0 && is_tool_table) {
+      const double unit = is_tool_length(nr) && table.header().unit == "INCH" ? kMillimetresPerInch : 1;
+      tool_cells_.push_back({static_cast<int>(row), nr, *table.number(row, column) * unit});
     }
   }
   return {};

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/allowance.hpp"
@@ -45,6 +46,15 @@ class TableAccess {
   /// @errors 1043, missing row or column.
   NcResult<void> write_datum(std::int64_t row, const machine::AxisWords& values);
 
+  /// A number that FN 27 has written into tool.t: mm for lengths.
+  struct ToolCell {
+    int tool = 0;
+    std::int64_t nr = 0;  ///< of the column, as FN 17 ID50 counts
+    double value = 0;
+  };
+  /// Those since the last call.
+  std::vector<ToolCell> take_tool_cells() { return std::exchange(tool_cells_, {}); }
+
   /// Writes what has changed. @errors limit.
   NcResult<void> close();
   const std::vector<OpenedTable>& opened() const { return opened_; }
@@ -72,6 +82,7 @@ class TableAccess {
   std::optional<Table> datum_;
   std::map<std::string, Known> known_;  // by key
   std::vector<OpenedTable> opened_;
+  std::vector<ToolCell> tool_cells_;
 };
 
 }  // namespace fitgauge::interpreter

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "nc/run/channel.hpp"
 
 namespace fitgauge::interpreter {
@@ -13,43 +14,45 @@ using machine::Tool;
 /// A column that is a plain number.
 struct Column {
   std::int64_t nr;
+  std::string_view name;
   double Tool::*value;
 };
 
 constexpr Column kColumns[] = {
-    {1, &Tool::l},
-    {2, &Tool::r},
-    {3, &Tool::r2},
-    {4, &Tool::dl},
-    {5, &Tool::dr},
-    {6, &Tool::dr2},
-    {9, &Tool::time1},
-    {10, &Tool::time2},
-    {11, &Tool::current_time},
-    {13, &Tool::cutting_length},
-    {14, &Tool::plunge_angle},
-    {16, &Tool::l_tolerance},
-    {17, &Tool::r_tolerance},
-    {19, &Tool::r_offset},
-    {20, &Tool::l_offset},
-    {21, &Tool::l_breakage},
-    {22, &Tool::r_breakage},
-    {28, &Tool::max_rpm},
-    {32, &Tool::point_angle},
-    {33, &Tool::pitch},
+    {1, "L", &Tool::l},
+    {2, "R", &Tool::r},
+    {3, "R2", &Tool::r2},
+    {4, "DL", &Tool::dl},
+    {5, "DR", &Tool::dr},
+    {6, "DR2", &Tool::dr2},
+    {9, "TIME1", &Tool::time1},
+    {10, "TIME2", &Tool::time2},
+    {11, "CUR_TIME", &Tool::current_time},
+    {13, "LCUTS", &Tool::cutting_length},
+    {14, "ANGLE", &Tool::plunge_angle},
+    {16, "LTOL", &Tool::l_tolerance},
+    {17, "RTOL", &Tool::r_tolerance},
+    {19, "R-OFFS", &Tool::r_offset},
+    {20, "L-OFFS", &Tool::l_offset},
+    {21, "LBREAK", &Tool::l_breakage},
+    {22, "RBREAK", &Tool::r_breakage},
+    {28, "NMAX", &Tool::max_rpm},
+    {32, "T-ANGLE", &Tool::point_angle},
+    {33, "PITCH", &Tool::pitch},
 };
 
 /// A column that is a whole number from 0.
 struct WholeColumn {
   std::int64_t nr;
+  std::string_view name;
   int Tool::*value;
   int most;
 };
 
 constexpr WholeColumn kWholeColumns[] = {
-    {8, &Tool::replacement, 32'767},
-    {15, &Tool::teeth, 1000},
-    {36, &Tool::type, 999},
+    {8, "RT", &Tool::replacement, 32'767},
+    {15, "CUT", &Tool::teeth, 1000},
+    {36, "TYP", &Tool::type, 999},
 };
 
 template <class Columns>
@@ -57,6 +60,12 @@ auto column(const Columns& columns, std::int64_t nr) {
   const auto* it = std::find_if(std::begin(columns), std::end(columns),
                                 [nr](const auto& entry) { return entry.nr == nr; });
   return it == std::end(columns) ? nullptr : it;
+}
+
+template <class Columns>
+std::int64_t number_of(const Columns& columns, std::string_view name) {
+  const auto* it = std::ranges::find_if(columns, [&](const auto& entry) { return ascii_iequals(entry.name, name); });
+  return it == std::end(columns) ? 0 : it->nr;
 }
 
 }  // namespace
@@ -89,6 +98,13 @@ ToolWrite set_tool_value(Tool& tool, std::int64_t nr, double value) {
     default: return ToolWrite::Unknown;
   }
 }
+
+std::int64_t tool_column(std::string_view name) {
+  const std::int64_t plain = number_of(kColumns, name);
+  return plain != 0 ? plain : number_of(kWholeColumns, name);
+}
+
+bool is_tool_length(std::int64_t nr) { return nr < 8 || nr == 13 || (nr > 15 && nr < 28) || nr == 33; }
 
 void update_preassigned(Channel& channel) {
   const machine::MachineState& state = channel.machine().state();

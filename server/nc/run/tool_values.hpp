@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "nc/machine/geometry.hpp"
 #include "nc/machine/tables.hpp"
@@ -17,6 +18,11 @@ enum class ToolWrite : std::uint8_t {
   OutOfRange  ///< the column takes whole numbers, and not this one
 };
 ToolWrite set_tool_value(machine::Tool& tool, std::int64_t nr, double value);
+
+/// The NR of a column by its name in tool.t, 0 for one that is no number or unknown.
+std::int64_t tool_column(std::string_view name);
+/// Whether the column is a length, in the unit of the table.
+bool is_tool_length(std::int64_t nr);
 
 class Channel;
 

@@ -83,7 +83,9 @@ NcResult<void> working_plane_cycle(Channel& channel, Words words) {
   if (!axes) return axes.error();
   Vec3 angles;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (const auto& word = (*axes)[i + 3]) angles[i] = word->value;
+    const auto& word = (*axes)[i + 3];
+    if (word && word->incremental) return nc_error("cycle 19 takes no I: write the angles themselves");
+    if (word) angles[i] = word->value;
   }
   if (angles == Vec3{}) return reset_tilt(channel, {});
   return tilt(channel, machine::Matrix3::spatial(angles), {});

@@ -243,7 +243,6 @@ TEST_CASE("in a state that many cycles refuse, none ends with an error it does n
       {1001, "-TOOL CALL"},
       {1092, "TOOL CALL 0 Z"},
       {1093, "@tool 7 80 8 MILL; TOOL CALL 7 Z"},
-      {1097, "FUNCTION MODE TURN"},
       {1008, "CYCL DEF 8.0 MIRROR IMAGE; CYCL DEF 8.1 X"},
       {1007, "CYCL DEF 11.0 SCALING; CYCL DEF 11.1 SCL0.5"},
       {1108, "CYCL DEF 26.0 AXIS-SPEC. SCALING; CYCL DEF 26.1 X1.1 Y1 CCX+0 CCY+0"},

@@ -192,7 +192,7 @@ const std::map<std::string, std::vector<std::string>, std::less<>>& rules() {
         "TRANS ROTATION ROT{value}",
         "TRANS SCALE SCL{value}",
         "PLANE {plane}{positioning}",
-        "FUNCTION MODE TURN \"AC\"",
+        "FUNCTION MODE MILL \"AC\"",
         "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS",
         "FUNCTION RESET TCPM",
         "* - {text}",

@@ -1,6 +1,9 @@
 #include "nc/probing/alignment/rotation.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <string>
 
 #include "nc/probing/measured_value.hpp"
 
@@ -40,13 +43,25 @@ CycleResult<void> reset_basic_rotation(machine::Machine& machine) {
   return lift(machine.set_frames(frames));
 }
 
+CycleResult<void> begin_without_rotation(const CycleContext& context) {
+  const Vec3 rotation = context.machine.state().frames.preset().basic_rotation_deg;
+  if (rotation == Vec3{}) return {};
+  const std::string shown = rotation.x == 0 && rotation.y == 0
+                                ? fmt::format("{:g}", rotation.z)
+                                : fmt::format("SPA{:+g} SPB{:+g} SPC{:+g}", rotation.x, rotation.y, rotation.z);
+  auto noted = context.host.note(fmt::format("basic rotation of {} degrees is reset by cycle {}: its coordinates, and "
+                                             "those of the blocks after it, count without",
+                                             shown, context.arguments.descriptor().number));
+  return noted ? reset_basic_rotation(context.machine) : noted;
+}
+
 CycleResult<ProbingMotion> begin_alignment(const CycleContext& context) {
   if (auto allowed = refuse_mirror_and_scaling(context.machine.state().frames); !allowed) {
     return allowed.error();
   }
   auto motion = ProbingMotion::begin(context);
   if (!motion) return motion;
-  if (auto reset = reset_basic_rotation(context.machine); !reset) return reset.error();
+  if (auto reset = begin_without_rotation(context); !reset) return reset.error();
   return motion;
 }
 

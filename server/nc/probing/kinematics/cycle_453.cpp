@@ -109,7 +109,7 @@ constinit const TouchProbeCycle kCycle453{
      .kind = CycleKind::Kinematics,
      .parameters = kParameters,
      .results = kResults,
-     .errors = errors::kTouching | errors::kKinematics | ErrorSet{1085},
+     .errors = errors::kTouching | errors::kKinematics | ErrorSet{1085, 1097},
      .simulated =
          "Measures the calibration_sphere of the setup at every combination of five positions of "
          "each rotary axis, evenly over its range but at most half a turn to either side, and "

@@ -133,7 +133,7 @@ CycleResult<ProbingMotion> begin_measurement(const CycleContext& context) {
     return nc_error(1108, "reset cycle 26 before measuring");
   }
   if (has_status(context.arguments.descriptor())) set_status(context.host, std::nullopt);
-  if (auto reset = reset_basic_rotation(context.machine); !reset) return reset.error();
+  if (auto reset = begin_without_rotation(context); !reset) return reset.error();
   return ProbingMotion::begin(context);
 }
 

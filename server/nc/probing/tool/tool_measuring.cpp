@@ -21,9 +21,6 @@ using machine::make_fault;
 
 CycleResult<void> check(const MachineState& state) {
   if (!state.tool.axis) return from_machine(make_fault(FaultKind::ToolAxisMissing));
-  if (state.modes.mode != machine::OperatingMode::Mill) {
-    return nc_error(1097, "tool measurement needs FUNCTION MODE MILL");
-  }
   const machine::Tool* tool = state.active_tool();
   if (tool == nullptr) return from_machine(make_fault(FaultKind::NoTool));
   if (tool->is_probe()) {

@@ -26,8 +26,7 @@ class ToolProbing {
  public:
   /// @param clearance_height Q260, in the input system; raised to stay clear of the contact plate.
   /// @errors 1001 tool axis missing, 1075 the tool is inclined or the coordinates are tilted, 1079
-  ///   the tool axis is not Z, 1092 no tool, 1093 a touch probe is in the spindle, 1097 not in
-  ///   FUNCTION MODE MILL.
+  ///   the tool axis is not Z, 1092 no tool, 1093 a touch probe is in the spindle.
   static CycleResult<ToolProbing> begin(const CycleContext& context, double clearance_height);
   /// The same with the height that the tip has now, at any distance from the plate.
   static CycleResult<ToolProbing> begin_here(const CycleContext& context);

@@ -32,9 +32,6 @@ CycleResult<ProbingMotion> ProbingMotion::begin(const CycleContext& context) {
   using machine::make_fault;
   const MachineState& state = context.machine.state();
   if (!state.tool.axis) return from_machine(make_fault(FaultKind::ToolAxisMissing));
-  if (state.modes.mode != machine::OperatingMode::Mill) {
-    return nc_error(1097, "touch-probe cycles need FUNCTION MODE MILL");
-  }
   if (state.active_tool() == nullptr) return from_machine(make_fault(FaultKind::NoTool));
   const auto probe = state.probe_system();
   if (!probe) {

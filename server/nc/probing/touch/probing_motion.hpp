@@ -42,8 +42,7 @@ struct Contact {
 /// thread-safe; lives within one execution. After an error the machine stands where it stopped.
 class ProbingMotion {
  public:
-  /// @errors 1001 tool axis missing, 1092 no tool, 1093 no touch probe in the spindle, 1097 not in
-  ///   FUNCTION MODE MILL.
+  /// @errors 1001 tool axis missing, 1092 no tool, 1093 no touch probe in the spindle.
   static CycleResult<ProbingMotion> begin(const CycleContext& context);
 
   const WorkingPlane& plane() const { return plane_; }

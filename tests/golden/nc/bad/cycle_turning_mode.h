@@ -1,4 +1,4 @@
-; run: failed line 5: Function not permitted: touch-probe cycles need FUNCTION MODE MILL
+; run: failed line 4: FUNCTION MODE TURN is not available: FUNCTION MODE TURN
 BEGIN PGM BAD MM
 TOOL CALL 30 Z
 FUNCTION MODE TURN

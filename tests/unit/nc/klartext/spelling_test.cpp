@@ -264,7 +264,7 @@ TEST_CASE("Coordinate transformations and modes") {
                    "PLANE RELATIV SPB-45 STAY",
                    "PLANE AXIAL B-45 STAY",
                    "FUNCTION MODE MILL",
-                   "FUNCTION MODE TURN \"AC_TABLE\"",
+                   "FUNCTION MODE MILL \"AC_TABLE\"",
                    "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS",
                    "FUNCTION RESET TCPM"});
 }

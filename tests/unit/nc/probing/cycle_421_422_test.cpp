@@ -128,11 +128,6 @@ TEST_CASE("421: errors of parameters, tools and motion") {
   CHECK(bench.run(421, {{273, 50.0}}) == 1017);
   CHECK(bench.run(421, with(hole_block(), {{274, 150.0}})) == -1);  // collides with the plate
   CHECK(hole_of(80).run(421, hole_block()) == 1014);
-  ProbingBench turning = hole_of(25.01);
-  machine::Modes modes = turning.machine.state().modes;
-  modes.mode = machine::OperatingMode::Turn;
-  REQUIRE(turning.machine.set_modes(modes).has_value());
-  CHECK(turning.run(421, hole_block()) == 1097);
 }
 
 TEST_CASE("a shifted, rotated or scaled frame gives the same results in its own coordinates") {

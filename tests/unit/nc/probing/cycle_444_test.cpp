@@ -162,10 +162,6 @@ TEST_CASE("444 refuses mirror, scaling and turning") {
   REQUIRE(bench.machine.set_frames(frames).has_value());
   CHECK(bench.run(444, top_point()) == 1007);
   REQUIRE(bench.machine.set_frames(plain).has_value());
-  machine::Modes modes = bench.machine.state().modes;
-  modes.mode = machine::OperatingMode::Turn;
-  REQUIRE(bench.machine.set_modes(modes).has_value());
-  CHECK(bench.run(444, top_point()) == 1097);
   CHECK(bench.host.touches.empty());
   CHECK(bench.host.files.empty());
 }

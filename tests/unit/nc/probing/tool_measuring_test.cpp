@@ -262,10 +262,6 @@ TEST_CASE("tool measurement: errors of tool, axis, coordinates and parameters") 
   REQUIRE(bench.machine.set_frames(frames).has_value());
   CHECK(bench.run(483, kCheck) == 1075);
   REQUIRE(bench.machine.set_frames({}).has_value());
-  machine::Modes modes = bench.machine.state().modes;
-  modes.mode = machine::OperatingMode::Turn;
-  REQUIRE(bench.machine.set_modes(modes).has_value());
-  CHECK(bench.run(483, kCheck) == 1097);
 
   Setup setup = mill_setup();
   setup.machine.tools.back().actual_length = 40;  // broken off
