@@ -341,6 +341,7 @@ export default {
   'programs.at_block': 'Satz {block}',
   'programs.called': '{name}, gerufen von {by}',
   'programs.severity.error': 'Fehler',
+  'programs.severity.note': 'Hinweis',
   'programs.severity.warning': 'Warnung',
   'programs.run_title': 'Auf der simulierten Maschine ausführen',
   'programs.run': 'Ausführen',

@@ -341,6 +341,7 @@ export default {
   'programs.at_block': 'block {block}',
   'programs.called': '{name}, called by {by}',
   'programs.severity.error': 'Error',
+  'programs.severity.note': 'Note',
   'programs.severity.warning': 'Warning',
   'programs.run_title': 'Run on the simulated machine',
   'programs.run': 'Run',

@@ -341,6 +341,7 @@ export default {
   'programs.at_block': 'blocco {block}',
   'programs.called': '{name}, chiamato da {by}',
   'programs.severity.error': 'Errore',
+  'programs.severity.note': 'Nota',
   'programs.severity.warning': 'Avviso',
   'programs.run_title': 'Esecuzione sulla macchina simulata',
   'programs.run': 'Esegui',

@@ -341,6 +341,7 @@ export default {
   'programs.at_block': 'blok {block}',
   'programs.called': '{name}, aangeroepen door {by}',
   'programs.severity.error': 'Fout',
+  'programs.severity.note': 'Opmerking',
   'programs.severity.warning': 'Waarschuwing',
   'programs.run_title': 'Uitvoeren op de gesimuleerde machine',
   'programs.run': 'Uitvoeren',

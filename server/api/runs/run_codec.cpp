@@ -129,7 +129,7 @@ void members(auto& v, const klartext::DiagnosticNote& note) {
 }
 
 void members(auto& v, const klartext::Diagnostic& found) {
-  v.member("severity", found.severity != klartext::Severity::Error, OneOf<2>{"error", "warning"},
+  v.member("severity", found.severity, OneOf<3>{"note", "warning", "error"},
            "An error refuses a run");
   v.member("code", id(found.code), "Stable");
   v.member("message", found.message, "What is wrong and what to do");

@@ -44,6 +44,11 @@ std::string_view shown(std::string_view line) { return first_characters(line, kL
 
 }  // namespace
 
+std::string_view word(Severity severity) {
+  constexpr std::string_view kWords[] = {"note", "warning", "error"};
+  return kWords[static_cast<std::size_t>(severity)];
+}
+
 std::string_view id(DiagnosticCode code) { return kIds[static_cast<std::size_t>(code)]; }
 
 bool contains_error(const std::vector<Diagnostic>& diagnostics) {
@@ -55,7 +60,7 @@ bool contains_error(const std::vector<Diagnostic>& diagnostics) {
 std::string render(const Diagnostic& diagnostic) {
   std::string text = fmt::format(
       "{}:{}:{}: {}: {} [{}]\n{}{}", diagnostic.program, diagnostic.range.begin.line,
-      diagnostic.range.begin.column, diagnostic.severity == Severity::Error ? "error" : "warning",
+      diagnostic.range.begin.column, word(diagnostic.severity),
       diagnostic.message, id(diagnostic.code), diagnostic.source, caret_line(diagnostic));
   for (const DiagnosticNote& note : diagnostic.notes) {
     text += fmt::format("\n{}:{}:{}: note: {}", diagnostic.program, note.range.begin.line,

@@ -13,10 +13,14 @@
 namespace fitgauge::klartext {
 
 enum class Severity : std::uint8_t {
+  Note,     ///< the program runs as it is meant, though it is not written as it should be
   Warning,  ///< the program runs; what is named fails only when its block is reached, or is
             ///< cosmetic
   Error     ///< the program is refused
 };
+
+/// `note`, `warning`, `error`.
+std::string_view word(Severity severity);
 
 enum class DiagnosticCode : std::uint8_t {
 #define KLARTEXT_DIAGNOSTIC(name, id) name,
@@ -74,7 +78,7 @@ class DiagnosticList {
   std::string program_;
   std::vector<Diagnostic> kept_;
   std::size_t dropped_ = 0;
-  Severity worst_dropped_ = Severity::Warning;
+  Severity worst_dropped_ = Severity::Note;
   bool all_dropped_unreadable_ = true;  ///< of the errors
 };
 

@@ -204,8 +204,16 @@ std::size_t Parser::parse_block(std::size_t begin) {
   next_number_ = block.number + 1;
   const char first = ascii_upper(in_.peek());
   if ((first == 'C' || first == 'T') && at_q_form_cycle()) {
+    const std::size_t first_end = end;
     end = extend_over_parameter_lines(end);
     in_.extend(end);
+    if (end != first_end) {
+      const auto last = static_cast<std::uint32_t>(parts_.source.rfind('\n', first_end - 1) + 1);
+      diagnostics_.add(Severity::Note, DiagnosticCode::ContinuationMissing,
+                       {last, static_cast<std::uint32_t>(first_end - last)},
+                       "the line has no '~' at its end, behind the comment; the indented lines below are read as its cycle",
+                       block.number);
+    }
   }
   block.written = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin)};
   parse_body(block);

@@ -45,6 +45,11 @@ void parse_line_comment(BlockReader& in, Text& comment) {
 /// Blanks, wraps and line ends between the parameters.
 void skip_lines(BlockReader& in) {
   in.skip_blanks();
+  // A `~` that stands before the comment: the lines below are the cycle's by their indent.
+  if (in.peek() == '~' && in.peek(1) != '~') {
+    const char* behind = std::find_if_not(in.at() + 1, in.end(), is_blank);
+    if (behind != in.end() && *behind == ';') in.move_to(behind);
+  }
   while (in.peek() == '\n') {
     in.move_to(in.at() + 1);
     in.skip_blanks();

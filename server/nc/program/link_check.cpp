@@ -6,6 +6,7 @@
 
 #include "base/spelling_hint.hpp"
 #include "nc/klartext/parser.hpp"
+#include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/parameter.hpp"
@@ -101,13 +102,26 @@ class BlockCheck {
                : cycle_hint(family == klartext::CycleFamily::TchProbe, number));
   }
 
-  void report_unknown(const klartext::CycleParameter& written,
+  /// The cycle that has all parameters of this block, as a hint; or nothing.
+  std::string owner(const klartext::Cycle& block) const {
+    for (const probing::TouchProbeCycle* other : probing::cycles()) {
+      const auto all = program_.view(block.parameters);
+      const bool has_all = std::ranges::all_of(
+          all, [&](const auto& written) { return find_parameter(other->descriptor, written.parameter) != nullptr; });
+      if (!has_all || other->descriptor.dotted) continue;
+      return fmt::format("; all parameters of the block are those of cycle {} {}", other->descriptor.number,
+                         other->descriptor.name);
+    }
+    return {};
+  }
+
+  void report_unknown(const klartext::CycleParameter& written, const klartext::Cycle& block,
                       const probing::CycleDescriptor& cycle) {
     SpellingHint hint(name(written.parameter));
     for (const auto& parameter : cycle.parameters) hint.consider(name(parameter));
     report(Severity::Error, DiagnosticCode::CycleParameterUnknown, written.written,
-           fmt::format("cycle {} has no parameter {}{}", cycle.number, name(written.parameter),
-                       hint.text()));
+           fmt::format("cycle {} has no parameter {}{}{}", cycle.number, name(written.parameter), hint.text(),
+                       block.family == klartext::CycleFamily::TchProbe ? owner(block) : std::string()));
   }
 
   /// PREDEF stands for a value of a GLOBAL DEF, so a parameter that none has takes no PREDEF.
@@ -131,7 +145,7 @@ class BlockCheck {
     for (const auto& written : program_.view(cycle.parameters)) {
       const auto* parameter = find_parameter(descriptor, written.parameter);
       if (parameter == nullptr) {
-        report_unknown(written, descriptor);
+        report_unknown(written, cycle, descriptor);
         continue;
       }
       given.push_back(parameter);

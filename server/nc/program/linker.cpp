@@ -7,6 +7,7 @@
 #include "base/spelling_hint.hpp"
 #include "base/text.hpp"
 #include "nc/program/arithmetic.hpp"
+#include "nc/program/contradictions.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/link_check.hpp"
 #include "nc/program/lowering.hpp"
@@ -316,6 +317,7 @@ LinkedFile link(klartext::ParsedProgram parsed, const ControlPath& path) {
     return file;
   }
   LinkedParts parts = Linker(parsed.program, file).link();
+  check_contradictions(parsed.program, file.diagnostics);
   std::stable_sort(file.diagnostics.begin(), file.diagnostics.end(),
                    [](const auto& a, const auto& b) { return a.range.begin < b.range.begin; });
   file.memory_bytes = parsed.program.memory_bytes() + memory_of(parts);

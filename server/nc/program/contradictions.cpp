@@ -1,0 +1,336 @@
+#include "nc/program/contradictions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bitset>
+#include <map>
+#include <optional>
+
+#include "base/text.hpp"
+#include "nc/probing/cycles.hpp"
+#include "nc/program/cycles.hpp"
+#include "nc/program/diagnose.hpp"
+#include "nc/program/parameter.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::Block;
+using klartext::DiagnosticCode;
+using klartext::Severity;
+using probing::CycleDescriptor;
+
+/// What a word means; a bit each.
+enum Sense : unsigned {
+  kInside = 1U << 0U,
+  kOutside = 1U << 1U,
+  kCircle = 1U << 2U,
+  kRectangle = 1U << 3U,
+  kWidth = 1U << 4U,
+  kCoordinate = 1U << 5U,
+  kPlane = 1U << 6U,
+  kAngle = 1U << 7U,
+  kMaximum = 1U << 8U,
+  kMinimum = 1U << 9U,
+  kFirstAxis = 1U << 10U,
+  kSecondAxis = 1U << 11U,
+  kThirdAxis = 1U << 12U,
+  kDiameter = 1U << 13U,
+  kHeight = 1U << 14U,
+  kTolerance = 1U << 15U,
+  kClearance = 1U << 16U
+};
+
+/// Senses that exclude each other.
+constexpr unsigned kSide = kInside | kOutside;
+constexpr unsigned kOfCycles[] = {kSide, kCircle | kRectangle, kWidth | kCoordinate | kPlane | kAngle};
+constexpr unsigned kOfParameters[] = {kMaximum | kMinimum, kFirstAxis | kSecondAxis | kThirdAxis,
+                                      kAngle | kDiameter | kHeight | kTolerance | kClearance};
+
+struct Term {
+  std::string_view word;
+  unsigned senses;
+};
+
+constexpr Term kTerms[] = {
+#define FITGAUGE_TERM(word, senses) {word, senses},
+#include "nc/program/contradictions.inc"
+#undef FITGAUGE_TERM
+};
+
+unsigned senses_of(std::string_view text) {
+  const std::string upper = ascii_upper(text) + ' ';
+  unsigned senses = 0;
+  for (std::size_t at = 0; at < upper.size(); ++at) {
+    if (at != 0 && is_ascii_letter(upper[at - 1])) continue;
+    const std::string_view rest = std::string_view(upper).substr(at);
+    for (const Term& term : kTerms) {
+      if (rest.starts_with(term.word)) senses |= term.senses;
+    }
+  }
+  return senses;
+}
+
+/// The text means something of a group, and nothing of what is meant.
+bool contradict(unsigned said, unsigned meant, std::span<const unsigned> groups) {
+  return std::ranges::any_of(groups, [&](unsigned group) {
+    return (said & group) != 0 && (meant & group) != 0 && (said & meant & group) == 0;
+  });
+}
+
+/// The results of cycles.
+constexpr std::size_t kFirstResult = 150;
+constexpr std::size_t kEndOfResults = 200;
+
+class Contradictions {
+ public:
+  Contradictions(const klartext::Program& program, std::vector<klartext::Diagnostic>& diagnostics)
+      : program_(program), diagnostics_(diagnostics) {}
+
+  void check() {
+    for (const Block& block : program_.blocks()) {
+      block_ = &block;
+      std::visit([this](const auto& statement) { visit(statement); }, block.statement);
+      before_ = &block;
+    }
+    report_unset_results();
+  }
+
+ private:
+  void warn(DiagnosticCode code, klartext::Slice<char> place, std::string message, const Block* block = nullptr) {
+    if (diagnostics_.size() >= kMostFindings) return;
+    diagnostics_.push_back(
+        diagnose(program_, block != nullptr ? *block : *block_, place, Severity::Warning, code, std::move(message)));
+  }
+  std::uint32_t line_of(const Block& block) const { return program_.range(block.written).begin.line; }
+
+  // --- what stands before a block that probes
+  void visit(const auto&) {}
+  void visit(const klartext::LabelDefinition&) { forget(); }
+  void visit(const klartext::LabelCall&) { forget(); }
+  void visit(const klartext::CallProgram&) { leave(); }
+  void visit(const klartext::CallSelectedProgram&) { leave(); }
+  void visit(const klartext::ToolCall&) { forget(); }
+  void visit(const klartext::Motion& motion) { read(motion.words); }
+  void visit(const klartext::MFunctions& functions) { read(functions.words); }
+  void visit(const klartext::CycleCall& call) { read(call.words); }
+  void visit(const klartext::Stop&) { forget(); }
+  void visit(const klartext::CyclePart& part) {
+    if (part.family == klartext::CycleFamily::CyclDef && part.number == 12) leave();
+  }
+  void forget() { spindle_ = cutter_ = nullptr; }
+  void leave() { forget(), calls_programs_ = true; }
+
+  // --- what is read and set
+  void visit(const klartext::Assignment& assignment) {
+    check_line_before(assignment.target);
+    read(assignment.value);
+    set(assignment.target);
+  }
+  void visit(const klartext::ConditionalJump& jump) { read(jump.condition); }
+  void visit(const klartext::SetUndefined& statement) { set(statement.target); }
+  void visit(const klartext::CircleData& data) { set(data.target), set(data.target, 3); }
+  void visit(const klartext::TableRead& table) {
+    for (unsigned i = 0; i < 8; ++i) set(table.first, i);
+  }
+
+  void set(klartext::QRef parameter, unsigned behind = 0) {
+    const std::size_t number = parameter.number + behind;
+    if (parameter.space == klartext::QSpace::Q && number < kEndOfResults) set_.set(number);
+  }
+  void read(const klartext::Expr& value) {
+    if (const auto* parameter = std::get_if<klartext::QRef>(&value)) {
+      const bool is_result = parameter->space == klartext::QSpace::Q && parameter->number >= kFirstResult &&
+                             parameter->number < kEndOfResults;
+      if (is_result) reads_.try_emplace(parameter->number, block_);
+    } else if (const auto* node = std::get_if<klartext::NodeIndex>(&value)) {
+      for (const klartext::Expr& operand : program_.operands(*node)) read(operand);
+    }
+  }
+  void read(klartext::Slice<klartext::Word> words) {
+    for (const klartext::Word& word : program_.view(words)) {
+      read(word.value);
+      const auto* number = std::get_if<double>(&word.value);
+      if (word.letter != klartext::Letter::M || number == nullptr) continue;
+      const int m = static_cast<int>(*number);
+      if (m == 3 || m == 4 || m == 13 || m == 14) spindle_ = block_;
+      if (m == 5 || m == 6 || m == 19) spindle_ = nullptr;
+    }
+  }
+
+  void report_unset_results() {
+    if (calls_programs_ || last_measured_ == nullptr) return;
+    for (const auto& [number, block] : reads_) {
+      if (set_.test(number)) continue;
+      std::string given;
+      for (const auto& result : last_measured_->results) given += fmt::format("{}Q{}", given.empty() ? "" : ", ", result.q);
+      warn(DiagnosticCode::ResultUnset, block->written,
+           fmt::format("no cycle and no block of this program sets Q{}; cycle {} gives {}: read one of these", number,
+                       last_measured_->number, given),
+           block);
+    }
+  }
+
+  // --- cycles
+  void visit(const klartext::Cycle& cycle) {
+    const CycleDescriptor* descriptor = bind_cycle(program_, cycle).descriptor();
+    if (descriptor == nullptr) {
+      leave();  // a program may stand for it
+      return;
+    }
+    for (const auto& written : program_.view(cycle.parameters)) read(written.value);
+    for (const auto& result : descriptor->results) set({klartext::QSpace::Q, result.q});
+    check_order(cycle, *descriptor);
+    if (cycle.family == klartext::CycleFamily::CyclDef) {
+      if (descriptor->kind == probing::CycleKind::Machining) cutter_ = block_;
+      return;
+    }
+    if (cycle.family != klartext::CycleFamily::TchProbe) return;
+    if (!descriptor->results.empty()) last_measured_ = descriptor;
+    check_words(cycle, *descriptor);
+    const bool touches = descriptor->errors.contains(1093) && descriptor->kind != probing::CycleKind::Tool;
+    if (!touches) return;
+    if (spindle_ != nullptr) {
+      warn(DiagnosticCode::StylusMissing, block_->written,
+           fmt::format("the spindle turns since line {} when cycle {} probes: call the touch probe, or stop with M5",
+                       line_of(*spindle_), descriptor->number));
+    } else if (cutter_ != nullptr) {
+      warn(DiagnosticCode::StylusMissing, block_->written,
+           fmt::format("the tool that machines in line {} is still in the spindle when cycle {} probes: TOOL CALL of the "
+                       "touch probe is missing",
+                       line_of(*cutter_), descriptor->number));
+    }
+  }
+
+  void check_words(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {
+    const unsigned meant = senses_of(descriptor.name);
+    const std::string_view dialog = program_.text(cycle.dialog);
+    const CycleDescriptor* named = nullptr;
+    for (const probing::TouchProbeCycle* other : probing::cycles()) {
+      if (other->descriptor.family != descriptor.family || !ascii_iequals(other->descriptor.name, dialog)) continue;
+      named = &other->descriptor;
+      if (ascii_iequals(descriptor.name, dialog)) named = nullptr;
+    }
+    if (named != nullptr) {
+      warn(DiagnosticCode::DialogContradicts, block_->written,
+           fmt::format("'{}' is cycle {}, but this is cycle {} {}: correct the number or the text", dialog, named->number,
+                       descriptor.number, descriptor.name));
+    } else if (contradict(senses_of(dialog), meant, kOfCycles)) {
+      warn(DiagnosticCode::DialogContradicts, block_->written,
+           fmt::format("'{}' contradicts cycle {}, which is {}: correct the number or the text", dialog, descriptor.number,
+                       descriptor.name));
+    } else if (contradict(senses_of(comment_above()), meant, std::array{kSide})) {
+      warn(DiagnosticCode::CommentContradicts, block_->written,
+           fmt::format("the comment '{}' contradicts cycle {}, which is {}: it would probe from the wrong side",
+                       comment_above(), descriptor.number, descriptor.name));
+    }
+    for (const auto& written : program_.view(cycle.parameters)) {
+      const auto* parameter = find_parameter(descriptor, written.parameter);
+      const std::string_view comment = program_.text(written.comment);
+      if (parameter == nullptr || comment.empty()) continue;
+      const unsigned said = senses_of(comment);
+      if (!contradict(said, senses_of(parameter->meaning), kOfParameters) && !contradict(said, meant, std::array{kSide})) {
+        continue;
+      }
+      warn(DiagnosticCode::CommentContradicts, written.written,
+           fmt::format("the comment '{}' contradicts {} of cycle {} {}, which is: {}", comment, name(written.parameter),
+                       descriptor.number, descriptor.name, parameter->meaning));
+    }
+  }
+
+  /// Of the cycle's own line, or of a line of nothing else before it.
+  std::string_view comment_above() const {
+    if (!block_->comment.empty()) return program_.text(block_->comment);
+    if (before_ == nullptr) return {};
+    if (const auto* structure = std::get_if<klartext::Structure>(&before_->statement)) return program_.text(structure->text);
+    return std::holds_alternative<klartext::Empty>(before_->statement) ? program_.text(before_->comment) : std::string_view();
+  }
+
+  void check_order(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {
+    std::map<int, double> values;
+    std::map<int, klartext::Slice<char>> places;
+    for (const auto& written : program_.view(cycle.parameters)) {
+      const auto* number = std::get_if<double>(&written.value);
+      if (number == nullptr || written.kind != klartext::CycleValue::Expression) continue;
+      values[written.parameter.number] = *number;
+      places[written.parameter.number] = written.written;
+    }
+    const bool is_probing = descriptor.family == probing::CycleFamily::TchProbe;
+    for (const int height : {261, 294}) {
+      if (!is_probing || !values.contains(260) || !values.contains(height) || values[260] >= values[height]) continue;
+      warn(DiagnosticCode::OrderContradicts, places[260],
+           fmt::format("the clearance height Q260 = {} lies below Q{} = {}, at which the cycle probes: the ball moves through "
+                       "the part; raise Q260",
+                       values[260], height, values[height]));
+    }
+    for (std::size_t i = 1; i < descriptor.parameters.size(); ++i) {
+      const auto& most = descriptor.parameters[i - 1];
+      const auto& least = descriptor.parameters[i];
+      const int upper = static_cast<int>(most.id);
+      const int lower = static_cast<int>(least.id);
+      if (!values.contains(upper) || !values.contains(lower) || values[upper] >= values[lower]) continue;
+      if ((senses_of(most.meaning) & kMaximum) == 0 || (senses_of(least.meaning) & kMinimum) == 0) continue;
+      warn(DiagnosticCode::OrderContradicts, places[upper],
+           fmt::format("the maximum Q{} = {} lies below the minimum Q{} = {}: exchange them", upper, values[upper], lower,
+                       values[lower]));
+    }
+    if (!is_probing && values.contains(201) && values[201] > 0) {
+      warn(DiagnosticCode::OrderContradicts, places[201],
+           fmt::format("the depth Q201 = {} lies above the surface: write it with a minus", values[201]));
+    }
+  }
+
+  /// `Q274=+50` right behind a cycle that lacks Q274: the line before it has no `~`.
+  void check_line_before(klartext::QRef target) {
+    const auto* cycle = before_ == nullptr ? nullptr : std::get_if<klartext::Cycle>(&before_->statement);
+    if (cycle == nullptr || block_->has_number) return;
+    const CycleDescriptor* descriptor = bind_cycle(program_, *cycle).descriptor();
+    if (descriptor == nullptr || find_parameter(*descriptor, target) == nullptr) return;
+    for (const auto& written : program_.view(cycle->parameters)) {
+      if (written.parameter == target) return;
+    }
+    warn(DiagnosticCode::ContinuationMissing, block_->written,
+         fmt::format("{} is a parameter of cycle {} before it, whose last line has no '~' at its end: add it there", name(target),
+                     descriptor->number));
+    diagnostics_.back().severity = Severity::Error;
+  }
+
+  const klartext::Program& program_;
+  std::vector<klartext::Diagnostic>& diagnostics_;
+  const Block* block_ = nullptr;
+  const Block* before_ = nullptr;
+  const Block* spindle_ = nullptr;  ///< the block that has started the spindle
+  const Block* cutter_ = nullptr;   ///< the block that machines with the tool in the spindle
+  bool calls_programs_ = false;
+  const CycleDescriptor* last_measured_ = nullptr;
+  std::bitset<kEndOfResults> set_;
+  std::map<std::size_t, const Block*> reads_;  ///< results by the first block that reads them
+};
+
+/// `check:ignore` in this line switches the code off.
+bool ignores(std::string_view line, std::string_view code) {
+  constexpr std::string_view kIgnore = "check:ignore";
+  const std::size_t comment = line.find(';');
+  const std::size_t at = comment == line.npos ? line.npos : line.find(kIgnore, comment);
+  if (at == line.npos) return false;
+  std::string_view codes = trim(line.substr(at + kIgnore.size()));
+  if (codes.ends_with('~')) codes = trim(codes.substr(0, codes.size() - 1));
+  return codes.empty() || codes.find(code) != codes.npos;
+}
+
+}  // namespace
+
+void check_contradictions(const klartext::Program& program, std::vector<klartext::Diagnostic>& diagnostics) {
+  Contradictions(program, diagnostics).check();
+  std::erase_if(diagnostics, [&](const klartext::Diagnostic& found) {
+    if (found.severity == Severity::Error || found.range.begin.line == 0) return false;
+    const std::string_view code = id(found.code);
+    if (ignores(program.line(found.range.begin.line), code)) return true;
+    if (found.range.begin.line < 2) return false;
+    const std::string_view above = program.line(found.range.begin.line - 1);
+    return trim(above).starts_with(';') && ignores(above, code);
+  });
+}
+
+}  // namespace fitgauge::interpreter
