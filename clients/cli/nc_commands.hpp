@@ -5,6 +5,7 @@
 
 #include "cli/context.hpp"
 #include "cli/json_object.hpp"
+#include "cli/local_programs.hpp"
 
 namespace fitgauge::cli {
 
@@ -31,8 +32,9 @@ Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options);
 /// The messages of a run, on standard error.
 void print_messages(const JsonValue& run);
 
-/// `nc check PATH`: ProgramFailed when there are errors; warnings are printed too.
-Outcome<ExitCode> run_nc_check(const Context& context, const std::string& path);
+/// `nc check --from-control PATH…` of the service's files, else run_nc_check_local. Exit code 0: nothing or notes,
+/// 1: warnings, 2: errors.
+Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options);
 
 struct RunOptions {
   std::string program;

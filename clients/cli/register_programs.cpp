@@ -34,11 +34,18 @@ void add_nc_files(CLI::App& nc, Action& chosen) {
 }
 
 void add_nc_programs(CLI::App& nc, Action& chosen) {
-  const auto path = std::make_shared<std::string>();
-  add_command<std::string>(nc, "check", "Check a program, a mask or a table", chosen, path,
-                           run_nc_check)
-      ->add_option("path", *path, "Path on the control")
-      ->required();
+  const auto checked = std::make_shared<CheckOptions>();
+  CLI::App* check = add_command(nc, "check", "Check programs, here or on the control", chosen, checked, run_nc_check);
+  check->add_option("files", checked->files, "Files here, or paths on the control")->required();
+  check->add_flag("--from-control", checked->from_control, "The files are those of the service");
+  check->add_option("--format", checked->format, "Of findings: text, json, sarif")
+      ->check(CLI::IsMember({"text", "json", "sarif"}));
+  check->add_option("--level", checked->levels, "Of a code: CODE=off, note, warning or error")->expected(1)->take_all();
+
+  const auto formatted = std::make_shared<FormatOptions>();
+  CLI::App* format = add_command(nc, "format", "List programs here as a control does", chosen, formatted, run_nc_format);
+  format->add_option("files", formatted->files, "Files here")->required();
+  format->add_flag("--in-place", formatted->in_place, "Write the files, else print");
 
   const auto options = std::make_shared<RunOptions>();
   CLI::App* run =

@@ -110,13 +110,15 @@ _fitgauge() {
       esac ;;
     nc)
       case ${words[1]-} in
-        '') options='check run put get ls' ;;
+        '') options='check format run put get ls' ;;
+        check) options='--from-control --format --level' ;;
+        format) options=--in-place ;;
         get) options=--force ;;
         run) options='--setup --setup-file --set --on-stop --language --part-id --order --block-skip' ;;
       esac ;;
   esac
   case ${words[*]} in
-    measure | plan\ from\ * | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
+    measure | plan\ from\ * | nc\ check\ * | nc\ format\ * | nc\ check | nc\ format | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
   esac
   _fitgauge_words "$options $common"
 }

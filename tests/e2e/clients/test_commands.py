@@ -198,16 +198,38 @@ class Programs(ClientTest):
         self.assertEqual((run["verdict"], run["parameters"]["QS1"]), ("reject", "H5"))
         self.assert_fails(4, "nc", "run", "nc_prog/8255/8255.h", "--set", "Q1=x")
 
+    def test_programs_are_checked_and_formatted_without_the_service(self):
+        hole = ("BEGIN PGM A MM\nTCH PROBE 421 MEASURE BOSS ~\n Q273=+1 ~\n Q274=+1 ~\n Q262=+12 ~\n Q247=+90 ~\n Q261=-5 ~\n"
+                " Q260=+20 ~\n Q275=+12.1 ~\n Q276=+12\nEND PGM A MM\n")
+        self.client.write("a.h", hole)
+        self.assertIn("warning", self.assert_runs(1, "nc", "check", "a.h"))
+        code = "cycle.dialog_contradicts"
+        self.assert_runs(0, "nc", "check", "a.h", "--level", f"{code}=off")
+        self.assert_runs(2, "nc", "check", "a.h", "--level", f"{code}=error")
+        found = json.loads(self.assert_runs(1, "nc", "check", "a.h", "--format", "json"))["diagnostics"]
+        self.assertEqual([(each["code"], each["line"], each["program"]) for each in found], [(code, 2, "a.h")])
+        result = json.loads(self.assert_runs(1, "nc", "check", "a.h", "--format", "sarif"))["runs"][0]["results"][0]
+        self.assertEqual((result["ruleId"], result["level"]), (code, "warning"))
+        self.client.write("b.h", "BEGIN PGM B MM\nCALL PGM a.h\nLX 5\nEND PGM B MM\n")
+        text = self.assert_runs(2, "nc", "check", "b.h")
+        self.assertIn("a.h:2:", text)
+        self.assertIn("b.h:3:", text)
+        self.assertIn("0 BEGIN PGM A MM\n1 TCH PROBE 421", self.assert_runs(0, "nc", "format", "a.h"))
+        self.assert_runs(0, "nc", "format", "--in-place", "a.h")
+        self.assert_runs(1, "nc", "check", "a.h")
+        self.assert_fails(4, "nc", "check", "a.h", "--level", "x=loud")
+        self.assert_fails(5, "nc", "check", "gone.h")
+
     def test_errors_name_their_place(self):
         self.client.write("bad.h", "0 BEGIN PGM BAD MM\n1 LX 5\n2 END PGM BAD MM\n")
         self.assert_runs(0, "nc", "put", "bad.h", "bad.h")
-        self.assertIn("TNC:\\bad.h:2:", self.assert_runs(9, "nc", "check", "bad.h"))
+        self.assertIn("TNC:\\bad.h:2:", self.assert_runs(2, "nc", "check", "--from-control", "bad.h"))
         refused = self.client.run("nc", "run", "bad.h")
         self.assertEqual(refused.returncode, 9)
         self.assertIn("TNC:\\bad.h:2:", refused.stderr_text)
         self.client.write("fails.h", "0 BEGIN PGM F MM\n1 CALL PGM GONE.H\n2 END PGM F MM\n")
         self.assert_runs(0, "nc", "put", "fails.h", "fails.h")
-        self.assertIn("warning", self.assert_runs(0, "nc", "check", "fails.h"))
+        self.assertIn("warning", self.assert_runs(1, "nc", "check", "--from-control", "fails.h"))
         failed = self.client.run("nc", "run", "fails.h")
         self.assertEqual(failed.returncode, 9)
         self.assertIn("TNC:\\fails.h:2:", failed.stderr_text)

@@ -18,7 +18,7 @@ SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "plan", "table
     ("control", name) for name in ("ls", "get", "put", "run", "state")] + [
     (kind, name) for kind in ("setups", "budgets", "gauges") for name in ("ls", "put", "get", "rm")] + [
     ("runs", name) for name in ("ls", "show", "get", "cancel")] + [
-    ("nc", name) for name in ("ls", "put", "get", "check", "run")] + [("tables", "export"), ("plan", "from")]
+    ("nc", name) for name in ("ls", "put", "get", "check", "format", "run")] + [("tables", "export"), ("plan", "from")]
 
 
 def options(program, *command):
@@ -76,7 +76,7 @@ class Completion(unittest.TestCase):
     def test_every_command_is_offered(self):
         self.assertEqual(completions(""), set(COMMANDS))
         self.assertEqual(completions("me"), {"measure"})
-        self.assertEqual(completions("nc", ""), {"check", "run", "put", "get", "ls"})
+        self.assertEqual(completions("nc", ""), {"check", "format", "run", "put", "get", "ls"})
         self.assertEqual(completions("setups", ""), {"ls", "put", "get", "rm"})
         self.assertEqual(completions("runs", ""), {"ls", "show", "get", "cancel"})
         self.assertEqual(completions("control", ""), {"ls", "get", "put", "run", "state"})
@@ -127,7 +127,7 @@ class Completion(unittest.TestCase):
             done = subprocess.run(["fish", "--no-config", "-c", script], capture_output=True, text=True, check=True, timeout=60)
             return {entry.split("\t")[0] for entry in done.stdout.splitlines()}
         self.assertEqual(offered("fitgauge me"), {"measure"})
-        self.assertEqual(offered("fitgauge nc "), {"ls", "put", "get", "check", "run"})
+        self.assertEqual(offered("fitgauge nc "), {"ls", "put", "get", "check", "format", "run"})
         self.assertLessEqual({"--setup", "--on-stop"}, offered("fitgauge nc run --"))
 
     def test_files_are_offered_where_a_file_is_wanted(self):

@@ -1,0 +1,178 @@
+#include "cli/local_programs.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "base/allowance.hpp"
+#include "base/text.hpp"
+#include "cli/input_file.hpp"
+#include "cli/json_object.hpp"
+#include "cli/output_file.hpp"
+#include "nc/klartext/parser.hpp"
+#include "nc/klartext/printer.hpp"
+#include "nc/program/check.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using klartext::Diagnostic;
+using klartext::Severity;
+
+/// The folder of a file as that of a control, each file read when it is asked for. What a program names beside it is found,
+/// and the folder TNC:\ is that one. Files that the service makes of its tables exist.
+class FolderDisk final : public interpreter::ControlDisk {
+ public:
+  explicit FolderDisk(fs::path folder) : folder_(std::move(folder)) {}
+
+  std::optional<interpreter::ControlFile> find(const interpreter::ControlPath& path) const override {
+    const auto found = local(path);
+    if (!found) return std::nullopt;
+    auto bytes = read_file(found->string());
+    if (!bytes) return std::nullopt;
+    return interpreter::ControlFile{path, std::make_shared<const std::string>(*std::move(bytes)), "local"};
+  }
+  std::optional<std::string> revision(const interpreter::ControlPath& path) const override {
+    const std::string_view name = path.file_name();
+    const bool is_made = ascii_iequals(name, "82553_hole.tab") || ascii_iequals(name, "82553_shaft.tab");
+    return is_made || local(path) ? std::optional<std::string>("local") : std::nullopt;
+  }
+  bool has_directory(std::string_view) const override { return false; }
+
+  /// As this machine names it. Case does not count on a control.
+  std::optional<fs::path> local(const interpreter::ControlPath& path) const {
+    std::string relative = path.text().substr(path.text().find('\\') + 1);
+    std::ranges::replace(relative, '\\', '/');
+    std::error_code failed;
+    if (fs::is_regular_file(folder_ / relative, failed)) return folder_ / relative;
+    for (const auto& entry : fs::directory_iterator(folder_, failed)) {
+      if (ascii_iequals(entry.path().filename().string(), relative)) return entry.path();
+    }
+    return std::nullopt;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+using Levels = std::map<std::string, std::optional<Severity>, std::less<>>;
+
+Outcome<Levels> read_levels(const std::vector<std::string>& written) {
+  Levels levels;
+  for (const std::string& level : written) {
+    const std::size_t equals = level.find('=');
+    const std::string_view said = equals == level.npos ? "" : std::string_view(level).substr(equals + 1);
+    std::optional<Severity> severity;
+    for (const Severity each : {Severity::Note, Severity::Warning, Severity::Error}) {
+      if (said == word(each)) severity = each;
+    }
+    if (!severity && said != "off") {
+      return Failure{ExitCode::Usage, fmt::format("--level takes CODE=off, note, warning or error, not '{}'", level)};
+    }
+    levels[level.substr(0, equals)] = severity;
+  }
+  return levels;
+}
+
+/// An error of the program stays one: it does not run.
+void apply(const Levels& levels, std::vector<Diagnostic>& found) {
+  std::erase_if(found, [&](Diagnostic& each) {
+    const auto level = levels.find(id(each.code));
+    if (level == levels.end() || each.severity == Severity::Error) return false;
+    each.severity = level->second.value_or(each.severity);
+    return !level->second;
+  });
+}
+
+std::string json_of(const Diagnostic& found) {
+  JsonObject object;
+  object.add("severity", word(found.severity)).add("code", id(found.code)).add("message", found.message);
+  object.add("program", found.program).add_raw("line", std::to_string(found.range.begin.line));
+  object.add_raw("column", std::to_string(found.range.begin.column));
+  object.add_raw("block", found.block ? std::to_string(*found.block) : "null").add("source", found.source);
+  return object.text();
+}
+
+std::string sarif_of(const Diagnostic& found) {
+  JsonObject region;
+  region.add_raw("startLine", std::to_string(std::max(found.range.begin.line, 1U)));
+  region.add_raw("startColumn", std::to_string(std::max(found.range.begin.column, 1U)));
+  std::string uri = found.program;
+  std::ranges::replace(uri, '\\', '/');
+  const std::string place = fmt::format(R"({{"physicalLocation":{{"artifactLocation":{{"uri":{}}},"region":{}}}}})",
+                                        json_quoted(uri), region.text());
+  JsonObject result;
+  result.add("ruleId", id(found.code)).add("level", word(found.severity));
+  result.add_raw("message", fmt::format(R"({{"text":{}}})", json_quoted(found.message)));
+  result.add_raw("locations", "[" + place + "]");
+  return result.text();
+}
+
+void print(const Context& context, std::string_view format, const std::vector<Diagnostic>& found) {
+  std::string items;
+  for (const Diagnostic& each : found) {
+    if (format == "text") {
+      context.print("{}\n", klartext::render(each));
+    } else {
+      items += (items.empty() ? "" : ",") + (format == "json" ? json_of(each) : sarif_of(each));
+    }
+  }
+  if (format == "json") context.print("{{\"diagnostics\":[{}]}}\n", items);
+  if (format == "sarif") {
+    context.print(R"({{"version":"2.1.0","runs":[{{"tool":{{"driver":{{"name":"fitgauge","version":"{}"}}}},"results":[{}]}}]}})"
+                  "\n",
+                  FITGAUGE_VERSION, items);
+  }
+}
+
+}  // namespace
+
+Outcome<ExitCode> run_nc_check_local(const Context& context, const CheckOptions& options) {
+  const auto levels = read_levels(options.levels);
+  if (!levels) return levels.error();
+  std::vector<Diagnostic> all;
+  for (const std::string& file : options.files) {
+    if (const auto readable = read_file(file); !readable) return readable.error();
+    const fs::path path(file);
+    const auto name = interpreter::ControlPath::parse("TNC:\\" + path.filename().string());
+    if (!name) return Failure{ExitCode::LocalFile, file + ": " + name.error().message};
+    const FolderDisk disk(path.has_parent_path() ? path.parent_path() : fs::path("."));
+    Allowance unlimited;
+    interpreter::ProgramCache programs;
+    auto found = interpreter::check(*name, disk, programs, unlimited);
+    if (!found) return Failure{ExitCode::LocalFile, file + ": " + found.error().message};
+    for (Diagnostic& each : *found) {
+      const auto place = interpreter::ControlPath::parse(each.program);
+      const auto local = place ? disk.local(*place) : std::nullopt;
+      if (local) each.program = local->lexically_normal().generic_string();
+    }
+    apply(*levels, *found);
+    all.insert(all.end(), found->begin(), found->end());
+  }
+  print(context, !options.format.empty() ? options.format : context.json ? "json" : "text", all);
+  auto worst = Severity::Note;
+  for (const Diagnostic& each : all) worst = std::max(worst, each.severity);
+  return static_cast<ExitCode>(worst);  // 0, 1, 2
+}
+
+Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& options) {
+  for (const std::string& file : options.files) {
+    auto bytes = read_file(file);
+    if (!bytes) return bytes.error();
+    const auto parsed = klartext::parse_program(*std::move(bytes), file);
+    for (const Diagnostic& found : parsed.diagnostics) {
+      if (found.severity == Severity::Error) return Failure{ExitCode::ProgramFailed, klartext::render(found)};
+    }
+    const std::string formatted = klartext::format_program(parsed.program);
+    if (!options.in_place) {
+      context.print("{}", formatted);
+    } else if (const auto written = write_file(file, formatted); !written) {
+      return written.error();
+    }
+  }
+  return ExitCode::Good;
+}
+
+}  // namespace fitgauge::cli
