@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/spelling_hint.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/commands.hpp"

@@ -11,7 +11,7 @@
 #include "cli/json_object.hpp"
 #include "cli/output_file.hpp"
 #include "plant/lsv2/link/link_client.hpp"
-#include "plant/lsv2/link/virtual_names.hpp"
+#include "plant/lsv2/link/requests.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/address.hpp"
-#include "http/client/curl_handle.hpp"
+#include "http/client/http_client.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "base/json/json_escape.hpp"
+#include "base/json/json_writer.hpp"
 
 namespace fitgauge::cli {
 

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "base/descriptor.hpp"
+#include "base/folder.hpp"
 #include "cli/address.hpp"
 #include "cli/limits_commands.hpp"
 #include "formats/step/plan.hpp"

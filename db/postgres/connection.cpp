@@ -8,10 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "db/postgres/measurement_table.hpp"
 #include "db/postgres/prepared.hpp"
-#include "db/postgres/wire.hpp"
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {

@@ -1,12 +1,50 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <set>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "db/postgres/connection.hpp"
-#include "db/sql/prepared.hpp"
+#include "db/sql/connection.hpp"
+#include "db/sql/statement.hpp"
 
 namespace fitgauge::store::postgres {
+
+/// Adds a number as PostgreSQL's binary formats write it: the highest byte first.
+template <class Integer>
+void append_number(std::string& bytes, Integer value) {
+  std::array<char, sizeof(Integer)> written{};
+  auto rest = static_cast<std::uint64_t>(value);
+  for (auto byte = written.rbegin(); byte != written.rend(); ++byte, rest >>= 8U) {
+    *byte = static_cast<char>(rest);
+  }
+  bytes.append(written.data(), written.size());
+}
+
+/// Adds the number of bytes that `make` adds, and then those.
+template <class Make>
+void append_counted(std::string& bytes, const Make& make) {
+  const std::size_t place = bytes.size();
+  bytes.append(sizeof(std::int32_t), '\0');
+  make();
+  std::string count;
+  append_number(count, static_cast<std::int32_t>(bytes.size() - place - sizeof(std::int32_t)));
+  bytes.replace(place, count.size(), count);
+}
+
+/// A signed number of one to eight bytes.
+inline std::int64_t read_number(std::string_view bytes) {
+  if (bytes.empty()) return 0;
+  auto value =
+      static_cast<std::uint64_t>(static_cast<std::int64_t>(static_cast<signed char>(bytes[0])));
+  for (const char byte : bytes.substr(1)) value = value << 8U | static_cast<unsigned char>(byte);
+  return static_cast<std::int64_t>(value);
+}
 
 /// A statement of a connection: prepared on the server when it first runs, then with the types of
 /// what is bound. A query brings all its rows at once.
@@ -41,6 +79,32 @@ class Prepared final : public sql::Prepared {
   bool types_have_changed_ = false;
   ResultPtr result_;
   int row_ = -1;
+};
+
+/// Appends rows, and makes the part of the table that a row goes to where it is the first.
+/// Every row says whose it is and where it stands in that log.
+class MeasurementTable final : public sql::MeasurementTable {
+ public:
+  explicit MeasurementTable(Connection& connection);
+
+  void append(std::span<const MeasurementRow> rows) override;
+  /// In a transaction that writes as the head has it; else as it was committed.
+  std::int64_t last_id() override { return connection_.head.last_id; }
+  std::optional<std::int64_t> own_rows() override { return connection_.head.own_rows; }
+
+ private:
+  void make_parts(std::span<const MeasurementRow> rows);
+  std::string begin_array(std::size_t rows);
+  void read_type();
+  void append_row(std::string& bytes, const MeasurementRow& row);
+
+  Connection& connection_;
+  sql::Statement make_part_;
+  Oid row_type_ = 0;                ///< of the table; 0 until it was asked for
+  std::vector<std::size_t> order_;  ///< of the table's columns: their indices in a row
+  std::string values_;              ///< of one row, and where each of them ends
+  std::vector<std::size_t> ends_;
+  std::set<std::pair<std::int64_t, std::int64_t>> parts_;  ///< origin and month that are there
 };
 
 }  // namespace fitgauge::store::postgres

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
-#include <string_view>
 
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/clock.hpp"
 #include "db/postgres/connection.hpp"
-#include "db/postgres/notifications.hpp"
+#include "db/postgres/listener.hpp"
 #include "db/sql/session.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/open_options.hpp"

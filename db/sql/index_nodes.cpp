@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "db/sql/measurement_query.hpp"
-#include "db/sql/pair_index.hpp"
 
 namespace fitgauge::store {
 namespace {

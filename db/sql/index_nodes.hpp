@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "db/sql/statement.hpp"
@@ -64,6 +66,54 @@ class IndexNodes {
   sql::Statement aggregates_of_value_;
   sql::Statement pairs_;
   std::vector<std::uint8_t> matching_;  ///< tuples
+};
+
+/// The part of the index that tells how values of two fields meet: the columns of a block
+/// (store::BlockColumns), and above blocks the statistics of the values of one field by those of
+/// another (store::PairStatistics), where they are few enough, and by those of many together
+/// (store::TupleSums). Of these each field's column stands where its pair with no field would.
+/// Their sums stand where pairs of no field would: those of kTuplesTogether by 0, of the next by 1
+/// and so on. Where there are none, 0 is empty.
+class PairIndex {
+ public:
+  /// What there is of a node.
+  struct Node {
+    bool is_complete = true;               ///< false: the nodes below have not got theirs yet
+    std::optional<std::string> columns{};  ///< of a block
+    std::map<std::pair<int, int>, std::string> pairs{};  ///< of others, by the two fields
+  };
+
+  static constexpr int kSums = 0;     ///< the field of tuples' sums
+  static constexpr int kColumns = 0;  ///< what their columns stand by
+
+  explicit PairIndex(sql::Connection& connection);
+
+  /// From what is stored of the nodes below. @pre node.level > 0
+  Node derive(const IndexNode& node);
+  void insert(const IndexNode& node, const Node& index);
+  void erase(const IndexNode& node);
+
+  bool is_stored(const IndexNode& node, const Node& index);
+  /// How much is stored of nodes that are not there.
+  std::int64_t count_surplus();
+
+ private:
+  void derive_from_columns(const IndexNode& node, Node& index);
+  void derive_from_pairs(const IndexNode& node, Node& index);
+  void join_tuples(const IndexNode& node, Node& index);
+  void add_column(const IndexNode& node, std::size_t column, NumberedColumn& all);
+  template <class Visit>
+  bool visit_sums(const IndexNode& node, const Visit& visit);
+
+  sql::Statement columns_;
+  sql::Statement insert_columns_;
+  sql::Statement delete_columns_;
+  sql::Statement child_pairs_;
+  sql::Statement pair_;
+  sql::Statement insert_pair_;
+  sql::Statement delete_pair_;
+  sql::Statement count_surplus_columns_;
+  sql::Statement count_surplus_pairs_;
 };
 
 }  // namespace fitgauge::store

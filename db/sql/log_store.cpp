@@ -6,7 +6,7 @@
 
 #include "db/sql/sealed_table.hpp"
 #include "db/sql/statement.hpp"
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store {
 

@@ -11,7 +11,6 @@
 #include "db/sql/connection.hpp"
 #include "db/sql/measurement_query.hpp"
 #include "db/store/block_columns.hpp"
-#include "db/store/value_block.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -10,8 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "db/sql/pair_index.hpp"
-#include "db/sql/rows_insert.hpp"
+#include "db/sql/index_nodes.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/measurement_index.hpp"
 #include "db/store/measurement_statistics.hpp"

@@ -1,11 +1,8 @@
 #include "db/sql/measurement_query.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "db/sql/connection.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "db/sql/pair_index.hpp"
+#include "db/sql/index_nodes.hpp"
 #include "db/store/pair_statistics.hpp"
 
 namespace fitgauge::store {

@@ -16,8 +16,8 @@
 #include "db/store/block_columns.hpp"
 #include "db/store/measurement_filter.hpp"
 #include "db/store/measurement_index.hpp"
+#include "db/store/measurement_row.hpp"
 #include "db/store/measurement_statistics.hpp"
-#include "db/store/measurement_summary.hpp"
 #include "db/store/tuple_statistics.hpp"
 
 namespace fitgauge::store {

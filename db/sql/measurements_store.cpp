@@ -6,13 +6,12 @@
 #include <stdexcept>
 
 #include "db/sql/connection.hpp"
-#include "db/sql/log_query.hpp"
 #include "db/sql/measurement_indexer.hpp"
 #include "db/sql/measurement_query.hpp"
 #include "db/sql/measurement_summary.hpp"
 #include "db/sql/statement.hpp"
+#include "db/store/block_columns.hpp"
 #include "db/store/measurement_fields.hpp"
-#include "db/store/value_block.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -1,11 +1,10 @@
-#include "db/sql/pair_index.hpp"
+#include "db/sql/index_nodes.hpp"
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
 #include "db/store/block_columns.hpp"
-#include "db/store/pair_counter.hpp"
 #include "db/store/pair_statistics.hpp"
 #include "db/store/tuple_statistics.hpp"
 

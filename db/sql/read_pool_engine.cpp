@@ -3,7 +3,7 @@
 #include <exception>
 #include <optional>
 
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store {
 

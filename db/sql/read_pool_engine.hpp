@@ -4,11 +4,9 @@
 #include <vector>
 
 #include "base/thread.hpp"
-#include "db/sql/health_monitor.hpp"
 #include "db/sql/session.hpp"
-#include "db/store/job_queue.hpp"
+#include "db/store/jobs.hpp"
 #include "db/store/open_options.hpp"
-#include "db/store/read_pool.hpp"
 
 namespace fitgauge::store {
 

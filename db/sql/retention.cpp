@@ -1,4 +1,4 @@
-#include "db/sql/retention.hpp"
+#include "db/sql/writer_engine.hpp"
 
 #include <fmt/format.h>
 

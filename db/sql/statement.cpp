@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "db/sql/connection.hpp"
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store::sql {
 

@@ -4,7 +4,7 @@
 #include <exception>
 #include <iterator>
 
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store {
 namespace {

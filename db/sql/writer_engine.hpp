@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -13,15 +14,38 @@
 
 #include "base/clock.hpp"
 #include "base/thread.hpp"
-#include "db/sql/health_monitor.hpp"
-#include "db/sql/retention.hpp"
 #include "db/sql/session.hpp"
-#include "db/store/job_queue.hpp"
+#include "db/store/database.hpp"
+#include "db/store/jobs.hpp"
 #include "db/store/open_options.hpp"
-#include "db/store/writer.hpp"
-#include "db/store/writer_counters.hpp"
 
 namespace fitgauge::store {
+
+struct Stores;
+
+/// The time that runs and idempotency keys expire by, and a count of the deletions. A clock may be
+/// wrong (a dead battery, the first answer of NTP) and a deletion is for good: the time is never
+/// later than the newest record's `received_at`, and it moves only after the clock has held for a
+/// day of running time. Until then it is that of the start, or of the last look before a jump.
+/// Used by one thread.
+class Retention {
+ public:
+  /// @returns none while nothing may expire: without a record, until the clock has held.
+  /// @throws StorageFailure
+  std::optional<Timestamp> time(const SteadyTime& clock, const Stores& stores);
+
+  void deleted(std::int64_t keys, std::int64_t runs);
+  /// @param now of a clock that nobody sets. @param more whether the next step may delete more.
+  /// @returns a sentence on the deletions: the first at once, those that follow once an hour.
+  std::optional<std::string> report(std::chrono::nanoseconds now, bool more);
+
+ private:
+  bool has_begun_ = false;
+  std::optional<Timestamp> time_;
+  std::int64_t keys_ = 0;
+  std::int64_t runs_ = 0;
+  std::optional<std::chrono::nanoseconds> reported_;
+};
 
 /// Does one step of what requests leave behind: deletes some expired answers, old runs and events,
 /// indexes the next blocks of measurements. One transaction of some milliseconds.

@@ -4,12 +4,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "db/sql/statement.hpp"
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <utility>
+
 #include "db/sqlite/data_directory.hpp"
 #include "db/sqlite/measurement_table.hpp"
-#include "db/sqlite/prepared.hpp"
-#include "db/sqlite/row_digest.hpp"
-#include "db/store/storage_failure.hpp"
+#include "db/store/canonical_digest.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store::sqlite {
 namespace {
@@ -69,7 +72,93 @@ std::string_view name_of(Synchronous synchronous) {
   return "FULL";
 }
 
+void add_value(CanonicalDigest& digest, sqlite3_value* value) {
+  const auto size = [&] { return static_cast<std::size_t>(sqlite3_value_bytes(value)); };
+  switch (sqlite3_value_type(value)) {
+    case SQLITE_NULL: digest.add(std::optional<std::int64_t>()); break;
+    case SQLITE_INTEGER: digest.add(sqlite3_value_int64(value)); break;
+    default: {
+      const auto* bytes = static_cast<const char*>(sqlite3_value_blob(value));
+      digest.add(std::string_view(bytes == nullptr ? "" : bytes, size()));
+    }
+  }
+}
+
+void row_digest(sqlite3_context* context, int count, sqlite3_value** values) noexcept {
+  try {
+    auto& digest = *static_cast<CanonicalDigest*>(sqlite3_user_data(context));
+    std::for_each(values, values + count, [&](sqlite3_value* value) { add_value(digest, value); });
+    const Digest result = digest.finish();
+    sqlite3_result_blob(context, result.data(), static_cast<int>(result.size()), SQLITE_TRANSIENT);
+  } catch (const std::exception&) {
+    sqlite3_result_error_nomem(context);
+  }
+}
+
 }  // namespace
+
+Prepared::Prepared(Connection& connection, std::string sql)
+    : connection_(connection), sql_(std::move(sql)) {
+  sqlite3_stmt* statement = nullptr;
+  sqlite3* const handle = connection_.handle();
+  require_ok(handle,
+             sqlite3_prepare_v3(handle, sql_.data(), static_cast<int>(sql_.size()),
+                                SQLITE_PREPARE_PERSISTENT, &statement, nullptr),
+             sql_);
+  statement_.reset(statement);
+}
+
+bool Prepared::step() {
+  errno = 0;  // what a failure finds there is of this step
+  const int code = sqlite3_step(statement_.get());
+  if (code == SQLITE_ROW) return true;
+  if (code != SQLITE_DONE) throw_failure(connection_.handle(), code, "storage");
+  return false;
+}
+
+void Prepared::run() {
+  const auto reset_at_end = [](sqlite3_stmt* statement) { sqlite3_reset(statement); };
+  const std::unique_ptr<sqlite3_stmt, decltype(reset_at_end)> end(statement_.get(), reset_at_end);
+  while (step()) {
+  }
+}
+
+void Prepared::release_pages() noexcept { sqlite3_db_release_memory(connection_.handle()); }
+
+void Prepared::bind_null(int index, sql::Kind /*kind*/) {
+  require_ok(connection_.handle(), sqlite3_bind_null(statement_.get(), index), sql_);
+}
+
+void Prepared::bind_integer(int index, std::int64_t value) {
+  require_ok(connection_.handle(), sqlite3_bind_int64(statement_.get(), index, value), sql_);
+}
+
+// A null pointer would bind NULL where an empty text is meant.
+void Prepared::bind_text(int index, std::string_view value) {
+  const char* const data = value.data() == nullptr ? "" : value.data();
+  require_ok(connection_.handle(),
+             sqlite3_bind_text64(statement_.get(), index, data, value.size(), nullptr, SQLITE_UTF8),
+             sql_);
+}
+
+void Prepared::bind_blob(int index, std::string_view bytes) {
+  const void* const data = bytes.data() == nullptr ? "" : bytes.data();
+  require_ok(connection_.handle(),
+             sqlite3_bind_blob64(statement_.get(), index, data, bytes.size(), nullptr), sql_);
+}
+
+// The pointer is asked for before the size: that order converts the value first.
+std::string_view Prepared::text(int column) const {
+  const unsigned char* const data = sqlite3_column_text(statement_.get(), column);
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+std::string_view Prepared::blob(int column) const {
+  const void* const data = sqlite3_column_blob(statement_.get(), column);
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
+  return {static_cast<const char*>(data), size};
+}
 
 Connection::Connection(const std::filesystem::path& file, Mode mode, Synchronous synchronous)
     : sql::Connection(kDialect), database_(open(file, mode)) {
@@ -118,6 +207,17 @@ std::string Connection::query_text(const std::string& sql) {
 
 void Connection::rollback() noexcept {
   if (sqlite3_get_autocommit(handle()) == 0) database_.tryExec("ROLLBACK");
+}
+
+void add_row_digest(sqlite3* handle) {
+  auto digest = std::make_unique<CanonicalDigest>();
+  const auto destroy = [](void* made) { delete static_cast<CanonicalDigest*>(made); };
+  // SQLite destroys it even when this fails.
+  require_ok(handle,
+             sqlite3_create_function_v2(handle, "row_digest", -1,
+                                        SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_INNOCUOUS,
+                                        digest.release(), row_digest, nullptr, nullptr, destroy),
+             "storage");
 }
 
 }  // namespace fitgauge::store::sqlite

@@ -1,17 +1,60 @@
 #pragma once
 
 #include <SQLiteCpp/Database.h>
+#include <sqlite3.h>
 
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
 
+#include "base/clock.hpp"
 #include "db/sql/connection.hpp"
-#include "db/sqlite/failure.hpp"
+#include "db/sql/session.hpp"
+#include "db/sql/statement.hpp"
+#include "db/sqlite/data_directory.hpp"
 #include "db/store/open_options.hpp"
 
 namespace fitgauge::store::sqlite {
+
+class Connection;
+
+/// A statement of a connection. SQLiteCpp's own lacks the persistent flag and copies a shared
+/// pointer for each column read.
+class Prepared final : public sql::Prepared {
+ public:
+  Prepared(Connection& connection, std::string sql);
+
+  void bind_null(int index, sql::Kind kind) override;
+  void bind_integer(int index, std::int64_t value) override;
+  void bind_text(int index, std::string_view value) override;
+  void bind_blob(int index, std::string_view bytes) override;
+
+  void run() override;
+  bool step() override;
+  void reset() noexcept override { sqlite3_reset(statement_.get()); }
+
+  int columns() const override { return sqlite3_column_count(statement_.get()); }
+  bool is_null(int column) const override {
+    return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
+  }
+  std::int64_t integer(int column) const override {
+    return sqlite3_column_int64(statement_.get(), column);
+  }
+  std::string_view text(int column) const override;
+  std::string_view blob(int column) const override;
+
+  void release_pages() noexcept override;
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+  };
+
+  Connection& connection_;
+  const std::string sql_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
 
 enum class Mode {
   Read,    ///< an existing file, nothing is written to it
@@ -45,5 +88,56 @@ class Connection final : public sql::Connection {
   SQLite::Database database_;
   std::unique_ptr<sql::MeasurementTable> measurements_;
 };
+
+}  // namespace fitgauge::store::sqlite
+
+namespace fitgauge::store {
+
+/// The name of the database in its directory.
+inline constexpr std::string_view kDatabaseFile = "fitgauge.db";
+
+namespace sqlite {
+
+/// A connection to the file with its stores.
+class Session : public sql::Session {
+ public:
+  Session(const OpenOptions& options, const Clock& clock, Mode mode)
+      : connection(options.directory / kDatabaseFile, mode, options.synchronous),
+        stores_(connection, clock, options.idempotency_retention) {}
+
+  Stores& stores() override { return stores_; }
+  void begin_reading() override { begin_reading_.run(); }
+  void begin_writing() override { begin_writing_.run(); }
+  void commit() override { commit_.run(); }
+  void rollback() noexcept override { connection.rollback(); }
+  void savepoint() override { savepoint_.run(); }
+  void undo() override { undo_.run(); }
+  void settle() override {}
+  void release() override { release_.run(); }
+  void probe() override {
+    connection.execute("UPDATE storage_probe SET probed_at = probed_at + 1");
+  }
+  void tidy_up(WriterCounters& /*counters*/) override {}
+
+  Connection connection;
+
+ private:
+  Stores stores_;
+  sql::Statement begin_reading_{connection, "BEGIN"};
+  sql::Statement begin_writing_{connection, "BEGIN IMMEDIATE"};
+  sql::Statement commit_{connection, "COMMIT"};
+  sql::Statement savepoint_{connection, "SAVEPOINT job"};
+  sql::Statement undo_{connection, "ROLLBACK TO job"};
+  sql::Statement release_{connection, "RELEASE job"};
+};
+
+}  // namespace sqlite
+
+}  // namespace fitgauge::store
+
+namespace fitgauge::store::sqlite {
+
+/// Lets the statements of a connection call `row_digest(value, …)`.
+void add_row_digest(sqlite3* handle);
 
 }  // namespace fitgauge::store::sqlite

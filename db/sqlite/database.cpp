@@ -1,4 +1,4 @@
-#include "db/sqlite/database.hpp"
+#include "db/store/database.hpp"
 
 #include <unistd.h>
 
@@ -9,13 +9,12 @@
 
 #include "db/sql/read_pool_engine.hpp"
 #include "db/sql/writer_engine.hpp"
-#include "db/sqlite/checkpointer.hpp"
+#include "db/sqlite/connection.hpp"
 #include "db/sqlite/data_directory.hpp"
 #include "db/sqlite/database_file.hpp"
-#include "db/sqlite/scrub.hpp"
-#include "db/sqlite/session.hpp"
+#include "db/sqlite/upkeep.hpp"
 #include "db/sqlite/verifier.hpp"
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::store::sqlite {
 namespace {

@@ -5,8 +5,28 @@
 #include <span>
 
 #include "base/result.hpp"
-#include "db/sqlite/migrator.hpp"
+#include "db/sql/sealed_table.hpp"
+#include "db/sqlite/connection.hpp"
 #include "db/store/open_options.hpp"
+
+namespace fitgauge::store::sqlite {
+
+/// `FtGg` in the header of the file: whose database it is.
+inline constexpr std::int32_t kApplicationId = 0x46744767;
+
+using sql::Migration;
+
+/// The number of the last step applied, which is SQLite's user_version.
+int schema_version(Connection& connection);
+
+/// Compares the steps a database has gone through with `known`.
+/// @errors DatabaseNewer when it has more; DatabaseForeign when a step's text was another.
+Result<void> check_history(Connection& connection, std::span<const Migration> known);
+
+/// Applies the missing steps in one transaction.
+void migrate(Connection& connection, std::span<const Migration> known, std::int64_t now_ns);
+
+}  // namespace fitgauge::store::sqlite
 
 namespace fitgauge::store {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "db/sql/measurement_table.hpp"
+#include "db/sql/connection.hpp"
 #include "db/sql/statement.hpp"
-#include "db/sqlite/prepared.hpp"
+#include "db/sqlite/connection.hpp"
 #include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store::sqlite {

@@ -2,16 +2,24 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
 
+#include "base/result.hpp"
 #include "db/sql/sealed_table.hpp"
-#include "db/sqlite/session.hpp"
-#include "db/store/verify.hpp"
+#include "db/sqlite/connection.hpp"
+#include "db/store/open_options.hpp"
 
 namespace fitgauge::store {
+
+/// Runs SQLite's quick_check over a file through a read-only connection, which leaves it untouched.
+/// Ends without a finding when it is stopped.
+/// @errors StorageCorrupt with the first damage found.
+Result<void> check_file(const std::filesystem::path& file, std::stop_token stop = {});
 
 /// Goes through a whole database and notes what is wrong. Reads long lists in pages, so that it
 /// does not hold up a running daemon's checkpoints.

@@ -36,10 +36,17 @@ class CanonicalDigest {
     value ? add(*value) : add_byte('\0');
   }
 
-  void add(const Digest& digest);
+  void add(const Digest& digest) {
+    std::copy(digest.begin(), digest.end(), room_for(digest.size()));
+    size_ += digest.size();
+  }
 
   /// The digest of what was added since the last one.
-  Digest finish();
+  Digest finish() {
+    hash_.update(std::string_view(buffer_.data(), size_));
+    size_ = 0;
+    return hash_.finish();
+  }
 
  private:
   void add_byte(char byte) {
@@ -69,7 +76,10 @@ class CanonicalDigest {
   }
 
   /// A file is hashed where it lies: the buffer would keep as much as the longest.
-  void add_long(std::string_view text);
+  void add_long(std::string_view text) {
+    hash_.update(std::string_view(buffer_.data(), size_)).update(text);
+    size_ = 0;
+  }
 
   static std::uint64_t big_endian(std::uint64_t bits) {
     return std::endian::native == std::endian::little ? __builtin_bswap64(bits) : bits;

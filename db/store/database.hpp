@@ -1,18 +1,41 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "db/store/health.hpp"
-#include "db/store/read_pool.hpp"
-#include "db/store/verify.hpp"
-#include "db/store/writer.hpp"
-#include "db/store/writer_counters.hpp"
+#include "base/clock.hpp"
+#include "base/histogram.hpp"
+#include "base/result.hpp"
+#include "db/store/jobs.hpp"
+#include "db/store/open_options.hpp"
 
 namespace fitgauge::store {
+
+/// What a database server says of itself, for metrics.
+struct ServerFigures {
+  std::int64_t database_bytes = 0;
+  std::int64_t standbys = 0;  ///< servers that follow this one at the moment
+  /// What the last of them does not have on its disk yet; nothing where there is none, or where the
+  /// user may not see it.
+  std::optional<std::int64_t> standby_behind_bytes{};
+};
+
+/// What the writer has done since the start, for metrics. Written by the writer's thread, read by
+/// any.
+struct WriterCounters {
+  /// From the transaction's begin until it is on disk.
+  Histogram<12> commit_seconds{
+      {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5}};
+  Histogram<9> batch_jobs{{1, 2, 4, 8, 16, 32, 64, 256, 1024}};
+  std::atomic<std::uint64_t> failed_commits{0};
+  std::atomic<std::int64_t> own_rows{0};    ///< MeasurementsStore::log_size() after the last commit
+  std::atomic<std::uint64_t> log_pages{0};  ///< in the write-ahead log after the last commit
+};
 
 /// A database of some engine, with its writer thread and its reader threads. Thread-safe.
 /// Destroying it runs what is queued, commits and closes. An engine's `open_database` opens it.
@@ -54,3 +77,31 @@ class Database {
 };
 
 }  // namespace fitgauge::store
+
+namespace fitgauge::store::postgres {
+
+/// Opens the schema `fitgauge` of the database at OpenOptions::address, which several daemons
+/// share, and makes it where there is none. `clock` outlives the database.
+/// @errors StorageUnavailable while the server cannot be reached, or has no such schema and access
+///   is Attach; DatabaseForeign, DatabaseNewer.
+Result<std::unique_ptr<Database>> open_database(const OpenOptions& options, const Clock& clock);
+
+/// Whether a daemon could start on it: it takes connections and writes, and has this build's schema
+/// or none yet. Changes nothing. @errors StorageUnavailable, DatabaseNewer, DatabaseForeign.
+Result<void> check_server(const std::string& address);
+
+}  // namespace fitgauge::store::postgres
+
+namespace fitgauge::store::sqlite {
+
+/// Opens `fitgauge.db` of a data directory, creating it where the directory has none, with a thread
+/// that checks it. The file is created aside and renamed, and an upgrade is one transaction after a
+/// backup, so that a kill leaves the old state or the new one. `clock` outlives the database, whose
+/// end checkpoints.
+/// @errors DatabaseInUse when another instance serves the directory; DatabaseForeign when the file
+///   is empty, not SQLite's, or not fitgauge's; DatabaseNewer; StorageCorrupt when the check fails
+///   (the file is left untouched in all these); StorageUnavailable when the directory cannot be
+///   written, or holds no database and access is Attach.
+Result<std::unique_ptr<Database>> open_database(const OpenOptions& options, const Clock& clock);
+
+}  // namespace fitgauge::store::sqlite

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -44,6 +45,112 @@ class DocumentsStore {
   bool remove(DocumentKind kind, std::string_view name);
   std::optional<Document> find(DocumentKind kind, std::string_view name) const;
   std::vector<Document> list(DocumentKind kind) const;  ///< by name, with their texts
+
+ private:
+  struct Statements;
+  std::unique_ptr<Statements> statements_;
+};
+
+/// A file of the control's disk without its content.
+struct FileEntry {
+  std::string path{};         ///< as it was last written, upper and lower case kept
+  std::int64_t revision = 0;  ///< rises with every write and delete of any file
+  std::int64_t size = 0;      ///< bytes
+  std::int64_t modified_at_ns = 0;
+  std::optional<std::string> caller{};
+};
+
+struct FileContent {
+  FileEntry entry{};
+  std::string content{};
+};
+
+/// What `put` gets.
+struct FileWrite {
+  std::string_view path{};
+  std::string_view content{};
+  std::int64_t modified_at_ns = 0;
+  std::optional<std::string_view> caller{};
+};
+
+/// The files of the control's disk. Of each the 20 newest revisions stay in the table
+/// `file_revisions`, deletions among them. Paths are opaque texts that compare without regard to
+/// ASCII case, as on the control.
+class FilesStore {
+ public:
+  explicit FilesStore(sql::Connection& connection);
+  ~FilesStore();
+
+  struct PutOutcome {
+    bool created = false;  ///< false: an existing file was replaced
+    std::int64_t revision = 0;
+  };
+  PutOutcome put(const FileWrite& file);
+
+  /// @returns whether there was such a file.
+  bool remove(std::string_view path, std::int64_t now_ns, std::optional<std::string_view> caller);
+
+  std::optional<FileEntry> stat(std::string_view path) const;
+  std::optional<FileContent> find(std::string_view path) const;
+  std::vector<FileEntry> list(std::string_view prefix) const;  ///< by path
+
+ private:
+  struct Statements;
+  std::unique_ptr<Statements> statements_;
+};
+
+/// What somebody found out about a measurement or did because of it; at least one of the texts.
+struct Note {
+  std::int64_t id = 0;           ///< given by the store
+  std::int64_t measurement = 0;  ///< the row it is about
+  std::optional<std::string> cause{};
+  std::optional<std::string> measure{};
+  std::optional<std::string> text{};
+  std::optional<std::string> operator_id{};
+  std::optional<std::string> caller{};
+  std::int64_t received_at_ns = 0;
+};
+
+/// Notes beside measurements, kept for ever: the database refuses UPDATE and DELETE.
+class NotesStore {
+ public:
+  explicit NotesStore(sql::Connection& connection);
+  ~NotesStore();
+
+  std::int64_t append(const Note& note);                   ///< @returns its id
+  std::vector<Note> list(std::int64_t measurement) const;  ///< oldest first
+
+ private:
+  struct Statements;
+  std::unique_ptr<Statements> statements_;
+};
+
+struct Event {
+  std::int64_t id = 0;
+  std::string type{};
+  std::string payload{};  ///< opaque here
+  std::int64_t created_at_ns = 0;
+};
+
+/// Events for replay, the newest ones only. Ids rise and are never used twice.
+class EventsStore {
+ public:
+  explicit EventsStore(sql::Connection& connection);
+  ~EventsStore();
+
+  std::int64_t append(std::string_view type, std::string_view payload, std::int64_t now_ns);
+
+  std::vector<Event> after(std::int64_t id, std::size_t limit) const;  ///< oldest first
+  /// The oldest and newest ids kept; 0 and 0 when there are none. A reader that stopped at an id
+  /// below `oldest - 1` has missed events.
+  struct Kept {
+    std::int64_t oldest = 0;
+    std::int64_t newest = 0;
+  };
+  Kept kept() const;
+
+  /// Deletes the oldest so that at most `keep` remain, up to `limit` of them. @returns how many.
+  std::int64_t trim(std::int64_t keep, std::int64_t limit);
 
  private:
   struct Statements;

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "base/digest.hpp"
@@ -99,6 +103,40 @@ struct MeasurementRow : app::MeasurementFields {
 
   std::int64_t upper_limit_nm() const { return nominal_nm + upper_deviation_nm; }
   std::int64_t lower_limit_nm() const { return nominal_nm + lower_deviation_nm; }
+};
+
+/// What figures are computed from: a measured value, its limits and what it is grouped by.
+struct MeasuredValue {
+  std::int64_t measured_nm = 0;  ///< at 20 °C where it was corrected
+  std::int64_t lower_limit_nm = 0;
+  std::int64_t upper_limit_nm = 0;
+  std::optional<std::string_view> subgroup{};  ///< the database's own while a visitor runs
+};
+
+/// Values of one folder, in storage order, that share their limits and their subgroup.
+struct MeasuredRun {
+  struct Value {
+    std::int64_t id = 0;
+    std::int64_t number = 0;  ///< in its public id
+    std::int64_t measured_nm = 0;
+  };
+
+  std::int64_t lower_limit_nm = 0;
+  std::int64_t upper_limit_nm = 0;
+  std::optional<std::string_view> subgroup{};
+  std::int64_t origin = 0;  ///< 0: of this folder
+  std::span<const Value> values{};
+};
+
+/// Counts and statistics of one group, from exact integer sums.
+struct SummaryGroup {
+  std::optional<std::string> value{};  ///< none: the rows without the field
+  std::int64_t count = 0;
+  std::array<std::int64_t, 5> verdicts{};              ///< by Verdict, Good first
+  std::string mean_mm{};                               ///< to 1e-12 mm, shortest decimal
+  std::optional<std::string> standard_deviation_mm{};  ///< of n - 1; none for a single value
+  std::int64_t min_nm = 0;
+  std::int64_t max_nm = 0;
 };
 
 }  // namespace fitgauge::store

@@ -12,10 +12,8 @@
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
-#include "db/store/measured_value.hpp"
 #include "db/store/measurement_filter.hpp"
 #include "db/store/measurement_row.hpp"
-#include "db/store/measurement_summary.hpp"
 
 namespace fitgauge::store {
 

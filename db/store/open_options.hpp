@@ -5,14 +5,51 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "base/error.hpp"
-#include "base/steady_time.hpp"
-#include "db/store/health.hpp"
-#include "db/store/verify.hpp"
+#include "base/clock.hpp"
+#include "base/result.hpp"
+#include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store {
+
+/// What the database can do at the moment.
+enum class HealthState {
+  Ok,             ///< checked, reads and writes work
+  Checking,       ///< reads and writes work; a large file is still being checked
+  WritesFailing,  ///< the last commit failed (disk full, read-only, I/O error); retried every
+                  ///< second
+  Damaged,        ///< the check or a read found damage; writes are refused for good
+};
+
+/// `ok`, `checking`, `writes_failing`, `damaged`.
+constexpr std::string_view word(HealthState state) {
+  switch (state) {
+    case HealthState::Ok: return "ok";
+    case HealthState::Checking: return "checking";
+    case HealthState::WritesFailing: return "writes_failing";
+    case HealthState::Damaged: return "damaged";
+  }
+  return "";
+}
+
+struct Health {
+  HealthState state = HealthState::Ok;
+  std::string reason{};  ///< what is wrong, one sentence; empty when Ok
+};
+
+/// Judges one measurement; says what is wrong with it (`was altered …`), or nothing.
+using MeasurementCheck = std::function<std::optional<std::string>(const MeasurementRow& row)>;
+
+struct VerifyReport {
+  std::int64_t measurements = 0;  ///< rows whose hash and check were computed
+  /// One sentence each, the first altered measurement by its id; empty when all is well. After 100
+  /// findings the rest is left out.
+  std::vector<std::string> findings{};
+};
 
 /// Whether a commit waits until the disk has it. Only Full survives a power cut.
 enum class Synchronous { Off, Normal, Full };

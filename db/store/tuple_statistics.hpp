@@ -11,7 +11,6 @@
 
 #include "db/store/block_columns.hpp"
 #include "db/store/measurement_statistics.hpp"
-#include "db/store/packed_numbers.hpp"
 
 namespace fitgauge::store {
 

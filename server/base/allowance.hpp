@@ -6,9 +6,17 @@
 #include <limits>
 #include <stop_token>
 
-#include "base/thread_memory.hpp"
-
 namespace fitgauge {
+
+/// Bytes that the calling thread has taken with `new` less those it has given back, since it
+/// began. The program's operators new and delete keep this count, so no container can be
+/// forgotten, and what the allocator keeps beside each piece is counted with it. Memory that
+/// another thread gives back is counted there.
+std::int64_t thread_memory();
+
+/// Adds to the calling thread's count: `bytes` that another thread has taken and this one is to
+/// give back, or, negative, the other way round.
+void hand_over_memory(std::int64_t bytes);
 
 /// What one piece of work may still take: time of the wall clock, memory of its thread, and whether
 /// it has been called off. Every loop whose length a user chooses looks at it and leaves off once

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace fitgauge {
 
@@ -44,3 +46,13 @@ std::string to_hex(std::span<const std::uint8_t> bytes);
 bool equal_in_constant_time(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
 }  // namespace fitgauge
+
+namespace fitgauge::tlog {
+
+/// RFC 4648, section 4, with padding.
+std::string to_base64(std::span<const std::uint8_t> bytes);
+
+/// @returns none for anything but the one spelling that to_base64 gives.
+std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
+
+}  // namespace fitgauge::tlog

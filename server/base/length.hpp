@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -8,6 +9,32 @@
 #include "base/result.hpp"
 
 namespace fitgauge {
+
+/// What a decimal text may look like and what becomes of digits finer than the scale.
+struct DecimalSyntax {
+  int scale = 6;               ///< digits after the point that are kept: value = integer / 10^scale
+  bool decimal_comma = false;  ///< `25,5` is read as `25.5`
+  bool exponent = false;       ///< `2.5e1` is read
+  bool round_to_nearest =
+      false;  ///< finer digits are rounded, half away from zero, instead of refused
+};
+
+/// Reads the whole of `text` as an exact decimal: [sign] digits [mark digits] [exponent].
+/// @returns the value times 10^scale.
+/// @errors NumberMalformed; NumberOutOfRange when it does not fit; LengthTooFine when a non-zero
+///   digit lies beyond the scale and rounding is not asked for.
+Result<std::int64_t> parse_decimal(std::string_view text, const DecimalSyntax& syntax);
+
+/// Appends value / 10^scale as the shortest exact decimal: `25.021`, `25`, `-0.75`.
+void append_decimal(std::string& out, std::int64_t value, int scale);
+
+std::string format_decimal(std::int64_t value, int scale);
+
+/// Room for any decimal: its sign, 19 digits, a zero before the point, the point.
+inline constexpr std::size_t kDecimalRoom = 24;
+/// As append_decimal, written in place: to where there is room. @param scale from 0 to 18.
+/// @returns the end of its text.
+char* write_decimal(char* to, std::int64_t value, int scale);
 
 /// A length, or a difference of lengths, in whole nanometres: exact in every sum and comparison.
 /// As doubles, 25 % of all `size + deviation / 1000` differ from the exact decimal. Doubles cross

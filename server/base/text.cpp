@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace fitgauge {
 namespace {
@@ -57,6 +58,33 @@ constexpr std::array<std::uint16_t, 32> kWindows1252 = {
     0x20AC, 0x0081, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
     0x2039, 0x0152, 0x008D, 0x017D, 0x008F, 0x0090, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022,
     0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x009D, 0x017E, 0x0178};
+
+constexpr std::string_view kNoCharacters[] = {"\xEF\xBF\xBE", "\xEF\xBF\xBF"};  // U+FFFE, U+FFFF
+
+bool is_no_character(char c) {
+  return static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r';
+}
+
+/// Longer words are not compared.
+constexpr std::size_t kLongestWord = 40;
+
+/// The fewest letters to put in, take out, exchange or swap with their neighbour.
+std::size_t edits(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        cost[i][j] = i + j;
+        continue;
+      }
+      const std::size_t exchange = cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, exchange});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
+    }
+  }
+  return cost[a.size()][b.size()];
+}
 
 }  // namespace
 
@@ -126,6 +154,57 @@ bool matches_glob(std::string_view pattern, std::string_view name) {
     }
   }
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+bool is_xml_text(std::string_view text) {
+  return std::none_of(text.begin(), text.end(), is_no_character) &&
+         std::none_of(std::begin(kNoCharacters), std::end(kNoCharacters),
+                      [text](std::string_view none) { return text.find(none) != text.npos; });
+}
+
+std::string xml_text(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    const std::string_view rest = text.substr(at);
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      case '\t': out += "&#9;"; break;
+      case '\n': out += "&#10;"; break;
+      case '\r': out += "&#13;"; break;
+      default:
+        if (rest.starts_with(kNoCharacters[0]) || rest.starts_with(kNoCharacters[1])) {
+          out += ' ';
+          at += 2;
+        } else {
+          out += is_no_character(c) ? ' ' : c;
+        }
+    }
+  }
+  return out;
+}
+
+SpellingHint::SpellingHint(std::string_view word)
+    : word_(ascii_upper(word)), distance_(word.size() > 4 ? 3 : 2) {}
+
+void SpellingHint::consider(std::string_view known) {
+  // One letter is near to every other.
+  if (word_.size() < 2 || word_.size() > kLongestWord || known.size() < 2 ||
+      known.size() > kLongestWord) {
+    return;
+  }
+  const std::size_t distance = edits(word_, ascii_upper(known));
+  if (distance >= distance_ || distance >= known.size()) return;
+  distance_ = distance;
+  best_ = known;
+}
+
+std::string SpellingHint::text() const {
+  return best_.empty() ? std::string() : "; did you mean " + best_ + "?";
 }
 
 }  // namespace fitgauge

@@ -45,4 +45,28 @@ std::string_view trim(std::string_view text);
 /// Whether a name is of a pattern with `*` and `?`; letters count in either case.
 bool matches_glob(std::string_view pattern, std::string_view name);
 
+/// Whether XML 1.0 can hold a text (UTF-8): it has no place for control characters but tab and line
+/// ends, nor for U+FFFE and U+FFFF.
+bool is_xml_text(std::string_view text);
+
+/// `text` as content of an element or of an attribute; tabs and line ends stand as references, so
+/// that no reader makes blanks of them. What XML cannot hold becomes a blank.
+std::string xml_text(std::string_view text);
+
+/// Finds the known word that is spelled most like one that is not known, without regard to case.
+class SpellingHint {
+ public:
+  explicit SpellingHint(std::string_view word);
+  void consider(std::string_view known);
+  /// The known word; empty when none is near enough.
+  const std::string& word() const { return best_; }
+  /// "; did you mean CYCL?", or nothing when no word is near enough.
+  std::string text() const;
+
+ private:
+  std::string word_;
+  std::string best_;
+  std::size_t distance_;
+};
+
 }  // namespace fitgauge

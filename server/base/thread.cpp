@@ -2,16 +2,22 @@
 
 #include <pthread.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdio>
 #include <mutex>
 #include <string>
-#include <utility>
-
-#include "base/guarded.hpp"
 
 namespace fitgauge {
 namespace {
+
+void to_stderr(std::string_view place, std::string_view what) {
+  std::fprintf(stderr, "fitgauge: bug: %.*s: %.*s\n", static_cast<int>(place.size()), place.data(),
+               static_cast<int>(what.size()), what.data());
+}
+
+std::atomic<BugReport> report_in_use{to_stderr};
 
 /// So that a bug that comes again at once fills neither the log nor a processor.
 constexpr std::chrono::milliseconds kRest{100};
@@ -35,6 +41,12 @@ void show_as(std::string_view place) {
 }
 
 }  // namespace
+
+void report_bugs_to(BugReport report) { report_in_use = report; }
+
+void report_bug(std::string_view place, std::string_view what) noexcept {
+  report_in_use.load()(place, what);
+}
 
 Thread::Thread(std::string_view place, Body body)
     : thread_([place, body = std::move(body)](const std::stop_token& stop) {

@@ -1,8 +1,8 @@
 #include "base/worker_pool.hpp"
 
-#include <utility>
+#include <string>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 
 namespace fitgauge {
 
@@ -33,6 +33,24 @@ void WorkerPool::stop() {
 
 void WorkerPool::run() {
   while (const auto taken = queue_.take_one()) guarded(place_, taken->job);
+}
+
+Error JobPool::full() {
+  return {ErrorCode::Overloaded, "too much work of this kind waits already; try again soon"};
+}
+
+Error JobPool::ended() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
+
+Error JobPool::internal(const std::exception& bug) {
+  return {ErrorCode::Internal, std::string("the work on a request failed: ") + bug.what()};
+}
+
+Error JobPool::beyond_bound(Allowance::Spent spent) {
+  if (spent == Allowance::Spent::Stop) return ended();
+  const std::string_view what = spent == Allowance::Spent::Time ? "time" : "memory";
+  return {ErrorCode::FiguresLimit,
+          "the figure takes more " + std::string(what) +
+              " than the service gives to one: order it of fewer values, or with fewer trials"};
 }
 
 }  // namespace fitgauge

@@ -1,4 +1,4 @@
-#include "daemon/admin_key.hpp"
+#include "daemon/preflight.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

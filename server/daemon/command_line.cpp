@@ -1,4 +1,4 @@
-#include "daemon/command_line.hpp"
+#include "daemon/commands.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,14 +11,12 @@
 
 #include "api/service/version.hpp"
 #include "base/result.hpp"
-#include "base/spelling_hint.hpp"
+#include "base/text.hpp"
 #include "daemon/application_options.hpp"
-#include "daemon/commands.hpp"
 #include "daemon/config.hpp"
-#include "daemon/forwarding.hpp"
+#include "daemon/connections.hpp"
 #include "daemon/log.hpp"
 #include "daemon/preflight.hpp"
-#include "daemon/serve.hpp"
 
 namespace fitgauge::daemon {
 namespace {

@@ -39,4 +39,14 @@ std::filesystem::path health_port_file(const Config& config);
 /// 200.
 Result<void> healthcheck(const Config& config);
 
+/// fitgauged: reads flags, environment and file, then serves or runs a command.
+/// @returns the exit code: 0, 1 when the service cannot run or a check found something, 2 when the
+///   command line or the configuration is wrong. One line on stderr says why.
+int run_command_line(int argc, char** argv);
+
+/// Runs the service until SIGTERM or SIGINT; SIGHUP reads the certificates again.
+/// @param port_file receives the first port, in decimal, once the socket listens; may be empty.
+/// @errors those of opening the database and of listening.
+Result<void> serve(const Config& config, const std::string& port_file);
+
 }  // namespace fitgauge::daemon

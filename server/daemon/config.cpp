@@ -8,8 +8,8 @@
 #include <charconv>
 
 #include "base/text.hpp"
-#include "daemon/forwarding.hpp"
-#include "plant/virtual_control/control_model.hpp"
+#include "daemon/connections.hpp"
+#include "plant/virtual_control/virtual_control.hpp"
 #include "service/log/log_keys.hpp"
 
 namespace fitgauge::daemon {

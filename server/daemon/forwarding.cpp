@@ -1,4 +1,4 @@
-#include "daemon/forwarding.hpp"
+#include "daemon/connections.hpp"
 
 #include <fmt/format.h>
 

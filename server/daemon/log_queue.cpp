@@ -1,4 +1,4 @@
-#include "daemon/log_queue.hpp"
+#include "daemon/log.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -11,8 +11,6 @@
 #include <csignal>
 #include <mutex>
 #include <string>
-
-#include "daemon/log_line.hpp"
 
 namespace fitgauge::daemon {
 namespace {

@@ -5,7 +5,11 @@
 #include <memory>
 #include <string>
 
+#include "api/services.hpp"
+#include "daemon/config.hpp"
 #include "http/server.hpp"
+#include "plant/mtconnect/shdr_adapter.hpp"
+#include "plant/virtual_control/virtual_control.hpp"
 #include "service/application.hpp"
 
 namespace fitgauge::daemon {
@@ -29,5 +33,15 @@ Result<std::unique_ptr<app::Application>> open_or_wait(const app::ApplicationOpt
                                                        const Clock& clock,
                                                        http::ServerOptions& server,
                                                        const std::string& port_file);
+
+/// Opens the LSV-2 port of the configuration; null where it names none. The control goes before
+/// `services`. @errors as VirtualControl::start.
+Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
+    const Config& config, const api::Services& services);
+
+/// Opens the SHDR port of the configuration; null where it names none. The adapter goes before
+/// `services`. @errors as ShdrAdapter::start.
+Result<std::unique_ptr<mtconnect::ShdrAdapter>> start_shdr(const Config& config,
+                                                           const api::Services& services);
 
 }  // namespace fitgauge::daemon

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,8 +8,19 @@
 #include "base/result.hpp"
 #include "daemon/config.hpp"
 #include "http/server.hpp"
+#include "service/documents/key_service.hpp"
 
 namespace fitgauge::daemon {
+
+/// From now on the C library takes a large block from the kernel by itself and gives it back as
+/// soon as it is freed. Left alone it learns from the first large block that such are common, and
+/// keeps every later one: a run that has held 48 MiB would leave them behind. Of the whole process.
+void give_large_blocks_back();
+
+/// Raises the soft limit of open files, to the hard limit at most, so that `connections` can
+/// be open beside the files of the database and the log. Shells and systemd begin with 1024.
+/// @returns how many connections can be open then.
+std::int64_t allow_connections(std::int64_t connections);
 
 /// The addresses of `listen`. @errors ConfigInvalid naming the one that is none.
 Result<std::vector<http::ListenAddress>> listen_addresses(const Config& config);
@@ -22,5 +34,19 @@ std::optional<http::TlsOptions> tls_options(const Config& config);
 /// port that is in use passes: the service itself may be running.
 /// @errors ConfigInvalid, ListenFailed, StorageUnavailable: the first that is found.
 Result<void> preflight(const Config& config, const std::string& port_file);
+
+/// The first line of the file, without blanks around it.
+/// @errors ConfigInvalid naming the file: it cannot be read, or holds no key.
+Result<std::string> read_admin_key(const std::string& file);
+
+/// The file that receives the administrator's key of the first start.
+std::string admin_key_out(const Config& config);
+
+/// What a start does about the administrator's key. With a file, its key is valid afterwards: a key
+/// that an earlier file gave and this one does not is revoked, and the log says so. Without a file
+/// the first start that `needs_one` makes a key and writes it to admin_key_out(), with mode 0600;
+/// the log has the path. A key that was revoked stays revoked.
+/// @errors ConfigInvalid, and those of the storage.
+Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeyService& keys);
 
 }  // namespace fitgauge::daemon

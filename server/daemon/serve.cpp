@@ -1,4 +1,4 @@
-#include "daemon/serve.hpp"
+#include "daemon/commands.hpp"
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -17,21 +17,15 @@
 #include "api/service/metrics.hpp"
 #include "api/service/verdict_counts.hpp"
 #include "api/wire/problem.hpp"
-#include "base/forward_clock.hpp"
-#include "base/guarded.hpp"
+#include "base/clock.hpp"
 #include "base/thread.hpp"
-#include "daemon/admin_key.hpp"
 #include "daemon/application_options.hpp"
-#include "daemon/commands.hpp"
 #include "daemon/connections.hpp"
-#include "daemon/forwarding.hpp"
 #include "daemon/log.hpp"
 #include "daemon/opening.hpp"
-#include "daemon/ports.hpp"
 #include "daemon/preflight.hpp"
-#include "daemon/process_limits.hpp"
 #include "daemon/service_metrics.hpp"
-#include "http/responder.hpp"
+#include "http/response.hpp"
 #include "plant/mtconnect/mtconnect_resource.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 

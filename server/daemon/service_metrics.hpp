@@ -5,7 +5,7 @@
 #include "api/service/exposition.hpp"
 #include "base/clock.hpp"
 #include "http/server.hpp"
-#include "plant/connection_state.hpp"
+#include "plant/plant.hpp"
 #include "service/application.hpp"
 
 namespace fitgauge::daemon {

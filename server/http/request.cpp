@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "http/engine/media_type.hpp"
 #include "http/engine/request_head.hpp"
+#include "http/field_list.hpp"
 #include "http/route.hpp"
 
 namespace fitgauge::http {

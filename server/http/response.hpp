@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/result.hpp"
+
 namespace fitgauge::http {
 
 class BodyStream;
@@ -76,5 +78,90 @@ std::shared_ptr<const PreparedResponse> prepare(const Response& response, std::s
 
 /// Bytes that a prepared answer takes, for those who keep many.
 std::size_t size_in_memory(const PreparedResponse& answer);
+
+class Connection;
+
+/// Where a BodyStream puts its next piece: exactly one call, from any thread. Dropped without a
+/// call, or failed, the connection is closed, so that the client sees a truncated body as such.
+class ChunkSink {
+ public:
+  explicit ChunkSink(std::shared_ptr<Connection> connection);
+  ChunkSink(ChunkSink&&) noexcept;
+  ChunkSink& operator=(ChunkSink&&) noexcept;
+  ~ChunkSink();
+
+  /// Sends `bytes` (an empty piece is skipped) and asks the stream for the next piece once they
+  /// have left for the socket.
+  void put(std::string bytes);
+
+  /// Sends `bytes` and ends the body.
+  void finish(std::string bytes = {});
+
+  /// Ends the connection without ending the body.
+  void fail();
+
+ private:
+  std::shared_ptr<Connection> connection_;
+};
+
+/// A body pulled piece by piece: the connection asks for the next one when the one before has left,
+/// so a slow reader slows its own producer and nobody else. A reader that takes nothing for the
+/// server's write timeout is dropped.
+class BodyStream {
+ public:
+  BodyStream() = default;
+  BodyStream(const BodyStream&) = delete;
+  BodyStream& operator=(const BodyStream&) = delete;
+  virtual ~BodyStream() = default;
+
+  /// Called on an I/O thread: must not block. Answer now, or keep the sink and answer from another
+  /// thread. Pieces of 16 to 64 KiB serve best.
+  virtual void next(ChunkSink sink) = 0;
+
+  /// Called on the I/O thread after each StreamedBody::heartbeat_interval in which the sink of
+  /// next() was kept: must not block.
+  virtual void idle() {}
+
+  /// Called on the I/O thread when the connection has gone: next() is not called again and what a
+  /// kept sink receives is dropped. A stream that keeps its sink drops it here.
+  virtual void cancelled() {}
+};
+
+/// The obligation to answer one request: exactly one call, from any thread; the answer is posted to
+/// the request's I/O thread. Destroyed without a call, it answers 500. The Request stays valid as
+/// long as its Responder. A client that has gone meanwhile is no error.
+/// Every Responder must be gone before its Server is destroyed.
+class Responder {
+ public:
+  explicit Responder(std::shared_ptr<Connection> connection);
+  Responder(Responder&&) noexcept;
+  Responder& operator=(Responder&&) noexcept;
+  ~Responder();
+
+  void answer(Response response);
+
+  /// Answers with the error formatter's document.
+  void fail(Error error);
+
+ private:
+  std::shared_ptr<Connection> connection_;
+};
+
+class Posts;
+
+/// While one lives, what its thread hands to I/O threads is kept; when it ends, each of them gets
+/// its share at once. For a thread that answers many requests together: an answer by itself wakes
+/// the I/O thread, which sends it and sleeps again before there is the next.
+/// At most one on a thread. The Responders used under it count as gone when it has ended.
+class AnswerBatch {
+ public:
+  AnswerBatch();
+  AnswerBatch(const AnswerBatch&) = delete;
+  AnswerBatch& operator=(const AnswerBatch&) = delete;
+  ~AnswerBatch();
+
+ private:
+  std::unique_ptr<Posts> posts_;
+};
 
 }  // namespace fitgauge::http

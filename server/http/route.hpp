@@ -12,7 +12,6 @@
 
 #include "base/result.hpp"
 #include "http/request.hpp"
-#include "http/responder.hpp"
 #include "http/response.hpp"
 
 namespace fitgauge::http {

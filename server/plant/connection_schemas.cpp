@@ -1,8 +1,9 @@
 #include <algorithm>
 
-#include "plant/connection_state.hpp"
 #include "plant/connections.hpp"
-#include "plant/replay.hpp"
+#include "plant/kind.hpp"
+#include "plant/plant.hpp"
+#include "plant/progress.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -52,6 +53,19 @@ schema::Fields state_fields() {
 }
 
 }  // namespace
+
+#define FITGAUGE_KIND(kind, folder) Kind kind##_kind();
+#include "plant_kinds.inc"
+#undef FITGAUGE_KIND
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all = {
+#define FITGAUGE_KIND(kind, folder) kind##_kind(),
+#include "plant_kinds.inc"
+#undef FITGAUGE_KIND
+  };
+  return all;
+}
 
 void add_connection_schemas(api::Schemas& schemas) {
   std::vector<std::string_view> names;

@@ -6,7 +6,7 @@
 #include <future>
 #include <iterator>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 
 namespace fitgauge::connections {
 namespace {

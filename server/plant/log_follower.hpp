@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "base/thread.hpp"
-#include "plant/log_filter.hpp"
 #include "plant/plant.hpp"
 #include "plant/progress.hpp"
+#include "plant/settings.hpp"
 #include "record/measurement.hpp"
 #include "service/events/event_service.hpp"
 

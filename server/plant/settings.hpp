@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -10,13 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "base/json/applicable.hpp"
+#include "base/json/body.hpp"
 #include "base/json/body_forms.hpp"
+#include "base/json/field_reader.hpp"
+#include "service/measurements/measurement_service.hpp"
+
+namespace fitgauge::connections {
 
 // The forms of settings, beside those of base/json/body_forms.hpp. A form here only reads: the
 // meaning of a setting names its default.
-
-namespace fitgauge::connections {
 
 /// A text that `parse` converts to a value, or refuses with a message.
 template <class Parse>
@@ -157,5 +160,24 @@ struct ReadSettings : api::BodyReader {
 };
 inline Path path_for(const ReadSettings& read) { return {&read.allowed}; }
 inline Path path_for(const api::BodySchema&) { return {nullptr}; }
+
+/// What an outgoing connection takes of the log.
+struct LogFilter {
+  LogFilter() { query.history = true; }
+
+  app::MeasurementQuery query{};  ///< of all but verdicts; corrections too
+  std::set<std::string, std::less<>> verdicts{"good", "rework", "reject", "indeterminate",
+                                              "unjudged"};
+  enum class From : std::uint8_t { Gauge, Simulation, All } from = From::Gauge;
+
+  bool takes(const app::Measurement& measurement) const;
+};
+
+/// The form of a LogFilter: an object of texts that a measurement must have, `verdict` (a list of
+/// words), and `source`.
+struct FilterForm {
+  std::string schema(api::Side side) const;
+  bool read(api::FieldReader& fields, std::string_view name, LogFilter& to) const;
+};
 
 }  // namespace fitgauge::connections

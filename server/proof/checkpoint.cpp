@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "base/base64.hpp"
+#include "base/digest.hpp"
 
 namespace fitgauge::tlog {
 namespace {

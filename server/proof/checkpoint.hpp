@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "base/result.hpp"
+#include "proof/frontier.hpp"
 #include "proof/note.hpp"
-#include "proof/tree_hash.hpp"
 
 namespace fitgauge::tlog {
 

@@ -1,10 +1,46 @@
 #include "proof/frontier.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <stdexcept>
 #include <utility>
 
 namespace fitgauge::tlog {
+namespace {
+
+/// The root of the leaves [begin, end), whose subtrees are complete but for the last.
+Hash range_root(std::uint64_t begin, std::uint64_t end, const NodeReader& read) {
+  const std::vector<Node> nodes = subtrees(begin, end);
+  if (nodes.empty()) return empty_root();
+  TreeHasher hasher;
+  Hash root = read(nodes.back());
+  for (auto node = nodes.rbegin() + 1; node != nodes.rend(); ++node) {
+    root = hasher.node(read(*node), root);
+  }
+  return root;
+}
+
+/// The largest power of two below `size`: where the tree of RFC 6962 splits.
+std::uint64_t split_of(std::uint64_t size) { return std::bit_floor(size - 1); }
+
+}  // namespace
+
+Hash TreeHasher::leaf(std::string_view data) {
+  constexpr std::array<std::uint8_t, 1> kLeaf{0};
+  return sha_.update(kLeaf).update(data).finish();
+}
+
+Hash TreeHasher::node(const Hash& left, const Hash& right) {
+  constexpr std::array<std::uint8_t, 1> kNode{1};
+  return sha_.update(kNode).update(left).update(right).finish();
+}
+
+Hash leaf_hash(std::string_view data) { return TreeHasher().leaf(data); }
+
+Hash node_hash(const Hash& left, const Hash& right) { return TreeHasher().node(left, right); }
+
+Hash empty_root() { return sha256(""); }
 
 std::vector<Node> subtrees(std::uint64_t begin, std::uint64_t end) {
   std::vector<Node> nodes;
@@ -42,6 +78,24 @@ Hash Frontier::root() {
   Hash root = roots_.back();
   for (std::size_t i = roots_.size() - 1; i-- > 0;) root = hasher_.node(roots_[i], root);
   return root;
+}
+
+std::vector<Hash> inclusion_proof(std::uint64_t index, std::uint64_t size, const NodeReader& read) {
+  std::vector<Hash> path;
+  std::uint64_t begin = 0;
+  std::uint64_t end = size;
+  while (end - begin > 1) {
+    const std::uint64_t middle = begin + split_of(end - begin);
+    if (index < middle) {
+      path.push_back(range_root(middle, end, read));
+      end = middle;
+    } else {
+      path.push_back(range_root(begin, middle, read));
+      begin = middle;
+    }
+  }
+  std::reverse(path.begin(), path.end());
+  return path;
 }
 
 }  // namespace fitgauge::tlog

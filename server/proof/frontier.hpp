@@ -1,11 +1,44 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <string_view>
 #include <vector>
 
-#include "proof/tree_hash.hpp"
+#include "base/digest.hpp"
 
 namespace fitgauge::tlog {
+
+/// The Merkle tree of RFC 6962, section 2.1, over SHA-256.
+
+using Hash = Digest;
+
+/// SHA-256(0x00 || data): what a leaf's data counts for in the tree.
+Hash leaf_hash(std::string_view data);
+
+/// SHA-256(0x01 || left || right).
+Hash node_hash(const Hash& left, const Hash& right);
+
+/// The root of the tree without leaves: SHA-256 of nothing.
+Hash empty_root();
+
+/// The same for many leaves and nodes in turn: the algorithm is set up once. Not thread-safe.
+class TreeHasher {
+ public:
+  TreeHasher() = default;
+  // Nothing is kept between two hashes: a copy is as good as a new one.
+  TreeHasher(const TreeHasher&) {}
+  TreeHasher& operator=(const TreeHasher&) { return *this; }
+  TreeHasher(TreeHasher&&) noexcept = default;
+  TreeHasher& operator=(TreeHasher&&) noexcept = default;
+  ~TreeHasher() = default;
+
+  Hash leaf(std::string_view data);
+  Hash node(const Hash& left, const Hash& right);
+
+ private:
+  Sha256 sha_;
+};
 
 /// A complete subtree of 2^level leaves, the `index`-th of its level from the left.
 struct Node {
@@ -43,5 +76,13 @@ class Frontier {
   std::vector<Hash> completed_;
   TreeHasher hasher_;
 };
+
+/// Gives the hash of a complete subtree; may throw what its storage throws.
+using NodeReader = std::function<Hash(const Node& node)>;
+
+/// The audit path of the leaf `index` in the tree of `size` leaves, from the leaf up (RFC 6962,
+/// 2.1.1).
+/// @pre index < size.
+std::vector<Hash> inclusion_proof(std::uint64_t index, std::uint64_t size, const NodeReader& read);
 
 }  // namespace fitgauge::tlog

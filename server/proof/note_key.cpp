@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/base64.hpp"
 #include "base/digest.hpp"
 #include "base/text.hpp"
 

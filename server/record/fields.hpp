@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "metrology/gauging/reference_temperature.hpp"
+#include "metrology/gauging/conformance.hpp"
 
 namespace fitgauge::app {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "base/decimal.hpp"
+#include "base/length.hpp"
 #include "base/text.hpp"
 #include "record/origins.hpp"
 

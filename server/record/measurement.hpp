@@ -11,12 +11,24 @@
 #include "metrology/gauging/conformance.hpp"
 #include "metrology/gauging/gauge.hpp"
 #include "record/fields.hpp"
-#include "record/note.hpp"
 #include "tables/iso286/nominal_size.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 #include "tables/standards/designated_limits.hpp"
 
 namespace fitgauge::app {
+
+/// What somebody found out about a measurement or did because of it: at least one of cause, measure
+/// and text. It stands beside the record and is never changed.
+struct Note {
+  std::string id{};           ///< `n3-5f0c9a3e77d21b40`; empty before it is stored
+  std::string measurement{};  ///< the id of the record
+  std::optional<std::string> cause{};
+  std::optional<std::string> measure{};
+  std::optional<std::string> text{};
+  std::optional<std::string> operator_id{};
+  std::optional<std::string> caller{};
+  Timestamp received_at{};
+};
 
 class Origins;
 

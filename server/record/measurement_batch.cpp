@@ -4,11 +4,9 @@
 
 #include <algorithm>
 
-#include "base/csv_cell.hpp"
-#include "base/csv_reader.hpp"
+#include "base/csv.hpp"
 #include "base/json/json_value.hpp"
 #include "record/measurement_row_reader.hpp"
-#include "record/measurement_simdjson.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -3,7 +3,7 @@
 #include "record/measurement_row_fields.hpp"
 #include "record/measurement_row_reader.hpp"
 #include "record/verdict_codec.hpp"
-#include "tables/iso286/designation.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 #include "tables/standards/designated_limits.hpp"
 
 // How a row says its limits: a designation, a class with its nominal size, or those of a drawing.

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 
-#include "base/decimal.hpp"
+#include "base/length.hpp"
 #include "base/text.hpp"
 #include "record/measurement_row_fields.hpp"
-#include "record/thermal_codec.hpp"
+#include "record/verdict_codec.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -1,4 +1,4 @@
-#include "record/measurement_simdjson.hpp"
+#include "record/measurement_row_reader.hpp"
 
 #include <simdjson.h>
 

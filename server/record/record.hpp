@@ -1,9 +1,16 @@
 #pragma once
 
 #include <array>
+#include <charconv>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "base/digest.hpp"
+#include "base/json/json_value.hpp"
+#include "base/json/text_arena.hpp"
+#include "base/result.hpp"
 #include "record/measurement.hpp"
 
 namespace fitgauge::app {
@@ -36,3 +43,32 @@ class RecordWriter {
 };
 
 }  // namespace fitgauge::app
+
+namespace fitgauge::api {
+
+/// The member's text; empty where it is none.
+inline std::string text_of(const JsonValue& json, std::string_view name) {
+  const JsonValue* value = json.find(name);
+  return value != nullptr && value->is(JsonValue::Kind::String) ? value->text : std::string();
+}
+
+/// Reads what to_hex() writes; none where it is something else.
+inline std::optional<Digest> digest_from_hex(std::string_view hex) {
+  Digest digest{};
+  if (hex.size() != 2 * digest.size()) return std::nullopt;
+  for (std::size_t i = 0; i < digest.size(); ++i) {
+    const char* const at = hex.data() + 2 * i;
+    if (std::from_chars(at, at + 2, digest.at(i), 16).ptr != at + 2) return std::nullopt;
+  }
+  return digest;
+}
+
+/// Reads the record of a measurement, as RecordWriter writes it, back into the measurement: what it
+/// corrects is named by `correction_of` and the digits of `corrected_elsewhere`. Members that
+/// follow from others are skipped: whoever wants to know that the text was read whole writes it
+/// again.
+/// @param texts keeps what the measurement has views of.
+/// @errors LogRecordInvalid.
+Result<app::Measurement> read_record(const JsonValue& record, TextArena& texts);
+
+}  // namespace fitgauge::api

@@ -1,12 +1,10 @@
-#include "record/record_reader.hpp"
+#include "record/record.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <optional>
 
-#include "base/decimal.hpp"
+#include "base/length.hpp"
 #include "record/verdict_codec.hpp"
 
 namespace fitgauge::api {

@@ -5,9 +5,7 @@
 #include <chrono>
 #include <thread>
 
-#include "db/postgres/database.hpp"
 #include "db/sqlite/data_directory.hpp"
-#include "db/sqlite/database.hpp"
 #include "db/store/database.hpp"
 #include "proof/tile.hpp"
 #include "service/log/log_check.hpp"

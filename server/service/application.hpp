@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/clock.hpp"
 #include "base/histogram.hpp"
-#include "base/steady_time.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/documents/key_service.hpp"
 #include "service/events/commit_signal.hpp"

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "base/job_pool.hpp"
+#include "base/worker_pool.hpp"
 
 namespace fitgauge::app {
 

@@ -1,14 +1,57 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "tables/iso286/indexed_table.hpp"
 #include "tables/iso286/limit_deviations.hpp"
+#include "tables/iso286/table_data.hpp"
 #include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::iso286 {
+
+/// The cells of one table by range and column. Immutable.
+class IndexedTable {
+ public:
+  /// One value for each range.
+  using Column = std::span<const std::optional<Length>>;
+
+  /// @pre every range has every column once, as table_rules checks first
+  IndexedTable(std::span<const TableCell> cells, TableId table);
+
+  /// Ascending.
+  const std::vector<NominalSizeRange>& ranges() const { return ranges_; }
+
+  /// Empty when there is no such column.
+  Column column(std::string_view name) const;
+
+  /// The index of the range that holds all of `range`.
+  /// @pre there is one
+  std::size_t index_of(const NominalSizeRange& range) const;
+
+ private:
+  std::vector<NominalSizeRange> ranges_;
+  std::map<std::string, std::vector<std::optional<Length>>, std::less<>> columns_;
+};
+
+/// The three tables of the standard.
+struct StandardTables {
+  explicit StandardTables(std::span<const TableCell> cells)
+      : tolerances(cells, TableId::ItGrades),
+        holes(cells, TableId::HoleFundamentalDeviations),
+        shafts(cells, TableId::ShaftFundamentalDeviations) {}
+
+  const IndexedTable& deviations(Feature feature) const {
+    return feature == Feature::Hole ? holes : shafts;
+  }
+
+  IndexedTable tolerances;
+  IndexedTable holes;
+  IndexedTable shafts;
+};
 
 /// The ranges within which every class is defined for all sizes or for none: the steps of the
 /// fundamental deviations, the first one parted at 1 mm.

@@ -13,4 +13,19 @@ std::optional<LimitDeviations> deviations_in_range(const ToleranceTables& tables
   return whole_range ? deviations : std::nullopt;
 }
 
+std::string_view word(FitKind kind) {
+  switch (kind) {
+    case FitKind::Clearance: return "clearance";
+    case FitKind::Transition: return "transition";
+    case FitKind::Interference: break;
+  }
+  return "interference";
+}
+
+FitKind Fit::kind() const {
+  if (min_clearance() >= Length()) return FitKind::Clearance;
+  if (max_clearance() <= Length()) return FitKind::Interference;
+  return FitKind::Transition;
+}
+
 }  // namespace fitgauge::iso286

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "base/length.hpp"
 #include "tables/iso286/nominal_size.hpp"
@@ -24,5 +26,45 @@ class ToleranceTables;
 /// deviations at its end; of a custom column, those of the row that holds the whole range.
 std::optional<LimitDeviations> deviations_in_range(const ToleranceTables& tables, ClassId id,
                                                    const NominalSizeRange& range);
+
+/// Where limits come from: the standard, or a column of the shop's own.
+enum class Basis : std::uint8_t { Iso286, Custom };
+
+/// `iso286` or `custom`.
+constexpr std::string_view word(Basis basis) {
+  return basis == Basis::Iso286 ? "iso286" : "custom";
+}
+
+/// The limits of size of one nominal size and class (ISO 286-1, 3.2.3), exact in nanometres.
+struct LimitsOfSize {
+  NominalSize nominal_size;
+  ClassId class_id;
+  Feature feature;
+  Basis basis;
+  LimitDeviations deviations;
+  NominalSizeRange size_range;  ///< the step of the standard tolerance, or the custom column's row
+
+  constexpr Length upper_limit() const { return nominal_size.length() + deviations.upper; }
+  constexpr Length lower_limit() const { return nominal_size.length() + deviations.lower; }
+  constexpr Length tolerance() const { return deviations.upper - deviations.lower; }
+};
+
+/// ISO 286-1, 3.3.
+enum class FitKind : std::uint8_t { Clearance, Transition, Interference };
+
+/// `clearance`, `transition` or `interference`.
+std::string_view word(FitKind kind);
+
+/// A hole and a shaft of one nominal size. Interference is negative clearance.
+struct Fit {
+  LimitsOfSize hole;
+  LimitsOfSize shaft;
+
+  Length max_clearance() const { return hole.deviations.upper - shaft.deviations.lower; }
+  Length min_clearance() const { return hole.deviations.lower - shaft.deviations.upper; }
+
+  /// EI - es = 0 is a clearance fit (3.3.4), ES - ei = 0 an interference fit (3.3.5).
+  FitKind kind() const;
+};
 
 }  // namespace fitgauge::iso286

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -8,6 +10,20 @@
 #include "base/result.hpp"
 
 namespace fitgauge::iso286 {
+
+/// What is measured (ISO 286-1, 3.1.1 and 3.1.2): an internal feature of size, or an external one.
+enum class Feature : std::uint8_t { Hole, Shaft };
+
+/// `hole` or `shaft`.
+constexpr std::string_view word(Feature feature) {
+  return feature == Feature::Hole ? "hole" : "shaft";
+}
+
+constexpr std::optional<Feature> feature_from_word(std::string_view text) {
+  if (text == "hole") return Feature::Hole;
+  if (text == "shaft") return Feature::Shaft;
+  return std::nullopt;
+}
 
 /// The largest nominal size ISO 286-1 has numbers for (its Table 1 ends there).
 inline constexpr Length kLargestNominalSize = Length::millimetres(3150);

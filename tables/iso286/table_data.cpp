@@ -1,25 +1,47 @@
 #include "tables/iso286/table_data.hpp"
 
-#include <fmt/format.h>
+#include <stdexcept>
 
-#include <algorithm>
+#include "tables/iso286/compiled_in_csv.hpp"
 
 namespace fitgauge::iso286 {
 namespace {
 
-std::string text_of(const NominalSizeRange& range) {
-  return fmt::format("{};{}", range.over.count(), range.up_to.count());
+constexpr std::string_view kSymmetric = "+-IT/2";
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
 }
 
-std::string text_of(const TableCell& cell) {
-  return fmt::format("{};{};{};{}\n", name(cell.table), text_of(cell.range), cell.column,
-                     cell.value ? std::to_string(cell.value->count()) : "");
-}
-
-std::string text_of(const CustomColumn& column, const CustomRow& row) {
-  return fmt::format("custom {};{};{};{};{}\n", word(column.feature), column.name,
-                     text_of(row.range), row.deviations.upper.count(),
-                     row.deviations.lower.count());
+/// The files are our own: what cannot be read there is a bug, so value() may throw.
+void append_cells(TableData& data, TableId table, std::string_view csv) {
+  constexpr std::size_t kFirstColumn = 2;  // after over_mm, to_mm
+  std::vector<std::string_view> header;
+  for (const std::string_view line : split(csv, '\n')) {
+    if (line.empty()) continue;
+    const auto fields = split(line, ',');
+    if (header.empty()) {
+      header = fields;
+      continue;
+    }
+    if (fields.size() != header.size()) {
+      throw std::logic_error(std::string(name(table)) + ".csv: a row has too few or many fields");
+    }
+    const NominalSizeRange range{parse_length_mm(fields[0]).value(),
+                                 parse_length_mm(fields[1]).value()};
+    for (std::size_t i = kFirstColumn; i < fields.size(); ++i) {
+      if (fields[i] == kSymmetric) continue;
+      std::optional<Length> value;
+      if (!fields[i].empty()) value = parse_length_um(fields[i]).value();
+      data.cells.push_back({table, range, std::string(header[i]), value});
+    }
+  }
 }
 
 }  // namespace
@@ -40,15 +62,15 @@ std::optional<TableId> table_from_name(std::string_view text) {
   return std::nullopt;
 }
 
-std::string canonical_text(const TableData& data) {
-  std::vector<std::string> lines;
-  lines.reserve(data.cells.size());
-  for (const TableCell& cell : data.cells) lines.push_back(text_of(cell));
-  for (const CustomColumn& column : data.custom_columns) {
-    for (const CustomRow& row : column.rows) lines.push_back(text_of(column, row));
-  }
-  std::sort(lines.begin(), lines.end());
-  return fmt::format("lengths in nm: table;over;up_to;column;value\n{}", fmt::join(lines, ""));
+const TableData& compiled_in_tables() {
+  static const TableData kData = [] {
+    TableData data;
+    append_cells(data, TableId::ItGrades, kItGradesCsv);
+    append_cells(data, TableId::HoleFundamentalDeviations, kHoleFundamentalDeviationsCsv);
+    append_cells(data, TableId::ShaftFundamentalDeviations, kShaftFundamentalDeviationsCsv);
+    return data;
+  }();
+  return kData;
 }
 
 }  // namespace fitgauge::iso286

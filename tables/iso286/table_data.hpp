@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tables/iso286/feature.hpp"
+#include "base/result.hpp"
 #include "tables/iso286/limit_deviations.hpp"
 #include "tables/iso286/nominal_size.hpp"
 
@@ -61,10 +61,25 @@ struct TableData {
   std::vector<CustomColumn> custom_columns;
 };
 
-/// The content as text, independent of the order of cells and columns: what a digest is taken of.
-std::string canonical_text(const TableData& data);
-
 /// The tables of ISO 286-1:2010 from tables/data, without custom columns.
 const TableData& compiled_in_tables();
+
+/// Every finding in tables that are not consistent in themselves: contiguous ranges, no missing or
+/// additional column, grades strictly increase, no tolerance decreases with size, the deltas are
+/// differences of tolerances, holes mirror shafts, upper - lower = IT, JS is symmetric, and the
+/// custom columns as check_custom_column.
+/// @returns TablesInconsistent each, naming table, range and column; empty when all hold.
+std::vector<Error> table_rules(const TableData& data);
+
+/// Every cell of the standard's tables that differs from the compiled-in ones: a changed cell can
+/// satisfy every rule. Custom columns are not compared.
+/// @returns TablesInconsistent each, naming table, range, column, found and expected.
+std::vector<Error> compare_with_compiled_in(const TableData& data);
+
+/// What a shop's own column must be: a name of the grammar whose case is the feature's and that is
+/// not NR or BEREICH, at least one row, contiguous ascending ranges within 0 to 3150 mm, and
+/// upper >= lower.
+/// @errors TableRowsInvalid; `details` has one entry a finding, `where` its JSON pointer.
+Result<void> check_custom_column(const CustomColumn& column);
 
 }  // namespace fitgauge::iso286

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "tables/iso286/limits_of_size.hpp"
+#include "tables/iso286/limit_deviations.hpp"
 #include "tables/iso286/table_data.hpp"
 
 namespace fitgauge::iso286 {

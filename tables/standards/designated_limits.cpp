@@ -5,7 +5,7 @@
 #include <array>
 
 #include "base/text.hpp"
-#include "tables/standards/thread.hpp"
+#include "tables/standards/standard.hpp"
 
 namespace fitgauge::standards {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "base/length.hpp"
 #include "base/result.hpp"
-#include "tables/iso286/feature.hpp"
 #include "tables/iso286/limit_deviations.hpp"
 #include "tables/iso286/nominal_size.hpp"
 #include "tables/standards/standard.hpp"
@@ -47,6 +46,10 @@ bool is_class(std::string_view text);
 Result<DesignatedLimits> limits_of(std::string_view designation);
 /// The same of a class beside its size. @pre is_class
 Result<DesignatedLimits> limits_of(Length nominal, std::string_view tolerance_class);
+
+/// The limits of the pitch diameter of a metric thread (ISO 965-1), as limits_of() says: the
+/// nominal size is D2 = d2 = d - 3 sqrt(3) P / 8 to the micrometre, as ISO 724 has it.
+Result<DesignatedLimits> thread_limits(std::string_view designation);
 
 /// `25 H7`, `M10-6H`, `R2 ISO 2768-m`: a nominal size and a class, of whatever standard.
 void append_designation(std::string& out, Length nominal, std::string_view tolerance_class);

@@ -1,5 +1,3 @@
-#include "tables/standards/thread.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,8 @@
 #include <set>
 
 #include "base/text.hpp"
+#include "tables/standards/designated_limits.hpp"
+#include "tables/standards/standard.hpp"
 
 namespace fitgauge::standards {
 namespace {

@@ -1,4 +1,4 @@
-#include "tables/tabfile/column_description.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "tables/tabfile/tab_reader.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 
 #include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"
-#include "tables/tabfile/column_description.hpp"
 
 namespace fitgauge::tabfile {
 namespace {

@@ -11,7 +11,6 @@
 
 #include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"
-#include "tables/tabfile/column_description.hpp"
 
 namespace fitgauge::tabfile {
 namespace {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/allowance.hpp"
 #include "base/result.hpp"
 
 namespace fitgauge::tabfile {
@@ -105,5 +106,35 @@ class TabTable {
 
 /// The file of a table in the form its header names; read_tab gives the same table back.
 std::string write_tab(const TabTable& table);
+
+/// Reads a table file in any form of the controls: columns described by #STRUCTBEGIN, by
+/// TableDescription or not at all, comment lines before the column names, LF or CRLF. The names in
+/// the column line stand where their columns begin; every row is cut there. A file may hold up to
+/// 4096 columns, a million cells and a million lines.
+/// @param text valid UTF-8, a byte order mark allowed
+/// @errors TableFileMalformed, `where` names the line: no BEGIN, an unfinished description, no
+///   column line, a name twice, a cell that runs into the next, a row number twice, no [END], text
+///   after [END].
+/// Reading leaves off with that error, too, once `allowance` is spent.
+Result<TabTable> read_tab(std::string_view text, Allowance& allowance);
+Result<TabTable> read_tab(std::string_view text);
+
+/// The same for the bytes of a file: UTF-8, or else Windows-1252 as older controls write it.
+Result<TabTable> read_tab_file(std::string_view bytes, Allowance& allowance);
+
+/// What a file says of its columns, by name, before the line of their names.
+using ColumnDescriptions = std::map<std::string, TabColumn, std::less<>>;
+
+/// A table has no more; a description that names more is read no further.
+inline constexpr std::size_t kMostColumns = 4096;
+
+/// Reads the lines between #STRUCTBEGIN and #STRUCTEND; texts for dialogs are passed over.
+ColumnDescriptions read_struct_block(const std::vector<std::string_view>& lines);
+
+/// Reads what stands in the parentheses of TableDescription.
+ColumnDescriptions read_table_description(std::string_view text);
+
+/// The description of all columns that have a type, as the lines of their form.
+std::string write_description(const TabTable& table);
 
 }  // namespace fitgauge::tabfile

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "plant/lsv2/link/answers.hpp"
+#include "plant/lsv2/link/payload.hpp"
 #include "plant/lsv2/link/requests.hpp"
-#include "plant/lsv2/link/telegram.hpp"
 
 using namespace fitgauge::control_link;
 

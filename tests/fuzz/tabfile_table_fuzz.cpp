@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tables/tabfile/tab_reader.hpp"
 #include "tables/tabfile/tab_table.hpp"
 
 using namespace fitgauge;

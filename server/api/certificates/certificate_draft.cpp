@@ -6,8 +6,8 @@
 
 #include "api/measurements/measurement_codec.hpp"
 #include "api/service/version.hpp"
-#include "base/decimal.hpp"
 #include "base/json/json_writer.hpp"
+#include "base/length.hpp"
 #include "record/record.hpp"
 #include "tables/standards/designated_limits.hpp"
 

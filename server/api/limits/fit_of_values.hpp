@@ -7,7 +7,7 @@
 #include "api/services.hpp"
 #include "base/json/json_writer.hpp"
 #include "http/request.hpp"
-#include "http/responder.hpp"
+#include "http/response.hpp"
 #include "http/route.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 

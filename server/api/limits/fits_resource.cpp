@@ -8,7 +8,7 @@
 #include "api/wire/formulas.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
 #include "service/tables/table_catalog.hpp"
-#include "tables/iso286/designation.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
 namespace {

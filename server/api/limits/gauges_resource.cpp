@@ -7,9 +7,9 @@
 #include "api/statistics/computation.hpp"
 #include "api/statistics/exact_reader.hpp"
 #include "api/wire/formulas.hpp"
+#include "metrology/statistics/fit_analysis.hpp"
 #include "metrology/statistics/limit_gauge.hpp"
-#include "metrology/statistics/press_fit.hpp"
-#include "tables/iso286/designation.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
 namespace {

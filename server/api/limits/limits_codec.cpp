@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tables/iso286/designation.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
 

@@ -1,7 +1,7 @@
 #include "api/resources.hpp"
 
 #include "api/limits/limits_codec.hpp"
-#include "tables/iso286/designation.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -1,5 +1,5 @@
 #include "api/schemas.hpp"
-#include "metrology/gauging/quantity.hpp"
+#include "metrology/gauging/gauge.hpp"
 
 namespace fitgauge::api {
 

@@ -6,10 +6,9 @@
 
 #include "api/handlers.hpp"
 #include "api/limits/limits_codec.hpp"
-#include "record/thermal_codec.hpp"
 #include "record/verdict_codec.hpp"
 #include "service/tables/table_catalog.hpp"
-#include "tables/iso286/designation.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "api/handlers.hpp"
 #include "api/wire/problem.hpp"
-#include "base/base64.hpp"
+#include "base/digest.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/jobs.hpp"
 #include "service/log/batch_text.hpp"

@@ -1,7 +1,7 @@
 #include "api/resources.hpp"
 
 #include "api/handlers.hpp"
-#include "base/base64.hpp"
+#include "base/digest.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/measurement_service.hpp"

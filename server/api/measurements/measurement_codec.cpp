@@ -1,8 +1,8 @@
 #include "api/measurements/measurement_codec.hpp"
 
 #include "api/wire/formulas.hpp"
-#include "base/csv_cell.hpp"
-#include "base/decimal.hpp"
+#include "base/csv.hpp"
+#include "base/length.hpp"
 #include "record/record_members.hpp"
 
 namespace fitgauge::api {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "base/decimal.hpp"
-#include "metrology/gauging/reference_temperature.hpp"
+#include "base/length.hpp"
+#include "metrology/gauging/conformance.hpp"
 
 namespace fitgauge::api {
 namespace {

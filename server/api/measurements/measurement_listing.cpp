@@ -12,7 +12,7 @@
 #include "api/measurements/measurement_download.hpp"
 #include "api/measurements/notes_resource.hpp"
 #include "api/wire/request_facts.hpp"
-#include "http/body_stream.hpp"
+#include "http/response.hpp"
 #include "record/record.hpp"
 #include "service/log/log_service.hpp"
 #include "service/runs/run_service.hpp"

@@ -1,6 +1,6 @@
 #include "api/measurements/measurement_qif.hpp"
 
-#include "base/decimal.hpp"
+#include "base/length.hpp"
 
 namespace fitgauge::api {
 namespace {

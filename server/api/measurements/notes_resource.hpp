@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "record/note.hpp"
+#include "record/measurement.hpp"
 
 namespace fitgauge::api {
 

@@ -6,7 +6,6 @@
 #include "api/wire/event_text.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
-#include "base/json/stored_member.hpp"
 
 namespace fitgauge::api {
 namespace {

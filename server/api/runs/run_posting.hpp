@@ -2,7 +2,7 @@
 
 #include "api/services.hpp"
 #include "http/request.hpp"
-#include "http/responder.hpp"
+#include "http/response.hpp"
 
 namespace fitgauge::api {
 

@@ -9,9 +9,9 @@
 #include "api/runs/trace_codec.hpp"
 #include "api/wire/event_text.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/json/stored_member.hpp"
+#include "base/json/json_value.hpp"
 #include "base/text.hpp"
-#include "http/body_stream.hpp"
+#include "http/response.hpp"
 #include "record/measurement.hpp"
 #include "service/runs/run_service.hpp"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "api/runs/run_codec.hpp"
-#include "base/csv_cell.hpp"
+#include "base/csv.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "http/body_stream.hpp"
+#include "http/response.hpp"
 #include "service/events/event_service.hpp"
 
 namespace fitgauge::api {

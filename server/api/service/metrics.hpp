@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "api/service/exposition.hpp"
-#include "base/error_code.hpp"
+#include "base/result.hpp"
 #include "http/server.hpp"
 
 namespace fitgauge::api {

@@ -9,8 +9,8 @@
 #include "api/runs/setup_codec.hpp"
 #include "api/schemas.hpp"
 #include "api/service/version.hpp"
-#include "base/decimal.hpp"
 #include "base/json/json_writer.hpp"
+#include "base/length.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::api {

@@ -4,7 +4,7 @@
 #include "api/service/metrics.hpp"
 #include "api/service/verdict_counts.hpp"
 #include "api/service/version.hpp"
-#include "base/base64.hpp"
+#include "base/digest.hpp"
 #include "base/json/json_writer.hpp"
 #include "service/log/log_service.hpp"
 #include "service/state/readiness.hpp"

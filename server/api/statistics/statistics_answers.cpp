@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/write_text.hpp"
+#include "base/length.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -12,8 +12,8 @@
 #include "api/statistics/exact_reader.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"
-#include "metrology/statistics/anova.hpp"
 #include "metrology/statistics/capability.hpp"
+#include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/summary.hpp"
 
 // The answers of /v1/statistics that stored values have too. Figures have 17 significant digits; an

@@ -8,9 +8,9 @@
 #include "api/statistics/computation.hpp"
 #include "api/statistics/gauge_study.hpp"
 #include "api/statistics/statistics_answers.hpp"
+#include "metrology/statistics/fit_analysis.hpp"
 #include "metrology/statistics/gauge_study.hpp"
-#include "metrology/statistics/pairing.hpp"
-#include "metrology/statistics/run_length.hpp"
+#include "metrology/statistics/zone_rules.hpp"
 
 namespace fitgauge::api {
 

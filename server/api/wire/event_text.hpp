@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "http/body_stream.hpp"
 #include "http/request.hpp"
 #include "http/response.hpp"
 #include "http/route.hpp"

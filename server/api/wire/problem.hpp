@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "base/error.hpp"
+#include "base/result.hpp"
 #include "http/request.hpp"
 #include "http/response.hpp"
 

@@ -10,8 +10,8 @@
 #include <span>
 
 #include "base/clock.hpp"
-#include "base/json/applicable.hpp"
 #include "base/json/body.hpp"
+#include "base/json/field_reader.hpp"
 
 // The usual forms of members of a body. Bounds of a form belong to its schema and to its reader.
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/json/json_escape.hpp"
+#include "base/json/json_writer.hpp"
 
 namespace fitgauge::api::schema {
 namespace {

@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <memory>
-#include <span>
 #include <stdexcept>
 #include <string_view>
 

@@ -8,8 +8,8 @@
 
 #include "base/text.hpp"
 #include "formats/dfq/measurement_csv.hpp"
-#include "formats/dfq/measurement_places.hpp"
-#include "metrology/gauging/quantity.hpp"
+#include "formats/sheet/measurement_fields.hpp"
+#include "metrology/gauging/gauge.hpp"
 
 namespace fitgauge::aqdef {
 namespace {

@@ -13,8 +13,8 @@
 #include "base/clock.hpp"
 #include "base/length.hpp"
 #include "base/result.hpp"
+#include "formats/dfq/description.hpp"
 #include "formats/dfq/fields.hpp"
-#include "formats/dfq/limits.hpp"
 #include "formats/dfq/reader.hpp"
 #include "formats/sheet/time_zone.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error_code.hpp"
+#include "base/result.hpp"
 
 namespace fitgauge::aqdef {
 

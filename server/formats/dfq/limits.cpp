@@ -1,4 +1,4 @@
-#include "formats/dfq/limits.hpp"
+#include "formats/dfq/description.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "base/decimal.hpp"
+#include "base/length.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::aqdef {

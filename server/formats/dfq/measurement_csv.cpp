@@ -7,9 +7,9 @@
 #include <charconv>
 
 #include "base/clock.hpp"
-#include "base/csv_cell.hpp"
+#include "base/csv.hpp"
 #include "base/text.hpp"
-#include "formats/dfq/measurement_places.hpp"
+#include "formats/sheet/measurement_fields.hpp"
 
 namespace fitgauge::aqdef {
 namespace {

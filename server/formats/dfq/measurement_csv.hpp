@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "formats/dfq/description.hpp"
 #include "formats/dfq/fields.hpp"
-#include "formats/dfq/limits.hpp"
 #include "formats/dfq/reader.hpp"
 #include "formats/sheet/shop_csv.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "formats/dfq/separators.hpp"
+#include "formats/dfq/lines.hpp"
 
 namespace fitgauge::aqdef {
 namespace {

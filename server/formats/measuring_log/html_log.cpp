@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "formats/measuring_log/log_words.hpp"
 #include "formats/measuring_log/measuring_log.hpp"
 
 namespace fitgauge::log_reader {

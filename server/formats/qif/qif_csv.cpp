@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "base/csv_cell.hpp"
+#include "base/csv.hpp"
 #include "base/text.hpp"
 #include "formats/dfq/lines.hpp"
-#include "formats/dfq/measurement_places.hpp"
 #include "formats/qif/qif_definitions.hpp"
 #include "formats/qif/xml_reader.hpp"
+#include "formats/sheet/measurement_fields.hpp"
 
 namespace fitgauge::qif {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/decimal.hpp"
+#include "base/length.hpp"
 #include "formats/dfq/lines.hpp"
 #include "formats/qif/xml_reader.hpp"
 

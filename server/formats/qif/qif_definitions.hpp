@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "formats/dfq/limits.hpp"
+#include "formats/dfq/description.hpp"
 #include "formats/dfq/lines.hpp"
 #include "formats/sheet/measurement_fields.hpp"
 

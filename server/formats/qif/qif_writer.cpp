@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "base/xml_text.hpp"
 
 namespace fitgauge::qif {
 namespace {

@@ -11,7 +11,7 @@
 #include "base/clock.hpp"
 #include "base/length.hpp"
 #include "base/result.hpp"
-#include "metrology/gauging/quantity.hpp"
+#include "metrology/gauging/gauge.hpp"
 
 namespace fitgauge::qif {
 

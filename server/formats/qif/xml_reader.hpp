@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/read.hpp"
 #include "base/result.hpp"
+#include "formats/sheet/text_encoding.hpp"
 
 namespace fitgauge::qif {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,20 @@
 #include "formats/sheet/text_encoding.hpp"
 
 namespace fitgauge::sheet {
+
+/// Appends the next rows of a source; a source whose rows are not at their lines in its file tells
+/// those.
+/// @param source has append(rows), or append(rows, lines)
+/// @param lines of the file, one for each row that is appended
+/// @returns false at the end
+template <class Source>
+Result<bool> append_next(Source& source, std::string& rows, std::vector<std::uint32_t>& lines) {
+  if constexpr (requires { source.append(rows, lines); }) {
+    return source.append(rows, lines);
+  } else {
+    return source.append(rows);
+  }
+}
 
 /// An error of a line of a table, which its `where` is.
 Error at_table_line(ErrorCode code, std::size_t line, std::string_view what);
@@ -89,5 +104,29 @@ Result<void> append_as_given(std::string& out, std::string_view line);
 
 /// Whether the name of a file says that it has records: `.ndjson`, `.jsonl`.
 bool is_ndjson(std::string_view file_name);
+
+/// Records of an NDJSON file of any size as /v1/measurements takes them, also those that it
+/// exported, line for line, so that errors name the lines of the file. Of no more use after an
+/// error.
+class NdjsonRows {
+ public:
+  static constexpr std::size_t kLongestLine = std::size_t{1} << 20;
+
+  /// @param first and again as for Utf8Input. @errors TextEncoding
+  static Result<NdjsonRows> open(const Read& first, Read again, Encoding encoding);
+
+  /// Appends the next line. @returns false at the end.
+  /// @errors TextEncoding; CsvMalformed, whose `where` is the line.
+  Result<bool> append(std::string& rows);
+
+ private:
+  explicit NdjsonRows(Utf8Input input) : input_(std::move(input)) {}
+
+  Utf8Input input_;
+  std::string room_{};  ///< read, and taken up to `at_`
+  std::size_t at_ = 0;
+  std::size_t line_ = 1;
+  bool is_at_end_ = false;
+};
 
 }  // namespace fitgauge::sheet

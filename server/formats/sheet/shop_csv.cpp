@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "base/csv_cell.hpp"
+#include "base/csv.hpp"
 #include "base/text.hpp"
 #include "formats/sheet/record_reader.hpp"
 

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/read.hpp"
 #include "base/result.hpp"
 #include "formats/sheet/text_encoding.hpp"
 #include "formats/sheet/time_zone.hpp"

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <span>
-#include <utility>
 
 #include "base/text.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "base/json/body_forms.hpp"
 #include "formats/step/part21.hpp"
-#include "metrology/gauging/quantity.hpp"
+#include "metrology/gauging/gauge.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 
 // The sizes of a drawing: what a STEP file with product manufacturing information (AP242, AP203,

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "formats/step/part21.hpp"
-#include "tables/iso286/feature.hpp"
+#include "tables/iso286/nominal_size.hpp"
 
 namespace fitgauge::step {
 

@@ -1,11 +1,176 @@
 #include "http/client/http_client.hpp"
 
 #include <arpa/inet.h>
-#include <sys/socket.h>
+#include <netinet/in.h>
 
-#include "http/client/curl_handle.hpp"
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#include "base/text.hpp"
+
+namespace fitgauge {
+
+std::optional<std::chrono::seconds> retry_after(std::string_view line) {
+  constexpr std::string_view kName = "Retry-After:";
+  if (!ascii_iequals(line.substr(0, kName.size()), kName)) return std::nullopt;
+  std::string_view value = trim(line.substr(kName.size()));
+  while (value.ends_with('\n') || value.ends_with('\r')) value.remove_suffix(1);
+  int seconds = 0;
+  const auto read = std::from_chars(value.data(), value.data() + value.size(), seconds);
+  if (read.ec != std::errc() || read.ptr != value.data() + value.size() || seconds < 0) {
+    return std::nullopt;
+  }
+  return std::chrono::seconds(seconds);
+}
+
+}  // namespace fitgauge
 
 namespace fitgauge::http_client {
+namespace {
+
+struct Network4 {
+  std::uint32_t first;
+  int bits;
+};
+
+constexpr Network4 kPrivate4[] = {
+    {0x00000000, 8},   // this network
+    {0x0A000000, 8},   // private
+    {0x64400000, 10},  // shared between providers
+    {0x7F000000, 8},   // loopback
+    {0xA9FE0000, 16},  // link-local
+    {0xAC100000, 12},  // private
+    {0xC0000000, 24},  // protocols
+    {0xC0A80000, 16},  // private
+    {0xC6120000, 15},  // benchmarks
+    {0xE0000000, 3},   // multicast, reserved, broadcast
+};
+
+using Address6 = std::array<std::uint8_t, 16>;
+
+struct Network6 {
+  Address6 first;
+  int bits;
+};
+
+constexpr Network6 kPrivate6[] = {
+    {{0xFC}, 7},                                 // unique local
+    {{0xFE, 0x80}, 10},                          // link-local
+    {{0xFE, 0xC0}, 10},                          // site-local, deprecated
+    {{0xFF}, 8},                                 // multicast
+    {{0x01, 0x00}, 64},                          // discard
+    {{0x00, 0x64, 0xFF, 0x9B, 0x00, 0x01}, 48},  // translation inside of a network
+};
+
+struct Embedded4 {
+  Network6 network;
+  std::size_t offset;  ///< of the address of IPv4
+};
+
+constexpr Embedded4 kEmbedded4[] = {
+    {{{}, 96}, 12},                                          // ::, ::1 and ::a.b.c.d
+    {{{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF}, 96}, 12},  // mapped
+    {{{0x00, 0x64, 0xFF, 0x9B}, 96}, 12},                    // translated
+    {{{0x20, 0x02}, 16}, 2},                                 // 6to4
+};
+
+bool is_private4(std::uint32_t address) {
+  return std::any_of(std::begin(kPrivate4), std::end(kPrivate4), [&](const Network4& network) {
+    return (address ^ network.first) >> (32 - network.bits) == 0;
+  });
+}
+
+bool is_in(const Address6& address, const Network6& network) {
+  for (int bit = 0; bit < network.bits; ++bit) {
+    const auto byte = static_cast<std::size_t>(bit / 8);
+    const int mask = 0x80 >> bit % 8;
+    if (((address[byte] ^ network.first[byte]) & mask) != 0) return false;
+  }
+  return true;
+}
+
+bool is_private6(const Address6& address) {
+  const bool is_listed =
+      std::any_of(std::begin(kPrivate6), std::end(kPrivate6),
+                  [&](const Network6& network) { return is_in(address, network); });
+  if (is_listed) return true;
+  for (const Embedded4& embedded : kEmbedded4) {
+    if (!is_in(address, embedded.network)) continue;
+    std::uint32_t inner = 0;
+    for (std::size_t i = 0; i < 4; ++i) inner = inner << 8 | address.at(embedded.offset + i);
+    return is_private4(inner);
+  }
+  return false;
+}
+
+}  // namespace
+
+CurlHandle::~CurlHandle() {
+  curl_easy_cleanup(curl_);
+  curl_slist_free_all(headers_);
+}
+
+void CurlHandle::begin(const std::string& url, const std::string& method,
+                       std::span<const std::string> headers, std::string_view body) {
+  curl_easy_reset(curl_);  // the options, not the connection
+  curl_slist_free_all(std::exchange(headers_, nullptr));
+  headers_ = curl_slist_append(headers_, "Expect:");
+  for (const std::string& line : headers) headers_ = curl_slist_append(headers_, line.c_str());
+  retry_after_.reset();
+  error_.front() = '\0';
+  set_text(CURLOPT_URL, url);
+  set_text(CURLOPT_CUSTOMREQUEST, method);
+  set(CURLOPT_PROTOCOLS_STR, "http,https");
+  set(CURLOPT_USERAGENT, "fitgauge/" FITGAUGE_VERSION);
+  set(CURLOPT_NOSIGNAL, 1L);
+  set(CURLOPT_HTTPHEADER, headers_);
+  set(CURLOPT_HEADERFUNCTION, &take_header);
+  set(CURLOPT_HEADERDATA, this);
+  set(CURLOPT_ERRORBUFFER, error_.data());
+  if (method == "GET") return;
+  set(CURLOPT_POSTFIELDS, body.data() == nullptr ? "" : body.data());
+  set(CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(body.size()));
+}
+
+std::size_t CurlHandle::take_header(char* data, std::size_t, std::size_t size, void* handle) {
+  if (const auto wait = fitgauge::retry_after({data, size})) {
+    static_cast<CurlHandle*>(handle)->retry_after_ = *wait;
+  }
+  return size;
+}
+
+long CurlHandle::status() const {
+  long status = 0;
+  curl_easy_getinfo(curl_, CURLINFO_RESPONSE_CODE, &status);
+  return status;
+}
+
+std::string CurlHandle::content_type() const {
+  const char* type = nullptr;
+  curl_easy_getinfo(curl_, CURLINFO_CONTENT_TYPE, &type);
+  return type == nullptr ? "" : type;
+}
+
+std::string CurlHandle::reason(CURLcode code) const {
+  return error_.front() == '\0' ? curl_easy_strerror(code) : error_.data();
+}
+
+bool is_private_address(const sockaddr& address) {
+  if (address.sa_family == AF_INET) {
+    sockaddr_in v4;
+    std::memcpy(&v4, &address, sizeof v4);
+    return is_private4(ntohl(v4.sin_addr.s_addr));
+  }
+  if (address.sa_family != AF_INET6) return true;
+  sockaddr_in6 v6;
+  std::memcpy(&v6, &address, sizeof v6);
+  Address6 bytes;
+  std::memcpy(bytes.data(), &v6.sin6_addr, bytes.size());
+  return is_private6(bytes);
+}
 
 /// What an address must pass.
 struct AddressGate {

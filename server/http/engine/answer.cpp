@@ -11,9 +11,8 @@
 
 #include "base/gzip.hpp"
 #include "base/text.hpp"
-#include "http/body_stream.hpp"
-#include "http/engine/prepared_response.hpp"
 #include "http/field_list.hpp"
+#include "http/response.hpp"
 
 namespace fitgauge::http {
 

@@ -1,15 +1,155 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 
-#include "http/engine/media_type.hpp"
-#include "http/engine/output_queue.hpp"
-#include "http/engine/prepared_response.hpp"
+#include "base/clock.hpp"
+#include "http/field_list.hpp"
 #include "http/response.hpp"
 
 namespace fitgauge::http {
+
+/// Bytes on their way to the socket: text, then at most one long body that is sent from where it
+/// lies. The text is appended to a string that all connections of a thread share, since most of it
+/// leaves at once; keep() takes what has not left into memory of its own. Between two callbacks of
+/// the thread the shared string is empty.
+class OutputQueue {
+ public:
+  static constexpr std::size_t kLongBody = std::size_t{64} << 10;
+
+  explicit OutputQueue(std::string& shared) : shared_(shared) {}
+
+  /// Where answers are appended. @pre !has_long_body()
+  std::string& text() { return shared_; }
+
+  /// A body that follows the text, kept alive by `owner`. @pre !has_long_body()
+  void append_long(std::shared_ptr<const void> owner, std::string_view bytes) {
+    owner_ = std::move(owner);
+    long_body_ = bytes;
+    owned_ = bytes.size();
+  }
+
+  bool has_long_body() const { return !long_body_.empty(); }
+  std::size_t long_body_size() const { return long_body_.size(); }
+  std::size_t text_size() const { return shared_.size(); }
+  /// The bytes of memory that it alone keeps: they are free once all has left, or at discard().
+  std::size_t held() const {
+    return kept_.size() + later_.size() + (owner_.use_count() == 1 ? owned_ : 0);
+  }
+  bool empty() const { return kept_.empty() && shared_.empty() && !has_long_body(); }
+
+  /// The next bytes to send.
+  std::string_view front() const {
+    if (!kept_.empty()) return std::string_view(kept_).substr(sent_);
+    return shared_.empty() ? long_body_ : std::string_view(shared_).substr(sent_);
+  }
+
+  void consume(std::size_t count) {
+    if (kept_.empty() && shared_.empty()) {
+      long_body_.remove_prefix(count);
+      if (long_body_.empty()) owner_.reset();
+      return;
+    }
+    sent_ += count;
+    if (sent_ < (kept_.empty() ? shared_ : kept_).size()) return;
+    sent_ = 0;
+    if (kept_.empty()) {
+      clear_shared();
+    } else {
+      kept_ = std::exchange(later_, {});
+    }
+  }
+
+  /// Takes what has not left out of the shared string; front() then stays where it is until
+  /// consume(), whatever is appended and kept.
+  void keep() {
+    if (shared_.empty()) return;
+    if (kept_.empty()) {
+      kept_ = shared_.substr(std::exchange(sent_, 0));
+    } else {
+      later_.append(shared_);
+    }
+    clear_shared();
+  }
+
+  /// Forgets everything.
+  void discard() {
+    clear_shared();
+    kept_ = {};
+    later_ = {};
+    long_body_ = {};
+    owner_.reset();
+    sent_ = 0;
+  }
+
+ private:
+  void clear_shared() {
+    shared_.clear();
+    if (shared_.capacity() > 4 * kLongBody) shared_.shrink_to_fit();
+  }
+
+  std::string& shared_;
+  std::string kept_;      ///< before the shared text
+  std::string later_;     ///< behind kept_, which is being sent and must not move
+  std::size_t sent_ = 0;  ///< of kept_, or of the shared text when there is none
+  std::shared_ptr<const void> owner_;
+  std::string_view long_body_;
+  std::size_t owned_ = 0;  ///< bytes behind owner_
+};
+
+/// A serialised head with the Date at a known place. It ends with the fields that differ between
+/// the plain and the gzip form: ETag and Content-Length.
+struct PreparedHead {
+  std::string text;
+  std::size_t date_offset = 0;
+  std::size_t shared_size = 0;  ///< up to here both forms are alike
+};
+
+/// A serialised answer and its 304; without the fields that depend on the request: those that every
+/// answer has, and Vary. Immutable and thread-safe.
+class PreparedResponse {
+ public:
+  PreparedResponse(const Response& response, std::string packed);
+  PreparedResponse(const PreparedResponse&) = delete;
+  PreparedResponse& operator=(const PreparedResponse&) = delete;
+
+  int status() const { return status_; }
+  std::string_view etag() const { return etag_; }
+  std::string_view vary() const { return vary_; }
+  const PreparedHead& head() const { return head_; }
+  const PreparedHead& not_modified_head() const { return not_modified_; }
+  std::string_view body() const { return body_; }
+
+  bool is_packable() const { return is_packable_; }
+  /// Whether the gzip form is worth its making.
+  bool is_long() const { return is_long_; }
+  /// The body in gzip, made at the first call. @pre is_packable()
+  std::string_view packed_body() const;
+
+ private:
+  int status_;
+  bool is_packable_;
+  bool is_long_;
+  std::string etag_;
+  std::string vary_;
+  std::string body_;
+  PreparedHead head_;
+  PreparedHead not_modified_;
+  mutable std::once_flag packing_;
+  mutable std::string packed_;
+};
+
+/// `Sun, 06 Nov 1994 08:49:37 GMT` (RFC 9110 section 5.6.7).
+using HttpDate = std::array<char, 29>;
+
+HttpDate format_http_date(Timestamp time);
+
+inline std::string_view text(const HttpDate& date) { return {date.data(), date.size()}; }
 
 /// What the request decides about the form of its answer.
 struct AnswerForm {

@@ -1,16 +1,83 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "base/gzip.hpp"
-#include "http/engine/byte_budget.hpp"
 
 namespace fitgauge::http {
+
+/// The bytes of large bodies that may be in memory at once, and how many bodies wait for some.
+/// Thread-safe.
+class ByteBudget {
+ public:
+  explicit ByteBudget(std::size_t limit) : limit_(limit) {}
+
+  bool try_take(std::size_t bytes) {
+    std::size_t used = used_.load(std::memory_order_relaxed);
+    do {
+      if (bytes > limit_ - used) return false;
+    } while (!used_.compare_exchange_weak(used, used + bytes, std::memory_order_relaxed));
+    return true;
+  }
+  void give_back(std::size_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
+
+  /// @returns how many wait, with this one.
+  std::size_t begin_wait() { return waiting_.fetch_add(1, std::memory_order_relaxed) + 1; }
+  void end_wait() { waiting_.fetch_sub(1, std::memory_order_relaxed); }
+
+  std::size_t used() const { return used_.load(std::memory_order_relaxed); }
+  /// Somebody waits: a sender that has stopped must give way.
+  bool is_short() const { return waiting_.load(std::memory_order_relaxed) > 0; }
+
+ private:
+  const std::size_t limit_;
+  std::atomic<std::size_t> used_{0};
+  std::atomic<std::size_t> waiting_{0};
+};
+
+/// Bytes that were taken from a budget; the destructor gives them back.
+class ByteShare {
+ public:
+  ByteShare() = default;
+  ByteShare(ByteBudget& budget, std::size_t bytes) : budget_(&budget), bytes_(bytes) {}
+  ByteShare(ByteShare&& other) noexcept
+      : budget_(std::exchange(other.budget_, nullptr)), bytes_(other.bytes_) {}
+  ByteShare& operator=(ByteShare&& other) noexcept {
+    std::swap(budget_, other.budget_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+  }
+  ~ByteShare() {
+    if (budget_ != nullptr) budget_->give_back(bytes_);
+  }
+
+  bool is_wanted() const { return budget_ != nullptr && budget_->is_short(); }
+
+ private:
+  ByteBudget* budget_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+/// Two budgets, so that no body waits for bytes that a waiting body holds: a body whose length is
+/// unknown takes up to kPart from `parts`, then its whole limit from `wholes` at once. Whoever
+/// holds of `wholes` waits for nothing, so that all who wait for it are served in the end, and then
+/// those who wait for `parts`.
+struct BodyBudgets {
+  static constexpr std::size_t kPart = std::size_t{1} << 20;
+
+  ByteBudget wholes;
+  ByteBudget parts{16 * kPart};
+
+  std::size_t used() const { return wholes.used() + parts.used(); }
+  bool is_short() const { return wholes.is_short() || parts.is_short(); }
+};
 
 /// Gathers one request's body in memory: decodes gzip, holds the limit after decompression and
 /// takes what is more than kFree from the budgets. Used by one thread. After TooLarge or Malformed

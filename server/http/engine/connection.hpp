@@ -11,16 +11,16 @@
 #include <string_view>
 #include <utility>
 
-#include "base/guarded.hpp"
 #include "base/gzip.hpp"
-#include "http/body_stream.hpp"
+#include "base/thread.hpp"
+#include "http/engine/answer.hpp"
 #include "http/engine/body_reader.hpp"
 #include "http/engine/exchange.hpp"
 #include "http/engine/io_thread.hpp"
-#include "http/engine/output_queue.hpp"
 #include "http/engine/request_head.hpp"
 #include "http/engine/request_parser.hpp"
 #include "http/request.hpp"
+#include "http/response.hpp"
 
 namespace fitgauge::http {
 

@@ -8,7 +8,7 @@
 
 #include "http/engine/connection.hpp"
 #include "http/engine/io_thread.hpp"
-#include "http/responder.hpp"
+#include "http/response.hpp"
 
 namespace fitgauge::http {
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "http/engine/arguments.hpp"
-#include "http/engine/media_type.hpp"
-#include "http/engine/uri.hpp"
+#include "http/engine/request_head.hpp"
+#include "http/engine/route_tree.hpp"
+#include "http/field_list.hpp"
 
 namespace fitgauge::http {
 

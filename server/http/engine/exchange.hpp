@@ -11,7 +11,7 @@
 #include "http/engine/request_head.hpp"
 #include "http/engine/route_tree.hpp"
 #include "http/request.hpp"
-#include "http/responder.hpp"
+#include "http/response.hpp"
 #include "http/route.hpp"
 #include "http/server.hpp"
 

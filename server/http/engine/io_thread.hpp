@@ -13,9 +13,9 @@
 
 #include "base/clock.hpp"
 #include "base/thread.hpp"
+#include "http/engine/answer.hpp"
 #include "http/engine/asio.hpp"
-#include "http/engine/byte_budget.hpp"
-#include "http/engine/prepared_response.hpp"
+#include "http/engine/body_reader.hpp"
 #include "http/route.hpp"
 #include "http/server.hpp"
 

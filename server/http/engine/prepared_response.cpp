@@ -1,4 +1,4 @@
-#include "http/engine/prepared_response.hpp"
+#include "http/engine/answer.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,8 @@
 #include <variant>
 
 #include "base/gzip.hpp"
-#include "http/body_stream.hpp"
-#include "http/engine/answer.hpp"
-#include "http/engine/media_type.hpp"
+#include "http/field_list.hpp"
+#include "http/response.hpp"
 
 namespace fitgauge::http {
 namespace {

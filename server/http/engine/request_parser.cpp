@@ -6,7 +6,7 @@
 #include <exception>
 
 #include "base/text.hpp"
-#include "http/engine/uri.hpp"
+#include "http/engine/request_head.hpp"
 
 namespace fitgauge::http {
 

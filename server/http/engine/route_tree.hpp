@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/result.hpp"
 #include "http/route.hpp"
 
 namespace fitgauge::http {
@@ -103,5 +104,10 @@ class RouteTree {
   Node root_;
   std::vector<Plan> plans_;
 };
+
+/// Reads the decoded text of a parameter as its type says; the value may view `text`.
+/// @errors PathMalformed, QueryInvalid or RequestMalformed by the parameter's place, with its name
+///   and what it takes; LengthMalformed, LengthTooFine, LengthOutOfRange for lengths.
+Result<ArgumentValue> parse_argument(const Parameter& parameter, std::string_view text);
 
 }  // namespace fitgauge::http

@@ -1,13 +1,14 @@
 #include "metrology/gauging/gauge.hpp"
 
-#include <array>
 #include <cassert>
-#include <cstddef>
 
-#include "base/decimal.hpp"
+#include "base/length.hpp"
 
 namespace fitgauge::gauging {
 namespace {
+
+constexpr std::array<std::string_view, kVerdicts> kWords = {"good", "rework", "reject",
+                                                            "indeterminate", "unjudged"};
 
 constexpr int kFactorScale = 6;
 
@@ -37,6 +38,15 @@ Verdict conformance_verdict(const Beyond& beyond, const ConformanceLimits& limit
 }
 
 }  // namespace
+
+std::string_view word(Verdict verdict) { return kWords[static_cast<std::size_t>(verdict)]; }
+
+std::optional<Verdict> verdict_from_word(std::string_view text) {
+  for (std::size_t i = 0; i < kWords.size(); ++i) {
+    if (kWords[i] == text) return static_cast<Verdict>(i);
+  }
+  return std::nullopt;
+}
 
 Result<CoverageFactor> CoverageFactor::parse(std::string_view text, bool exponent) {
   const auto millionths = parse_decimal(text, {.scale = kFactorScale, .exponent = exponent});

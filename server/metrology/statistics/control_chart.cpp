@@ -7,9 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "metrology/statistics/chart_constants.hpp"
-#include "metrology/statistics/run_length.hpp"
 #include "metrology/statistics/summary.hpp"
+#include "metrology/statistics/zone_rules.hpp"
 
 namespace fitgauge::metrology {
 namespace {

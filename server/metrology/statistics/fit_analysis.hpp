@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/length.hpp"
+#include "base/result.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::metrology {
@@ -53,5 +55,56 @@ std::vector<FoundFit> find_fits(const iso286::ToleranceTables& tables, iso286::N
 
 /// Whether a fit is one of the preferred ones: `H7` and `g6`.
 bool is_preferred(std::string_view hole, std::string_view shaft);
+
+/// One side of a press fit, elastic. Lengths in mm, stresses in MPa.
+struct PressedPart {
+  double other_diameter_mm = 0;  ///< of the hub outside, of the shaft inside: 0 when it is solid
+  double youngs_modulus_mpa = 210'000;
+  double poisson_ratio = 0.3;
+  double rz_um = 0;  ///< roughness, which pressing flattens
+};
+
+struct PressFit {
+  double joint_diameter_mm = 0;
+  double length_mm = 0;
+  double friction = 0.12;
+  PressedPart hub;
+  PressedPart shaft;
+};
+
+/// What an interference presses.
+struct Pressure {
+  double effective_um = 0;      ///< interference less what pressing flattens, 0.4 (Rz + Rz)
+  double pressure_mpa = 0;      ///< in the joint
+  double hub_stress_mpa = 0;    ///< equivalent stress (von Mises) in the bore of the hub
+  double shaft_stress_mpa = 0;  ///< the same at the shaft: in its bore when it is hollow
+  double axial_force_n = 0;     ///< that slips
+  double torque_nm = 0;         ///< that slips
+};
+
+/// Lamé's thick cylinders under plane stress (DIN 7190-1:2017 with its 0.4 Rz).
+/// @param interference_um of the diameters, 0 or more
+/// @errors FieldInvalid where the parts are no cylinders around each other.
+Result<Pressure> press(const PressFit& fit, double interference_um);
+
+struct Pair {
+  std::size_t hole = 0;  ///< index of what was given, from 0
+  std::size_t shaft = 0;
+  Length clearance;  ///< hole - shaft
+
+  friend bool operator==(const Pair&, const Pair&) = default;
+};
+
+/// Pairs measured holes with measured shafts: as many pairs as there are of the fewer, with the
+/// least sum of squares of clearance - target of all assignments. By hole, ascending.
+/// Squares are convex, so of two pairs that cross the straight ones are never worse: both sorted,
+/// only which of the more are left out is a question, and a table of the differences answers it.
+/// @errors StatisticsTooFew without a hole or a shaft; FieldTooLong above kLargestPairing;
+///   FiguresLimit where the thread's allowance is spent.
+Result<std::vector<Pair>> pair(const std::vector<Length>& holes, const std::vector<Length>& shafts,
+                               Length target);
+
+/// The fewer times (one more than the difference): cells of that table.
+inline constexpr std::size_t kLargestPairing = 100'000'000;
 
 }  // namespace fitgauge::metrology

@@ -1,4 +1,4 @@
-#include "metrology/statistics/fitted_distribution.hpp"
+#include "metrology/statistics/capability.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "metrology/statistics/chart_constants.hpp"
 #include "metrology/statistics/distributions.hpp"
+#include "metrology/statistics/zone_rules.hpp"
 
 namespace fitgauge::metrology {
 namespace {

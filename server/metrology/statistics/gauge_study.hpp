@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "metrology/statistics/anova.hpp"
+#include "metrology/statistics/process_model.hpp"
 
 namespace fitgauge::metrology {
 

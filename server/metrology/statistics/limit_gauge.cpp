@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "metrology/statistics/limit_gauge_tables.hpp"
-
 namespace fitgauge::metrology {
 namespace {
 

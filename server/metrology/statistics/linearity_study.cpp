@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "metrology/statistics/distributions.hpp"
 #include "metrology/statistics/gauge_study.hpp"

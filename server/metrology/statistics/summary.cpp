@@ -1,7 +1,6 @@
 #include "metrology/statistics/summary.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 namespace fitgauge::metrology {

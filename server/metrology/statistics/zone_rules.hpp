@@ -9,6 +9,24 @@
 
 namespace fitgauge::metrology {
 
+// The constants of control charts for subgroups of n normal values, from their definitions
+// (ISO 7870-2, annex): no table, so any n will do.
+
+/// The mean and the standard deviation of the range of n standard normal values.
+struct RangeConstants {
+  double d2 = 0;
+  double d3 = 0;
+};
+/// @pre n >= 2
+RangeConstants range_constants(std::size_t n);
+
+/// The mean of the standard deviation (of n - 1) of n standard normal values. @pre n >= 2
+double c4(std::size_t n);
+
+/// What a mean moving range of two is divided by: d2 of n = 2 as tables print it, and as every
+/// published chart of individual values uses it. 2 / sqrt(pi) is 0.034 % more.
+inline constexpr double kMovingRangeDivisor = 1.128;
+
 /// The rules of the Western Electric handbook (1956) for a control chart, by number:
 /// 1: a point beyond 3 standard deviations; 2: two of three beyond 2 on one side; 3: four of five
 /// beyond 1 on one side; 4: eight in a row on one side. A point on a line is not beyond it.
@@ -112,5 +130,22 @@ struct ZoneLines {
 /// The violations of a whole chart, by point, then rule.
 std::vector<RuleViolation> find_violations(std::span<const double> points, const ZoneLines& lines,
                                            ZoneRules rules);
+
+// The mean number of points until a chart signals although nothing is wrong: with limits that are
+// known, and normal, independent points.
+
+/// Of a chart of Shewhart's with rules: the Markov chain of its histories, solved exactly
+/// (Champ and Woodall 1987). @pre rules is not empty
+double zone_rules_run_length(ZoneRules rules);
+
+/// Of an EWMA chart with asymptotic limits of `width` standard deviations, from its integral
+/// equation (Crowder 1987). @pre kLeastLambda <= lambda <= 1
+inline constexpr double kLeastLambda = 0.001;
+double ewma_run_length(double lambda, double width);
+
+/// Of a two-sided tabular CUSUM chart, both in standard deviations: the integral equation of one
+/// side (Page 1954), halved. Infinite where it is longer than kLongestRun: rounding hides it then.
+inline constexpr double kLongestRun = 1e9;
+double cusum_run_length(double reference_value, double decision_interval);
 
 }  // namespace fitgauge::metrology

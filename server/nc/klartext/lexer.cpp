@@ -7,7 +7,6 @@
 #include <iterator>
 #include <utility>
 
-#include "base/spelling_hint.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::klartext {

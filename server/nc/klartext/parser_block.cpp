@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/spelling_hint.hpp"
 #include "base/text.hpp"
 #include "nc/klartext/forms.hpp"
 #include "nc/klartext/parser.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/length.hpp"
-#include "metrology/gauging/quantity.hpp"
+#include "metrology/gauging/gauge.hpp"
 
 namespace fitgauge::probing {
 

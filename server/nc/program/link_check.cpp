@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/spelling_hint.hpp"
+#include "base/text.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"

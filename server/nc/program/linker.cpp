@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "base/spelling_hint.hpp"
 #include "base/text.hpp"
 #include "nc/program/arithmetic.hpp"
 #include "nc/program/contradictions.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "tables/tabfile/tab_reader.hpp"
 #include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/error.hpp"
+#include "base/result.hpp"
 #include "nc/machine/fault.hpp"
 #include "nc/probing/cycle_fault.hpp"
 #include "nc/program/control_disk.hpp"

@@ -8,7 +8,6 @@
 #include "base/text.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/run/tool_values.hpp"
-#include "tables/tabfile/tab_reader.hpp"
 #include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {

@@ -6,9 +6,9 @@
 #include <charconv>
 #include <condition_variable>
 
-#include "base/base64.hpp"
-#include "base/guarded.hpp"
+#include "base/digest.hpp"
 #include "base/json/json_value.hpp"
+#include "base/thread.hpp"
 #include "service/log/batch_text.hpp"
 
 namespace fitgauge::forwarder {

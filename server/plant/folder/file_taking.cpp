@@ -1,13 +1,19 @@
-#include "plant/folder/file_taking.hpp"
+#include "plant/folder/folder_in.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
-#include <vector>
 
 #include "base/digest.hpp"
-#include "plant/folder/file_rows.hpp"
+#include "base/text.hpp"
+#include "formats/dfq/measurement_csv.hpp"
+#include "formats/qif/qif_csv.hpp"
+#include "formats/sheet/measurement_fields.hpp"
+#include "formats/sheet/record_reader.hpp"
+#include "formats/sheet/shop_csv.hpp"
+#include "http/request.hpp"
 #include "record/measurement_batch.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 #include "service/measurements/measurement_service.hpp"
@@ -15,6 +21,100 @@
 
 namespace fitgauge::connections {
 namespace {
+
+constexpr std::size_t kMostAppended = std::size_t{8} << 20;  ///< by one call of append()
+
+aqdef::LimitsOfClass limits_by(const iso286::ToleranceTables& tables) {
+  return [&tables](Length nominal, const std::string& name) -> Result<aqdef::SizeLimits> {
+    const auto size = iso286::NominalSize::make(nominal);
+    if (!size) return size.error();
+    const auto limits = tables.limits_of_size(*size, name);
+    if (!limits) return limits.error();
+    return aqdef::SizeLimits{.upper = limits->upper_limit(), .lower = limits->lower_limit()};
+  };
+}
+
+Error too_large(std::string_view what) {
+  return {ErrorCode::BodyTooLarge,
+          fmt::format("it has more than {}: cut it into several files", what)};
+}
+
+template <class Source>
+Result<void> append_all(Source& source, FileRows& rows) {
+  std::size_t count = 0;  // of rows with text, where each call appends one
+  for (;;) {
+    const std::size_t before = rows.text.size();
+    const auto more = sheet::append_next(source, rows.text, rows.lines);
+    if (!more) return more.error();
+    if (!*more) return {};
+    if (rows.text.size() > before && rows.text[before] != '\n') ++count;
+    if (std::max(count, rows.lines.size()) > api::kMostRows) {
+      return too_large(fmt::format("{} rows", api::kMostRows));
+    }
+    if (rows.text.size() > FileRows::kMostBytes) {
+      return too_large(fmt::format("{} MiB of rows", FileRows::kMostBytes >> 20));
+    }
+  }
+}
+
+Result<void> append_table(const FolderInOptions& options, const RestingFile& file, FileRows& rows) {
+  auto table = sheet::ShopRows::open(file.from_begin(), file.from_begin(), options.csv,
+                                     sheet::kMeasurementFields);
+  if (!table) return table.error();
+  rows.text += table->header();
+  return append_all(*table, rows);
+}
+
+Result<void> append_ndjson(const FolderInOptions& options, const RestingFile& file,
+                           FileRows& rows) {
+  auto records =
+      sheet::NdjsonRows::open(file.from_begin(), file.from_begin(), options.csv.encoding);
+  if (!records) return records.error();
+  return append_all(*records, rows);
+}
+
+Result<void> append_dfq(const FolderInOptions& options, const iso286::ToleranceTables& tables,
+                        const RestingFile& file, const RestingFile* description, FileRows& rows) {
+  aqdef::MeasurementCsv csv((description == nullptr ? file : *description).from_begin(),
+                            {.encoding = options.csv.encoding,
+                             .columns = options.csv.columns,
+                             .constants = options.csv.constants,
+                             .zone = options.csv.zone,
+                             .length_unit = options.length_unit,
+                             .leaves_out_others = options.csv.leaves_out_others,
+                             .limits_of = limits_by(tables)});
+  rows.text += csv.header();
+  if (const auto appended = append_all(csv, rows); !appended) {
+    Error error = appended.error();
+    if (description != nullptr) error.message = "the DFD: " + error.message;
+    return error;
+  }
+  if (description != nullptr) {
+    csv.go_on_with(file.from_begin());
+    if (const auto appended = append_all(csv, rows); !appended) return appended.error();
+  }
+  return csv.check();
+}
+
+Result<void> append_qif(const FolderInOptions& options, const iso286::ToleranceTables& tables,
+                        const RestingFile& file, FileRows& rows) {
+  auto values = qif::QifRows::open(file.from_begin(), file.from_begin(),
+                                   {.constants = options.csv.constants,
+                                    .zone = options.csv.zone,
+                                    .length_unit = options.length_unit,
+                                    .leaves_out_others = options.csv.leaves_out_others,
+                                    .limits_of = limits_by(tables),
+                                    .most_rows = api::kMostRows});
+  if (!values) return values.error();
+  rows.text += values->header();
+  if (const auto appended = append_all(*values, rows); !appended) return appended.error();
+  return values->check();
+}
+
+bool is_dfq(std::string_view file_name) {
+  const std::string name = ascii_lower(file_name);
+  return name.ends_with(".dfq") || name.ends_with(".dfx");
+}
 
 constexpr std::size_t kMostTold = 100;
 
@@ -34,6 +134,39 @@ class CountedRows final : public app::Rendering {
 };
 
 }  // namespace
+
+bool is_values_alone(std::string_view file_name) {
+  return ascii_lower(file_name).ends_with(".dfx");
+}
+
+bool is_description(std::string_view file_name) { return ascii_lower(file_name).ends_with(".dfd"); }
+
+Result<FileRows> read_file_rows(const FolderInOptions& options,
+                                const iso286::ToleranceTables& tables, std::string_view file_name,
+                                const RestingFile& file, const RestingFile* description) {
+  FileRows rows{.media_type = sheet::is_ndjson(file_name) ? "application/x-ndjson" : "text/csv"};
+  // Room that is not written to takes no memory; a text that grows is there twice.
+  rows.text.reserve(FileRows::kMostBytes + kMostAppended + http::Request::kBodyPadding);
+  const auto appended = is_dfq(file_name) ? append_dfq(options, tables, file, description, rows)
+                        : qif::is_qif(file_name)      ? append_qif(options, tables, file, rows)
+                        : sheet::is_ndjson(file_name) ? append_ndjson(options, file, rows)
+                                                      : append_table(options, file, rows);
+  if (!appended) return appended.error();
+  return rows;
+}
+
+Error at_lines_of(const FileRows& rows, Error error) {
+  for (Error& field : error.details) {
+    for (Error& place : field.details) {
+      std::size_t line = 0;
+      std::from_chars(place.where.data(), place.where.data() + place.where.size(), line);
+      if (line >= 2 && line - 2 < rows.lines.size()) {
+        place.where = std::to_string(rows.lines[line - 2]);
+      }
+    }
+  }
+  return error;
+}
 
 bool is_of_storage(const Error& error) {
   switch (error.code) {

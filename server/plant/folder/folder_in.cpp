@@ -9,20 +9,14 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
-#include <mutex>
 #include <set>
 #include <span>
 #include <utility>
 
-#include "base/descriptor.hpp"
 #include "base/folder.hpp"
-#include "base/guarded.hpp"
 #include "base/text.hpp"
 #include "base/thread.hpp"
 #include "http/request.hpp"
-#include "plant/folder/file_rows.hpp"
-#include "plant/folder/file_taking.hpp"
-#include "plant/folder/resting_file.hpp"
 
 namespace fitgauge::connections {
 namespace {

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <sys/stat.h>
+
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -9,9 +13,14 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/dfq/limits.hpp"
+#include "base/digest.hpp"
+#include "base/folder.hpp"
+#include "base/result.hpp"
+#include "formats/dfq/description.hpp"
 #include "formats/sheet/shop_csv.hpp"
+#include "formats/sheet/text_encoding.hpp"
 #include "plant/plant.hpp"
+#include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::connections {
 
@@ -35,5 +44,89 @@ std::unique_ptr<Worker> make(const FolderInOptions& options, const Plant& plant)
 
 /// Whether the folder can be read, and files moved in it.
 ConnectionTest test_of(const FolderInOptions& options, const Plant&, const std::stop_token&);
+
+/// As a file looks from outside.
+struct Look {
+  std::int64_t size = 0;
+  std::int64_t changed_ns = 0;
+  std::uint64_t inode = 0;
+
+  friend bool operator==(const Look&, const Look&) = default;
+};
+
+Look look_of(const struct stat& status);
+
+/// A file of a folder, which is read from its begin as often as it must be, a piece at a time.
+/// What was read counts when it is_unchanged() afterwards.
+class RestingFile {
+ public:
+  /// @returns nothing when it is gone, or another kind of entry. @errors StorageUnavailable: it
+  /// cannot be read.
+  static Result<std::optional<RestingFile>> open(const Folder& folder, const std::string& name,
+                                                 const Look& look);
+
+  /// The bytes from the begin on. @errors StorageUnavailable. The file outlives it.
+  Read from_begin() const;
+  /// @errors StorageUnavailable
+  Result<void> add_to(Sha256& digest) const;
+  /// Whether it looks as it did when it was opened.
+  bool is_unchanged() const;
+
+ private:
+  RestingFile(std::string name, Descriptor file, const Look& look)
+      : name_(std::move(name)), file_(std::move(file)), look_(look) {}
+
+  std::string name_;
+  Descriptor file_;
+  Look look_;
+};
+
+/// Whether a file has values and no description: a DFX.
+bool is_values_alone(std::string_view file_name);
+/// Whether it is the description of such a file: a DFD.
+bool is_description(std::string_view file_name);
+
+/// The measurements of a file as /v1/measurements takes them. What is behind the text up to its
+/// capacity is at least http::Request::kBodyPadding bytes.
+struct FileRows {
+  static constexpr std::size_t kMostBytes = std::size_t{48} << 20;
+
+  std::string media_type{};
+  std::string text{};
+  std::vector<std::uint32_t> lines{};  ///< of the file, for each row; empty: they are the same
+};
+
+/// Reads a table, NDJSON, DFQ or QIF by its name, a piece at a time: what is kept of it are its
+/// rows.
+/// @param description of a DFX: its DFD; else null.
+/// @errors BodyTooLarge; those of sheet::ShopRows, sheet::NdjsonRows, aqdef::MeasurementCsv and
+///   qif::QifRows
+Result<FileRows> read_file_rows(const FolderInOptions& options,
+                                const iso286::ToleranceTables& tables, std::string_view file_name,
+                                const RestingFile& file, const RestingFile* description);
+
+/// An error of the rows with the lines of the file.
+Error at_lines_of(const FileRows& rows, Error error);
+
+/// What became of a file.
+struct TakenFile {
+  bool was_taken_before = false;
+  std::size_t measurements = 0;
+};
+
+/// Stores what a file says, all rows or none. The same bytes are stored once for a connection:
+/// their digest is kept for ever in the transaction that stores the rows. Waits.
+/// @param description of a DFX: its DFD; else null.
+/// @returns nothing when the file has changed meanwhile.
+/// @errors StorageBusy, StorageUnavailable, ShuttingDown: try again; any other: the file is wrong.
+Result<std::optional<TakenFile>> take_file(const FolderInOptions& options, const Plant& plant,
+                                           std::string_view file_name, const RestingFile& file,
+                                           const RestingFile* description);
+
+/// What is wrong with a file, for the one who wrote it: lines, and what to do.
+std::string told(std::string_view file_name, const Error& error);
+
+/// Whether an error is one of the storage, not of the file.
+bool is_of_storage(const Error& error);
 
 }  // namespace fitgauge::connections

@@ -10,7 +10,6 @@
 #include "base/folder.hpp"
 #include "base/text.hpp"
 #include "formats/dfq/dfq_writer.hpp"
-#include "plant/follower_settings.hpp"
 #include "plant/kind.hpp"
 #include "record/record.hpp"
 

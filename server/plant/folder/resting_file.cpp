@@ -1,4 +1,4 @@
-#include "plant/folder/resting_file.hpp"
+#include "plant/folder/folder_in.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

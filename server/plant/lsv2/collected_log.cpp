@@ -9,10 +9,9 @@
 
 #include "base/digest.hpp"
 #include "base/text.hpp"
-#include "formats/measuring_log/log_words.hpp"
 #include "formats/measuring_log/measuring_log.hpp"
 #include "nc/probing/measuring_record.hpp"
-#include "tables/iso286/designation.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::connections {
 namespace {

@@ -1,4 +1,4 @@
-#include "plant/lsv2/intake.hpp"
+#include "plant/lsv2/collected_log.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "nc/program/control_disk.hpp"
-#include "plant/lsv2/collected_log.hpp"
 #include "service/files/file_service.hpp"
 #include "service/measurements/measurement_service.hpp"
 

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <deque>
 
-#include "plant/follower_settings.hpp"
 #include "plant/kind.hpp"
-#include "plant/mqtt/broker_settings.hpp"
 #include "plant/mqtt/mqtt_link.hpp"
-#include "plant/mqtt/topic_template.hpp"
 #include "record/record.hpp"
 
 namespace fitgauge::connections {

@@ -14,7 +14,7 @@
 #include <new>
 #include <utility>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 
 namespace fitgauge::connections {
 namespace {

@@ -3,9 +3,149 @@
 #include <fmt/format.h>
 #include <mosquitto.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "base/text.hpp"
+
 namespace fitgauge::connections {
+namespace {
+
+using app::Measurement;
+
+constexpr std::size_t kLongest = 500;
+
+/// What a topic can have beside the texts of a measurement.
+struct OtherName {
+  std::string_view name;
+  std::string (*of)(const Measurement& measurement);
+};
+constexpr OtherName kOtherNames[] = {
+    {"verdict", [](const Measurement& m) { return std::string(word(m.result.verdict)); }},
+    {"source", [](const Measurement& m) { return std::string(word(m.source)); }},
+    {"tolerance_class",
+     [](const Measurement& m) { return std::string(m.class_name.value_or("")); }},
+    {"caller", [](const Measurement& m) { return std::string(m.caller.value_or("")); }},
+};
+
+std::optional<std::string> value_of(const Measurement& measurement, std::string_view name) {
+  for (const app::MeasurementField& field : app::kLabels) {
+    if (field.name == name && name != "comment")
+      return std::string((measurement.*field.text).value_or(""));
+  }
+  for (const OtherName& other : kOtherNames) {
+    if (other.name == name) return other.of(measurement);
+  }
+  return std::nullopt;
+}
+
+std::string names() {
+  std::string all;
+  for (const app::MeasurementField& field : app::kLabels) {
+    if (field.name != "comment") all += fmt::format("{{{}}}, ", field.name);
+  }
+  for (const OtherName& other : kOtherNames) all += fmt::format("{{{}}}, ", other.name);
+  all.resize(all.size() - 2);
+  return all;
+}
+
+/// Whether a topic may not have the character, or a level may not: what MQTT 1.5.4 advises against.
+bool is_escaped(char32_t c) {
+  return c == U'%' || c == U'+' || c == U'#' || c == U'/' || c < 0x20 || (c >= 0x7F && c < 0xA0) ||
+         (c >= 0xFDD0 && c <= 0xFDEF) || (c & 0xFFFE) == 0xFFFE;
+}
+
+/// The character at the front of valid UTF-8, and how many bytes it takes.
+std::pair<char32_t, std::size_t> front_character(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t size = first < 0x80 ? 1U : first < 0xE0 ? 2U : first < 0xF0 ? 3U : 4U;
+  char32_t c = size == 1 ? first : first & (0xFFU >> (size + 1));
+  for (std::size_t i = 1; i < size && i < text.size(); ++i) {
+    c = c << 6U | (static_cast<unsigned char>(text[i]) & 0x3FU);
+  }
+  return {c, std::min(size, text.size())};
+}
+
+Error invalid(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
+
+/// What may stand in a template as it is.
+bool is_literal(std::string_view text) {
+  while (!text.empty()) {
+    const auto [c, size] = front_character(text);
+    const bool is_kept = c != U'}' && (c == U'/' || c == U'%' || !is_escaped(c));
+    if (!is_kept) return false;
+    text.remove_prefix(size);
+  }
+  return true;
+}
+
+constexpr std::string_view kPlain = "mqtt://";
+constexpr std::string_view kTls = "mqtts://";
+
+}  // namespace
+
+std::string topic_level(std::string_view text) {
+  if (text.empty()) return "-";
+  if (text == "-") return "%2D";
+  std::string level;
+  while (!text.empty()) {
+    const auto [c, size] = front_character(text);
+    for (const char byte : text.substr(0, size)) {
+      if (is_escaped(c)) {
+        level += fmt::format("%{:02X}", static_cast<unsigned char>(byte));
+      } else {
+        level += byte;
+      }
+    }
+    text.remove_prefix(size);
+  }
+  return level;
+}
+
+Result<TopicTemplate> TopicTemplate::parse(std::string_view text) {
+  // The broker keeps $ for itself; a text that begins with one must not get there.
+  if (text.starts_with('$') || text.starts_with('{')) {
+    return invalid("a topic begins with a word of your own, such as plant/");
+  }
+  return parse_parts(text);
+}
+
+Result<TopicTemplate> TopicTemplate::parse_level(std::string_view text) {
+  if (text.find('/') != std::string_view::npos) return invalid("one level of a topic has no /");
+  return parse_parts(text);
+}
+
+Result<TopicTemplate> TopicTemplate::parse_parts(std::string_view text) {
+  if (text.empty() || text.size() > kLongest) {
+    return invalid(fmt::format("a topic has 1 to {} bytes", kLongest));
+  }
+  TopicTemplate made;
+  while (!text.empty()) {
+    const std::size_t open = text.find('{');
+    const std::string_view literal = text.substr(0, open);
+    if (!is_literal(literal)) return invalid("a topic has no +, #, } and control characters");
+    made.parts_.push_back({.text = std::string(literal)});
+    if (open == std::string_view::npos) break;
+    text.remove_prefix(open + 1);
+    const std::size_t close = text.find('}');
+    const std::string_view name = text.substr(0, close);
+    if (close == std::string_view::npos || !value_of({}, name)) {
+      return invalid(
+          fmt::format("there is no {{{}}}: take {}", first_characters(name, 40), names()));
+    }
+    made.parts_.push_back({.is_name = true, .text = std::string(name)});
+    text.remove_prefix(close + 1);
+  }
+  return made;
+}
+
+std::string TopicTemplate::topic_of(const Measurement& measurement) const {
+  std::string topic;
+  for (const Part& part : parts_) {
+    topic += part.is_name ? topic_level(*value_of(measurement, part.text)) : part.text;
+  }
+  return topic;
+}
 
 std::string mqtt_reason(int reason) {
   if (reason == MqttClient::kCannotBeSent) return "the message cannot be sent as it is";
@@ -23,6 +163,52 @@ std::string MqttLink::give_up(std::string_view why) {
   const bool is_lost = client == nullptr || !client->is_connected();
   if (is_lost) return client == nullptr ? std::string(why) : client->failure();
   return fmt::format("the broker {}: {}", to_text(broker_.address), why);
+}
+
+Result<Broker> read_broker(std::string_view text) {
+  Broker broker;
+  broker.tls = text.starts_with(kTls);
+  const auto refused = invalid_field(
+      "a broker is mqtts://host or mqtt://host, with a port behind it where it is not 8883 or "
+      "1883; its user and password have members of their own");
+  if (!broker.tls && !text.starts_with(kPlain)) return refused;
+  std::string address(text.substr(broker.tls ? kTls.size() : kPlain.size()));
+  if (address.ends_with('/')) address.pop_back();
+  const bool has_port = !address.ends_with(']') && address.find(':') != std::string::npos;
+  if (!has_port) address += broker.tls ? ":8883" : ":1883";
+  const auto parsed = control_link::parse_control_address(address);
+  if (!parsed || address.find('@') != std::string::npos || address.size() > kLongestBrokerText) {
+    return refused;
+  }
+  broker.address = *parsed;
+  return broker;
+}
+
+Result<std::string> read_client_id(std::string_view id) {
+  const bool is_id =
+      !id.empty() && id.size() <= kLongestClientId && std::all_of(id.begin(), id.end(), [](char c) {
+        return c > ' ' && c < '\x7F' && c != '+' && c != '#';
+      });
+  if (is_id) return std::string(id);
+  return invalid_field(fmt::format("client_id has 1 to {} ASCII characters without blanks, + and #",
+                                   kLongestClientId));
+}
+
+Broker named(Broker broker, std::string_view origin, std::string_view connection) {
+  if (broker.client_id.empty()) {
+    broker.client_id = fmt::format("fitgauge-{}-{}", origin.substr(0, 8), connection);
+  }
+  return broker;
+}
+
+ConnectionTest test_broker(const Broker& broker, std::string_view connection, const Plant& plant,
+                           const std::stop_token& stop) {
+  Broker probe = named(broker, plant.origin, connection);
+  probe.client_id += "-test";  // the broker would send the connection itself away
+  MqttClient client(probe, {}, [] {});
+  if (auto failure = client.wait_connected(stop)) return {.ok = false, .detail = *failure};
+  client.leave();
+  return {.ok = true, .detail = "the broker accepts the connection"};
 }
 
 }  // namespace fitgauge::connections

@@ -1,8 +1,7 @@
-#include "plant/mtconnect/agent_session.hpp"
+#include "plant/mtconnect/shdr_adapter.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <boost/asio/write.hpp>
 #include <utility>
 

@@ -7,7 +7,6 @@
 
 #include "base/length.hpp"
 #include "base/text.hpp"
-#include "base/xml_text.hpp"
 
 namespace fitgauge::mtconnect {
 namespace {

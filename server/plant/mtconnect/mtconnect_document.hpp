@@ -1,19 +1,56 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <bitset>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "plant/mtconnect/mtconnect_path.hpp"
+#include "api/services.hpp"
+#include "base/result.hpp"
+#include "http/route.hpp"
 #include "service/measurements/measurement_service.hpp"
 
-// MTConnect 2.4: a device `Gauge` whose observations are the measurements of the log.
-
 namespace fitgauge::mtconnect {
+
+/// What the device Gauge observes.
+struct DataItem {
+  std::string_view id;
+  std::string_view type;
+  std::string_view sub_type{};
+  bool is_discrete = false;
+};
+
+inline constexpr std::array<DataItem, 10> kDataItems = {{
+    {"avail", "AVAILABILITY"},
+    {"asset_changed", "ASSET_CHANGED", "", true},
+    {"asset_removed", "ASSET_REMOVED"},
+    {"part", "PART_ID"},
+    {"count1", "PART_COUNT", "ALL"},
+    {"count2", "PART_COUNT", "GOOD"},
+    {"count3", "PART_COUNT", "BAD"},
+    {"count4", "PART_COUNT", "x:REWORK"},
+    {"count5", "PART_COUNT", "x:INDETERMINATE"},
+    {"feature", "FEATURE_MEASUREMENT"},
+}};
+
+/// Which of them a document shows, by their places.
+using Selection = std::bitset<kDataItems.size()>;
+inline const Selection kEverything = Selection().set();
+
+/// The data items that a path names. Of XPath it takes paths with `|` between them, whose steps are
+/// names or `*` behind `/` or `//`, and conditions `[@name="text"]` joined by `and` or `or`: enough
+/// for `//Device[@name="Gauge"]//DataItem[@type="PART_ID" or @id="feature"]`. A step that names the
+/// device or its list of data items chooses all that it holds.
+/// @errors QueryInvalid: it is no such path, or names nothing that is there.
+Result<Selection> select(std::string_view path);
+
+// MTConnect 2.4: a device `Gauge` whose observations are the measurements of the log.
 
 /// Sequence 1 is that the gauge is there; measurement n of the log has two: its part and itself.
 constexpr std::uint64_t part_sequence(std::int64_t id) {
@@ -97,3 +134,25 @@ std::string devices_document(const Agent& agent);
 std::string error_document(const Agent& agent, std::string_view code, std::string_view message);
 
 }  // namespace fitgauge::mtconnect
+
+namespace fitgauge::api {
+
+/// What every document of the agent says now.
+mtconnect::Agent mtconnect_agent(const Services& services);
+http::Response mtconnect_response(int status, std::string text);
+
+/// That a query may name.
+inline constexpr std::int64_t kMostSequence = std::int64_t{1} << 53;
+
+/// How many streams are open.
+using OpenStreams = std::shared_ptr<std::atomic<int>>;
+inline constexpr int kMostMtconnectStreams = 32;
+
+std::vector<http::Parameter> sample_parameters();
+
+/// GET /mtconnect/sample: a document of the observations from a sequence on, or with `interval` a
+/// stream of them. @param open outlives the streams.
+void sample_mtconnect(const Services& services, const OpenStreams& open,
+                      const http::Request& request, http::Responder responder);
+
+}  // namespace fitgauge::api

@@ -1,4 +1,4 @@
-#include "plant/mtconnect/mtconnect_path.hpp"
+#include "plant/mtconnect/mtconnect_document.hpp"
 
 #include <fmt/format.h>
 

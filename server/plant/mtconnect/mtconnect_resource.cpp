@@ -8,7 +8,6 @@
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_qif.hpp"
 #include "plant/mtconnect/mtconnect_document.hpp"
-#include "plant/mtconnect/mtconnect_sample.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {

@@ -1,4 +1,4 @@
-#include "plant/mtconnect/mtconnect_sample.hpp"
+#include "plant/mtconnect/mtconnect_document.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "api/handlers.hpp"
-#include "http/body_stream.hpp"
+#include "http/response.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/measurement_service.hpp"
 

@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "base/guarded.hpp"
 #include "base/text.hpp"
 #include "base/thread.hpp"
 #include "service/events/event_service.hpp"

@@ -1,19 +1,79 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <list>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "base/clock.hpp"
+#include "plant/log_follower.hpp"
 #include "plant/mqtt/mqtt_client.hpp"
-#include "plant/sparkplug/device_metrics.hpp"
-#include "plant/sparkplug/sparkplug.hpp"
+#include "plant/mqtt/mqtt_link.hpp"
+#include "record/measurement.hpp"
 
 namespace fitgauge::connections {
+
+/// An edge node of Sparkplug B, version 3.0 of the specification, over MQTT 3.1.1.
+struct SparkplugOptions {
+  FollowerOptions follower{};
+  Broker broker{};
+  std::string group{};
+  std::string node{};
+  /// Whose last measurement a device shows.
+  TopicTemplate device = TopicTemplate::parse_level("{machine}:{characteristic}").value();
+  std::string
+      primary_host{};  ///< nothing goes out while it is offline; empty: nobody is waited for
+  std::size_t most_devices = 1000;
+};
+
+/// The types of the specification that we send (3.0, 6.4.16 "Data Types").
+enum class SparkplugType : std::uint32_t {
+  Int64 = 4,
+  Double = 10,
+  Boolean = 11,
+  String = 12,
+  DateTime = 13
+};
+
+/// Null, truth, whole number (of DateTime in milliseconds), number, text.
+using SparkplugValue = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
+
+struct SparkplugMetric {
+  std::string name{};                    ///< in births and deaths; else empty
+  std::optional<std::uint64_t> alias{};  ///< goes for the name in data
+  std::optional<SparkplugType> type{};   ///< in births and deaths
+  Timestamp at{};
+  SparkplugValue value{};
+};
+
+/// Since 1970; what was before is 0: the payload has no sign for times.
+std::int64_t milliseconds(Timestamp time);
+
+/// The bytes of a payload. @param seq none in a death of the node.
+std::string sparkplug_payload(Timestamp sent_at, std::optional<std::uint8_t> seq,
+                              const std::vector<SparkplugMetric>& metrics);
+
+inline constexpr std::string_view kRebirth = "Node Control/Rebirth";
+
+/// Whether a command asks for all births. What is no payload asks for nothing.
+bool asks_for_rebirth(std::string_view payload);
+
+/// What every device reports of its last measurement: the same metrics, whatever is measured, so
+/// that a birth names all that will ever come.
+struct DeviceMetric {
+  std::string_view name;
+  SparkplugType type;
+  SparkplugValue (*value)(const app::Measurement& measurement);
+};
+
+extern const std::array<DeviceMetric, 17> kDeviceMetrics;
 
 /// The messages of an edge node: which, in which order, with which numbers. Sends nothing itself.
 /// For one thread.
@@ -61,6 +121,20 @@ class EdgeNode {
   std::uint64_t next_alias_;
   Devices devices_;
   std::map<std::string, Devices::iterator> by_id_;
+};
+
+/// Whether the primary host is there, by the STATE messages that have come.
+class HostState {
+ public:
+  /// One that is older than the last, or no STATE at all, changes nothing.
+  void take(std::string_view payload);
+  /// A new connection: what the broker has kept of it comes anew.
+  void forget() { is_online_ = false; }
+  bool is_online() const { return is_online_; }
+
+ private:
+  bool is_online_ = false;
+  std::optional<std::int64_t> timestamp_{};
 };
 
 }  // namespace fitgauge::connections

@@ -1,14 +1,11 @@
-#include "plant/sparkplug/sparkplug.hpp"
+#include "plant/sparkplug/edge_node.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "plant/follower_settings.hpp"
 #include "plant/kind.hpp"
 #include "plant/mqtt/mqtt_link.hpp"
-#include "plant/sparkplug/edge_node.hpp"
-#include "plant/sparkplug/host_state.hpp"
 
 namespace fitgauge::connections {
 namespace {

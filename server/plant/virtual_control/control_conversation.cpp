@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "plant/lsv2/link/virtual_names.hpp"
-#include "plant/virtual_control/disk_path.hpp"
-#include "plant/virtual_control/plc_memory.hpp"
+#include "plant/lsv2/link/requests.hpp"
+#include "plant/virtual_control/machine_view.hpp"
+#include "plant/virtual_control/virtual_disk.hpp"
 
 namespace fitgauge::virtual_control {
 

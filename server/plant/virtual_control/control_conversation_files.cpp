@@ -4,8 +4,8 @@
 
 #include "base/text.hpp"
 #include "plant/virtual_control/control_conversation.hpp"
-#include "plant/virtual_control/disk_path.hpp"
-#include "plant/virtual_control/screen_dump.hpp"
+#include "plant/virtual_control/machine_view.hpp"
+#include "plant/virtual_control/virtual_disk.hpp"
 
 namespace fitgauge::virtual_control {
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "nc/machine/machine_setup.hpp"
@@ -54,5 +56,20 @@ class MachineView {
   std::int64_t seen_run_ = 0;
   std::shared_ptr<app::ActiveRun> started_;  ///< the last one that a client has started
 };
+
+/// The PLC of a machine without one: every cell is 0 and every string empty.
+control_link::Parameters control_parameters();
+
+/// `count` bytes from `address`. @errors BadAddress.
+control_link::ControlResult<control_link::Memory> read_memory(std::uint32_t address,
+                                                              std::uint8_t count);
+
+/// A value by its data path, `\PLC\memory\W\2`: the type that the path stands for, and 0.
+/// @errors WrongParameter: a path of another tree.
+control_link::ControlResult<control_link::DataValue> read_data_path(std::string_view path);
+
+/// A bitmap (BMP) of 640 by 480: the simulation has no screen, so it is one colour, that of the
+/// program's state: green runs, red failed, grey else.
+std::string screen_dump(control_link::ProgramState state);
 
 }  // namespace fitgauge::virtual_control

@@ -5,10 +5,20 @@
 #include <future>
 
 #include "plant/virtual_control/control_conversation.hpp"
-#include "plant/virtual_control/example_programs.hpp"
 
 namespace fitgauge::virtual_control {
 namespace {
+
+constexpr ControlModel kModels[] = {
+    {.name = "TNC640", .nc_software = "340595 08 SP1"},
+    {.name = "TNC7", .nc_software = "817625 17 SP1"},
+    {.name = "TNC320", .nc_software = "771855 05 SP1"},
+    {.name = "iTNC530", .nc_software = "340494 08 SP1", .is_itnc = true},
+    {.name = "iTNC530 Programming station",
+     .nc_software = "340494 08 SP1",
+     .is_itnc = true,
+     .asks_plc_password = false},
+};
 
 /// Of what all transfers of all clients hold.
 constexpr std::size_t kTransferBytes = std::size_t{24} << 20;
@@ -68,6 +78,15 @@ void keep_files(app::FileService& files, const std::shared_ptr<app::ActiveRun>& 
 }
 
 }  // namespace
+
+std::span<const ControlModel> control_models() { return kModels; }
+
+const ControlModel* find_model(std::string_view name) {
+  for (const ControlModel& model : kModels) {
+    if (model.name == name) return &model;
+  }
+  return nullptr;
+}
 
 struct VirtualControl::Parts {
   ControlState state;

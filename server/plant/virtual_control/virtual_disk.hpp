@@ -10,11 +10,26 @@
 #include <vector>
 
 #include "nc/program/control_disk.hpp"
-#include "plant/lsv2/link/control_error.hpp"
+#include "plant/lsv2/link/payload.hpp"
 #include "service/files/file_service.hpp"
 #include "service/runs/run_service.hpp"
 
 namespace fitgauge::virtual_control {
+
+inline constexpr std::string_view kRoot = "TNC:\\";
+
+/// A file as a client names it: absolute, or relative to its directory. `/` separates as `\` does.
+/// @param directory ends with `\`
+/// @errors BadFileName: another drive, a path out of `TNC:\`, no file name.
+control_link::ControlResult<interpreter::ControlPath> file_path(std::string_view text,
+                                                                std::string_view directory);
+
+/// A directory, with its last `\`; whether it is there is the disk's to say. @errors BadFileName.
+control_link::ControlResult<std::string> directory_path(std::string_view text,
+                                                        std::string_view directory);
+
+/// The directory that a directory lies in; of the root the root.
+std::string_view parent_of(std::string_view directory);
 
 /// A file or a directory as the control lists it.
 struct DiskEntry {

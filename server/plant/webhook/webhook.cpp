@@ -1,4 +1,4 @@
-#include "plant/webhook/webhook.hpp"
+#include "plant/webhook/body_template.hpp"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
@@ -7,13 +7,11 @@
 #include <algorithm>
 #include <array>
 
-#include "base/base64.hpp"
+#include "base/digest.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"
 #include "http/client/http_client.hpp"
-#include "plant/follower_settings.hpp"
 #include "plant/kind.hpp"
-#include "plant/webhook/body_template.hpp"
 #include "record/record.hpp"
 
 namespace fitgauge::connections {

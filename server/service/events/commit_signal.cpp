@@ -3,7 +3,7 @@
 #include <chrono>
 #include <vector>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 
 namespace fitgauge::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <utility>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"

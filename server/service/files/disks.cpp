@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "db/store/database.hpp"
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 
 namespace fitgauge::app {
 

@@ -9,8 +9,7 @@
 
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
-#include "record/json_members.hpp"
-#include "record/record_reader.hpp"
+#include "record/record.hpp"
 
 namespace fitgauge::api {
 namespace {

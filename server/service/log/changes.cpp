@@ -2,7 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/json/json_writer.hpp"
-#include "proof/tree_hash.hpp"
+#include "proof/frontier.hpp"
 #include "service/documents/document_service.hpp"
 
 namespace fitgauge::app {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "proof/tree_hash.hpp"
+#include "proof/frontier.hpp"
 #include "record/measurement.hpp"
 
 namespace fitgauge::app {

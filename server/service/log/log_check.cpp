@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/base64.hpp"
+#include "base/digest.hpp"
 
 namespace fitgauge::app {
 namespace {

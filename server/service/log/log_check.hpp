@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "db/store/verify.hpp"
+#include "db/store/open_options.hpp"
 #include "proof/frontier.hpp"
 #include "service/log/leaf.hpp"
 #include "service/log/log_service.hpp"

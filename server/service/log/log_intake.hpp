@@ -11,7 +11,7 @@
 #include "base/clock.hpp"
 #include "base/digest.hpp"
 #include "base/result.hpp"
-#include "db/store/idempotency_store.hpp"
+#include "db/store/keys_store.hpp"
 #include "proof/checkpoint.hpp"
 #include "proof/frontier.hpp"
 #include "record/measurement.hpp"

@@ -8,8 +8,8 @@
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
-#include "db/store/idempotency_store.hpp"
-#include "proof/tree_hash.hpp"
+#include "db/store/keys_store.hpp"
+#include "proof/frontier.hpp"
 #include "service/log/log_intake.hpp"
 #include "service/log/log_service.hpp"
 

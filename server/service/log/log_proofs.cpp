@@ -4,10 +4,10 @@
 #include <sstream>
 #include <utility>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 #include "db/store/database.hpp"
+#include "proof/frontier.hpp"
 #include "proof/note.hpp"
-#include "proof/proof.hpp"
 #include "service/log/log_reader.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/mapping.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 #include "record/record.hpp"
 #include "service/log/changes.hpp"
 

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/base64.hpp"
-#include "base/guarded.hpp"
+#include "base/digest.hpp"
+#include "base/thread.hpp"
 #include "db/store/database.hpp"
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 #include "proof/note.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"

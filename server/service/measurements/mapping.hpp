@@ -3,7 +3,7 @@
 #include <functional>
 #include <string_view>
 
-#include "db/store/idempotency_store.hpp"
+#include "db/store/keys_store.hpp"
 #include "db/store/measurement_row.hpp"
 #include "db/store/tables_store.hpp"
 #include "record/measurement.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "db/store/stores.hpp"
-#include "record/note.hpp"
+#include "record/measurement.hpp"
 
 // Notes as rows of this folder; the service calls these in its jobs.
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 #include "db/store/database.hpp"
 
 namespace fitgauge::app {

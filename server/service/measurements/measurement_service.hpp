@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "db/store/idempotency_store.hpp"
+#include "db/store/keys_store.hpp"
 #include "record/measurement.hpp"
 #include "service/measurements/corrected_places.hpp"
 

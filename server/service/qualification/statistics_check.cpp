@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "metrology/statistics/anova.hpp"
+#include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/capability.hpp"
-#include "metrology/statistics/chart_constants.hpp"
+#include "metrology/statistics/control_chart.hpp"
 #include "metrology/statistics/gauge_study.hpp"
 #include "service/qualification/qualification.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "metrology/gauging/gauge.hpp"
-#include "metrology/gauging/reference_temperature.hpp"
+#include "metrology/gauging/conformance.hpp"
 #include "metrology/statistics/gauge_study.hpp"
 #include "metrology/statistics/uncertainty.hpp"
 #include "service/qualification/qualification.hpp"

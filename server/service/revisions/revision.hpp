@@ -8,7 +8,7 @@
 
 #include "base/clock.hpp"
 #include "base/digest.hpp"
-#include "base/error.hpp"
+#include "base/result.hpp"
 #include "record/measurement.hpp"
 #include "service/documents/key_service.hpp"
 #include "tables/iso286/table_data.hpp"

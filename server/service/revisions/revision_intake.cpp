@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "db/store/database.hpp"
-#include "proof/tree_hash.hpp"
+#include "proof/frontier.hpp"
 #include "record/origins.hpp"
 #include "service/documents/key_service.hpp"
 #include "service/log/changes.hpp"

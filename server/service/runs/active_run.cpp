@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 
 namespace fitgauge::app {
 

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "tables/tabfile/tab_reader.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::app {
 namespace {

@@ -10,7 +10,7 @@
 #include "base/allowance.hpp"
 #include "base/text.hpp"
 #include "db/store/database.hpp"
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/klartext/mask_file.hpp"
@@ -21,7 +21,7 @@
 #include "service/files/disks.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/runs/run_service.hpp"
-#include "tables/tabfile/tab_reader.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 // What is done for a run before it is started.
 

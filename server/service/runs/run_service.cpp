@@ -1,6 +1,6 @@
 #include "service/runs/run_service.hpp"
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/runs/stored_run.hpp"

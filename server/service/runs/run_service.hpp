@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "base/job_pool.hpp"
 #include "base/thread.hpp"
 #include "base/worker_pool.hpp"
 #include "nc/klartext/diagnostic.hpp"

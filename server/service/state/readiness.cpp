@@ -1,6 +1,5 @@
 #include "service/state/readiness.hpp"
 
-#include "db/postgres/database.hpp"
 #include "db/store/database.hpp"
 #include "service/log/log_service.hpp"
 #include "service/tables/table_catalog.hpp"

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
 #include "base/result.hpp"
 
 namespace fitgauge::store {

@@ -10,7 +10,7 @@
 #include "service/measurements/mapping.hpp"
 #include "service/revisions/revision.hpp"
 #include "service/tables/custom_column.hpp"
-#include "tables/iso286/table_rules.hpp"
+#include "tables/iso286/table_data.hpp"
 #include "tables/standards/standard.hpp"
 
 namespace fitgauge::app {

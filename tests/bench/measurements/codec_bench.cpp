@@ -16,7 +16,7 @@
 #include "http/request.hpp"
 #include "record/measurement_batch.hpp"
 #include "record/record.hpp"
-#include "tables/iso286/designation.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 
 using namespace fitgauge;
 using nlohmann::json;

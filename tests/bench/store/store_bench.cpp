@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "bare_sqlite.hpp"
-#include "db/sqlite/database.hpp"
+#include "db/store/database.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::store;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/json/json_escape.hpp"
+#include "base/json/json_writer.hpp"
 #include "record/record.hpp"
 #include "service/log/leaf.hpp"
 

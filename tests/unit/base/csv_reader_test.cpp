@@ -1,6 +1,4 @@
-#include "base/csv_reader.hpp"
-
-#include "base/csv_cell.hpp"
+#include "base/csv.hpp"
 
 #include <doctest/doctest.h>
 

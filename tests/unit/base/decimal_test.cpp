@@ -1,4 +1,4 @@
-#include "base/decimal.hpp"
+#include "base/length.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,3 @@
-#include "base/error_code.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "base/forward_clock.hpp"
+#include "base/clock.hpp"
 
 #include <doctest/doctest.h>
 

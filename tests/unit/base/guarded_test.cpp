@@ -1,4 +1,4 @@
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include "base/json/json_value.hpp"
-#include "base/json/stored_member.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

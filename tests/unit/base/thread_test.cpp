@@ -10,8 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "base/guarded.hpp"
-
 using namespace fitgauge;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "daemon/log_queue.hpp"
+#include "daemon/log.hpp"
 
 #include <doctest/doctest.h>
 #include <fcntl.h>

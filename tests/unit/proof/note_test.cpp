@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "base/base64.hpp"
+#include "base/digest.hpp"
 #include "proof/checkpoint.hpp"
 
 using namespace fitgauge;

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "base/csv_cell.hpp"
+#include "base/csv.hpp"
 #include "record/record.hpp"
 #include "tables/iso286/table_data.hpp"
 

@@ -1,4 +1,3 @@
-#include "record/record_reader.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

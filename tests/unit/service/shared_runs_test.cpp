@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/guarded.hpp"
-#include "db/sqlite/database.hpp"
+#include "base/thread.hpp"
+#include "db/store/database.hpp"
 #include "service_fixture.hpp"
 
 using namespace fitgauge;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/decimal.hpp"
+#include "base/length.hpp"
 #include "log_templates.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 #include "nc/probing/measured_value.hpp"

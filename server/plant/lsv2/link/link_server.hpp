@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/result.hpp"
-#include "plant/lsv2/link/telegram.hpp"
+#include "plant/lsv2/link/payload.hpp"
 
 namespace fitgauge::control_link {
 

@@ -3,15 +3,44 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <variant>
 
-#include "plant/lsv2/link/message.hpp"
+#include "plant/lsv2/link/payload.hpp"
+
+namespace fitgauge::control_link {
+
+// What only a virtual control of ours says.
+
+/// What it says in place of a PLC's version.
+inline constexpr std::string_view kVirtualPlc = "fitgauge";
+/// The machine parameter that stands for the NC start key, which LSV-2 does not have: a program's
+/// path written to it starts the program, an empty text stops it.
+inline constexpr std::string_view kRunParameter = "Fitgauge.program";
+
+/// A message is a struct with the name of its telegram, `kName`, and its fields in the order of the
+/// wire, `fields`. Both directions come of that one list.
+template <class Message>
+Telegram encode(const Message& message) {
+  PayloadWriter out;
+  std::apply([&out](const auto&... field) { (out.put(field), ...); }, Message::fields(message));
+  return {Message::kName, std::move(out).bytes()};
+}
+
+/// @errors Unexpected: another telegram. BadFormat: a field too few, too many or broken.
+template <class Message>
+ControlResult<Message> decode(const Telegram& telegram) {
+  if (telegram.name != Message::kName) return ControlError::Unexpected;
+  Message message;
+  PayloadReader in(telegram.payload);
+  std::apply([&in](auto&... field) { (in.get(field), ...); }, Message::fields(message));
+  if (!in.ended()) return ControlError::BadFormat;
+  return message;
+}
 
 // What a client asks of a control, one struct a telegram. Paths are the control's: `TNC:\x.h`, or
 // relative to the connection's directory.
-
-namespace fitgauge::control_link {
 
 #define FITGAUGE_TELEGRAM(letters, ...)                         \
   static constexpr TelegramName kName = telegram_name(letters); \

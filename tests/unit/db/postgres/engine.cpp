@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "db/postgres/connection.hpp"
-#include "db/postgres/database.hpp"
 #include "db/sql/statement.hpp"
+#include "db/store/database.hpp"
 
 namespace fitgauge::store::test {
 namespace {

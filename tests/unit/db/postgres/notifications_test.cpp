@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "db/postgres/connection.hpp"
-#include "db/postgres/notifications.hpp"
+#include "db/postgres/listener.hpp"
 #include "fixture.hpp"
 #include "support/comes_true.hpp"
 

@@ -1,4 +1,4 @@
-#include "db/sqlite/checkpointer.hpp"
+#include "db/sqlite/upkeep.hpp"
 
 #include <filesystem>
 #include <string>

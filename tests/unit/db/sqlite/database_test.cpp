@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 
 #include "db/sqlite/connection.hpp"
-#include "db/sqlite/migrator.hpp"
+#include "db/sqlite/database_file.hpp"
 #include "fixture.hpp"
 #include "full_disk.hpp"
 

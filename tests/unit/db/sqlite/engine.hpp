@@ -3,7 +3,7 @@
 #include <string>
 
 #include "db/sqlite/connection.hpp"
-#include "db/sqlite/database.hpp"
+#include "db/store/database.hpp"
 
 namespace fitgauge::store::test {
 

@@ -1,9 +1,8 @@
-#include "db/sqlite/migrator.hpp"
 
 #include <vector>
 
 #include "db/sqlite/database_file.hpp"
-#include "db/store/storage_failure.hpp"
+#include "db/store/stores.hpp"
 #include "fixture.hpp"
 
 using namespace fitgauge;

@@ -6,8 +6,8 @@
 
 #include <vector>
 
+#include "db/sql/index_nodes.hpp"
 #include "db/sql/measurement_query.hpp"
-#include "db/sql/pair_index.hpp"
 #include "fixture.hpp"
 
 using namespace fitgauge;

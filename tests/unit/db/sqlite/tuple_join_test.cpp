@@ -5,7 +5,7 @@
 #include <map>
 #include <random>
 
-#include "db/sql/pair_index.hpp"
+#include "db/sql/index_nodes.hpp"
 #include "fixture.hpp"
 
 using namespace fitgauge::store;

@@ -1,9 +1,8 @@
-#include "db/store/verify.hpp"
+#include "db/store/open_options.hpp"
 
 #include <chrono>
 
 #include "db/sqlite/connection.hpp"
-#include "db/sqlite/session.hpp"
 #include "db/sqlite/verifier.hpp"
 #include "fixture.hpp"
 #include "support/comes_true.hpp"

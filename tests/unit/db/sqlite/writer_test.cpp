@@ -1,4 +1,4 @@
-#include "db/store/writer.hpp"
+#include "db/store/jobs.hpp"
 
 #include <latch>
 #include <mutex>

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 #include "fixture.hpp"
 
 using namespace fitgauge;

@@ -41,13 +41,17 @@ std::string expected_summary(const Sample& sample, const MeasurementFilter& filt
   return text;
 }
 
+std::int64_t count_of(const SummaryGroup& group, Verdict verdict) {
+  return group.verdicts[static_cast<std::size_t>(verdict) - 1];
+}
+
 std::string found_summary(Fixture& fixture, const MeasurementFilter& filter, TextField group_by) {
   return *fixture.read([&](const Stores& stores) -> Result<std::string> {
     std::string text;
     for (const SummaryGroup& group : *stores.measurements.summary(filter, group_by)) {
       text += fmt::format("{}:{}x {}r {}..{} mean {:.3f}\n", group.value.value_or("none"),
-                          group.count, group.verdict_count(Verdict::Reject), group.min_nm,
-                          group.max_nm, std::stod(group.mean_mm));
+                          group.count, count_of(group, Verdict::Reject), group.min_nm, group.max_nm,
+                          std::stod(group.mean_mm));
     }
     return text;
   });
@@ -310,8 +314,8 @@ TEST_CASE("a summary groups by the values of a field") {
   CHECK(groups[0].standard_deviation_mm == std::nullopt);
   CHECK(groups[1].value == "bore-A");
   CHECK(groups[1].count == 2);
-  CHECK(groups[1].verdict_count(Verdict::Good) == 1);
-  CHECK(groups[1].verdict_count(Verdict::Reject) == 1);
+  CHECK(count_of(groups[1], Verdict::Good) == 1);
+  CHECK(count_of(groups[1], Verdict::Reject) == 1);
   CHECK(groups[1].mean_mm == "25.0175");
   CHECK(groups[1].standard_deviation_mm == "0.006363961031");
   CHECK(groups[1].min_nm == 25'013'000);

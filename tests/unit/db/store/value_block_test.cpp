@@ -1,4 +1,4 @@
-#include "db/store/value_block.hpp"
+#include "db/store/block_columns.hpp"
 
 #include <doctest/doctest.h>
 

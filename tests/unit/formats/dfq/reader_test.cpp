@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/dfq/separators.hpp"
+#include "formats/dfq/lines.hpp"
 
 namespace fitgauge::aqdef {
 namespace {

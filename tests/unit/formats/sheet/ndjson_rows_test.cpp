@@ -1,4 +1,4 @@
-#include "formats/sheet/ndjson_rows.hpp"
+#include "formats/sheet/record_reader.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,8 +6,6 @@
 
 #include <string>
 
-#include "http/client/curl_handle.hpp"
-
 namespace fitgauge::http_client {
 namespace {
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "http/responder.hpp"
+#include "http/response.hpp"
 #include "test_server.hpp"
 #include "worker.hpp"
 

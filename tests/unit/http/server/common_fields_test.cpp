@@ -6,8 +6,7 @@
 #include <array>
 #include <memory>
 
-#include "http/body_stream.hpp"
-#include "http/responder.hpp"
+#include "http/response.hpp"
 #include "test_server.hpp"
 
 using namespace fitgauge;

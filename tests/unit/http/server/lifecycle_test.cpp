@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 #include "support/comes_true.hpp"
 #include "test_server.hpp"
 #include "worker.hpp"

@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "base/gzip.hpp"
-#include "http/body_stream.hpp"
-#include "http/engine/media_type.hpp"
+#include "http/field_list.hpp"
+#include "http/response.hpp"
 #include "support/comes_true.hpp"
 #include "test_server.hpp"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "http/body_stream.hpp"
+#include "http/response.hpp"
 #include "support/comes_true.hpp"
 #include "test_server.hpp"
 #include "worker.hpp"

@@ -1,4 +1,4 @@
-#include "metrology/gauging/reference_temperature.hpp"
+#include "metrology/gauging/conformance.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,8 +3,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "metrology/statistics/chart_constants.hpp"
-#include "metrology/statistics/run_length.hpp"
+#include "metrology/statistics/zone_rules.hpp"
 #include "support.hpp"
 
 using namespace fitgauge;

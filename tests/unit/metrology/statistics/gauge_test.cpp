@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "metrology/statistics/fit_analysis.hpp"
-#include "metrology/statistics/limit_gauge_tables.hpp"
-#include "metrology/statistics/press_fit.hpp"
 #include "tables/iso286/table_data.hpp"
 
 using namespace fitgauge;

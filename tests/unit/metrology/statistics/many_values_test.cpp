@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "metrology/statistics/anova.hpp"
 #include "metrology/statistics/distributions.hpp"
+#include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/summary.hpp"
 
 // What is done otherwise with many values gives the same as with few.

@@ -1,4 +1,4 @@
-#include "metrology/statistics/pairing.hpp"
+#include "metrology/statistics/fit_analysis.hpp"
 
 #include <doctest/doctest.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 
 namespace fitgauge::connections {
 namespace {

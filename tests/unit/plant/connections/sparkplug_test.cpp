@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "plant/sparkplug/edge_node.hpp"
-#include "plant/sparkplug/host_state.hpp"
 
 namespace fitgauge::connections {
 namespace {

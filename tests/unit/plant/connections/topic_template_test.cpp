@@ -1,4 +1,4 @@
-#include "plant/mqtt/topic_template.hpp"
+#include "plant/mqtt/mqtt_link.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "plant/webhook/webhook.hpp"
+#include "plant/webhook/body_template.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/folder.hpp"
 #include "plant/lsv2/link/answers.hpp"
-#include "base/descriptor.hpp"
 #include "plant/lsv2/link/link_server.hpp"
 
 using namespace fitgauge;

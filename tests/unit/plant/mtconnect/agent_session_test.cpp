@@ -1,4 +1,4 @@
-#include "plant/mtconnect/agent_session.hpp"
+#include "plant/mtconnect/shdr_adapter.hpp"
 
 #include <doctest/doctest.h>
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/guarded.hpp"
+#include "base/thread.hpp"
 #include "service/application.hpp"
 
 #include <unistd.h>

@@ -1,4 +1,3 @@
-#include "tables/iso286/designation.hpp"
 
 #include <doctest/doctest.h>
 

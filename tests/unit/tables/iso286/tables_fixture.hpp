@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "tables/iso286/designation.hpp"
+#include "tables/iso286/tolerance_class.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::iso286 {

@@ -4,7 +4,6 @@
 
 #include <sstream>
 
-#include "tables/tabfile/tab_reader.hpp"
 #include "tables/tabfile/tab_table.hpp"
 
 using namespace fitgauge;

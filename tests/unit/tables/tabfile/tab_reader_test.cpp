@@ -1,4 +1,3 @@
-#include "tables/tabfile/tab_reader.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

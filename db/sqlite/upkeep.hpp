@@ -1,0 +1,80 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+
+#include "base/clock.hpp"
+#include "base/thread.hpp"
+#include "db/sql/session.hpp"
+#include "db/sqlite/connection.hpp"
+#include "db/store/open_options.hpp"
+
+namespace fitgauge::store {
+
+/// Checkpoints the write-ahead log on a thread of its own, so that commits do not wait until
+/// thousands of pages are copied into the database. The log starts anew only when all of it is
+/// copied between two commits: the writer copies what was committed during the thread's checkpoint.
+/// A log that grows faster than the thread copies makes the writer wait for it, so its length is
+/// bounded: kForceFactor times checkpoint_pages and one transaction.
+/// A checkpoint that fails is tried again; that the log then grows is for the commits to report.
+class Checkpointer {
+ public:
+  explicit Checkpointer(const OpenOptions& options);
+  Checkpointer(const Checkpointer&) = delete;
+  Checkpointer& operator=(const Checkpointer&) = delete;
+  ~Checkpointer();
+
+  // By the writer.
+
+  /// Takes checkpoints over from SQLite, which would make them at a commit.
+  void install(sqlite::Connection& writer);
+  /// Between two transactions; waits for the thread when the log is kForceFactor times too long.
+  void after_commit(sqlite::Connection& writer);
+
+  int log_pages() const { return pages_; }  ///< at the last commit; the writer's
+
+ private:
+  enum class State : std::uint8_t { Idle, Running, Finished };
+
+  void run();
+  void checkpoint();
+
+  const OpenOptions options_;
+  int pages_ = 0;  ///< in the log; the writer's
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  State state_ = State::Idle;
+  bool stopping_ = false;
+  Thread thread_;
+};
+
+/// Reads the whole database again and again, once each scrub_interval, so that damage is found
+/// before somebody needs the row: each measurement against the chain, each table revision and each
+/// sealed row against its digest. On a thread of its own, which rests fifteen times as long as each
+/// piece took. Tells the monitor the first finding. Destroying it stops it.
+class Scrub {
+ public:
+  /// @param check_file_first whether SQLite's quick_check comes before: the file was too large to
+  /// have that checked at the start.
+  Scrub(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
+        bool check_file_first);
+
+ private:
+  void run(const std::stop_token& stop, bool check_file_first);
+  void check_file(const std::stop_token& stop);
+  void pass(const std::stop_token& stop);
+  /// @returns false when it was stopped meanwhile.
+  bool rest(const std::stop_token& stop, std::chrono::nanoseconds time);
+
+  const OpenOptions& options_;
+  const Clock& clock_;
+  HealthMonitor& health_;
+  std::mutex mutex_;
+  std::condition_variable_any stopped_;
+  Thread thread_;
+};
+
+}  // namespace fitgauge::store
