@@ -58,6 +58,8 @@ void add_uncertainty_routes(std::vector<http::Route>& routes, const Services& se
 void add_documents_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/plans: inspection plans.
 void add_plans_routes(std::vector<http::Route>& routes, const Services& services);
+/// GET /v1/parts/{part}: the verdict of a part.
+void add_parts_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/files: the control's disk.
 void add_files_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/setups: machines and workpieces.

@@ -33,6 +33,7 @@ http::RouteTable make_routes(const Services& services, std::vector<http::Route> 
   add_uncertainty_routes(routes, services);
   add_documents_routes(routes, services);
   add_plans_routes(routes, services);
+  add_parts_routes(routes, services);
   add_files_routes(routes, services);
   add_setups_routes(routes, services);
   add_runs_routes(routes, services);

@@ -18,6 +18,7 @@ void add_measurement_schemas(Schemas& schemas);
 void add_note_schemas(Schemas& schemas);
 void add_table_schemas(Schemas& schemas);
 void add_plan_schemas(Schemas& schemas);
+void add_parts_schemas(Schemas& schemas);
 void add_file_schemas(Schemas& schemas);
 void add_run_schemas(Schemas& schemas);
 void add_diagnostic_schemas(Schemas& schemas);

@@ -13,7 +13,7 @@ from ._errors import NoAnswer, Problem, Unavailable
 from ._json import Size, dumps
 from ._streams import Batch, counted_over_all, csv_records, cut_batches, read_events, total_of
 from ._transport import Request, Transport, path_of, pause_before, query_of
-from ._types import Accepted, Correction, Measurement, NewMeasurement, Note
+from ._types import Accepted, Correction, Measurement, NewMeasurement, Note, Part
 from ._values import Event, Parameter
 
 SILENCE_S = 45.0  # a stream of events has a sign of life every 15 s
@@ -122,6 +122,10 @@ class MeasurementCalls(Transport):
     def notes(self, measurement_id: str) -> list[Note]:
         """The notes beside a record, oldest first."""
         return self._get(path_of("measurements", measurement_id, "notes"))["notes"]
+
+    def part(self, part_id: str, *, plan: str | None = None) -> Part:
+        """The verdict of a part by its plan, what is `missing`, its `characteristics` and `open_reactions`."""
+        return self._get(path_of("parts", part_id), {"plan": plan})
 
     def certificate(self, *, order: str | None = None, part_id: str | None = None, **options: Parameter) -> bytes:
         """The inspection certificate of an order, a part or both, as PDF. `options` are `title`, `company`,

@@ -66,6 +66,7 @@ class Correction(_Correction, total=False):
     unit: str
     comment: str
     subgroup: str
+    tool: str
     measured_at: Time
     uncertainty_um: Size
     coverage_factor: Size
@@ -86,6 +87,7 @@ class Correction(_Correction, total=False):
     size_operator: str
     envelope: str
     go_gauge: str
+    confirmed: bool
 
 
 class _FieldError(TypedDict):
@@ -258,6 +260,7 @@ class Measurement(_Measurement, total=False):
     unit: str
     comment: str
     subgroup: str
+    tool: str
     uncertainty_um: Decimal
     coverage_factor: Decimal
     rule: RuleWord
@@ -277,6 +280,7 @@ class Measurement(_Measurement, total=False):
     size_operator: str
     envelope: str
     go_gauge: str
+    confirmed: bool
     corrected_mm: Decimal
     added_uncertainty_um: Decimal
     conformance_probability: Decimal
@@ -323,6 +327,7 @@ class NewMeasurement(_NewMeasurement, total=False):
     unit: str
     comment: str
     subgroup: str
+    tool: str
     measured_at: Time
     uncertainty_um: Size
     coverage_factor: Size
@@ -343,6 +348,36 @@ class NewMeasurement(_NewMeasurement, total=False):
     size_operator: str
     envelope: str
     go_gauge: str
+    confirmed: bool
+
+
+class _PartCharacteristics(TypedDict):
+    measurement_id: str
+    verdict: Union[str, None]
+    measured_mm: Decimal
+    measured_at: str
+
+
+class PartCharacteristics(_PartCharacteristics, total=False):
+    characteristic: str
+
+
+class PartOpenReactions(TypedDict):
+    characteristic: str
+    reaction: str
+    measurement_id: str
+
+
+class _Part(TypedDict):
+    part_id: str
+    verdict: Union[str, None]
+    missing: List[str]
+    characteristics: List[PartCharacteristics]
+    open_reactions: List[PartOpenReactions]
+
+
+class Part(_Part, total=False):
+    plan: str
 
 
 class RunFiles(TypedDict):
@@ -446,6 +481,11 @@ class VerdictSizeRangeMm(TypedDict):
     up_to: Decimal
 
 
+class VerdictWarnings(TypedDict):
+    code: str
+    detail: str
+
+
 class _Verdict(TypedDict):
     nominal_mm: Decimal
     feature: FeatureWord
@@ -475,3 +515,4 @@ class Verdict(_Verdict, total=False):
     probability: Decimal
     conformance_probability: Decimal
     guard_band_um: Decimal
+    warnings: List[VerdictWarnings]

@@ -239,6 +239,7 @@ Schemas make_schemas(const Schemas& of_plant) {
   add_measurement_schemas(schemas);
   add_note_schemas(schemas);
   add_plan_schemas(schemas);
+  add_parts_schemas(schemas);
   add_file_schemas(schemas);
   add_setup_schemas(schemas);
   add_run_schemas(schemas);

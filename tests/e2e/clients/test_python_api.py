@@ -119,6 +119,7 @@ class EveryRoute(ControlTest):
         self.assertEqual(record["measured_at"], "2026-11-20T07:00:00Z")
         note = client.note(record["id"], cause="Insert worn", measure="Insert changed", operator="Kim")
         self.assertEqual((note["measurement_id"], client.notes(record["id"])), (record["id"], [note]))
+        self.assertEqual(client.part(record["part_id"])["part_id"], record["part_id"])
         new = client.correct(record["id"], {"measured_mm": "25.0185", "reason": "gauge was not zeroed"})
         self.assertEqual(client.measurement(record["id"])["corrected_by"], new["id"])
         self.assertEqual(list(client.measurements(part_id="SN-1")), [new])

@@ -29,6 +29,42 @@ class Plans(DaemonTest):
             self.assert_problem(self.daemon.request(method, "/v1/plans/A%2F1"), 404, "plan.unknown")
         self.daemon.request("DELETE", "/v1/plans/4711-A")
 
+    def test_the_tag_of_the_packed_form_guards_a_change_too(self):
+        many = [{**BORE, "name": f"bore-{i}"} for i in range(40)]
+        plain = self.put("big", *many).headers["etag"]
+        packed = self.daemon.get("/v1/plans/big", Accept_Encoding="gzip").headers["etag"]
+        self.assertNotEqual(packed, plain)
+        change = lambda tag: self.daemon.request("PUT", "/v1/plans/big", {"characteristics": many[:1]}, {"If-Match": tag})
+        self.assertEqual(change(packed.replace(packed[1:9], "0" * 8)).status, 412)
+        self.assertEqual(change(packed).status, 200)
+        self.daemon.request("DELETE", "/v1/plans/big")
+
+    def test_a_part_has_the_worst_verdict_of_its_plan(self):
+        self.put("9-B", BORE, SLOT)
+        measure = lambda **fields: self.daemon.measure({"part_id": "P/1", **fields}).json["id"]
+        part = lambda query="": self.daemon.get("/v1/parts/P%2F1" + query).json
+        self.assert_problem(self.daemon.get("/v1/parts/P/1"), 404, "measurement.unknown")
+        bad = measure(characteristic="bore-A", designation="25 H7", measured_mm="24.99")
+        seen = part("?plan=9-B")
+        self.assertEqual((seen["part_id"], seen["plan"], seen["verdict"], seen["missing"]), ("P/1", "9-B", "rework", ["slot"]))
+        self.assertEqual(seen["open_reactions"], [
+            {"characteristic": "bore-A", "measurement_id": bad, "reaction": BORE["reaction"]}])
+        self.daemon.post(f"/v1/measurements/{bad}/notes", {"cause": "Insert worn"})
+        self.assertEqual(part()["open_reactions"], [], "the only plan with that characteristic is meant")
+        good = measure(characteristic="bore-A", designation="25 H7", measured_mm="25.01")
+        self.assertEqual((part()["verdict"], part()["missing"]), (None, ["slot"]))
+        slot = measure(characteristic="slot", nominal_mm=8, feature="hole", upper_um=36, lower_um=0, measured_mm="8.01")
+        self.assertEqual((part()["verdict"], part()["missing"]), ("good", []))
+        self.assertEqual([(c["characteristic"], c["measurement_id"], c["verdict"], c["measured_mm"])
+                          for c in part()["characteristics"]], [("bore-A", good, "good", 25.01), ("slot", slot, "good", 8.01)])
+        self.daemon.post(f"/v1/measurements/{slot}/corrections", {"measured_mm": "8.05", "reason": "misread"})
+        self.assertEqual(part()["verdict"], "reject")
+        self.put("9-C", BORE, SLOT)
+        self.assertNotIn("plan", part(), "two plans fit")
+        self.assert_problem(self.daemon.get("/v1/parts/P/1?plan=none"), 400, "query.invalid")
+        for name in ("9-B", "9-C"):
+            self.daemon.request("DELETE", f"/v1/plans/{name}")
+
     def test_every_bad_field_is_named(self):
         cases = [
             ([{**BORE, "designation": "25 H19"}], "/characteristics/0/designation", "class.unknown"),

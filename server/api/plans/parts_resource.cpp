@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "api/handlers.hpp"
+#include "api/resources.hpp"
+#include "api/schemas.hpp"
+#include "base/json/body_forms.hpp"
+#include "service/documents/document_service.hpp"
+#include "service/measurements/measurement_service.hpp"
+
+// A part: the newest value of each characteristic, held against a plan.
+
+namespace fitgauge::api {
+namespace {
+
+using app::NamedDocument;
+
+constexpr std::size_t kMostValues = 10'000;  ///< of one part; the older ones are not looked at
+
+struct PartValue {
+  std::optional<std::string> characteristic{};
+  std::string measurement{};
+  std::optional<std::string_view> verdict{};
+  Length measured{};
+  Timestamp measured_at{};
+  bool has_note = false;
+};
+void members(auto& v, const PartValue& value) {
+  v.optional("characteristic", value.characteristic, "Absent where the value names none");
+  v.member("measurement_id", value.measurement, "The newest record");
+  v.member("verdict", value.verdict, "null: it has no limits");
+  v.member("measured_mm", value.measured, Millimetres{});
+  v.member("measured_at", value.measured_at, Time{}, "In UTC");
+}
+
+/// What a plan says of a characteristic, and of which record.
+struct Reaction {
+  std::string characteristic{};
+  std::string reaction{};
+  std::string measurement{};
+};
+void members(auto& v, const Reaction& open) {
+  v.member("characteristic", open.characteristic);
+  v.member("reaction", open.reaction, "As the plan says");
+  v.member("measurement_id", open.measurement, "The record that is not good and has no note");
+}
+
+struct Part {
+  std::string part{};
+  std::optional<std::string> plan{};
+  std::optional<std::string> verdict{};
+  std::vector<std::string> missing{};
+  std::vector<PartValue> values{};
+  std::vector<Reaction> reactions{};
+};
+void members(auto& v, const Part& part) {
+  v.member("part_id", part.part);
+  v.optional("plan", part.plan, "The plan it is held against");
+  v.member("verdict", part.verdict, "The worst; null: a value is missing, or none has limits");
+  v.member("missing", part.missing, "Characteristics of the plan without a value, in its order");
+  v.member("characteristics", part.values, "In the order of the plan, then the others");
+  v.member("open_reactions", part.reactions, "What the plan asks for and no note answers");
+}
+
+/// @errors StorageCorrupt.
+Result<std::vector<Reaction>> characteristics_of(const NamedDocument& plan) {
+  const auto json = parse_stored_json(plan.text, "plan");
+  if (!json) return json.error();
+  std::vector<Reaction> found;
+  for (const JsonValue& each : json->find("characteristics")->items) {
+    const JsonValue* reaction = each.find("reaction");
+    found.push_back({each.find("name")->text, reaction == nullptr ? "" : reaction->text});
+  }
+  return found;
+}
+
+auto place_in(const std::vector<Reaction>& plan, const PartValue& value) {
+  return std::ranges::find(plan, value.characteristic, &Reaction::characteristic) - plan.begin();
+}
+
+void hold_against(const std::vector<Reaction>& plan, Part& part) {
+  std::ranges::stable_sort(part.values, {}, [&](const auto& value) { return place_in(plan, value); });
+  for (const Reaction& each : plan) {
+    const auto value = std::ranges::find(part.values, each.characteristic, &PartValue::characteristic);
+    if (value == part.values.end()) {
+      part.missing.push_back(each.characteristic);
+    } else if (value->verdict.value_or("good") != "good" && !value->has_note && !each.reaction.empty()) {
+      part.reactions.push_back({each.characteristic, each.reaction, value->measurement});
+    }
+  }
+}
+
+/// Holds the part against the plan of that name, else of its own name, else the only one that has
+/// all that was measured. @errors QueryInvalid where a plan is named that is not there.
+Result<void> plan_part(const std::vector<NamedDocument>& plans, std::optional<std::string_view> named, Part& part) {
+  std::vector<std::pair<std::string, std::vector<Reaction>>> fitting;
+  const std::string name(named.value_or(part.part));
+  for (const NamedDocument& plan : plans) {
+    if (named && plan.name != name) continue;
+    auto characteristics = characteristics_of(plan);
+    if (!characteristics) return characteristics.error();
+    const auto end = std::ssize(*characteristics);
+    const auto is_planned = [&](const PartValue& value) { return place_in(*characteristics, value) < end; };
+    if (plan.name == name) fitting.clear();
+    if (plan.name == name || std::ranges::all_of(part.values, is_planned)) {
+      fitting.emplace_back(plan.name, *std::move(characteristics));
+    }
+    if (plan.name == name) break;
+  }
+  if (named && fitting.empty()) {
+    return Error{ErrorCode::QueryInvalid, fmt::format("there is no plan '{}'", name), "plan"};
+  }
+  if (fitting.size() != 1) return {};
+  part.plan = fitting.front().first;
+  hold_against(fitting.front().second, part);
+  return {};
+}
+
+void judge(Part& part) {
+  for (const std::string_view word : {"reject", "rework", "indeterminate", "good"}) {
+    const bool is_there = std::ranges::find(part.values, word, &PartValue::verdict) != part.values.end();
+    if (is_there && (word != "good" || part.missing.empty())) part.verdict = word;
+    if (is_there) return;
+  }
+}
+
+void add_value(const app::Measurement& m, Part& part) {
+  PartValue value{.measurement = app::measurement_id_text(m.id, m.origin),
+                  .measured = m.measured,
+                  .measured_at = m.measured_at,
+                  .has_note = !m.notes.empty()};
+  if (m.characteristic) value.characteristic.emplace(*m.characteristic);
+  if (std::ranges::count(part.values, value.characteristic, &PartValue::characteristic)) return;
+  if (m.is_judged()) value.verdict = word(m.result.verdict);
+  part.values.push_back(std::move(value));
+}
+
+void get_part(const Services& services, const http::Request& request, http::Responder responder) {
+  const auto part = std::make_shared<Part>(Part{.part = std::string(*request.text("part"))});
+  app::MeasurementQuery query;
+  query.texts.at(app::filter_place(1)) = part->part;
+  query.newest_first = query.shows_notes = true;
+  services.measurements.list(
+      query, 0, kMostValues, [part](const app::Measurement& m) { add_value(m, *part); },
+      [&services, &request, part, shared = share(std::move(responder))](const Result<app::ListPage>& page) {
+        if (!page) return shared->fail(page.error());
+        if (part->values.empty()) {
+          return shared->fail(
+              {ErrorCode::MeasurementUnknown, fmt::format("no measurement has part_id '{}'", part->part)});
+        }
+        std::ranges::reverse(part->values);
+        services.documents.list(
+            app::DocumentKind::Plan, [&request, part, shared](const Result<std::vector<NamedDocument>>& plans) {
+              if (!plans) return shared->fail(plans.error());
+              const auto planned = plan_part(*plans, request.text("plan"), *part);
+              if (!planned) return shared->fail(planned.error());
+              judge(*part);
+              shared->answer({200, "application/json", body_json(*part)});
+            });
+      });
+}
+
+}  // namespace
+
+void add_parts_schemas(Schemas& schemas) { schemas.push_back(answer_schema<Part>("Part")); }
+
+void add_parts_routes(std::vector<http::Route>& routes, const Services& services) {
+  routes.push_back({
+      .pattern = "/v1/parts/{part*}",
+      .handler = with(services, get_part),
+      .summary = "A part: its verdict, what is missing, its values and open reactions",
+      .description = "The newest value of each characteristic, corrections applied; the verdict is the worst of them. "
+                     "Without `plan` the part is held against the plan of its own name, or the only one that has every "
+                     "characteristic measured at it; if there is none, nothing is missing.",
+      .parameters = {{.name = "part", .place = http::ParameterPlace::Path, .description = "part_id of its measurements"},
+                     {.name = "plan", .description = "Part number of the plan to hold it against"}},
+      .access = "viewer",
+      .operation = "getPart",
+      .tag = "measurements",
+      .outcomes = {{.meaning = "The part", .schema = "Part"}},
+      .refusals = {404},
+  });
+}
+
+}  // namespace fitgauge::api
