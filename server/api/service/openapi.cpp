@@ -1,5 +1,7 @@
 #include "api/service/openapi.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -42,7 +44,10 @@ void write_schema(JsonWriter& json, const http::ParameterType& type) {
                 .key("maximum")
                 .decimal(decimal.max, decimal.scale);
           },
-          [&](const http::LengthIn&) { json.member("type", "number"); },
+          // A text too, so that no double comes between, as in a body.
+          [&](const http::LengthIn&) {
+            json.key("type").begin_array().value("number").value("string").end_array();
+          },
           [&](const http::Words& words) {
             json.member("type", "string").key("enum").begin_array();
             for (const std::string& word : words.words) json.value(word);
@@ -105,14 +110,57 @@ std::set<int> refusals_of(const http::Route& route) {
   if (route.access != "public") found.insert({401, 403});
   if (!route.response_types.empty()) found.insert(406);
   if (takes_body) found.insert({411, 413});
-  if (!route.body.media_types.empty()) found.insert(415);
+  if (takes_body) found.insert(415);
   if (has_json_body(route) || takes_length(route)) found.insert(422);
   if (route.pattern.starts_with("/v1/") || route.pattern == "/readyz") found.insert(503);
   return found;
 }
 
+bool takes(const http::Route& route, std::string_view parameter) {
+  return std::ranges::any_of(route.parameters, [&](const auto& known) { return known.name == parameter; });
+}
+bool is_get(const http::Route& route) { return route.method == http::Method::Get; }
+bool has_tag(const http::Route& route) {
+  const bool is_of_tables = route.tag == "limits" || route.tag == "tables";
+  const bool is_page = route.pattern == "/" || route.pattern.starts_with("/web/");
+  return takes(route, "If-Match") || (is_get(route) && (is_of_tables || is_page));
+}
+
+/// Headers of a success, each with the routes that have it.
+struct DescribedHeader {
+  std::string_view name;
+  std::string_view meaning;
+  bool (*is_of)(const http::Route&, int status);
+};
+constexpr DescribedHeader kHeaders[] = {
+    {"X-Request-Id", "The caller's own, or one that was made; the log has it", [](const auto&, int) { return true; }},
+    {"ETag", "Names the state, for If-Match and If-None-Match", [](const auto& route, int) { return has_tag(route); }},
+    {"Location", "The address of what is new",
+     [](const auto& route, int status) {
+       const bool is_once = takes(route, "Idempotency-Key") && !route.pattern.ends_with("/notes");
+       const bool is_file = route.method == http::Method::Put && route.pattern.starts_with("/v1/files");
+       return is_file || (is_once && (status == 201 || status == 202));
+     }},
+    {"Idempotency-Replayed", "true: the answer to an earlier request with this key",
+     [](const auto& route, int) { return takes(route, "Idempotency-Key"); }},
+    {"Link", "The next page, rel=\"next\"", [](const auto& route, int) { return is_get(route) && takes(route, "after"); }},
+    {"Content-Disposition", "The name of the file",
+     [](const auto& route, int) { return is_get(route) && (route.pattern == "/v1/measurements" || route.pattern == "/v1/certificates"); }},
+};
+
+void write_headers(JsonWriter& json, const http::Route& route, int status) {
+  json.key("headers").begin_object();
+  for (const DescribedHeader& header : kHeaders) {
+    if (!header.is_of(route, status)) continue;
+    json.key(header.name).begin_object().member("description", header.meaning);
+    json.key("schema").raw(schema::text()).end_object();
+  }
+  json.end_object();
+}
+
 void write_outcome(JsonWriter& json, const http::Route& route, const http::Outcome& outcome) {
   json.key(std::to_string(outcome.status)).begin_object().member("description", outcome.meaning);
+  write_headers(json, route, outcome.status);
   const auto& types = outcome.media_types.empty() ? route.response_types : outcome.media_types;
   const bool has_body = !outcome.schema.empty() || !outcome.media_types.empty() ||
                         (outcome.status == 200 && types.front() != "application/json");
@@ -121,15 +169,21 @@ void write_outcome(JsonWriter& json, const http::Route& route, const http::Outco
 }
 
 void write_responses(JsonWriter& json, const http::Route& route) {
-  const std::string_view refusal = route.pattern.starts_with("/mtconnect/")
-                                       ? "#/components/responses/MtconnectError"
-                                       : "#/components/responses/Problem";
+  const std::string components = "#/components/responses/";
+  const bool is_mtconnect = route.pattern.starts_with("/mtconnect/");
+  const auto refusal = [&](int status) {
+    if (is_mtconnect) return components + "MtconnectError";
+    return components + (status == 401 ? "KeyNeeded" : status == 503 ? "Unavailable" : "Problem");
+  };
   json.key("responses").begin_object();
   for (const http::Outcome& outcome : route.outcomes) write_outcome(json, route, outcome);
-  for (const int status : refusals_of(route)) {
-    json.key(std::to_string(status)).begin_object().member("$ref", refusal).end_object();
+  if (is_get(route) && has_tag(route)) {
+    json.key("304").begin_object().member("description", "If-None-Match names the state").end_object();
   }
-  json.key("default").begin_object().member("$ref", refusal).end_object().end_object();
+  for (const int status : refusals_of(route)) {
+    json.key(std::to_string(status)).begin_object().member("$ref", refusal(status)).end_object();
+  }
+  json.key("default").begin_object().member("$ref", refusal(0)).end_object().end_object();
 }
 
 /// The role a key needs; `open` asks for one only where everything asks for one.
@@ -137,8 +191,9 @@ void write_security(JsonWriter& json, const std::string& access) {
   json.key("security").begin_array();
   const bool needs_none = access == "public" || access == "open";
   if (needs_none) json.begin_object().end_object();
-  if (access != "public") {
-    json.begin_object().key("key").begin_array();
+  for (const std::string_view scheme : {"key", "header"}) {
+    if (access == "public") break;
+    json.begin_object().key(scheme).begin_array();
     json.value(needs_none ? "viewer" : access).end_array().end_object();
   }
   json.end_array();
@@ -181,13 +236,8 @@ std::string openapi_path(std::string pattern) {
 }
 
 constexpr std::string_view kSecurity =
-    R"({"key":{"type":"http","scheme":"bearer","description":"A key of fitgauged key create"}})";
-constexpr std::string_view kResponses =
-    R"({"Problem":{"description":"What is wrong, RFC 9457","content":{"application/problem+json":)"
-    R"({"schema":{"$ref":"#/components/schemas/Problem"}}}},)"
-    R"("MtconnectError":{"description":"What is wrong, an MTConnectError document",)"
-    R"("content":{"text/xml":{"schema":{"type":"string"}}}}})";
-
+    R"({"key":{"type":"http","scheme":"bearer","description":"A key of fitgauged key create"},)"
+    R"("header":{"type":"apiKey","in":"header","name":"X-API-Key","description":"The same key"}})";
 /// The groups of operations, in the order of a first reading.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTags = {{
     {"limits", "Limits of size, fits and verdicts (ISO 286-1)"},
@@ -222,9 +272,26 @@ void write_info(JsonWriter& json) {
   json.end_array();
 }
 
+/// What a refusal answers; with a header of its status.
+std::string refusal_response(std::string_view name, std::string_view type, std::string_view schema,
+                             std::string_view header = {}) {
+  std::string headers = R"("X-Request-Id":{"$ref":"#/components/headers/X-Request-Id"})";
+  if (!header.empty()) headers += fmt::format(R"(,"{}":{{"schema":{}}})", header, schema::text());
+  return fmt::format(R"("{}":{{"description":"What is wrong","headers":{{{}}},"content":{{"{}":{{"schema":{}}}}}}})", name,
+                     headers, type, schema);
+}
+
 void write_components(JsonWriter& json, const Schemas& of_plant) {
   json.key("components").begin_object().key("securitySchemes").raw(kSecurity);
-  json.key("responses").raw(kResponses).key("schemas").begin_object();
+  constexpr std::string_view kProblem = "application/problem+json";
+  const std::string problem = schema::ref("Problem");
+  json.key("headers").raw(fmt::format(R"({{"X-Request-Id":{{"description":"{}","schema":{}}}}})", kHeaders[0].meaning, schema::text()));
+  json.key("responses").raw(fmt::format(
+      "{{{},{},{},{}}}", refusal_response("Problem", kProblem, problem),
+      refusal_response("KeyNeeded", kProblem, problem, "WWW-Authenticate"),
+      refusal_response("Unavailable", kProblem, problem, "Retry-After"),
+      refusal_response("MtconnectError", "text/xml", schema::text())));
+  json.key("schemas").begin_object();
   for (const NamedSchema& schema : make_schemas(of_plant)) json.key(schema.name).raw(schema.json);
   json.end_object().end_object();
 }
@@ -246,6 +313,7 @@ Schemas make_schemas(const Schemas& of_plant) {
   add_cycle_schemas(schemas);
   schemas.insert(schemas.end(), of_plant.begin(), of_plant.end());
   add_service_schemas(schemas);
+  add_examples(schemas);
   return schemas;
 }
 

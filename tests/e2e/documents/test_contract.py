@@ -119,6 +119,7 @@ class Description(ContractTest):
         for name, schema in self.contract.document["components"]["schemas"].items():
             with self.subTest(name):
                 jsonschema.Draft202012Validator.check_schema(schema)
+                self.assertTrue(schema.get("examples"), "no example")
                 for example in schema.get("examples", []):
                     self.contract.validate(example, {"$ref": "#/components/schemas/" + name})
 
@@ -137,6 +138,7 @@ class Answers(ContractTest):
         self.expect("getFitAsOne", 200, fit="25H7/g6")
         self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="guard_band", uncertainty_um=1,
                     degrees_of_freedom=9)
+        self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, temperature_c=30)
         self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="conformance", uncertainty_um=1,
                     temperature_c=23, part_material="steel", temperature_uncertainty_c=0.1)
         self.expect("getVerdict", 422, designation="25H7", measured_mm=25.02, rule="conformance", uncertainty_um=9)
@@ -187,7 +189,7 @@ class Answers(ContractTest):
                     "part_expansion_uncertainty_um_per_m_k": 1, "scale_expansion_uncertainty_um_per_m_k": 1}
         self.expect("postMeasurements", 201, {**decided, "part_expansion_um_per_m_k": 11.5, "scale_material": "steel"})
         self.expect("postMeasurements", 201, {**decided, "part_material": "steel", "scale_expansion_um_per_m_k": 8,
-                                             "offset_um": -2})
+                                             "offset_um": -2, "tool": "T30", "confirmed": True})
         self.expect("postMeasurements", 201, {"nominal_mm": 8, "feature": "shaft", "upper_um": 0, "measured_mm": 8})
         self.expect("putUncertainty", 201, {"contributions": [{"name": "a", "standard_uncertainty": 1}]}, name="ring")
         self.expect("putGaugeInUse", 201, {"uncertainty": "ring", "calibration_due": "2020-03-31"}, name="late")
@@ -322,6 +324,10 @@ class Answers(ContractTest):
         self.expect("putPlan", 200, PLAN, part="4711-A")
         self.expect("getPlan", 200, part="4711-A")
         self.expect("listPlans", 200)
+        self.expect("postMeasurements", 201, {"part_id": "SN-P", "characteristic": "slot", "nominal_mm": 8, "feature": "hole",
+                                              "upper_um": 36, "lower_um": 0, "measured_mm": 8.05})
+        self.expect("getPart", 200, part="SN-P", plan="4711-A")
+        self.expect("getPart", 404, part="SN-none")
         self.expect("deletePlan", 204, part="4711-A")
         self.connections()
         order = {"program": "TNC:\\nc_prog\\hole.h", "setup": SETUP, "parameters": {"Q1": 25, "QS1": "H7"},

@@ -8,6 +8,9 @@ import string
 import jsonschema
 
 REFERENCE = "#/components/"
+# What clients read; the other headers are those of every HTTP server.
+CONTRACTUAL = {"location", "etag", "link", "retry-after", "idempotency-replayed", "www-authenticate",
+               "content-disposition", "x-request-id"}
 
 
 class Contract:
@@ -59,7 +62,12 @@ class Contract:
         responses = operation["responses"]
         if str(answer.status) not in responses:
             return f"{answer.status} is not documented"
-        content = self.resolve(responses[str(answer.status)]).get("content", {})
+        response = self.resolve(responses[str(answer.status)])
+        described = {name.lower() for name in response.get("headers", {})}
+        others = (CONTRACTUAL & set(answer.headers)) - described
+        if others and answer.status != 304:
+            return f"{sorted(others)} of {answer.status} not documented"
+        content = response.get("content", {})
         media_type = answer.headers.get("content-type", "").split(";")[0]
         if not answer.body:
             return None
