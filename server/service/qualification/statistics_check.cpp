@@ -4,7 +4,7 @@
 
 #include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/capability.hpp"
-#include "metrology/statistics/control_chart.hpp"
+#include "metrology/statistics/zone_rules.hpp"
 #include "metrology/statistics/gauge_study.hpp"
 #include "service/qualification/qualification.hpp"
 
