@@ -18,7 +18,8 @@ using klartext::Slice;
 
 /// Longer Klartext is refused; this bounds the memory of a translation.
 constexpr std::size_t kLargestKlartext = std::size_t{24} << 20;
-constexpr std::size_t kMostWarnings = 100;
+/// More than the parser keeps, which are the first of a text.
+constexpr std::size_t kMostFindings = 250;
 constexpr unsigned kLargestBlockNumber = 999'999'999;
 constexpr unsigned kLargestFunction = 99;
 constexpr unsigned kLargestCycle = 9999;
@@ -126,7 +127,9 @@ class Translator {
     if (in_.failure()) {
       out_.lines.resize(lines);
       out_.klartext.resize(written);
-      out_.unreadable.push_back({lines, in_.failure()->code, in_.failure()->place, in_.failure()->message});
+      if (out_.unreadable.size() < kMostFindings) {
+        out_.unreadable.push_back({lines, in_.failure()->code, in_.failure()->place, in_.failure()->message});
+      }
       line_.start_line();
       line_.put("%").put(line.code);
       return end_;
@@ -400,7 +403,7 @@ class Translator {
 
   void check_modes(bool uses_path, const BlockWords& words) {
     const auto warn = [this](std::string_view missing, unsigned code) {
-      if (out_.warnings.size() == kMostWarnings) return;
+      if (out_.warnings.size() == kMostFindings) return;
       out_.warnings.push_back({0, DiagnosticCode::ModalStateAssumed, place_,
                                fmt::format("behind a label or a call the block has no {}: G{:02} holds, as in the blocks "
                                            "above it; write the code into this block",
