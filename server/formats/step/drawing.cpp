@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -20,14 +19,11 @@ using gauging::Quantity;
 using iso286::Feature;
 using Kind = Parameter::Kind;
 
-enum class Group : std::uint8_t {
-  Size, Location, Angle, Value, Tolerance, Face, Part, Callout, Product, Note, NotGauged
-};
+enum class Group : std::uint8_t { NotGauged, Size, Location, Angle, Value, Tolerance, Face, Part, Callout, Product, Note };
 
 struct Entity {
   std::string_view name;
-  Group group;
-  std::string_view words{};  ///< of what is not gauged
+  Group group = Group::NotGauged;
 };
 
 /// The entities that are looked for; whatever else is followed from them.
@@ -35,38 +31,30 @@ constexpr std::array kEntities = {
     Entity{"DIMENSIONAL_SIZE", Group::Size},
     Entity{"DIMENSIONAL_SIZE_WITH_DATUM_FEATURE", Group::Size},
     Entity{"DIMENSIONAL_SIZE_WITH_PATH", Group::Size},
-    Entity{"DIMENSIONAL_LOCATION", Group::Location},
-    Entity{"DIRECTED_DIMENSIONAL_LOCATION", Group::Location},
+    Entity{"DIMENSIONAL_LOCATION", Group::Location}, Entity{"DIRECTED_DIMENSIONAL_LOCATION", Group::Location},
     Entity{"DIMENSIONAL_LOCATION_WITH_PATH", Group::Location},
-    Entity{"ANGULAR_SIZE", Group::Angle},
-    Entity{"ANGULAR_LOCATION", Group::Angle},
+    Entity{"ANGULAR_SIZE", Group::Angle}, Entity{"ANGULAR_LOCATION", Group::Angle},
     Entity{"DIMENSIONAL_CHARACTERISTIC_REPRESENTATION", Group::Value},
     Entity{"PLUS_MINUS_TOLERANCE", Group::Tolerance},
     Entity{"GEOMETRIC_ITEM_SPECIFIC_USAGE", Group::Face},
-    Entity{"SHAPE_ASPECT_RELATIONSHIP", Group::Part},
-    Entity{"SHAPE_ASPECT_DERIVING_RELATIONSHIP", Group::Part},
+    Entity{"SHAPE_ASPECT_RELATIONSHIP", Group::Part}, Entity{"SHAPE_ASPECT_DERIVING_RELATIONSHIP", Group::Part},
     Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION", Group::Callout},
     Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION_WITH_PLACEHOLDER", Group::Callout},
-    Entity{"PRODUCT", Group::Product},
-    Entity{"DRAUGHTING_CALLOUT", Group::Note, "a note, a datum or another text"},
-    Entity{"ANGULARITY_TOLERANCE", Group::NotGauged, "an angularity"},
-    Entity{"CIRCULAR_RUNOUT_TOLERANCE", Group::NotGauged, "a circular run-out"},
-    Entity{"COAXIALITY_TOLERANCE", Group::NotGauged, "a coaxiality"},
-    Entity{"CONCENTRICITY_TOLERANCE", Group::NotGauged, "a concentricity"},
-    Entity{"CYLINDRICITY_TOLERANCE", Group::NotGauged, "a cylindricity"},
-    Entity{"FLATNESS_TOLERANCE", Group::NotGauged, "a flatness"},
-    Entity{"LINE_PROFILE_TOLERANCE", Group::NotGauged, "a profile of a line"},
-    Entity{"PARALLELISM_TOLERANCE", Group::NotGauged, "a parallelism"},
-    Entity{"PERPENDICULARITY_TOLERANCE", Group::NotGauged, "a perpendicularity"},
-    Entity{"POSITION_TOLERANCE", Group::NotGauged, "a position of a feature"},
-    Entity{"ROUNDNESS_TOLERANCE", Group::NotGauged, "a roundness"},
-    Entity{"STRAIGHTNESS_TOLERANCE", Group::NotGauged, "a straightness"},
-    Entity{"SURFACE_PROFILE_TOLERANCE", Group::NotGauged, "a profile of a surface"},
-    Entity{"SYMMETRY_TOLERANCE", Group::NotGauged, "a symmetry"},
-    Entity{"TOTAL_RUNOUT_TOLERANCE", Group::NotGauged, "a total run-out"},
-    Entity{"GEOMETRIC_TOLERANCE", Group::NotGauged, "a tolerance of form or place"},
-    Entity{"SURFACE_TEXTURE_REPRESENTATION", Group::NotGauged, "a surface texture"},
+    Entity{"PRODUCT", Group::Product}, Entity{"DRAUGHTING_CALLOUT", Group::Note},
+    Entity{"ANGULARITY_TOLERANCE"}, Entity{"CIRCULAR_RUNOUT_TOLERANCE"}, Entity{"COAXIALITY_TOLERANCE"},
+    Entity{"CONCENTRICITY_TOLERANCE"}, Entity{"CYLINDRICITY_TOLERANCE"}, Entity{"FLATNESS_TOLERANCE"},
+    Entity{"LINE_PROFILE_TOLERANCE"}, Entity{"PARALLELISM_TOLERANCE"}, Entity{"PERPENDICULARITY_TOLERANCE"},
+    Entity{"POSITION_TOLERANCE"}, Entity{"ROUNDNESS_TOLERANCE"}, Entity{"STRAIGHTNESS_TOLERANCE"},
+    Entity{"SURFACE_PROFILE_TOLERANCE"}, Entity{"SYMMETRY_TOLERANCE"}, Entity{"TOTAL_RUNOUT_TOLERANCE"},
+    Entity{"GEOMETRIC_TOLERANCE"}, Entity{"SURFACE_TEXTURE_REPRESENTATION"},
 };
+
+/// `flatness tolerance`: an entity in words.
+std::string in_words(std::string_view entity) {
+  std::string words = ascii_lower(entity);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
 
 constexpr auto kNames = [] {
   std::array<std::string_view, kEntities.size()> names{};
@@ -84,21 +72,9 @@ constexpr std::array kRelations = {Relation{Group::Value, 0, 1}, Relation{Group:
                                    Relation{Group::Face, 2, 4}, Relation{Group::Part, 2, 3},
                                    Relation{Group::Callout, 2, 4}};
 
-/// Which instances refer to which, by the first.
-class Links {
- public:
-  void add(std::uint32_t from, std::uint32_t to) { all_.emplace_back(from, to); }
-  void sort() { std::stable_sort(all_.begin(), all_.end(), [](auto& a, auto& b) { return a.first < b.first; }); }
-  std::span<const std::pair<std::uint32_t, std::uint32_t>> of(std::uint32_t from) const {
-    const auto [first, last] = std::equal_range(all_.begin(), all_.end(), std::pair(from, 0U),
-                                                [](auto& a, auto& b) { return a.first < b.first; });
-    return {first, last};
-  }
-  const auto& all() const { return all_; }
-
- private:
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> all_;
-};
+/// An instance that refers to another.
+using Link = std::pair<std::uint32_t, std::uint32_t>;
+bool by_first(const Link& a, const Link& b) { return a.first < b.first; }
 
 /// What the name of a DIMENSIONAL_SIZE says of the quantity, by a part of it.
 constexpr std::array<std::pair<std::string_view, Quantity>, 10> kQuantities = {{
@@ -128,10 +104,9 @@ struct Found {
   std::string class_name{};
   std::optional<Feature> zone{};  ///< of the class
   bool is_angle = false;
-  bool has_limits() const { return upper || lower || !class_name.empty(); }
 };
 
-std::string signed_um(Length length) { return (length > Length() ? "+" : "") + format_um(length); }
+std::string signed_um(std::optional<Length> length) { return !length ? "none" : (*length > Length() ? "+" : "") + format_um(*length); }
 
 class Walker {
  public:
@@ -143,7 +118,7 @@ class Walker {
       const auto relation = std::find_if(kRelations.begin(), kRelations.end(), [&](const Relation& r) { return r.group == entity.group; });
       link(id, *relation, entity.name);
     });
-    for (Links& each : links_) each.sort();
+    for (auto& each : links_) std::stable_sort(each.begin(), each.end(), by_first);
     each({Group::Product}, [&](auto id, const Entity& entity) {
       to_.part = seen_.empty() ? text(id, entity.name, 0) : std::string();
       seen_.insert(id);
@@ -152,14 +127,14 @@ class Walker {
       if (seen_.insert(id).second) dimension(id, entity);
     });
     each({Group::NotGauged}, [&](auto id, const Entity& entity) {
-      if (seen_.insert(id).second) refuse(id, name_of(id, entity.name), fmt::format("{} is not gauged here", entity.words));
+      if (seen_.insert(id).second) refuse(id, name_of(id, entity.name), in_words(entity.name) + " is not gauged here");
     });
     std::set<std::uint32_t> used;
-    for (const auto& [definition, callout] : links(Group::Callout).all()) {
+    for (const auto& [definition, callout] : links(Group::Callout)) {
       if (seen_.contains(definition)) used.insert(callout);
     }
     each({Group::Note}, [&](auto id, const Entity& entity) {
-      if (!used.contains(id)) refuse(id, text(id, entity.name, 0), fmt::format("{} is not gauged here", entity.words));
+      if (!used.contains(id)) refuse(id, text(id, entity.name, 0), "a note, a datum or another text is not gauged here");
     });
   }
 
@@ -171,7 +146,11 @@ class Walker {
       for (const std::uint32_t id : file_.of_name(i)) what(id, kEntities.at(i));
     }
   }
-  Links& links(Group group) { return links_[static_cast<std::size_t>(group)]; }
+  std::vector<Link>& links(Group group) { return links_[static_cast<std::size_t>(group)]; }
+  std::span<const Link> linked(Group group, std::uint32_t from) {
+    const auto [first, last] = std::equal_range(links(group).begin(), links(group).end(), Link(from, 0), by_first);
+    return {first, last};
+  }
 
   /// The parameters of the record with that name.
   std::vector<Parameter> record(std::uint32_t id, std::string_view name, std::uint32_t from = 0) const {
@@ -199,7 +178,7 @@ class Walker {
     const auto all = record(id, name);
     if (all.size() <= std::max(relation.from, relation.to) || !all[relation.from].is(Kind::Reference)) return;
     for (const std::uint32_t to : references(all[relation.to])) {
-      links(relation.group).add(all[relation.from].id, to);
+      links(relation.group).emplace_back(all[relation.from].id, to);
       if (++link_count_ > kMostLinks) return file_.fail(id, "more relations than are read: export fewer parts");
     }
   }
@@ -212,7 +191,7 @@ class Walker {
 
   std::string callout_of(std::uint32_t id) {
     std::string name;
-    for (const auto& [_, callout] : links(Group::Callout).of(id)) {
+    for (const auto& [_, callout] : linked(Group::Callout, id)) {
       if (name.empty()) name = text(callout, "DRAUGHTING_CALLOUT", 0, id);
     }
     return name;
@@ -222,10 +201,7 @@ class Walker {
     std::string name = callout_of(id);
     if (name.empty()) name = text(id, entity, 0);
     if (name.empty()) name = text(id, "GEOMETRIC_TOLERANCE", 0);
-    if (!name.empty()) return name;
-    name = ascii_lower(entity);
-    std::replace(name.begin(), name.end(), '_', ' ');
-    return name;
+    return name.empty() ? in_words(entity) : name;
   }
   std::string unique(std::string name) {
     constexpr std::size_t kLongestName = 180;
@@ -240,8 +216,8 @@ class Walker {
     std::vector<std::uint32_t> faces;
     std::set<std::uint32_t> known{aspect};
     for (std::size_t i = 0; i < aspects.size() && i < kMostAspects; ++i) {
-      for (const auto& [_, face] : links(Group::Face).of(aspects[i])) faces.push_back(face);
-      for (const auto& [_, part] : links(Group::Part).of(aspects[i])) {
+      for (const auto& [_, face] : linked(Group::Face, aspects[i])) faces.push_back(face);
+      for (const auto& [_, part] : linked(Group::Part, aspects[i])) {
         if (known.insert(part).second) aspects.push_back(part);
       }
     }
@@ -292,10 +268,7 @@ class Walker {
     const std::string_view type = typed.text.substr(0, typed.text.find_first_of("( "));
     const auto number = file_.parameters(typed.text);
     if (!type.ends_with("LENGTH_MEASURE") || number.size() != 1) return;
-    std::string_view digits = number[0].text;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
-    std::from_chars(digits.data(), digits.data() + digits.size(), read.number);
-    read.number *= millimetres(unit, id, deep);
+    read.number = number_of(number[0]) * millimetres(unit, id, deep);
     const auto length = Length::nearest_mm(read.number);
     if (!length || *length > kLongest || *length < -kLongest) {
       return file_.fail(id, fmt::format("#{} is a length beyond 1000 km: export the file again", id));
@@ -307,7 +280,7 @@ class Walker {
   std::string take_values(std::uint32_t id, Found& found, DrawnSize& size) {
     std::optional<Length> upper;
     std::optional<Length> lower;
-    for (const auto& [_, each] : links(Group::Value).of(id)) {
+    for (const auto& [_, each] : linked(Group::Value, id)) {
       for (const Record& representation : file_.records(each, id)) {
         const auto all = file_.parameters(representation.list);
         const auto items = std::find_if(all.begin(), all.end(), [](const Parameter& p) { return p.is(Kind::List); });
@@ -344,7 +317,7 @@ class Walker {
 
   /// Class or deviations of the tolerances. @returns why they cannot be used
   std::string take_tolerances(std::uint32_t id, Found& found, DrawnSize& size) {
-    for (const auto& [_, each] : links(Group::Tolerance).of(id)) {
+    for (const auto& [_, each] : linked(Group::Tolerance, id)) {
       const auto fit = record(each, "LIMITS_AND_FITS", id);
       if (fit.size() >= 3) {
         std::string grade = text_of(fit[2]);
@@ -385,8 +358,7 @@ class Walker {
     const bool agrees = found.upper.value_or(limits->deviations.upper) == limits->deviations.upper &&
                         found.lower.value_or(limits->deviations.lower) == limits->deviations.lower;
     if (!agrees) {
-      return contradiction(fmt::format("the limits of the file are {} {} µm", found.upper ? signed_um(*found.upper) : "none",
-                                       found.lower ? signed_um(*found.lower) : "none"));
+      return contradiction(fmt::format("the limits of the file are {} {} µm", signed_um(found.upper), signed_um(found.lower)));
     }
     if (found.zone && *found.zone != limits->feature) return contradiction(fmt::format("the file calls it a {}", word(*found.zone)));
     if (size.feature && *size.feature != limits->feature) return contradiction(fmt::format("its faces are those of a {}", word(*size.feature)));
@@ -421,7 +393,7 @@ class Walker {
         return fmt::format("{} mm is {}: it has no limits", format_mm(size.nominal), word);
       }
     }
-    if (!found.has_limits()) {
+    if (!found.upper && !found.lower && found.class_name.empty()) {
       return fmt::format("{} mm has no limits in the file: add those of the drawing's general tolerances", format_mm(size.nominal));
     }
     if (!found.class_name.empty()) return take_class(found, size);
@@ -431,7 +403,7 @@ class Walker {
     if (size.quantity == Quantity::Width && !size.feature) size.quantity = Quantity::Distance;
     if (gauging::has_feature(size.quantity) && !size.feature) {
       return fmt::format("{} mm, {} {} µm: its faces do not show a hole or a shaft, add it with its feature", format_mm(size.nominal),
-                         size.upper ? signed_um(*size.upper) : "none", size.lower ? signed_um(*size.lower) : "none");
+                         signed_um(size.upper), signed_um(size.lower));
     }
     return {};
   }
@@ -455,7 +427,7 @@ class Walker {
   const iso286::ToleranceTables& tables_;
   Drawing& to_;
   std::size_t link_count_ = 0;
-  std::array<Links, kEntities.size()> links_;
+  std::array<std::vector<Link>, kEntities.size()> links_;
   std::map<std::uint32_t, double> units_;
   std::map<std::string, int> names_;
   std::set<std::uint32_t> seen_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -47,9 +46,7 @@ std::optional<Vector> numbers(const Part21& file, std::uint32_t id, std::uint32_
   const auto items = file.parameters(found[1].text);
   if (items.size() != 3) return std::nullopt;
   Vector read{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::from_chars(items[i].text.data(), items[i].text.data() + items[i].text.size(), read.at(i));
-  }
+  for (std::size_t i = 0; i < 3; ++i) read.at(i) = number_of(items[i]);
   return read;
 }
 

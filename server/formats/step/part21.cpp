@@ -94,6 +94,13 @@ std::string text_of(const Parameter& parameter) {
   return out;
 }
 
+double number_of(const Parameter& parameter) {
+  const std::string_view digits = parameter.text.substr(parameter.text.starts_with('+') ? 1 : 0);
+  double number = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return number;
+}
+
 /// The one pass over a whole file.
 class Part21Scanner {
  public:

@@ -35,6 +35,8 @@ struct Record {
 
 /// The text of a string parameter as UTF-8, without its controls; empty for another parameter.
 std::string text_of(const Parameter& parameter);
+/// The nearest double of a number; 0 of another parameter.
+double number_of(const Parameter& parameter);
 
 /// Reads what is known to be well-formed, since Part21::read has seen it. Refers to the text, which
 /// outlives it. After the first failure every reading is empty and error() says which. One thread.

@@ -64,6 +64,9 @@ TEST_CASE("sizes of a drawing are read in every form that writers have") {
   CHECK(sizes[0].name == "Bore Ø A");
   CHECK(limits_of(sizes[0]) == "25 H7 diameter hole");
   CHECK(sizes[0].count == 2);
+  const auto with_plus = read_drawing(replaced(housing(), "(40.,", "(+40.,"), tables());
+  REQUIRE(with_plus.has_value());
+  CHECK(with_plus->sizes[0].count == 2);
   CHECK(sizes[0].modifiers == std::vector<std::string>{"envelope requirement"});
   CHECK(limits_of(sizes[1]) == "25 g6 diameter shaft");
   CHECK(limits_of(sizes[2]) == "8 0 -36 width hole");
@@ -88,8 +91,8 @@ TEST_CASE("what is not gauged is listed with its name and why") {
   CHECK(why("#191").find("25 H7 is +21 0 µm of a hole, and the limits of the file are +25 0 µm") != std::string::npos);
   CHECK(why("#203").find("do not show a hole or a shaft") != std::string::npos);
   CHECK(why("#190") == "angle: an angle is not gauged here");
-  CHECK(why("#200") == "Position.1: a position of a feature is not gauged here");
-  CHECK(why("#201") == "Flatness.1: a flatness is not gauged here");
+  CHECK(why("#200") == "Position.1: position tolerance is not gauged here");
+  CHECK(why("#201") == "Flatness.1: flatness tolerance is not gauged here");
   CHECK(why("#202") == "Note.1: a note, a datum or another text is not gauged here");
 }
 
