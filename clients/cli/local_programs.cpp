@@ -21,22 +21,26 @@ namespace fs = std::filesystem;
 using klartext::Diagnostic;
 using klartext::Severity;
 
-/// The folder of a file as that of a control, each file read when it is asked for. What a program names beside it is found,
-/// and the folder TNC:\ is that one. Files that the service makes of its tables exist.
+/// The folder of a file as that of a control, each file read when it is asked for. What a program
+/// names beside it is found, and the folder TNC:\ is that one. Files that the service makes of its
+/// tables exist.
 class FolderDisk final : public interpreter::ControlDisk {
  public:
   explicit FolderDisk(fs::path folder) : folder_(std::move(folder)) {}
 
-  std::optional<interpreter::ControlFile> find(const interpreter::ControlPath& path) const override {
+  std::optional<interpreter::ControlFile> find(
+      const interpreter::ControlPath& path) const override {
     const auto found = local(path);
     if (!found) return std::nullopt;
     auto bytes = read_file(found->string());
     if (!bytes) return std::nullopt;
-    return interpreter::ControlFile{path, std::make_shared<const std::string>(*std::move(bytes)), "local"};
+    return interpreter::ControlFile{path, std::make_shared<const std::string>(*std::move(bytes)),
+                                    "local"};
   }
   std::optional<std::string> revision(const interpreter::ControlPath& path) const override {
     const std::string_view name = path.file_name();
-    const bool is_made = ascii_iequals(name, "82553_hole.tab") || ascii_iequals(name, "82553_shaft.tab");
+    const bool is_made =
+        ascii_iequals(name, "82553_hole.tab") || ascii_iequals(name, "82553_shaft.tab");
     return is_made || local(path) ? std::optional<std::string>("local") : std::nullopt;
   }
   bool has_directory(std::string_view) const override { return false; }
@@ -63,13 +67,16 @@ Outcome<Levels> read_levels(const std::vector<std::string>& written) {
   Levels levels;
   for (const std::string& level : written) {
     const std::size_t equals = level.find('=');
-    const std::string_view said = equals == level.npos ? "" : std::string_view(level).substr(equals + 1);
+    const std::string_view said =
+        equals == level.npos ? "" : std::string_view(level).substr(equals + 1);
     std::optional<Severity> severity;
     for (const Severity each : {Severity::Note, Severity::Warning, Severity::Error}) {
       if (said == word(each)) severity = each;
     }
     if (!severity && said != "off") {
-      return Failure{ExitCode::Usage, fmt::format("--level takes CODE=off, note, warning or error, not '{}'", level)};
+      return Failure{
+          ExitCode::Usage,
+          fmt::format("--level takes CODE=off, note, warning or error, not '{}'", level)};
     }
     levels[level.substr(0, equals)] = severity;
   }
@@ -88,10 +95,13 @@ void apply(const Levels& levels, std::vector<Diagnostic>& found) {
 
 std::string json_of(const Diagnostic& found) {
   JsonObject object;
-  object.add("severity", word(found.severity)).add("code", id(found.code)).add("message", found.message);
+  object.add("severity", word(found.severity))
+      .add("code", id(found.code))
+      .add("message", found.message);
   object.add("program", found.program).add_raw("line", std::to_string(found.range.begin.line));
   object.add_raw("column", std::to_string(found.range.begin.column));
-  object.add_raw("block", found.block ? std::to_string(*found.block) : "null").add("source", found.source);
+  object.add_raw("block", found.block ? std::to_string(*found.block) : "null")
+      .add("source", found.source);
   return object.text();
 }
 
@@ -101,8 +111,9 @@ std::string sarif_of(const Diagnostic& found) {
   region.add_raw("startColumn", std::to_string(std::max(found.range.begin.column, 1U)));
   std::string uri = found.program;
   std::ranges::replace(uri, '\\', '/');
-  const std::string place = fmt::format(R"({{"physicalLocation":{{"artifactLocation":{{"uri":{}}},"region":{}}}}})",
-                                        json_quoted(uri), region.text());
+  const std::string place =
+      fmt::format(R"({{"physicalLocation":{{"artifactLocation":{{"uri":{}}},"region":{}}}}})",
+                  json_quoted(uri), region.text());
   JsonObject result;
   result.add("ruleId", id(found.code)).add("level", word(found.severity));
   result.add_raw("message", fmt::format(R"({{"text":{}}})", json_quoted(found.message)));
@@ -121,9 +132,10 @@ void print(const Context& context, std::string_view format, const std::vector<Di
   }
   if (format == "json") context.print("{{\"diagnostics\":[{}]}}\n", items);
   if (format == "sarif") {
-    context.print(R"({{"version":"2.1.0","runs":[{{"tool":{{"driver":{{"name":"fitgauge","version":"{}"}}}},"results":[{}]}}]}})"
-                  "\n",
-                  FITGAUGE_VERSION, items);
+    context.print(
+        R"({{"version":"2.1.0","runs":[{{"tool":{{"driver":{{"name":"fitgauge","version":"{}"}}}},"results":[{}]}}]}})"
+        "\n",
+        FITGAUGE_VERSION, items);
   }
 }
 
@@ -163,7 +175,8 @@ Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& opt
     if (!bytes) return bytes.error();
     const auto parsed = klartext::parse_program(*std::move(bytes), file);
     for (const Diagnostic& found : parsed.diagnostics) {
-      if (found.severity == Severity::Error) return Failure{ExitCode::ProgramFailed, klartext::render(found)};
+      if (found.severity == Severity::Error)
+        return Failure{ExitCode::ProgramFailed, klartext::render(found)};
     }
     const std::string formatted = klartext::format_program(parsed.program);
     if (!options.in_place) {

@@ -9,13 +9,15 @@ namespace fitgauge::cli {
 
 struct CheckOptions {
   std::vector<std::string> files;
-  bool from_control = false;          ///< the files are those of the service
-  std::string format{};               ///< text, json or sarif; text when empty, json with --json
-  std::vector<std::string> levels{};  ///< `cycle.dialog_contradicts=error`: off, note, warning or error
+  bool from_control = false;  ///< the files are those of the service
+  std::string format{};       ///< text, json or sarif; text when empty, json with --json
+  std::vector<std::string>
+      levels{};  ///< `cycle.dialog_contradicts=error`: off, note, warning or error
 };
 
-/// `nc check FILE…`, of files here without a service: programs and what they call in their folder. Exit code 0: nothing or
-/// notes, 1: warnings, 2: errors. @errors LocalFile, Usage for a level that cannot be read.
+/// `nc check FILE…`, of files here without a service: programs and what they call in their folder.
+/// Exit code 0: nothing or notes, 1: warnings, 2: errors. @errors LocalFile, Usage for a level that
+/// cannot be read.
 Outcome<ExitCode> run_nc_check_local(const Context& context, const CheckOptions& options);
 
 struct FormatOptions {
@@ -23,7 +25,8 @@ struct FormatOptions {
   bool in_place = false;  ///< writes the files, else prints
 };
 
-/// `nc format FILE…`: as a control lists a program. @errors LocalFile, ProgramFailed for what cannot be read.
+/// `nc format FILE…`: as a control lists a program. @errors LocalFile, ProgramFailed for what
+/// cannot be read.
 Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& options);
 
 }  // namespace fitgauge::cli

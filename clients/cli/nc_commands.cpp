@@ -129,11 +129,13 @@ Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options) 
 Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options) {
   if (!options.from_control) return run_nc_check_local(context, options);
   if (!options.format.empty() || !options.levels.empty()) {
-    return Failure{ExitCode::Usage, "--format and --level are for files here: leave them out with --from-control"};
+    return Failure{ExitCode::Usage,
+                   "--format and --level are for files here: leave them out with --from-control"};
   }
   int worst = 0;
   for (const std::string& path : options.files) {
-    const auto answer = send(context, {.method = "POST", .target = file_target(path) + "?action=check"});
+    const auto answer =
+        send(context, {.method = "POST", .target = file_target(path) + "?action=check"});
     if (!answer) return answer.error();
     const auto document = read_document(*answer, context.client.url());
     if (!document) return document.error();

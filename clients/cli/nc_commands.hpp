@@ -32,8 +32,8 @@ Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options);
 /// The messages of a run, on standard error.
 void print_messages(const JsonValue& run);
 
-/// `nc check --from-control PATH…` of the service's files, else run_nc_check_local. Exit code 0: nothing or notes,
-/// 1: warnings, 2: errors.
+/// `nc check --from-control PATH…` of the service's files, else run_nc_check_local. Exit code 0:
+/// nothing or notes, 1: warnings, 2: errors.
 Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options);
 
 struct RunOptions {

@@ -47,21 +47,26 @@ std::string size_text(const step::DrawnSize& size) {
   for (const auto& each : {size.upper, size.lower}) {
     if (each) limits += (limits.empty() ? "" : " / ") + signed_text(format_um(*each));
   }
-  return fmt::format("{:6} {:24} {:>10} {:18} {} {}{}", size.entity, size.name, format_mm(size.nominal), limits, word(size.quantity),
-                     size.feature ? word(*size.feature) : "", size.count > 1 ? fmt::format(" {}X", size.count) : "");
+  return fmt::format("{:6} {:24} {:>10} {:18} {} {}{}", size.entity, size.name,
+                     format_mm(size.nominal), limits, word(size.quantity),
+                     size.feature ? word(*size.feature) : "",
+                     size.count > 1 ? fmt::format(" {}X", size.count) : "");
 }
 
 void print(const Context& context, const step::Drawing& drawing) {
   if (context.json) return context.print_document(api::body_json(drawing));
   for (const step::DrawnSize& size : drawing.sizes) {
     context.print("{}\n", size_text(size));
-    for (const std::string& remark : size.remarks) context.note(fmt::format("{}: {}", size.name, remark));
+    for (const std::string& remark : size.remarks)
+      context.note(fmt::format("{}: {}", size.name, remark));
   }
-  for (const step::NotRead& other : drawing.not_read) context.note(fmt::format("not read: {} {}: {}", other.entity, other.name, other.why));
+  for (const step::NotRead& other : drawing.not_read)
+    context.note(fmt::format("not read: {} {}: {}", other.entity, other.name, other.why));
 }
 
 /// Stores the plan, and says what is other than in the one before.
-Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing, const PlanOptions& options) {
+Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing,
+                        const PlanOptions& options) {
   const std::string target = "/v1/plans/" + percent_encoded(options.part);
   const auto stored = context.client.send({.target = target});
   if (!stored) return stored.error();
@@ -76,12 +81,16 @@ Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing, co
   }
   const auto plan = step::plan_of(drawing, options.part, before ? &*before : nullptr);
   if (!plan) return local(options.file, plan.error().message);
-  const auto answer = expect_ok(context.client.send({.method = "PUT", .target = target, .content_type = "application/json", .body = plan->text}),
+  const auto answer = expect_ok(context.client.send({.method = "PUT",
+                                                     .target = target,
+                                                     .content_type = "application/json",
+                                                     .body = plan->text}),
                                 context.client.url());
   if (!answer) return answer.error();
   for (const std::string& name : plan->added) context.note("added: " + name);
   for (const std::string& name : plan->gone) context.note("gone: " + name);
-  for (const auto& one : plan->changed) context.note(fmt::format("changed: {}: {}, before {}", one.name, one.after, one.before));
+  for (const auto& one : plan->changed)
+    context.note(fmt::format("changed: {}: {}, before {}", one.name, one.after, one.before));
   return ExitCode::Good;
 }
 

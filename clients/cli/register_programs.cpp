@@ -35,15 +35,19 @@ void add_nc_files(CLI::App& nc, Action& chosen) {
 
 void add_nc_programs(CLI::App& nc, Action& chosen) {
   const auto checked = std::make_shared<CheckOptions>();
-  CLI::App* check = add_command(nc, "check", "Check programs, here or on the control", chosen, checked, run_nc_check);
+  CLI::App* check = add_command(nc, "check", "Check programs, here or on the control", chosen,
+                                checked, run_nc_check);
   check->add_option("files", checked->files, "Files here, or paths on the control")->required();
   check->add_flag("--from-control", checked->from_control, "The files are those of the service");
   check->add_option("--format", checked->format, "Of findings: text, json, sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
-  check->add_option("--level", checked->levels, "Of a code: CODE=off, note, warning or error")->expected(1)->take_all();
+  check->add_option("--level", checked->levels, "Of a code: CODE=off, note, warning or error")
+      ->expected(1)
+      ->take_all();
 
   const auto formatted = std::make_shared<FormatOptions>();
-  CLI::App* format = add_command(nc, "format", "List programs here as a control does", chosen, formatted, run_nc_format);
+  CLI::App* format = add_command(nc, "format", "List programs here as a control does", chosen,
+                                 formatted, run_nc_format);
   format->add_option("files", formatted->files, "Files here")->required();
   format->add_flag("--in-place", formatted->in_place, "Write the files, else print");
 
@@ -57,7 +61,8 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
       ->expected(1)
       ->take_all();
   run->add_option("--on-stop", options->on_stop, "At STOP: continue or end");
-  run->add_option("--language", options->language, "Of masks: english, german, dutch, italian, polish");
+  run->add_option("--language", options->language,
+                  "Of masks: english, german, dutch, italian, polish");
   run->add_option("--part-id", options->part_id, "Part that is measured, for the records");
   run->add_option("--order", options->order, "Its order");
   run->add_flag("--block-skip", options->block_skip, "Pass over blocks that begin with /");

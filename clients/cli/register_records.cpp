@@ -83,7 +83,9 @@ void add_plans(CLI::App& app, Action& chosen) {
   CLI::App* plan = app.add_subcommand("plan", "Inspection plans");
   plan->require_subcommand(1);
   const auto options = std::make_shared<PlanOptions>();
-  CLI::App* from = add_command(*plan, "from", "Read the sizes of a STEP drawing, which --part makes a plan", chosen, options, run_plan_from);
+  CLI::App* from =
+      add_command(*plan, "from", "Read the sizes of a STEP drawing, which --part makes a plan",
+                  chosen, options, run_plan_from);
   from->add_option("file", options->file, "STEP file of AP242, AP203 or AP214")->required();
   from->add_option("--part", options->part, "Part number whose plan it becomes");
 }

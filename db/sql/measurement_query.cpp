@@ -220,9 +220,9 @@ std::vector<FieldValue> MeasurementQuery::postings_of(const MeasurementFilter& f
   add_text(TextField::PartId);
   if (filter.run_id)
     postings.push_back({number_of(IndexField::Run), std::to_string(*filter.run_id)});
-  for (const TextField field : {TextField::Subgroup, TextField::Order, TextField::Characteristic,
-                                TextField::Operation, TextField::Gauge, TextField::Operator,
-                                TextField::Tool}) {
+  for (const TextField field :
+       {TextField::Subgroup, TextField::Order, TextField::Characteristic, TextField::Operation,
+        TextField::Gauge, TextField::Operator, TextField::Tool}) {
     add_text(field);
   }
   if (filter.designation) {

@@ -76,12 +76,12 @@ struct MeasurementFilter {
   std::optional<std::int64_t> received_from_ns{};  ///< from <= received_at
   std::optional<std::int64_t> received_to_ns{};    ///< received_at < to
   // Of one note beside the row:
-  std::optional<std::string> cause{};         ///< that it names, exactly so
+  std::optional<std::string> cause{};           ///< that it names, exactly so
   std::optional<std::int64_t> noted_from_ns{};  ///< from <= its received_at
   std::optional<std::int64_t> noted_to_ns{};    ///< its received_at < to
-  bool has_notes = false;                     ///< only rows with a note
-  std::optional<bool> confirmed{};            ///< by a person, or not
-  bool history = false;                            ///< also rows that a later one corrects
+  bool has_notes = false;                       ///< only rows with a note
+  std::optional<bool> confirmed{};              ///< by a person, or not
+  bool history = false;                         ///< also rows that a later one corrects
   /// The state when this was the newest id, so that a list read in pages is of one piece.
   std::optional<std::int64_t> as_of_id{};
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <boost/system/result.hpp>
 #include <algorithm>
+#include <boost/system/result.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -43,7 +43,8 @@ inline Error listed(ErrorCode code, std::vector<Error> found, std::size_t count 
   std::string message = found.front().message;
   count = std::max(count, found.size());
   if (count > 1) message += " (and " + std::to_string(count - 1) + " more)";
-  if (count > found.size()) message += "; the first " + std::to_string(found.size()) + " are listed";
+  if (count > found.size())
+    message += "; the first " + std::to_string(found.size()) + " are listed";
   return {code, std::move(message), {}, std::move(found)};
 }
 

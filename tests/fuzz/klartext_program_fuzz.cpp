@@ -1,5 +1,5 @@
-// Any bytes as a program of either dialect: every finding has its place, and a program without errors,
-// printed as Klartext, reads back as the same.
+// Any bytes as a program of either dialect: every finding has its place, and a program without
+// errors, printed as Klartext, reads back as the same.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +12,8 @@
 using namespace fitgauge::klartext;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const ParsedProgram parsed =
-      fitgauge::iso::parse_program(std::string(reinterpret_cast<const char*>(data), size), "fuzz.h");
+  const ParsedProgram parsed = fitgauge::iso::parse_program(
+      std::string(reinterpret_cast<const char*>(data), size), "fuzz.h");
   for (const Diagnostic& diagnostic : parsed.diagnostics) {
     if (render(diagnostic).empty() || diagnostic.range.end < diagnostic.range.begin) std::abort();
   }

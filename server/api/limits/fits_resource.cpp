@@ -101,20 +101,22 @@ http::AsyncHandler answer_fit(const Services& services, const std::shared_ptr<Re
       return from_tables(request, std::move(responder));
     }
     const auto shared = share(std::move(responder));
-    tables_of(services.tables, request, [&services, &request, designation_of, shared](
-                                            const Result<app::TableCatalog::Tables>& tables) {
-      if (!tables) return shared->fail(tables.error());
-      const auto designation = designation_of(request);
-      if (!designation) return shared->fail(designation.error());
-      const auto fit = find_fit(*designation, **tables);
-      if (!fit) return shared->fail(fit.error());
-      read_fit_of_values(services, request, *fit,
-                         [shared, tables = *tables, designation = *designation,
-                          fit = *fit](Result<WriteStored> stored) {
-                           if (!stored) return shared->fail(stored.error());
-                           shared->answer(fit_response(designation, fit, *tables, *stored));
-                         });
-    });
+    tables_of(services.tables, request,
+              [&services, &request, designation_of,
+               shared](const Result<app::TableCatalog::Tables>& tables) {
+                if (!tables) return shared->fail(tables.error());
+                const auto designation = designation_of(request);
+                if (!designation) return shared->fail(designation.error());
+                const auto fit = find_fit(*designation, **tables);
+                if (!fit) return shared->fail(fit.error());
+                read_fit_of_values(
+                    services, request, *fit,
+                    [shared, tables = *tables, designation = *designation,
+                     fit = *fit](Result<WriteStored> stored) {
+                      if (!stored) return shared->fail(stored.error());
+                      shared->answer(fit_response(designation, fit, *tables, *stored));
+                    });
+              });
   };
 }
 
@@ -211,8 +213,7 @@ void add_fits_routes(std::vector<http::Route>& routes, const Services& services,
       .pattern = "/v1/fits",
       .handler = ResponseCache::of_revision(cache, search_fits),
       .summary = "Fits whose clearances lie within bounds",
-      .description =
-          "The preferred fits of ISO 286-1 first, then the widest tolerances.",
+      .description = "The preferred fits of ISO 286-1 first, then the widest tolerances.",
       .parameters = {{.name = "nominal_mm",
                       .type = http::LengthIn{},
                       .required = true,

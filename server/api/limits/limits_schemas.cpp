@@ -42,22 +42,22 @@ schema::Fields verdict_fields() {
 }
 
 schema::Fields warnings_field() {
-  const std::string warning = schema::object(
-      {{"code", schema::text(),
-        "rule.no_acceptance, uncertainty.large, gauge.unknown, query.unused"},
-       {"detail", schema::text(), "What it is of, and what to do"}});
+  const std::string warning =
+      schema::object({{"code", schema::text(),
+                       "rule.no_acceptance, uncertainty.large, gauge.unknown, query.unused"},
+                      {"detail", schema::text(), "What it is of, and what to do"}});
   return {{"warnings", schema::array(warning), "Of this answer alone, no part of a record", false}};
 }
 
 namespace {
 
 void add_found_fits(Schemas& schemas, const schema::Fields& fit_fields) {
-  const std::string fit =
-      schema::object(fit_fields + schema::Fields{
-                                      {"hole_class", schema::text(), ""},
-                                      {"shaft_class", schema::text(), ""},
-                                      {"preferred", schema::boolean(), "By ISO 286-1:2010, figures B.2 and B.3"},
-                                  });
+  const std::string fit = schema::object(
+      fit_fields + schema::Fields{
+                       {"hole_class", schema::text(), ""},
+                       {"shaft_class", schema::text(), ""},
+                       {"preferred", schema::boolean(), "By ISO 286-1:2010, figures B.2 and B.3"},
+                   });
   schemas.push_back({"FoundFits", schema::object({{"fits", schema::array(fit), "The first"},
                                                   {"total", schema::count(), "All there are"}})});
 }
@@ -160,8 +160,9 @@ void add_limits_schemas(Schemas& schemas) {
       {"conformance_probability", schema::number(0, 1), "Of the part, to 1e-9"},
       {"guard_band_um", schema::number(), "Of conformance: inside both limits"},
   });
-  schemas.push_back({"Verdict", schema::object(limits_fields() + verdict_fields() + rule + warnings_field(),
-                                               Others::Allowed, kVerdict)});
+  schemas.push_back(
+      {"Verdict", schema::object(limits_fields() + verdict_fields() + rule + warnings_field(),
+                                 Others::Allowed, kVerdict)});
 }
 
 }  // namespace fitgauge::api

@@ -145,7 +145,8 @@ Result<http::Response> verdict(const http::Request& request,
   limits->write_members(json);
   write_verdict_members(json, limits->nominal, measured, result);
   write_rule_members(json, *rule, words, limits->of, measured.decisive());
-  std::vector<Warning> warnings = unused_parameters(request, rule->kind() == gauging::DecisionRule::Kind::Simple);
+  std::vector<Warning> warnings =
+      unused_parameters(request, rule->kind() == gauging::DecisionRule::Kind::Simple);
   warn_of_no_acceptance(*rule, limits->of.upper - limits->of.lower, warnings);
   write_warnings(json, warnings);
   json.end_object();

@@ -81,12 +81,15 @@ auto place_in(const std::vector<Reaction>& plan, const PartValue& value) {
 }
 
 void hold_against(const std::vector<Reaction>& plan, Part& part) {
-  std::ranges::stable_sort(part.values, {}, [&](const auto& value) { return place_in(plan, value); });
+  std::ranges::stable_sort(part.values, {},
+                           [&](const auto& value) { return place_in(plan, value); });
   for (const Reaction& each : plan) {
-    const auto value = std::ranges::find(part.values, each.characteristic, &PartValue::characteristic);
+    const auto value =
+        std::ranges::find(part.values, each.characteristic, &PartValue::characteristic);
     if (value == part.values.end()) {
       part.missing.push_back(each.characteristic);
-    } else if (value->verdict.value_or("good") != "good" && !value->has_note && !each.reaction.empty()) {
+    } else if (value->verdict.value_or("good") != "good" && !value->has_note &&
+               !each.reaction.empty()) {
       part.reactions.push_back({each.characteristic, each.reaction, value->measurement});
     }
   }
@@ -94,7 +97,8 @@ void hold_against(const std::vector<Reaction>& plan, Part& part) {
 
 /// Holds the part against the plan of that name, else of its own name, else the only one that has
 /// all that was measured. @errors QueryInvalid where a plan is named that is not there.
-Result<void> plan_part(const std::vector<NamedDocument>& plans, std::optional<std::string_view> named, Part& part) {
+Result<void> plan_part(const std::vector<NamedDocument>& plans,
+                       std::optional<std::string_view> named, Part& part) {
   std::vector<std::pair<std::string, std::vector<Reaction>>> fitting;
   const std::string name(named.value_or(part.part));
   for (const NamedDocument& plan : plans) {
@@ -102,7 +106,9 @@ Result<void> plan_part(const std::vector<NamedDocument>& plans, std::optional<st
     auto characteristics = characteristics_of(plan);
     if (!characteristics) return characteristics.error();
     const auto end = std::ssize(*characteristics);
-    const auto is_planned = [&](const PartValue& value) { return place_in(*characteristics, value) < end; };
+    const auto is_planned = [&](const PartValue& value) {
+      return place_in(*characteristics, value) < end;
+    };
     if (plan.name == name) fitting.clear();
     if (plan.name == name || std::ranges::all_of(part.values, is_planned)) {
       fitting.emplace_back(plan.name, *std::move(characteristics));
@@ -120,7 +126,8 @@ Result<void> plan_part(const std::vector<NamedDocument>& plans, std::optional<st
 
 void judge(Part& part) {
   for (const std::string_view word : {"reject", "rework", "indeterminate", "good"}) {
-    const bool is_there = std::ranges::find(part.values, word, &PartValue::verdict) != part.values.end();
+    const bool is_there =
+        std::ranges::find(part.values, word, &PartValue::verdict) != part.values.end();
     if (is_there && (word != "good" || part.missing.empty())) part.verdict = word;
     if (is_there) return;
   }
@@ -144,15 +151,17 @@ void get_part(const Services& services, const http::Request& request, http::Resp
   query.newest_first = query.shows_notes = true;
   services.measurements.list(
       query, 0, kMostValues, [part](const app::Measurement& m) { add_value(m, *part); },
-      [&services, &request, part, shared = share(std::move(responder))](const Result<app::ListPage>& page) {
+      [&services, &request, part,
+       shared = share(std::move(responder))](const Result<app::ListPage>& page) {
         if (!page) return shared->fail(page.error());
         if (part->values.empty()) {
-          return shared->fail(
-              {ErrorCode::MeasurementUnknown, fmt::format("no measurement has part_id '{}'", part->part)});
+          return shared->fail({ErrorCode::MeasurementUnknown,
+                               fmt::format("no measurement has part_id '{}'", part->part)});
         }
         std::ranges::reverse(part->values);
         services.documents.list(
-            app::DocumentKind::Plan, [&request, part, shared](const Result<std::vector<NamedDocument>>& plans) {
+            app::DocumentKind::Plan,
+            [&request, part, shared](const Result<std::vector<NamedDocument>>& plans) {
               if (!plans) return shared->fail(plans.error());
               const auto planned = plan_part(*plans, request.text("plan"), *part);
               if (!planned) return shared->fail(planned.error());
@@ -171,10 +180,14 @@ void add_parts_routes(std::vector<http::Route>& routes, const Services& services
       .pattern = "/v1/parts/{part*}",
       .handler = with(services, get_part),
       .summary = "A part: its verdict, what is missing, its values and open reactions",
-      .description = "The newest value of each characteristic, corrections applied; the verdict is the worst of them. "
-                     "Without `plan` the part is held against the plan of its own name, or the only one that has every "
+      .description = "The newest value of each characteristic, corrections applied; the verdict is "
+                     "the worst of them. "
+                     "Without `plan` the part is held against the plan of its own name, or the "
+                     "only one that has every "
                      "characteristic measured at it; if there is none, nothing is missing.",
-      .parameters = {{.name = "part", .place = http::ParameterPlace::Path, .description = "part_id of its measurements"},
+      .parameters = {{.name = "part",
+                      .place = http::ParameterPlace::Path,
+                      .description = "part_id of its measurements"},
                      {.name = "plan", .description = "Part number of the plan to hold it against"}},
       .access = "viewer",
       .operation = "getPart",

@@ -45,12 +45,12 @@ Fields characteristic_fields() {
 void add_plan_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<step::Drawing>("Drawing"));
   schemas.push_back(answer_schema<step::DrawnPlan>("DrawnPlan"));
-  const Fields name = {
-      {"name", schema::text(200), "Of the part", false},
-      {"drawing",
-       schema::object({{"digest", schema::text(64), "SHA-256 of its file"}, {"part", schema::text(200), "Its product", false}},
-                      Others::Refused),
-       "The STEP file that characteristics with an entity came from", false}};
+  const Fields name = {{"name", schema::text(200), "Of the part", false},
+                       {"drawing",
+                        schema::object({{"digest", schema::text(64), "SHA-256 of its file"},
+                                        {"part", schema::text(200), "Its product", false}},
+                                       Others::Refused),
+                        "The STEP file that characteristics with an entity came from", false}};
   const Fields characteristics = {
       {"characteristics",
        schema::array(schema::object(characteristic_fields(), Others::Refused), 1,

@@ -20,7 +20,8 @@ constexpr std::string_view kStep = "model/step";
 Result<CheckedDocument> check_plan(const Services& services, const std::string& part,
                                    std::string_view text) {
   if (text.size() > kLongestJson) {
-    return Error{ErrorCode::BodyTooLarge, "A plan as JSON may have 1048576 bytes; a drawing is model/step"};
+    return Error{ErrorCode::BodyTooLarge,
+                 "A plan as JSON may have 1048576 bytes; a drawing is model/step"};
   }
   const auto body = parse_json(text);
   if (!body) return body.error();
@@ -41,7 +42,8 @@ Result<step::Drawing> drawing_of(const Services& services, std::string_view text
 }
 
 /// The plan of a drawing, with what people gave the characteristics of the plan before.
-Result<CheckedDocument> check_drawn(const Services& services, const std::string& part, std::string_view text) {
+Result<CheckedDocument> check_drawn(const Services& services, const std::string& part,
+                                    std::string_view text) {
   const auto drawing = drawing_of(services, text);
   if (!drawing) return drawing.error();
   const auto stored = services.documents.wait_for(app::DocumentKind::Plan, part);
@@ -61,7 +63,8 @@ Result<CheckedDocument> check_drawn(const Services& services, const std::string&
   return checked;
 }
 
-void read_drawing(const Services& services, const http::Request& request, http::Responder responder) {
+void read_drawing(const Services& services, const http::Request& request,
+                  http::Responder responder) {
   services.jobs.figures.run(
       [&services, &request]() -> Result<http::Response> {
         const auto drawing = drawing_of(services, request.body());
@@ -108,7 +111,8 @@ void add_plans_routes(std::vector<http::Route>& routes, const Services& services
       .pattern = "/v1/drawings",
       .handler = with(services, read_drawing),
       .summary = "Read the sizes of a STEP drawing",
-      .description = "AP242, AP203 or AP214 with product manufacturing information. Nothing is stored: PUT the file to "
+      .description = "AP242, AP203 or AP214 with product manufacturing information. Nothing is "
+                     "stored: PUT the file to "
                      "/v1/plans/{part} to make a plan of it.",
       .body = {.use = http::BodyUse::Required,
                .media_types = {std::string(kStep)},

@@ -95,8 +95,9 @@ void read_separator(const JsonValue& setup, const std::string& pointer,
 }
 
 /// A path of the control, with `added` behind it.
-void read_path(const JsonValue& setup, const std::string& pointer, std::string_view member, std::string_view added,
-               std::optional<interpreter::ControlPath>& to, FieldErrors& errors) {
+void read_path(const JsonValue& setup, const std::string& pointer, std::string_view member,
+               std::string_view added, std::optional<interpreter::ControlPath>& to,
+               FieldErrors& errors) {
   const JsonValue* written = setup.find(member);
   if (written == nullptr) return;
   const std::string where = pointer_to(pointer, member);

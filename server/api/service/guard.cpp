@@ -13,8 +13,8 @@ constexpr std::string_view kTokenPrefix = "fg_";
 enum class Access { Public, Open, Viewer, Operator, Admin, Station };
 
 Access access_of(const http::Route& route, const http::Request& request) {
-  const bool asks_more = !request.query().empty() && !route.query_access.empty() &&
-                         !asks_for_revision_alone(request);
+  const bool asks_more =
+      !request.query().empty() && !route.query_access.empty() && !asks_for_revision_alone(request);
   const std::string_view access = asks_more ? route.query_access : route.access;
   if (access == "open") return Access::Open;
   if (access == "viewer") return Access::Viewer;

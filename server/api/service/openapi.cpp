@@ -117,7 +117,8 @@ std::set<int> refusals_of(const http::Route& route) {
 }
 
 bool takes(const http::Route& route, std::string_view parameter) {
-  return std::ranges::any_of(route.parameters, [&](const auto& known) { return known.name == parameter; });
+  return std::ranges::any_of(route.parameters,
+                             [&](const auto& known) { return known.name == parameter; });
 }
 bool is_get(const http::Route& route) { return route.method == http::Method::Get; }
 bool has_tag(const http::Route& route) {
@@ -133,19 +134,26 @@ struct DescribedHeader {
   bool (*is_of)(const http::Route&, int status);
 };
 constexpr DescribedHeader kHeaders[] = {
-    {"X-Request-Id", "The caller's own, or one that was made; the log has it", [](const auto&, int) { return true; }},
-    {"ETag", "Names the state, for If-Match and If-None-Match", [](const auto& route, int) { return has_tag(route); }},
+    {"X-Request-Id", "The caller's own, or one that was made; the log has it",
+     [](const auto&, int) { return true; }},
+    {"ETag", "Names the state, for If-Match and If-None-Match",
+     [](const auto& route, int) { return has_tag(route); }},
     {"Location", "The address of what is new",
      [](const auto& route, int status) {
        const bool is_once = takes(route, "Idempotency-Key") && !route.pattern.ends_with("/notes");
-       const bool is_file = route.method == http::Method::Put && route.pattern.starts_with("/v1/files");
+       const bool is_file =
+           route.method == http::Method::Put && route.pattern.starts_with("/v1/files");
        return is_file || (is_once && (status == 201 || status == 202));
      }},
     {"Idempotency-Replayed", "true: the answer to an earlier request with this key",
      [](const auto& route, int) { return takes(route, "Idempotency-Key"); }},
-    {"Link", "The next page, rel=\"next\"", [](const auto& route, int) { return is_get(route) && takes(route, "after"); }},
+    {"Link", "The next page, rel=\"next\"",
+     [](const auto& route, int) { return is_get(route) && takes(route, "after"); }},
     {"Content-Disposition", "The name of the file",
-     [](const auto& route, int) { return is_get(route) && (route.pattern == "/v1/measurements" || route.pattern == "/v1/certificates"); }},
+     [](const auto& route, int) {
+       return is_get(route) &&
+              (route.pattern == "/v1/measurements" || route.pattern == "/v1/certificates");
+     }},
 };
 
 void write_headers(JsonWriter& json, const http::Route& route, int status) {
@@ -178,7 +186,10 @@ void write_responses(JsonWriter& json, const http::Route& route) {
   json.key("responses").begin_object();
   for (const http::Outcome& outcome : route.outcomes) write_outcome(json, route, outcome);
   if (is_get(route) && has_tag(route)) {
-    json.key("304").begin_object().member("description", "If-None-Match names the state").end_object();
+    json.key("304")
+        .begin_object()
+        .member("description", "If-None-Match names the state")
+        .end_object();
   }
   for (const int status : refusals_of(route)) {
     json.key(std::to_string(status)).begin_object().member("$ref", refusal(status)).end_object();
@@ -277,20 +288,22 @@ std::string refusal_response(std::string_view name, std::string_view type, std::
                              std::string_view header = {}) {
   std::string headers = R"("X-Request-Id":{"$ref":"#/components/headers/X-Request-Id"})";
   if (!header.empty()) headers += fmt::format(R"(,"{}":{{"schema":{}}})", header, schema::text());
-  return fmt::format(R"("{}":{{"description":"What is wrong","headers":{{{}}},"content":{{"{}":{{"schema":{}}}}}}})", name,
-                     headers, type, schema);
+  return fmt::format(
+      R"("{}":{{"description":"What is wrong","headers":{{{}}},"content":{{"{}":{{"schema":{}}}}}}})",
+      name, headers, type, schema);
 }
 
 void write_components(JsonWriter& json, const Schemas& of_plant) {
   json.key("components").begin_object().key("securitySchemes").raw(kSecurity);
   constexpr std::string_view kProblem = "application/problem+json";
   const std::string problem = schema::ref("Problem");
-  json.key("headers").raw(fmt::format(R"({{"X-Request-Id":{{"description":"{}","schema":{}}}}})", kHeaders[0].meaning, schema::text()));
-  json.key("responses").raw(fmt::format(
-      "{{{},{},{},{}}}", refusal_response("Problem", kProblem, problem),
-      refusal_response("KeyNeeded", kProblem, problem, "WWW-Authenticate"),
-      refusal_response("Unavailable", kProblem, problem, "Retry-After"),
-      refusal_response("MtconnectError", "text/xml", schema::text())));
+  json.key("headers").raw(fmt::format(R"({{"X-Request-Id":{{"description":"{}","schema":{}}}}})",
+                                      kHeaders[0].meaning, schema::text()));
+  json.key("responses")
+      .raw(fmt::format("{{{},{},{},{}}}", refusal_response("Problem", kProblem, problem),
+                       refusal_response("KeyNeeded", kProblem, problem, "WWW-Authenticate"),
+                       refusal_response("Unavailable", kProblem, problem, "Retry-After"),
+                       refusal_response("MtconnectError", "text/xml", schema::text())));
   json.key("schemas").begin_object();
   for (const NamedSchema& schema : make_schemas(of_plant)) json.key(schema.name).raw(schema.json);
   json.end_object().end_object();

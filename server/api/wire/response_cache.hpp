@@ -36,7 +36,8 @@ class ResponseCache {
   /// @errors TablesInconsistent where the tables fail their audit; those of `make`.
   static http::SyncHandler cached(std::shared_ptr<ResponseCache> cache, TableHandler make);
 
-  /// The same; the parameter `revision` of a request asks for older tables, of which nothing is kept.
+  /// The same; the parameter `revision` of a request asks for older tables, of which nothing is
+  /// kept.
   /// @errors RevisionUnknown too.
   static http::AsyncHandler of_revision(std::shared_ptr<ResponseCache> cache, TableHandler make);
 

@@ -19,7 +19,19 @@ using gauging::Quantity;
 using iso286::Feature;
 using Kind = Parameter::Kind;
 
-enum class Group : std::uint8_t { NotGauged, Size, Location, Angle, Value, Tolerance, Face, Part, Callout, Product, Note };
+enum class Group : std::uint8_t {
+  NotGauged,
+  Size,
+  Location,
+  Angle,
+  Value,
+  Tolerance,
+  Face,
+  Part,
+  Callout,
+  Product,
+  Note
+};
 
 struct Entity {
   std::string_view name;
@@ -31,22 +43,37 @@ constexpr std::array kEntities = {
     Entity{"DIMENSIONAL_SIZE", Group::Size},
     Entity{"DIMENSIONAL_SIZE_WITH_DATUM_FEATURE", Group::Size},
     Entity{"DIMENSIONAL_SIZE_WITH_PATH", Group::Size},
-    Entity{"DIMENSIONAL_LOCATION", Group::Location}, Entity{"DIRECTED_DIMENSIONAL_LOCATION", Group::Location},
+    Entity{"DIMENSIONAL_LOCATION", Group::Location},
+    Entity{"DIRECTED_DIMENSIONAL_LOCATION", Group::Location},
     Entity{"DIMENSIONAL_LOCATION_WITH_PATH", Group::Location},
-    Entity{"ANGULAR_SIZE", Group::Angle}, Entity{"ANGULAR_LOCATION", Group::Angle},
+    Entity{"ANGULAR_SIZE", Group::Angle},
+    Entity{"ANGULAR_LOCATION", Group::Angle},
     Entity{"DIMENSIONAL_CHARACTERISTIC_REPRESENTATION", Group::Value},
     Entity{"PLUS_MINUS_TOLERANCE", Group::Tolerance},
     Entity{"GEOMETRIC_ITEM_SPECIFIC_USAGE", Group::Face},
-    Entity{"SHAPE_ASPECT_RELATIONSHIP", Group::Part}, Entity{"SHAPE_ASPECT_DERIVING_RELATIONSHIP", Group::Part},
+    Entity{"SHAPE_ASPECT_RELATIONSHIP", Group::Part},
+    Entity{"SHAPE_ASPECT_DERIVING_RELATIONSHIP", Group::Part},
     Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION", Group::Callout},
     Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION_WITH_PLACEHOLDER", Group::Callout},
-    Entity{"PRODUCT", Group::Product}, Entity{"DRAUGHTING_CALLOUT", Group::Note},
-    Entity{"ANGULARITY_TOLERANCE"}, Entity{"CIRCULAR_RUNOUT_TOLERANCE"}, Entity{"COAXIALITY_TOLERANCE"},
-    Entity{"CONCENTRICITY_TOLERANCE"}, Entity{"CYLINDRICITY_TOLERANCE"}, Entity{"FLATNESS_TOLERANCE"},
-    Entity{"LINE_PROFILE_TOLERANCE"}, Entity{"PARALLELISM_TOLERANCE"}, Entity{"PERPENDICULARITY_TOLERANCE"},
-    Entity{"POSITION_TOLERANCE"}, Entity{"ROUNDNESS_TOLERANCE"}, Entity{"STRAIGHTNESS_TOLERANCE"},
-    Entity{"SURFACE_PROFILE_TOLERANCE"}, Entity{"SYMMETRY_TOLERANCE"}, Entity{"TOTAL_RUNOUT_TOLERANCE"},
-    Entity{"GEOMETRIC_TOLERANCE"}, Entity{"SURFACE_TEXTURE_REPRESENTATION"},
+    Entity{"PRODUCT", Group::Product},
+    Entity{"DRAUGHTING_CALLOUT", Group::Note},
+    Entity{"ANGULARITY_TOLERANCE"},
+    Entity{"CIRCULAR_RUNOUT_TOLERANCE"},
+    Entity{"COAXIALITY_TOLERANCE"},
+    Entity{"CONCENTRICITY_TOLERANCE"},
+    Entity{"CYLINDRICITY_TOLERANCE"},
+    Entity{"FLATNESS_TOLERANCE"},
+    Entity{"LINE_PROFILE_TOLERANCE"},
+    Entity{"PARALLELISM_TOLERANCE"},
+    Entity{"PERPENDICULARITY_TOLERANCE"},
+    Entity{"POSITION_TOLERANCE"},
+    Entity{"ROUNDNESS_TOLERANCE"},
+    Entity{"STRAIGHTNESS_TOLERANCE"},
+    Entity{"SURFACE_PROFILE_TOLERANCE"},
+    Entity{"SYMMETRY_TOLERANCE"},
+    Entity{"TOTAL_RUNOUT_TOLERANCE"},
+    Entity{"GEOMETRIC_TOLERANCE"},
+    Entity{"SURFACE_TEXTURE_REPRESENTATION"},
 };
 
 /// `flatness tolerance`: an entity in words.
@@ -78,14 +105,27 @@ bool by_first(const Link& a, const Link& b) { return a.first < b.first; }
 
 /// What the name of a DIMENSIONAL_SIZE says of the quantity, by a part of it.
 constexpr std::array<std::pair<std::string_view, Quantity>, 10> kQuantities = {{
-    {"diameter", Quantity::Diameter}, {"radius", Quantity::Radius}, {"curve", Quantity::Distance},
-    {"depth", Quantity::Distance}, {"thickness", Quantity::Width}, {"width", Quantity::Width},
-    {"length", Quantity::Width}, {"height", Quantity::Width}, {"size", Quantity::Width}, {"linear", Quantity::Width},
+    {"diameter", Quantity::Diameter},
+    {"radius", Quantity::Radius},
+    {"curve", Quantity::Distance},
+    {"depth", Quantity::Distance},
+    {"thickness", Quantity::Width},
+    {"width", Quantity::Width},
+    {"length", Quantity::Width},
+    {"height", Quantity::Width},
+    {"size", Quantity::Width},
+    {"linear", Quantity::Width},
 }};
 
 /// Millimetres of a metre with a prefix of SI_UNIT.
 constexpr std::array<std::pair<std::string_view, double>, 7> kMetres = {{
-    {"", 1e3}, {".MILLI.", 1}, {".CENTI.", 10}, {".DECI.", 100}, {".MICRO.", 1e-3}, {".NANO.", 1e-6}, {".KILO.", 1e6},
+    {"", 1e3},
+    {".MILLI.", 1},
+    {".CENTI.", 10},
+    {".DECI.", 100},
+    {".MICRO.", 1e-3},
+    {".NANO.", 1e-6},
+    {".KILO.", 1e6},
 }};
 
 /// A number with its unit: a length, or an angle.
@@ -106,7 +146,9 @@ struct Found {
   bool is_angle = false;
 };
 
-std::string signed_um(std::optional<Length> length) { return !length ? "none" : (*length > Length() ? "+" : "") + format_um(*length); }
+std::string signed_um(std::optional<Length> length) {
+  return !length ? "none" : (*length > Length() ? "+" : "") + format_um(*length);
+}
 
 class Walker {
  public:
@@ -114,10 +156,13 @@ class Walker {
       : file_(file), tables_(tables), to_(drawing) {}
 
   void walk() {
-    each({Group::Value, Group::Tolerance, Group::Face, Group::Part, Group::Callout}, [&](auto id, const Entity& entity) {
-      const auto relation = std::find_if(kRelations.begin(), kRelations.end(), [&](const Relation& r) { return r.group == entity.group; });
-      link(id, *relation, entity.name);
-    });
+    each({Group::Value, Group::Tolerance, Group::Face, Group::Part, Group::Callout},
+         [&](auto id, const Entity& entity) {
+           const auto relation =
+               std::find_if(kRelations.begin(), kRelations.end(),
+                            [&](const Relation& r) { return r.group == entity.group; });
+           link(id, *relation, entity.name);
+         });
     for (auto& each : links_) std::stable_sort(each.begin(), each.end(), by_first);
     each({Group::Product}, [&](auto id, const Entity& entity) {
       to_.part = seen_.empty() ? text(id, entity.name, 0) : std::string();
@@ -127,14 +172,16 @@ class Walker {
       if (seen_.insert(id).second) dimension(id, entity);
     });
     each({Group::NotGauged}, [&](auto id, const Entity& entity) {
-      if (seen_.insert(id).second) refuse(id, name_of(id, entity.name), in_words(entity.name) + " is not gauged here");
+      if (seen_.insert(id).second)
+        refuse(id, name_of(id, entity.name), in_words(entity.name) + " is not gauged here");
     });
     std::set<std::uint32_t> used;
     for (const auto& [definition, callout] : links(Group::Callout)) {
       if (seen_.contains(definition)) used.insert(callout);
     }
     each({Group::Note}, [&](auto id, const Entity& entity) {
-      if (!used.contains(id)) refuse(id, text(id, entity.name, 0), "a note, a datum or another text is not gauged here");
+      if (!used.contains(id))
+        refuse(id, text(id, entity.name, 0), "a note, a datum or another text is not gauged here");
     });
   }
 
@@ -148,18 +195,21 @@ class Walker {
   }
   std::vector<Link>& links(Group group) { return links_[static_cast<std::size_t>(group)]; }
   std::span<const Link> linked(Group group, std::uint32_t from) {
-    const auto [first, last] = std::equal_range(links(group).begin(), links(group).end(), Link(from, 0), by_first);
+    const auto [first, last] =
+        std::equal_range(links(group).begin(), links(group).end(), Link(from, 0), by_first);
     return {first, last};
   }
 
   /// The parameters of the record with that name.
-  std::vector<Parameter> record(std::uint32_t id, std::string_view name, std::uint32_t from = 0) const {
+  std::vector<Parameter> record(std::uint32_t id, std::string_view name,
+                                std::uint32_t from = 0) const {
     for (const Record& each : file_.records(id, from != 0 ? from : id)) {
       if (each.name == name) return file_.parameters(each.list);
     }
     return {};
   }
-  std::string text(std::uint32_t id, std::string_view name, std::size_t at, std::uint32_t from = 0) const {
+  std::string text(std::uint32_t id, std::string_view name, std::size_t at,
+                   std::uint32_t from = 0) const {
     const auto all = record(id, name, from);
     return at < all.size() ? std::string(trim(text_of(all[at]))) : std::string();
   }
@@ -176,15 +226,19 @@ class Walker {
 
   void link(std::uint32_t id, const Relation& relation, std::string_view name) {
     const auto all = record(id, name);
-    if (all.size() <= std::max(relation.from, relation.to) || !all[relation.from].is(Kind::Reference)) return;
+    if (all.size() <= std::max(relation.from, relation.to) ||
+        !all[relation.from].is(Kind::Reference))
+      return;
     for (const std::uint32_t to : references(all[relation.to])) {
       links(relation.group).emplace_back(all[relation.from].id, to);
-      if (++link_count_ > kMostLinks) return file_.fail(id, "more relations than are read: export fewer parts");
+      if (++link_count_ > kMostLinks)
+        return file_.fail(id, "more relations than are read: export fewer parts");
     }
   }
 
   void refuse(std::uint32_t id, std::string name, std::string why) {
-    if (to_.not_read.size() == kMostListed) file_.fail(id, "more than 20000 tolerances and notes: export fewer parts");
+    if (to_.not_read.size() == kMostListed)
+      file_.fail(id, "more than 20000 tolerances and notes: export fewer parts");
     if (file_.error()) return;
     to_.not_read.push_back({fmt::format("#{}", id), std::move(name), std::move(why)});
   }
@@ -236,12 +290,15 @@ class Walker {
           return p.first == (prefix.is(Kind::Word) ? prefix.text : std::string_view());
         });
         if (found != kMetres.end()) factor = found->second;
-      } else if (each.name == "CONVERSION_BASED_UNIT" && !all.empty() && all.back().is(Kind::Reference) && deep > 0) {
+      } else if (each.name == "CONVERSION_BASED_UNIT" && !all.empty() &&
+                 all.back().is(Kind::Reference) && deep > 0) {
         factor = value(all.back().id, id, deep - 1).number;
       }
     }
     if (!(factor > 0) || !std::isfinite(factor)) {
-      file_.fail(from, fmt::format("#{} has the unit #{}, which is no length: export the file with lengths in mm or inch", from, id));
+      file_.fail(from, fmt::format("#{} has the unit #{}, which is no length: export the file with "
+                                   "lengths in mm or inch",
+                                   from, id));
     }
     units_[id] = factor;
     return factor;
@@ -251,27 +308,32 @@ class Walker {
     Value read;
     for (const Record& each : file_.records(id, from)) {
       const auto all = file_.parameters(each.list);
-      if (each.name.ends_with("REPRESENTATION_ITEM") && !all.empty() && all[0].is(Kind::Text)) read.name = trim(text_of(all[0]));
+      if (each.name.ends_with("REPRESENTATION_ITEM") && !all.empty() && all[0].is(Kind::Text))
+        read.name = trim(text_of(all[0]));
       if (each.name == "QUALIFIED_REPRESENTATION_ITEM" && !all.empty()) {
         for (const std::uint32_t qualifier : references(all[0])) {
-          if (auto word = text(qualifier, "TYPE_QUALIFIER", 0, id); !word.empty()) read.qualifier = std::move(word);
+          if (auto word = text(qualifier, "TYPE_QUALIFIER", 0, id); !word.empty())
+            read.qualifier = std::move(word);
         }
       }
       for (std::size_t i = 0; i + 1 < all.size(); ++i) {
-        if (all[i].is(Kind::Typed) && all[i + 1].is(Kind::Reference)) measure(all[i], all[i + 1].id, id, deep, read);
+        if (all[i].is(Kind::Typed) && all[i + 1].is(Kind::Reference))
+          measure(all[i], all[i + 1].id, id, deep, read);
       }
     }
     return read;
   }
 
-  void measure(const Parameter& typed, std::uint32_t unit, std::uint32_t id, int deep, Value& read) {
+  void measure(const Parameter& typed, std::uint32_t unit, std::uint32_t id, int deep,
+               Value& read) {
     const std::string_view type = typed.text.substr(0, typed.text.find_first_of("( "));
     const auto number = file_.parameters(typed.text);
     if (!type.ends_with("LENGTH_MEASURE") || number.size() != 1) return;
     read.number = number_of(number[0]) * millimetres(unit, id, deep);
     const auto length = Length::nearest_mm(read.number);
     if (!length || *length > kLongest || *length < -kLongest) {
-      return file_.fail(id, fmt::format("#{} is a length beyond 1000 km: export the file again", id));
+      return file_.fail(id,
+                        fmt::format("#{} is a length beyond 1000 km: export the file again", id));
     }
     read.length = *length;
   }
@@ -283,16 +345,21 @@ class Walker {
     for (const auto& [_, each] : linked(Group::Value, id)) {
       for (const Record& representation : file_.records(each, id)) {
         const auto all = file_.parameters(representation.list);
-        const auto items = std::find_if(all.begin(), all.end(), [](const Parameter& p) { return p.is(Kind::List); });
+        const auto items = std::find_if(all.begin(), all.end(),
+                                        [](const Parameter& p) { return p.is(Kind::List); });
         if (items == all.end()) continue;
-        for (const std::uint32_t item : references(*items)) take_value(item, each, found, upper, lower, size);
+        for (const std::uint32_t item : references(*items))
+          take_value(item, each, found, upper, lower, size);
       }
     }
     if (!found.nominal && lower) {
       found.nominal = lower;
-      size.remarks.emplace_back("the file has limits and no nominal size: it is the lower limit here");
+      size.remarks.emplace_back(
+          "the file has limits and no nominal size: it is the lower limit here");
     }
-    if (!found.nominal) return found.is_angle ? "an angle is not gauged here" : "the file has no value of it: take it from the drawing";
+    if (!found.nominal)
+      return found.is_angle ? "an angle is not gauged here"
+                            : "the file has no value of it: take it from the drawing";
     if (upper) found.upper = *upper - *found.nominal;
     if (lower) found.lower = *lower - *found.nominal;
     return {};
@@ -326,17 +393,21 @@ class Walker {
         found.zone = iso286::feature_from_word(ascii_lower(trim(text_of(fit[1]))));
       }
       const auto range = record(each, "TOLERANCE_VALUE", id);
-      if (range.size() != 2 || !range[0].is(Kind::Reference) || !range[1].is(Kind::Reference)) continue;
+      if (range.size() != 2 || !range[0].is(Kind::Reference) || !range[1].is(Kind::Reference))
+        continue;
       const auto low = value(range[0].id, each).length;
       const auto high = value(range[1].id, each).length;
       if (!low || !high) return "an angle is not gauged here";
-      const std::string both = fmt::format("lower deviation {} µm, upper deviation {} µm", signed_um(*low), signed_um(*high));
+      const std::string both = fmt::format("lower deviation {} µm, upper deviation {} µm",
+                                           signed_um(*low), signed_um(*high));
       if (*low == *high) return both + ": the file lacks a sign or a tolerance";
-      if (*low > *high && *high > Length()) return both + ": the sign or the order is wrong in the file";
+      if (*low > *high && *high > Length())
+        return both + ": the sign or the order is wrong in the file";
       if (*low > *high) size.remarks.push_back(both + " in the file: the order is wrong there");
       const Length upper = std::max(*low, *high);
       const Length lower = std::min(*low, *high);
-      const bool contradicts = (found.upper && *found.upper != upper) || (found.lower && *found.lower != lower);
+      const bool contradicts =
+          (found.upper && *found.upper != upper) || (found.lower && *found.lower != lower);
       if (contradicts) return both + ": its limits say otherwise";
       found.upper = upper;
       found.lower = lower;
@@ -351,17 +422,22 @@ class Walker {
     const auto limits = tables_.limits_of_size(*nominal, found.class_name);
     if (!limits) return limits.error().message;
     const auto contradiction = [&](std::string_view other) {
-      return fmt::format("{} {} is {} {} µm of a {}, and {}: choose one from the drawing", format_mm(size.nominal),
-                         found.class_name, signed_um(limits->deviations.upper), signed_um(limits->deviations.lower),
+      return fmt::format("{} {} is {} {} µm of a {}, and {}: choose one from the drawing",
+                         format_mm(size.nominal), found.class_name,
+                         signed_um(limits->deviations.upper), signed_um(limits->deviations.lower),
                          word(limits->feature), other);
     };
-    const bool agrees = found.upper.value_or(limits->deviations.upper) == limits->deviations.upper &&
-                        found.lower.value_or(limits->deviations.lower) == limits->deviations.lower;
+    const bool agrees =
+        found.upper.value_or(limits->deviations.upper) == limits->deviations.upper &&
+        found.lower.value_or(limits->deviations.lower) == limits->deviations.lower;
     if (!agrees) {
-      return contradiction(fmt::format("the limits of the file are {} {} µm", signed_um(found.upper), signed_um(found.lower)));
+      return contradiction(fmt::format("the limits of the file are {} {} µm",
+                                       signed_um(found.upper), signed_um(found.lower)));
     }
-    if (found.zone && *found.zone != limits->feature) return contradiction(fmt::format("the file calls it a {}", word(*found.zone)));
-    if (size.feature && *size.feature != limits->feature) return contradiction(fmt::format("its faces are those of a {}", word(*size.feature)));
+    if (found.zone && *found.zone != limits->feature)
+      return contradiction(fmt::format("the file calls it a {}", word(*found.zone)));
+    if (size.feature && *size.feature != limits->feature)
+      return contradiction(fmt::format("its faces are those of a {}", word(*size.feature)));
     size.feature = limits->feature;
     size.tolerance_class = found.class_name;
     return {};
@@ -371,7 +447,8 @@ class Walker {
     if (entity.group == Group::Angle) return "an angle is not gauged here";
     size.quantity = Quantity::Distance;
     if (entity.group == Group::Size) {
-      const auto own = record(id, entity.name == "DIMENSIONAL_SIZE_WITH_PATH" ? entity.name : "DIMENSIONAL_SIZE");
+      const auto own = record(
+          id, entity.name == "DIMENSIONAL_SIZE_WITH_PATH" ? entity.name : "DIMENSIONAL_SIZE");
       const std::string name = own.size() > 1 ? ascii_lower(text_of(own[1])) : std::string();
       for (const auto& [part, quantity] : kQuantities) {
         if (name.find(part) == std::string::npos) continue;
@@ -394,7 +471,9 @@ class Walker {
       }
     }
     if (!found.upper && !found.lower && found.class_name.empty()) {
-      return fmt::format("{} mm has no limits in the file: add those of the drawing's general tolerances", format_mm(size.nominal));
+      return fmt::format(
+          "{} mm has no limits in the file: add those of the drawing's general tolerances",
+          format_mm(size.nominal));
     }
     if (!found.class_name.empty()) return take_class(found, size);
     size.upper = found.upper;
@@ -402,8 +481,9 @@ class Walker {
     // Without faces a width is a distance: outside of its limits a part is a reject.
     if (size.quantity == Quantity::Width && !size.feature) size.quantity = Quantity::Distance;
     if (gauging::has_feature(size.quantity) && !size.feature) {
-      return fmt::format("{} mm, {} {} µm: its faces do not show a hole or a shaft, add it with its feature", format_mm(size.nominal),
-                         signed_um(size.upper), signed_um(size.lower));
+      return fmt::format(
+          "{} mm, {} {} µm: its faces do not show a hole or a shaft, add it with its feature",
+          format_mm(size.nominal), signed_um(size.upper), signed_um(size.lower));
     }
     return {};
   }
@@ -412,7 +492,8 @@ class Walker {
     DrawnSize size;
     size.entity = fmt::format("#{}", id);
     const std::string why = take_size(id, entity, size);
-    if (to_.sizes.size() == kMostListed) file_.fail(id, "more than 20000 sizes: export fewer parts");
+    if (to_.sizes.size() == kMostListed)
+      file_.fail(id, "more than 20000 sizes: export fewer parts");
     if (!why.empty()) return refuse(id, name_of(id, entity.name), why);
     std::string name = callout_of(id);
     if (name.empty()) name = fmt::format("{} {}", word(size.quantity), format_mm(size.nominal));
@@ -435,7 +516,8 @@ class Walker {
 
 }  // namespace
 
-Result<Drawing> read_drawing(std::string_view text, const iso286::ToleranceTables& tables, std::size_t most_instances) {
+Result<Drawing> read_drawing(std::string_view text, const iso286::ToleranceTables& tables,
+                             std::size_t most_instances) {
   const auto file = Part21::read(text, kNames, most_instances);
   if (!file) return file.error();
   Drawing drawing;

@@ -51,12 +51,15 @@ void members(auto& v, const DrawnSize& size) {
   v.optional("tolerance_class", size.tolerance_class, "With it there are no deviations");
   v.optional("upper_um", size.upper, api::Micrometres{}, "Upper deviation");
   v.optional("lower_um", size.lower, api::Micrometres{}, "Lower deviation");
-  v.optional("feature", size.feature, api::Words{iso286::Feature::Shaft}, "As the faces show; of a diameter or width");
+  v.optional("feature", size.feature, api::Words{iso286::Feature::Shaft},
+             "As the faces show; of a diameter or width");
   v.member("quantity", size.quantity, api::Words{gauging::Quantity::Deviation}, "What is measured");
   v.member("count", size.count, api::Integer{.least = 1}, "Of axes that have it: 4 of 4X");
   v.member("entity", size.entity, "Its instance in the file: #120");
-  v.member("modifiers", size.modifiers, api::List<std::string, api::Text>{}, "In the words of the file");
-  v.member("remarks", size.remarks, api::List<std::string, api::Text>{}, "What to look at before it is used");
+  v.member("modifiers", size.modifiers, api::List<std::string, api::Text>{},
+           "In the words of the file");
+  v.member("remarks", size.remarks, api::List<std::string, api::Text>{},
+           "What to look at before it is used");
 }
 void members(auto& v, const NotRead& other) {
   v.member("entity", other.entity, "Its instance in the file");
@@ -67,7 +70,8 @@ void members(auto& v, const Drawing& drawing) {
   v.member("part", drawing.part, "The number of the product; empty if there are several");
   v.member("digest", drawing.digest, "SHA-256 of the file, in hexadecimal");
   v.member("sizes", drawing.sizes, "Which a plan can have as they are");
-  v.member("not_read", drawing.not_read, "Tolerances of form and place, notes, and sizes that lack something");
+  v.member("not_read", drawing.not_read,
+           "Tolerances of form and place, notes, and sizes that lack something");
 }
 
 /// @param text a whole file; lengths are converted to mm and rounded to the nearest nanometre

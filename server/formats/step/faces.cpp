@@ -34,13 +34,15 @@ std::uint32_t reference(const std::vector<Parameter>& from, std::size_t at) {
 }
 
 /// The parameters of an instance with one record of that name, else none.
-std::vector<Parameter> parameters_of(const Part21& file, std::uint32_t id, std::uint32_t from, std::string_view name) {
+std::vector<Parameter> parameters_of(const Part21& file, std::uint32_t id, std::uint32_t from,
+                                     std::string_view name) {
   const auto records = id != 0 ? file.records(id, from) : std::vector<Record>{};
   if (records.size() != 1 || records[0].name != name) return {};
   return file.parameters(records[0].list);
 }
 
-std::optional<Vector> numbers(const Part21& file, std::uint32_t id, std::uint32_t from, std::string_view name) {
+std::optional<Vector> numbers(const Part21& file, std::uint32_t id, std::uint32_t from,
+                              std::string_view name) {
   const auto found = parameters_of(file, id, from, name);
   if (found.size() != 2) return std::nullopt;
   const auto items = file.parameters(found[1].text);
@@ -52,7 +54,8 @@ std::optional<Vector> numbers(const Part21& file, std::uint32_t id, std::uint32_
 
 std::optional<Face> read_face(const Part21& file, std::uint32_t id) {
   const auto records = file.records(id, id);
-  if (records.size() != 1 || (records[0].name != "ADVANCED_FACE" && records[0].name != "FACE_SURFACE")) {
+  if (records.size() != 1 ||
+      (records[0].name != "ADVANCED_FACE" && records[0].name != "FACE_SURFACE")) {
     return std::nullopt;
   }
   const auto face = file.parameters(records[0].list);
@@ -68,7 +71,8 @@ std::optional<Face> read_face(const Part21& file, std::uint32_t id) {
   const auto point = numbers(file, reference(place, 1), place_id, "CARTESIAN_POINT");
   if (!point) return std::nullopt;
   read.point = *point;
-  if (const auto axis = numbers(file, reference(place, 2), place_id, "DIRECTION")) read.axis = *axis;
+  if (const auto axis = numbers(file, reference(place, 2), place_id, "DIRECTION"))
+    read.axis = *axis;
   const double size = length(read.axis);
   if (!(size > 0)) return std::nullopt;
   for (double& each : read.axis) each *= (read.is_round || read.is_same_sense ? 1 : -1) / size;
@@ -108,10 +112,13 @@ Shape shape_of(const Part21& file, std::span<const std::uint32_t> faces) {
   std::vector<Face> axes;
   for (std::size_t i = 0; i < read.size(); ++i) {
     const Face& face = read[i];
-    const auto feature = !face.is_round ? across(face, read) : std::optional(face.is_same_sense ? Feature::Shaft : Feature::Hole);
+    const auto feature = !face.is_round
+                             ? across(face, read)
+                             : std::optional(face.is_same_sense ? Feature::Shaft : Feature::Hole);
     if (i > 0 && feature != shape.feature) return {.count = shape.count};
     shape.feature = feature;
-    const bool is_known = std::any_of(axes.begin(), axes.end(), [&](const Face& axis) { return is_coaxial(axis, face); });
+    const bool is_known = std::any_of(axes.begin(), axes.end(),
+                                      [&](const Face& axis) { return is_coaxial(axis, face); });
     if (face.is_round && !is_known) axes.push_back(face);
   }
   shape.count = std::max<std::int64_t>(1, static_cast<std::int64_t>(axes.size()));

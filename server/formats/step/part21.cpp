@@ -16,7 +16,8 @@ constexpr std::size_t kMostWalked = std::size_t{256} << 20;
 constexpr std::string_view kEnd = "END-ISO-10303-21";
 /// Schemas whose files may have sizes begin so: AP203, AP214 and AP242.
 constexpr std::array<std::string_view, 6> kSchemas = {
-    "AP242_", "AP203_", "AP214_", "AUTOMOTIVE_DESIGN", "CONFIG_CONTROL_DESIGN", "CONFIG_CONTROL_3D"};
+    "AP242_",           "AP203_", "AP214_", "AUTOMOTIVE_DESIGN", "CONFIG_CONTROL_DESIGN",
+    "CONFIG_CONTROL_3D"};
 
 void append_utf8(std::string& to, std::uint32_t code) {
   if (code < 0x80) {
@@ -86,8 +87,10 @@ std::string text_of(const Parameter& parameter) {
       out += text[0];
       text.remove_prefix(2);
     } else {
-      if (c >= 0x80 && !has_utf8) append_utf8(out, c);
-      else if (c >= ' ') out += text[0];
+      if (c >= 0x80 && !has_utf8)
+        append_utf8(out, c);
+      else if (c >= ' ')
+        out += text[0];
       text.remove_prefix(1);
     }
   }
@@ -135,7 +138,8 @@ class Part21Scanner {
   }
   bool record(std::string_view& name) {
     name = lexer_.keyword();
-    return !name.empty() ? lexer_.list(Part21::kDeepest) : lexer_.fail("the name of an entity expected");
+    return !name.empty() ? lexer_.list(Part21::kDeepest)
+                         : lexer_.fail("the name of an entity expected");
   }
 
   bool header() {
@@ -171,8 +175,10 @@ class Part21Scanner {
         Parameter token;
         if (lexer_.take('=') || lexer_.take('{') || lexer_.take('}') || lexer_.take(':')) continue;
         const bool is_tag = lexer_.peek() >= 'a' && lexer_.peek() <= 'z';
-        if (is_tag) lexer_.go_to(lexer_.at() + 1);
-        else if (!lexer_.parameter(token, Part21::kDeepest)) return false;
+        if (is_tag)
+          lexer_.go_to(lexer_.at() + 1);
+        else if (!lexer_.parameter(token, Part21::kDeepest))
+          return false;
       }
     }
   }
@@ -206,14 +212,15 @@ class Part21Scanner {
       return lexer_.fail("an instance is #number=NAME(…);");
     }
     if (file_.instances_.size() == most_) {
-      return lexer_.fail(fmt::format("more than {} instances stand here: the command line reads larger files",
-                                     most_));
+      return lexer_.fail(fmt::format(
+          "more than {} instances stand here: the command line reads larger files", most_));
     }
     file_.instances_.push_back({name.id, static_cast<std::uint32_t>(lexer_.at())});
     const bool is_complex = lexer_.take('(');
     do {
       std::string_view entity;
-      if (!record(entity) || ++records_ > 4 * most_) return lexer_.fail("more records than are read");
+      if (!record(entity) || ++records_ > 4 * most_)
+        return lexer_.fail("more records than are read");
       if (const auto place = places_.find(entity); place != places_.end()) {
         file_.by_name_[place->second].push_back(name.id);
       }
@@ -233,13 +240,15 @@ Result<Part21> Part21::read(std::string_view text, std::span<const std::string_v
   Part21 file;
   file.text_ = text;
   if (text.size() > std::numeric_limits<std::uint32_t>::max()) {
-    return Error{ErrorCode::DrawingMalformed, "the file has more than 4294967295 bytes: export a part of it"};
+    return Error{ErrorCode::DrawingMalformed,
+                 "the file has more than 4294967295 bytes: export a part of it"};
   }
   Part21Scanner scanner(file, names, most_instances);
   if (!scanner.scan()) return *scanner.error();
   auto& all = file.instances_;
   const auto by_id = [](const Instance& a, const Instance& b) { return a.id < b.id; };
-  if (!std::is_sorted(all.begin(), all.end(), by_id)) std::stable_sort(all.begin(), all.end(), by_id);
+  if (!std::is_sorted(all.begin(), all.end(), by_id))
+    std::stable_sort(all.begin(), all.end(), by_id);
   const auto twice = std::adjacent_find(
       all.begin(), all.end(), [](const Instance& a, const Instance& b) { return a.id == b.id; });
   if (twice != all.end()) {

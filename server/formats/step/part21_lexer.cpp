@@ -123,7 +123,8 @@ bool Lexer::parameter(Parameter& to, int deep) {
     is_read = between('"', is_hexadecimal, "a binary");
   } else if (first == '<') {
     to.kind = Kind::Binary;
-    is_read = between('>', [](char c) { return c > ' ' && c != '>'; }, "a resource");
+    is_read = between(
+        '>', [](char c) { return c > ' ' && c != '>'; }, "a resource");
   } else if (is_upper(first) || first == '!') {
     to.kind = Kind::Typed;
     keyword();

@@ -12,7 +12,8 @@ namespace fitgauge::step {
 
 /// An error at a place of the text, with its line.
 inline Error error_at(std::string_view text, std::size_t at, std::string_view message) {
-  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  const auto line =
+      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
   return {ErrorCode::DrawingMalformed, fmt::format("line {}: {}", line, message),
           fmt::format("line {}", line)};
 }

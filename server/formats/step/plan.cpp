@@ -13,8 +13,9 @@ using api::write_json;
 namespace {
 
 /// What a drawing says of a characteristic; the first say its limits.
-constexpr std::array<std::string_view, 9> kDrawn = {"designation", "nominal_mm", "tolerance_class", "upper_um", "lower_um",
-                                                    "feature", "quantity", "count", "entity"};
+constexpr std::array<std::string_view, 9> kDrawn = {"designation", "nominal_mm", "tolerance_class",
+                                                    "upper_um",    "lower_um",   "feature",
+                                                    "quantity",    "count",      "entity"};
 constexpr std::size_t kLimits = 6;
 
 bool is_drawn(std::string_view member) {
@@ -24,18 +25,21 @@ bool is_drawn(std::string_view member) {
 std::string limits_of(const JsonValue& characteristic) {
   std::string limits;
   for (const std::string_view name : std::span(kDrawn).first(kLimits)) {
-    if (const JsonValue* value = characteristic.find(name)) limits += fmt::format("{}{} {}", limits.empty() ? "" : ", ", name, value->text);
+    if (const JsonValue* value = characteristic.find(name))
+      limits += fmt::format("{}{} {}", limits.empty() ? "" : ", ", name, value->text);
   }
   return limits;
 }
 
 void write_size(JsonWriter& json, const DrawnSize& size, const JsonValue* before) {
   const auto has_modifier = [&size](std::string_view word) {
-    return std::any_of(size.modifiers.begin(), size.modifiers.end(), [word](const std::string& m) { return m.starts_with(word); });
+    return std::any_of(size.modifiers.begin(), size.modifiers.end(),
+                       [word](const std::string& m) { return m.starts_with(word); });
   };
   json.begin_object().member("name", size.name);
   if (size.tolerance_class && has_modifier("envelope")) {
-    json.member("designation", fmt::format("{} {} (E)", format_mm(size.nominal), *size.tolerance_class));
+    json.member("designation",
+                fmt::format("{} {} (E)", format_mm(size.nominal), *size.tolerance_class));
   } else {
     json.member_mm("nominal_mm", size.nominal);
     if (size.tolerance_class) json.member("tolerance_class", *size.tolerance_class);
@@ -61,19 +65,26 @@ Result<DrawnPlan> plan_of(const Drawing& drawing, std::string_view part, const J
   const JsonValue& old = before != nullptr ? *before : kNone;
   const auto& known = old.member("characteristics").items;
   const auto find = [](const std::vector<JsonValue>& all, std::string_view name) {
-    const auto found = std::find_if(all.begin(), all.end(), [name](const JsonValue& one) { return one.text_of("name") == name; });
+    const auto found = std::find_if(all.begin(), all.end(), [name](const JsonValue& one) {
+      return one.text_of("name") == name;
+    });
     return found != all.end() ? &*found : nullptr;
   };
   if (drawing.sizes.empty()) {
     return Error{ErrorCode::DrawingNoSizes,
-                 fmt::format("no size of the drawing can be a characteristic ({} were not read): POST it to /v1/drawings to see why",
+                 fmt::format("no size of the drawing can be a characteristic ({} were not read): "
+                             "POST it to /v1/drawings to see why",
                              drawing.not_read.size())};
   }
   DrawnPlan plan{.digest = drawing.digest, .not_read = drawing.not_read};
   JsonWriter json(plan.text);
   json.begin_object().member("part", part);
   if (const JsonValue* name = old.find("name")) write_json(json.key("name"), *name);
-  json.key("drawing").begin_object().member("digest", drawing.digest).member("part", drawing.part).end_object();
+  json.key("drawing")
+      .begin_object()
+      .member("digest", drawing.digest)
+      .member("part", drawing.part)
+      .end_object();
   json.key("characteristics").begin_array();
   std::set<std::string_view> names;
   for (const DrawnSize& size : drawing.sizes) {
@@ -82,8 +93,10 @@ Result<DrawnPlan> plan_of(const Drawing& drawing, std::string_view part, const J
   }
   for (const JsonValue& one : known) {
     if (names.contains(one.text_of("name"))) continue;
-    if (one.find("entity") != nullptr) plan.gone.emplace_back(one.text_of("name"));
-    else write_json(json, one);
+    if (one.find("entity") != nullptr)
+      plan.gone.emplace_back(one.text_of("name"));
+    else
+      write_json(json, one);
   }
   json.end_array().end_object();
   const auto made = parse_json(plan.text);
@@ -93,8 +106,10 @@ Result<DrawnPlan> plan_of(const Drawing& drawing, std::string_view part, const J
   for (const JsonValue& one : all) {
     const std::string name(one.text_of("name"));
     const JsonValue* other = find(known, name);
-    if (other == nullptr) plan.added.push_back(name);
-    else if (limits_of(*other) != limits_of(one)) plan.changed.push_back({name, limits_of(*other), limits_of(one)});
+    if (other == nullptr)
+      plan.added.push_back(name);
+    else if (limits_of(*other) != limits_of(one))
+      plan.changed.push_back({name, limits_of(*other), limits_of(one)});
   }
   return plan;
 }

@@ -34,14 +34,17 @@ void members(auto& v, const ChangedLimits& change) {
 void members(auto& v, const DrawnPlan& plan) {
   v.member("digest", plan.digest, "SHA-256 of the file, which the plan keeps");
   v.member("characteristics", plan.characteristics, "How many the plan has");
-  v.member("added", plan.added, api::List<std::string, api::Text>{}, "Names that the plan before had not");
-  v.member("gone", plan.gone, api::List<std::string, api::Text>{}, "Names of drawn ones that the drawing has not");
+  v.member("added", plan.added, api::List<std::string, api::Text>{},
+           "Names that the plan before had not");
+  v.member("gone", plan.gone, api::List<std::string, api::Text>{},
+           "Names of drawn ones that the drawing has not");
   v.member("changed", plan.changed, "Other limits under the same name");
   v.member("not_read", plan.not_read, "What stands in the file and is not in the plan");
 }
 
-/// Each size becomes the characteristic of its name. What people gave that one (gauge, rule, sample,
-/// reaction) stays; characteristics that came from no drawing stay behind those of the drawing.
+/// Each size becomes the characteristic of its name. What people gave that one (gauge, rule,
+/// sample, reaction) stays; characteristics that came from no drawing stay behind those of the
+/// drawing.
 /// @param before the plan of the part; null if there is none
 /// @errors DrawingNoSizes.
 Result<DrawnPlan> plan_of(const Drawing& drawing, std::string_view part, const JsonValue* before);

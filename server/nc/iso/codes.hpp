@@ -17,9 +17,9 @@ enum class CodeKind : std::uint8_t {
   Absent         ///< a code of real controls that is not available here
 };
 
-/// A pattern is Klartext with `|` between blocks. `$F` is the value of the word F, `$1` that of P01, `$p` those of all
-/// P joined by `/`, `$w` all words left over, `$t` the text behind the code, `$q` the parameter behind the code, `$r`
-/// P01 as a parameter, `$a` the tool axis.
+/// A pattern is Klartext with `|` between blocks. `$F` is the value of the word F, `$1` that of
+/// P01, `$p` those of all P joined by `/`, `$w` all words left over, `$t` the text behind the code,
+/// `$q` the parameter behind the code, `$r` P01 as a parameter, `$a` the tool axis.
 struct Code {
   unsigned number;
   CodeKind kind;
@@ -30,7 +30,8 @@ struct Code {
 /// @returns nullptr if there is no such code.
 const Code* find_code(unsigned number);
 
-/// The pattern of a D function with P words; empty if the text of the Klartext function stands behind D.
+/// The pattern of a D function with P words; empty if the text of the Klartext function stands
+/// behind D.
 std::string function_pattern(unsigned number);
 
 /// The first words of a cycle in Q-form: `TCH PROBE` and 421. G120 to G128 are the cycles 20 to 28.

@@ -35,8 +35,11 @@ LineWriter& LineWriter::put(std::string_view piece) {
 }
 
 LineWriter& LineWriter::put(const Word& word) {
-  const bool has_dimension = word.is_axis() || word.name == "PR" || word.name == "PA" || word.name == "ROT";
-  return put(word.incremental && has_dimension && !word.value.empty() ? " I" : " ").put(word.name).put(word.value);
+  const bool has_dimension =
+      word.is_axis() || word.name == "PR" || word.name == "PA" || word.name == "ROT";
+  return put(word.incremental && has_dimension && !word.value.empty() ? " I" : " ")
+      .put(word.name)
+      .put(word.value);
 }
 
 void LineWriter::put_rest(BlockWords& words) {
@@ -45,7 +48,9 @@ void LineWriter::put_rest(BlockWords& words) {
   }
 }
 
-void LineWriter::comment(std::string_view comment) { out_.klartext += " ;" + klartext::comment_text(comment); }
+void LineWriter::comment(std::string_view comment) {
+  out_.klartext += " ;" + klartext::comment_text(comment);
+}
 
 std::string LineWriter::pattern(std::string_view pattern, BlockWords& words, char tool_axis) {
   std::string error;
@@ -65,7 +70,8 @@ std::string LineWriter::pattern(std::string_view pattern, BlockWords& words, cha
       put({&c, 1});
     }
   }
-  if (error.empty() && used_p < words.p.size()) error = fmt::format("P{:02} does not belong into this block", used_p + 1);
+  if (error.empty() && used_p < words.p.size())
+    error = fmt::format("P{:02} does not belong into this block", used_p + 1);
   return error;
 }
 
@@ -86,9 +92,11 @@ std::string LineWriter::value(char key, BlockWords& words, char tool_axis) {
   if (key == 't') return put(words.text), std::string();
   if (key == 'a') return put({&tool_axis, 1}), std::string();
   if (key == 'q')
-    return put(words.text), words.text.empty() ? "a Q parameter is missing behind the function" : std::string();
+    return put(words.text),
+           words.text.empty() ? "a Q parameter is missing behind the function" : std::string();
   Word* word = words.find({&key, 1});
-  if (word == nullptr || word->value.empty()) return fmt::format("{} is missing in this block", key);
+  if (word == nullptr || word->value.empty())
+    return fmt::format("{} is missing in this block", key);
   put(word->value);
   word->used = true;
   return {};

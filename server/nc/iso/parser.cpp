@@ -24,7 +24,8 @@ class Origin {
   Origin(const std::string& source, const Translation& translation, std::string_view klartext)
       : source_(source), lines_(translation.lines), klartext_(klartext) {
     starts_.push_back(0);
-    for (std::size_t at = klartext.find('\n'); at != klartext.npos; at = klartext.find('\n', at + 1)) {
+    for (std::size_t at = klartext.find('\n'); at != klartext.npos;
+         at = klartext.find('\n', at + 1)) {
       starts_.push_back(static_cast<std::uint32_t>(at + 1));
     }
   }
@@ -40,15 +41,18 @@ class Origin {
     const Slice<char> first = lines_[std::min(first_line, lines_.size() - 1)];
     const Slice<char> last = lines_[std::min(last_line, lines_.size() - 1)];
     if (first_line == last_line && first.count <= kLongestSearched && !text.empty()) {
-      const std::size_t found = std::string_view(source_).substr(first.first, first.count).find(text);
+      const std::size_t found =
+          std::string_view(source_).substr(first.first, first.count).find(text);
       if (found != text.npos) {
-        return {first.first + static_cast<std::uint32_t>(found), static_cast<std::uint32_t>(text.size())};
+        return {first.first + static_cast<std::uint32_t>(found),
+                static_cast<std::uint32_t>(text.size())};
       }
     }
     return {first.first, last.first + last.count - first.first};
   }
   Slice<char> place(Slice<char> here) const {
-    return place(line_of(here.first), line_of(here.first + here.count), klartext_.substr(here.first, here.count));
+    return place(line_of(here.first), line_of(here.first + here.count),
+                 klartext_.substr(here.first, here.count));
   }
 
  private:
@@ -61,24 +65,31 @@ class Origin {
 /// The parser's messages about the frame of a program, in the words of DIN/ISO.
 std::string_view frame_message(DiagnosticCode code) {
   switch (code) {
-    case DiagnosticCode::BeginMissing: return "a DIN/ISO program begins with %NAME G71 *, or G70 for inch";
-    case DiagnosticCode::EndMissing: return "the program ends with N99999999 %NAME G71 *, or G70 for inch";
-    case DiagnosticCode::NameMismatch: return "the name or unit differs from the first line, which holds";
+    case DiagnosticCode::BeginMissing:
+      return "a DIN/ISO program begins with %NAME G71 *, or G70 for inch";
+    case DiagnosticCode::EndMissing:
+      return "the program ends with N99999999 %NAME G71 *, or G70 for inch";
+    case DiagnosticCode::NameMismatch:
+      return "the name or unit differs from the first line, which holds";
     default: return {};
   }
 }
 
 void set_place(Diagnostic& diagnostic, const Program& program, Slice<char> place) {
   diagnostic.range = program.range(place);
-  if (diagnostic.range.end.line != diagnostic.range.begin.line) diagnostic.range.end = diagnostic.range.begin;
-  diagnostic.source = std::string(first_characters(program.line(diagnostic.range.begin.line), kLongestShownLine));
+  if (diagnostic.range.end.line != diagnostic.range.begin.line)
+    diagnostic.range.end = diagnostic.range.begin;
+  diagnostic.source =
+      std::string(first_characters(program.line(diagnostic.range.begin.line), kLongestShownLine));
 }
 
 klartext::ParsedProgram parse_iso(std::string source, std::string name) {
   Translation translation = translate(source);
   if (translation.is_too_large) {
     return {{},
-            {{.code = DiagnosticCode::ProgramTooLarge, .message = klartext::too_much_memory(), .program = std::move(name)}}};
+            {{.code = DiagnosticCode::ProgramTooLarge,
+              .message = klartext::too_much_memory(),
+              .program = std::move(name)}}};
   }
   auto parsed = klartext::parse_program(std::move(translation.klartext), name);
   const Origin origin(source, translation, parsed.program.source());
@@ -87,12 +98,15 @@ klartext::ParsedProgram parse_iso(std::string source, std::string name) {
     const auto [begin, end] = diagnostic.range;
     const std::size_t line = begin.line - 1;
     const std::string_view text = parsed.program.line(begin.line);
-    places.push_back(origin.place(line, line, text.substr(std::min<std::size_t>(begin.column - 1, text.size()),
-                                                          end.column - std::min(begin.column, end.column))));
-    if (const auto message = frame_message(diagnostic.code); !message.empty()) diagnostic.message = message;
+    places.push_back(origin.place(line, line,
+                                  text.substr(std::min<std::size_t>(begin.column - 1, text.size()),
+                                              end.column - std::min(begin.column, end.column))));
+    if (const auto message = frame_message(diagnostic.code); !message.empty())
+      diagnostic.message = message;
     const auto& unreadable = translation.unreadable;
-    const auto found = std::lower_bound(unreadable.begin(), unreadable.end(), line,
-                                        [](const auto& finding, std::size_t key) { return finding.line < key; });
+    const auto found =
+        std::lower_bound(unreadable.begin(), unreadable.end(), line,
+                         [](const auto& finding, std::size_t key) { return finding.line < key; });
     if (found == unreadable.end() || found->line != line) continue;
     if (diagnostic.code == DiagnosticCode::TooManyDiagnostics) continue;
     diagnostic.code = found->code;
@@ -100,11 +114,16 @@ klartext::ParsedProgram parse_iso(std::string source, std::string name) {
     places.back() = found->place;
   }
   parsed.program =
-      std::move(parsed.program).translated(std::move(source), [&origin](Slice<char> place) { return origin.place(place); });
-  for (std::size_t i = 0; i < places.size(); ++i) set_place(parsed.diagnostics[i], parsed.program, places[i]);
+      std::move(parsed.program).translated(std::move(source), [&origin](Slice<char> place) {
+        return origin.place(place);
+      });
+  for (std::size_t i = 0; i < places.size(); ++i)
+    set_place(parsed.diagnostics[i], parsed.program, places[i]);
   for (const Translation::Finding& warning : translation.warnings) {
-    Diagnostic diagnostic{
-        .severity = klartext::Severity::Warning, .code = warning.code, .message = warning.message, .program = name};
+    Diagnostic diagnostic{.severity = klartext::Severity::Warning,
+                          .code = warning.code,
+                          .message = warning.message,
+                          .program = name};
     set_place(diagnostic, parsed.program, warning.place);
     parsed.diagnostics.push_back(std::move(diagnostic));
   }

@@ -32,8 +32,8 @@ std::string_view without_wrap(std::string_view text) {
 
 bool wraps(std::string_view line) { return trim(line).ends_with('~'); }
 
-/// Physical lines: their code without the `*` that ends a block, and the comment. The code ends at a line end, a `;`
-/// or a `*`, so that the lexer passes no blanks behind it.
+/// Physical lines: their code without the `*` that ends a block, and the comment. The code ends at
+/// a line end, a `;` or a `*`, so that the lexer passes no blanks behind it.
 struct Line {
   explicit Line(std::string_view text) : code(text) {
     bool quoted = false;
@@ -46,7 +46,8 @@ struct Line {
     if (has_comment) comment = text.substr(code.size() + 1);
     const std::string_view bare = without_wrap(code);
     is_end = bare.ends_with('*');
-    if (is_end) code = {code.data(), static_cast<std::size_t>(bare.data() + bare.size() - 1 - code.data())};
+    if (is_end)
+      code = {code.data(), static_cast<std::size_t>(bare.data() + bare.size() - 1 - code.data())};
   }
 
   std::string_view code;
@@ -59,37 +60,50 @@ struct Line {
 bool is_klartext_word(std::string_view name) {
   static const std::vector<std::string_view> kWords = klartext::block_keywords();
   return name.size() > 1 &&
-         std::any_of(kWords.begin(), kWords.end(), [name](std::string_view word) { return ascii_iequals(word, name); });
+         std::any_of(kWords.begin(), kWords.end(),
+                     [name](std::string_view word) { return ascii_iequals(word, name); });
 }
 
 /// Walks the blocks of a text, with the state that lasts between them.
 class Translator {
  public:
   explicit Translator(const std::string& source)
-      : source_(source), in_(source), next_(source), mixes_(source.find("G91") != std::string::npos) {}
+      : source_(source),
+        in_(source),
+        next_(source),
+        mixes_(source.find("G91") != std::string::npos) {}
 
   Translation translate() && {
     for (std::size_t at = 0; at < source_.size() && !ended_ && !out_.is_too_large;) {
-      out_.is_too_large = out_.klartext.size() > kLargestKlartext || out_.lines.size() > klartext::kMostLines;
+      out_.is_too_large =
+          out_.klartext.size() > kLargestKlartext || out_.lines.size() > klartext::kMostLines;
       at = block(at) + 1;
     }
     return std::move(out_);
   }
 
  private:
-  std::size_t line_end(std::size_t begin) const { return std::min(source_.find('\n', begin), source_.size()); }
-  std::string_view text(std::size_t begin, std::size_t end) const { return {source_.data() + begin, end - begin}; }
-  Slice<char> place(std::string_view text) const {
-    return {static_cast<std::uint32_t>(text.data() - source_.data()), static_cast<std::uint32_t>(text.size())};
+  std::size_t line_end(std::size_t begin) const {
+    return std::min(source_.find('\n', begin), source_.size());
   }
-  std::string_view rest() const { return {in_.at(), static_cast<std::size_t>(in_.end() - in_.at())}; }
+  std::string_view text(std::size_t begin, std::size_t end) const {
+    return {source_.data() + begin, end - begin};
+  }
+  Slice<char> place(std::string_view text) const {
+    return {static_cast<std::uint32_t>(text.data() - source_.data()),
+            static_cast<std::uint32_t>(text.size())};
+  }
+  std::string_view rest() const {
+    return {in_.at(), static_cast<std::size_t>(in_.end() - in_.at())};
+  }
 
   /// A mode that was stated before a label or a call may not hold behind it.
   void forget_modes() { modes_.path_stated = modes_.dimension_stated = false; }
   void fail(std::string message) {
     if (message.empty()) return;
     const char* begin = source_.data() + place_.first;
-    in_.fail(DiagnosticCode::SyntaxError, in_.place(begin, begin + place_.count), std::move(message));
+    in_.fail(DiagnosticCode::SyntaxError, in_.place(begin, begin + place_.count),
+             std::move(message));
   }
 
   /// Opens the code of a block behind its number. @returns skip mark and number as in Klartext.
@@ -99,7 +113,8 @@ class Translator {
     std::string prefix = in_.accept('/') ? "/" : "";
     const char* begin = in_.at();
     if (!in_.accept_prefix("N")) return prefix;
-    if (is_digit(in_.peek())) return prefix + fmt::format("{} ", in_.digits(kLargestBlockNumber, "the block number"));
+    if (is_digit(in_.peek()))
+      return prefix + fmt::format("{} ", in_.digits(kLargestBlockNumber, "the block number"));
     in_.move_to(begin);
     return prefix;
   }
@@ -109,7 +124,9 @@ class Translator {
     end_ = line_end(begin);
     open(Line(text(begin, end_)).code);
     if (at_cycle()) return cycle(begin, end_);
-    for (std::size_t last = begin; wraps(text(last, end_)) && end_ != source_.size(); end_ = line_end(last)) last = end_ + 1;
+    for (std::size_t last = begin; wraps(text(last, end_)) && end_ != source_.size();
+         end_ = line_end(last))
+      last = end_ + 1;
     const Line line(text(begin, end_));
     const std::string_view whole = trim(text(begin, end_));
     if (whole.empty()) return end_;
@@ -128,7 +145,8 @@ class Translator {
       out_.lines.resize(lines);
       out_.klartext.resize(written);
       if (out_.unreadable.size() < kMostFindings) {
-        out_.unreadable.push_back({lines, in_.failure()->code, in_.failure()->place, in_.failure()->message});
+        out_.unreadable.push_back(
+            {lines, in_.failure()->code, in_.failure()->place, in_.failure()->message});
       }
       line_.start_line();
       line_.put("%").put(line.code);
@@ -150,7 +168,8 @@ class Translator {
     if ((!is_code && !is_klartext) || !is_digit(in_.peek())) return false;
     const Code* code = find_code(in_.digits(kLargestCycle, "the number of the cycle"));
     in_.skip_blanks();
-    const bool is_cycle = is_code ? code != nullptr && code->kind == CodeKind::Cycle : in_.peek() != '.';
+    const bool is_cycle =
+        is_code ? code != nullptr && code->kind == CodeKind::Cycle : in_.peek() != '.';
     const bool failed = in_.failure().has_value();
     in_.move_to(begin);
     return is_cycle && !failed;
@@ -178,7 +197,8 @@ class Translator {
       if (end == source_.size()) return end;
       const char* stop = source_.data() + source_.size();
       const char* next = std::find_if_not(source_.data() + end + 1, stop, klartext::is_blank);
-      if (!wraps(text(begin, end)) && (line.is_end || !klartext::at_cycle_parameter(next, stop))) return end;
+      if (!wraps(text(begin, end)) && (line.is_end || !klartext::at_cycle_parameter(next, stop)))
+        return end;
       begin = end + 1;
       end = line_end(begin);
     }
@@ -193,7 +213,8 @@ class Translator {
     in_.move_to(begin + name.size());
     const bool has_number = is_digit(in_.peek());
     if (ascii_iequals(name, "D") && has_number) return function();
-    if (ascii_iequals(name, "L") && (has_number || in_.peek() == '"' || in_.at_parameter())) return label_call();
+    if (ascii_iequals(name, "L") && (has_number || in_.peek() == '"' || in_.at_parameter()))
+      return label_call();
     in_.move_to(begin);
     codes();
   }
@@ -217,7 +238,8 @@ class Translator {
       line_.put("CALL PGM ").put(text);
       return forget_modes();
     }
-    line_.put(fmt::format("{} PGM {} {}", begun_ ? "END" : "BEGIN", trim(text.substr(0, unit_at)), inch ? "INCH" : "MM"));
+    line_.put(fmt::format("{} PGM {} {}", begun_ ? "END" : "BEGIN", trim(text.substr(0, unit_at)),
+                          inch ? "INCH" : "MM"));
     ended_ = std::exchange(begun_, true);
   }
 
@@ -265,11 +287,15 @@ class Translator {
     if (number == 26 || number == 27) {
       arc_of_contour(words);
     } else {
-      const bool at_position = number == 79 && words.any([](const Word& word) { return word.is_axis(); });
-      fail(line_.pattern(at_position ? "CYCL CALL POS$w" : words.block->klartext, words, modes_.tool_axis));
+      const bool at_position =
+          number == 79 && words.any([](const Word& word) { return word.is_axis(); });
+      fail(line_.pattern(at_position ? "CYCL CALL POS$w" : words.block->klartext, words,
+                         modes_.tool_axis));
     }
     for (const Word& word : words.words) {
-      if (!word.used) fail(fmt::format("{}{} does not belong into a block of G{:02}", word.name, word.value, number));
+      if (!word.used)
+        fail(fmt::format("{}{} does not belong into a block of G{:02}", word.name, word.value,
+                         number));
     }
     if (number == 98) forget_modes();
   }
@@ -288,7 +314,8 @@ class Translator {
 
   void tool(BlockWords& words) {
     Word* number = words.find("T");
-    const bool has_values = words.any([](const Word& word) { return word.name == "S" || word.name.starts_with('D'); });
+    const bool has_values =
+        words.any([](const Word& word) { return word.name == "S" || word.name.starts_with('D'); });
     if (number == nullptr && !has_values) {
       if (words.has_plane && called_axis_ != '\0' && called_axis_ != modes_.tool_axis) {
         fail("the tool axis changes with the tool: write G17, G18 or G19 behind T");
@@ -305,8 +332,8 @@ class Translator {
     }
     if (number != nullptr || words.has_plane) line_.put(" ").put({&modes_.tool_axis, 1});
     for (Word& word : words.words) {
-      const bool is_value =
-          word.name == "S" || word.name.starts_with('D') || (word.name == "F" && number != nullptr && !moves);
+      const bool is_value = word.name == "S" || word.name.starts_with('D') ||
+                            (word.name == "F" && number != nullptr && !moves);
       if (!is_value || std::exchange(word.used, true)) continue;
       line_.put(word);
     }
@@ -328,12 +355,15 @@ class Translator {
   }
 
   void motion(BlockWords& words) {
-    constexpr std::string_view kWithArguments[] = {"94", "103", "118", "120", "124", "128", "138", "140", "197"};
+    constexpr std::string_view kWithArguments[] = {"94",  "103", "118", "120", "124",
+                                                   "128", "138", "140", "197"};
     bool has_coordinates = false;
     bool moves = words.has_path || !words.compensation.empty();
     for (const Word& word : words.words) {
       // The words behind one of these M functions belong to it.
-      if (word.name == "M" && std::count(std::begin(kWithArguments), std::end(kWithArguments), word.value) != 0) break;
+      if (word.name == "M" &&
+          std::count(std::begin(kWithArguments), std::end(kWithArguments), word.value) != 0)
+        break;
       if (word.used || word.name == "M") continue;
       has_coordinates = has_coordinates || word.is_axis() || word.name == "R" || word.name == "H";
       moves = true;
@@ -344,11 +374,13 @@ class Translator {
       return line_.put_rest(words);
     }
     const Code* way = has_coordinates || words.has_path ? modes_.path : find_code(1);
-    if (way == nullptr) return fail("the block has no path function: write G00 or G01 before its coordinates");
+    if (way == nullptr)
+      return fail("the block has no path function: write G00 or G01 before its coordinates");
     check_modes(has_coordinates && !words.has_path, words);
     std::string_view head = way->klartext;
     std::string_view addition = way->addition == "DR" ? modes_.direction : way->addition;
-    if (way->addition == "DR" && addition.empty()) return fail("the arc has no direction: write G02 or G03, or G12 or G13");
+    if (way->addition == "DR" && addition.empty())
+      return fail("the arc has no direction: write G02 or G03, or G12 or G13");
     const bool polar = way->number >= 10;
     for (Word& word : words.words) {
       if (word.name == "M") break;
@@ -362,7 +394,8 @@ class Translator {
       head = polar ? "DEP PLCT" : "DEP LCT";
       words.compensation = {};
       radius = std::exchange(departure_, {});
-    } else if (straight && has_coordinates && (words.compensation == "RL" || words.compensation == "RR")) {
+    } else if (straight && has_coordinates &&
+               (words.compensation == "RL" || words.compensation == "RR")) {
       radius = approach_radius();
       approached_ = !radius.empty();
       if (approached_) head = polar ? "APPR PLCT" : "APPR LCT";
@@ -370,7 +403,8 @@ class Translator {
     path(words, head, addition, radius);
   }
 
-  void path(BlockWords& words, std::string_view head, std::string_view addition, std::string_view radius) {
+  void path(BlockWords& words, std::string_view head, std::string_view addition,
+            std::string_view radius) {
     for (Word& word : words.words) {
       if (word.name == "M") break;
       if (word.name != "F" || addition != "FMAX" || word.used) continue;
@@ -383,11 +417,13 @@ class Translator {
     line_.put(head);
     for (Word& word : words.words) {
       if (word.name == "M") break;
-      const bool is_coordinate = word.is_axis() || word.name == "R" || word.name == "PR" || word.name == "PA";
+      const bool is_coordinate =
+          word.is_axis() || word.name == "R" || word.name == "PR" || word.name == "PA";
       if (is_coordinate && !std::exchange(word.used, true)) line_.put(word);
     }
     if (!radius.empty()) line_.put(" R").put(radius);
-    for (const std::string_view mark : {words.compensation, addition}) line_.put(mark.empty() ? "" : " ").put(mark);
+    for (const std::string_view mark : {words.compensation, addition})
+      line_.put(mark.empty() ? "" : " ").put(mark);
     line_.put_rest(words);
   }
 
@@ -398,21 +434,26 @@ class Translator {
     next_.open(begin, line_end(begin));
     next_.accept('/');
     if (next_.accept_prefix("N")) next_.digits(kLargestBlockNumber, "the block number");
-    return next_.accept_word("G26") && next_.accept_prefix("R") ? read_value(next_) : std::string_view();
+    return next_.accept_word("G26") && next_.accept_prefix("R") ? read_value(next_)
+                                                                : std::string_view();
   }
 
   void check_modes(bool uses_path, const BlockWords& words) {
     const auto warn = [this](std::string_view missing, unsigned code) {
       if (out_.warnings.size() == kMostFindings) return;
-      out_.warnings.push_back({0, DiagnosticCode::ModalStateAssumed, place_,
-                               fmt::format("behind a label or a call the block has no {}: G{:02} holds, as in the blocks "
-                                           "above it; write the code into this block",
-                                           missing, code)});
+      out_.warnings.push_back(
+          {0, DiagnosticCode::ModalStateAssumed, place_,
+           fmt::format(
+               "behind a label or a call the block has no {}: G{:02} holds, as in the blocks "
+               "above it; write the code into this block",
+               missing, code)});
     };
-    const bool has_dimension = words.any([](const Word& word) { return word.is_axis() && !word.value.empty(); });
+    const bool has_dimension =
+        words.any([](const Word& word) { return word.is_axis() && !word.value.empty(); });
     if (has_dimension && mixes_ && !std::exchange(modes_.dimension_stated, true))
       warn("G90 or G91", modes_.incremental ? 91 : 90);
-    if (uses_path && !std::exchange(modes_.path_stated, true)) warn("path function", modes_.path->number);
+    if (uses_path && !std::exchange(modes_.path_stated, true))
+      warn("path function", modes_.path->number);
   }
 
   const std::string& source_;

@@ -15,11 +15,14 @@ constexpr unsigned kLargestCode = 9999;
 constexpr unsigned kLargestLabel = 65534;
 constexpr unsigned kMostP = 99;
 
-std::string_view between(const char* begin, const char* end) { return trim({begin, static_cast<std::size_t>(end - begin)}); }
+std::string_view between(const char* begin, const char* end) {
+  return trim({begin, static_cast<std::size_t>(end - begin)});
+}
 
 /// ` P02`: the next P word starts here, behind a blank.
 bool at_next_p(const char* at, const char* end) {
-  return end - at > 2 && klartext::is_blank(at[0]) && ascii_upper(at[1]) == 'P' && klartext::is_digit(at[2]);
+  return end - at > 2 && klartext::is_blank(at[0]) && ascii_upper(at[1]) == 'P' &&
+         klartext::is_digit(at[2]);
 }
 
 void fail(Lexer& in, const char* begin, std::string message) {
@@ -31,11 +34,15 @@ void read_code(Lexer& in, const char* begin, BlockWords& block, Modes& modes) {
   const unsigned number = in.digits(kLargestCode, "the number of the G code");
   const Code* code = find_code(number);
   if (code == nullptr) {
-    return fail(in, begin,
-                fmt::format("G{:02} is no code of these controls; docs/reference/language.md lists their codes", number));
+    return fail(
+        in, begin,
+        fmt::format(
+            "G{:02} is no code of these controls; docs/reference/language.md lists their codes",
+            number));
   }
   switch (code->kind) {
-    case CodeKind::Absent: return fail(in, begin, fmt::format("G{} is not available; {}", number, code->klartext));
+    case CodeKind::Absent:
+      return fail(in, begin, fmt::format("G{} is not available; {}", number, code->klartext));
     case CodeKind::Path:
       modes.path = code;
       modes.path_stated = block.has_path = true;
@@ -54,7 +61,9 @@ void read_code(Lexer& in, const char* begin, BlockWords& block, Modes& modes) {
     case CodeKind::Cycle: break;
   }
   if (block.block != nullptr) {
-    fail(in, begin, fmt::format("G{:02} needs a block of its own: G{:02} stands in this one", number, block.block->number));
+    fail(in, begin,
+         fmt::format("G{:02} needs a block of its own: G{:02} stands in this one", number,
+                     block.block->number));
   }
   block.block = code;
   in.accept(':');  // G79:PAT
@@ -68,8 +77,9 @@ void read_code(Lexer& in, const char* begin, BlockWords& block, Modes& modes) {
 }  // namespace
 
 Word* BlockWords::find(std::string_view name) {
-  const auto found =
-      std::find_if(words.begin(), words.end(), [name](const Word& word) { return !word.used && word.name == name; });
+  const auto found = std::find_if(words.begin(), words.end(), [name](const Word& word) {
+    return !word.used && word.name == name;
+  });
   return found == words.end() ? nullptr : &*found;
 }
 

@@ -16,7 +16,10 @@ struct Word {
   bool incremental = false;
   bool used = false;  ///< written as Klartext
 
-  bool is_axis() const { return name.size() == 1 && std::string_view("XYZABCUVW").find(name[0]) != std::string_view::npos; }
+  bool is_axis() const {
+    return name.size() == 1 &&
+           std::string_view("XYZABCUVW").find(name[0]) != std::string_view::npos;
+  }
 };
 
 /// The state that lasts from block to block.
@@ -51,7 +54,8 @@ struct BlockWords {
   }
 };
 
-/// Reads the words from here to the end of the block and updates the modes. Fails through the lexer.
+/// Reads the words from here to the end of the block and updates the modes. Fails through the
+/// lexer.
 BlockWords read_words(klartext::Lexer& in, Modes& modes);
 
 /// `P01 +5 P02 X-` from here to the end of the block.

@@ -44,7 +44,9 @@ class BlockReader : public Lexer {
   // --- words
   std::uint32_t word_count() const { return static_cast<std::uint32_t>(parts_.words.size()); }
   void add_word(const Word& word) { parts_.words.push_back(word); }
-  std::span<const Word> words(Slice<Word> slice) const { return std::span(parts_.words).subspan(slice.first, slice.count); }
+  std::span<const Word> words(Slice<Word> slice) const {
+    return std::span(parts_.words).subspan(slice.first, slice.count);
+  }
   /// The words added since word_count() was `first`.
   Slice<Word> words_since(std::uint32_t first) const { return {first, word_count() - first}; }
 

@@ -58,10 +58,10 @@ bool contains_error(const std::vector<Diagnostic>& diagnostics) {
 }
 
 std::string render(const Diagnostic& diagnostic) {
-  std::string text = fmt::format(
-      "{}:{}:{}: {}: {} [{}]\n{}{}", diagnostic.program, diagnostic.range.begin.line,
-      diagnostic.range.begin.column, word(diagnostic.severity),
-      diagnostic.message, id(diagnostic.code), diagnostic.source, caret_line(diagnostic));
+  std::string text =
+      fmt::format("{}:{}:{}: {}: {} [{}]\n{}{}", diagnostic.program, diagnostic.range.begin.line,
+                  diagnostic.range.begin.column, word(diagnostic.severity), diagnostic.message,
+                  id(diagnostic.code), diagnostic.source, caret_line(diagnostic));
   for (const DiagnosticNote& note : diagnostic.notes) {
     text += fmt::format("\n{}:{}:{}: note: {}", diagnostic.program, note.range.begin.line,
                         note.range.begin.column, note.message);

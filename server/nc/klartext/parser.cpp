@@ -211,7 +211,8 @@ std::size_t Parser::parse_block(std::size_t begin) {
       const auto last = static_cast<std::uint32_t>(parts_.source.rfind('\n', first_end - 1) + 1);
       diagnostics_.add(Severity::Note, DiagnosticCode::ContinuationMissing,
                        {last, static_cast<std::uint32_t>(first_end - last)},
-                       "the line has no '~' at its end, behind the comment; the indented lines below are read as its cycle",
+                       "the line has no '~' at its end, behind the comment; the indented lines "
+                       "below are read as its cycle",
                        block.number);
     }
   }

@@ -61,22 +61,29 @@ bool parse_solution(BlockReader& in) {
 }
 
 /// One word of these at most.
-void check_exclusive(BlockReader& in, Slice<Word> words, LetterSet letters, std::string_view names) {
+void check_exclusive(BlockReader& in, Slice<Word> words, LetterSet letters,
+                     std::string_view names) {
   const auto found = in.words(words);
-  if (std::ranges::count_if(found, [&](const Word& word) { return letters.contains(word.letter); }) < 2) return;
-  in.fail(DiagnosticCode::WordRepeated, in.here(), fmt::format("{} exclude each other: name one of them", names));
+  if (std::ranges::count_if(found,
+                            [&](const Word& word) { return letters.contains(word.letter); }) < 2)
+    return;
+  in.fail(DiagnosticCode::WordRepeated, in.here(),
+          fmt::format("{} exclude each other: name one of them", names));
 }
 
 Statement parse_plane_kind(BlockReader& in, PlaneKind kind) {
   Plane plane{.kind = kind};
-  WordReader words(in, kEveryPlane | kPlaneWords[static_cast<std::size_t>(kind)], LetterSet(), LetterSet());
+  WordReader words(in, kEveryPlane | kPlaneWords[static_cast<std::size_t>(kind)], LetterSet(),
+                   LetterSet());
   while (!in.at_end()) {
     if (!parse_positioning(in, plane) && !parse_solution(in)) words.read();
   }
   plane.words = words.words();
   check_exclusive(in, plane.words, LetterSet(Letter::Seq, Letter::Sym), "SEQ and SYM");
-  check_exclusive(in, plane.words, LetterSet(Letter::TableRot, Letter::CoordRot), "TABLE ROT and COORD ROT");
-  if (kind == PlaneKind::Relativ) check_exclusive(in, plane.words, kPlaneWords[5], "SPA, SPB and SPC of RELATIV");
+  check_exclusive(in, plane.words, LetterSet(Letter::TableRot, Letter::CoordRot),
+                  "TABLE ROT and COORD ROT");
+  if (kind == PlaneKind::Relativ)
+    check_exclusive(in, plane.words, kPlaneWords[5], "SPA, SPB and SPC of RELATIV");
   return plane;
 }
 
@@ -118,7 +125,8 @@ Statement parse_mode(BlockReader& in) {
     return Empty{};
   }
   if (*found != OperatingMode::Mill) {
-    in.refuse(begin, fmt::format("FUNCTION MODE {}", kOperatingModes[static_cast<std::size_t>(*found)]));
+    in.refuse(begin,
+              fmt::format("FUNCTION MODE {}", kOperatingModes[static_cast<std::size_t>(*found)]));
   }
   FunctionMode mode{.mode = *found};
   in.skip_blanks();
@@ -149,10 +157,12 @@ Statement parse_tcpm(BlockReader& in) {
   while (!in.at_end() && !in.failure()) {
     const char* begin = in.at();
     std::string written = next_word(in);
-    const auto* option = std::ranges::find(kTcpmOptions, std::string_view(written), [](const auto& o) { return o.name; });
+    const auto* option = std::ranges::find(kTcpmOptions, std::string_view(written),
+                                           [](const auto& o) { return o.name; });
     // F with a number limits the feed of the linear axes.
-    bool is_known = written.size() > 1 && written.front() == 'F' &&
-                    (written == "FMAX" || std::all_of(written.begin() + 1, written.end(), is_digit));
+    bool is_known =
+        written.size() > 1 && written.front() == 'F' &&
+        (written == "FMAX" || std::all_of(written.begin() + 1, written.end(), is_digit));
     if (option != std::end(kTcpmOptions)) {
       const std::string value = next_word(in);
       bool& before = given[static_cast<std::size_t>(option - kTcpmOptions)];
@@ -162,7 +172,8 @@ Statement parse_tcpm(BlockReader& in) {
     }
     if (!is_known) {
       in.fail(DiagnosticCode::SyntaxError, in.place(begin, in.at()),
-              "FUNCTION TCPM takes, each once: F TCP or CONT, AXIS POS or SPAT, PATHCTRL AXIS or VECTOR, REFPNT TIP-TIP, "
+              "FUNCTION TCPM takes, each once: F TCP or CONT, AXIS POS or SPAT, PATHCTRL AXIS or "
+              "VECTOR, REFPNT TIP-TIP, "
               "TIP-CENTER or CENTER-CENTER, and F with a number");
     }
     options += (options.empty() ? "" : " ") + written;

@@ -35,7 +35,12 @@ constexpr std::uint32_t kLargestM = 9999;
 }  // namespace
 
 WordReader::WordReader(BlockReader& in, LetterSet allowed, LetterSet bare, LetterSet incremental)
-    : in_(in), allowed_(allowed), bare_(bare), incremental_(incremental), plain_(allowed & kPlain), first_(in.word_count()) {}
+    : in_(in),
+      allowed_(allowed),
+      bare_(bare),
+      incremental_(incremental),
+      plain_(allowed & kPlain),
+      first_(in.word_count()) {}
 
 Word WordReader::parse_name() {
   Word word;

@@ -19,7 +19,8 @@ class WordReader {
   /// @param allowed the words this block may hold.
   /// @param bare those that may stand without a value: the axes of `CYCL DEF 8.1 X Y`.
   /// @param incremental those that take I: the run reads it.
-  WordReader(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet(), LetterSet incremental = kIncremental);
+  WordReader(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet(),
+             LetterSet incremental = kIncremental);
 
   /// The next word, or several; fails when one is none of the allowed ones or stands there twice.
   void read();

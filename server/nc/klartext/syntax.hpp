@@ -66,8 +66,8 @@ class Program {
   std::string_view source() const { return parts_.source; }
   std::size_t memory_bytes() const { return parts_.memory_bytes(); }
 
-  /// The program as one of the text that its source was made of; `place` gives the place there of one
-  /// here, while this source stands.
+  /// The program as one of the text that its source was made of; `place` gives the place there of
+  /// one here, while this source stands.
   Program translated(std::string&& source, const std::function<Slice<char>(Slice<char>)>& place) &&;
 
   /// All blocks in order. Without errors, BEGIN PGM comes first but for comments, and

@@ -76,7 +76,8 @@ class Walk {
     const bool is_program = reference.kind == FileReference::Kind::Program;
     const auto path = ControlPath::resolve(reference.written, program);
     if (path.has_error()) return warn(reference, path.error().message);
-    ControlPath named = is_program ? path->with_default_extension(program_extension(program)) : *path;
+    ControlPath named =
+        is_program ? path->with_default_extension(program_extension(program)) : *path;
     if (!disk_.exists(named)) {
       return warn(reference,
                   fmt::format("{} '{}' does not exist: the run fails when it reaches this block",

@@ -44,7 +44,8 @@ enum Sense : unsigned {
 
 /// Senses that exclude each other.
 constexpr unsigned kSide = kInside | kOutside;
-constexpr unsigned kOfCycles[] = {kSide, kCircle | kRectangle, kWidth | kCoordinate | kPlane | kAngle};
+constexpr unsigned kOfCycles[] = {kSide, kCircle | kRectangle,
+                                  kWidth | kCoordinate | kPlane | kAngle};
 constexpr unsigned kOfParameters[] = {kMaximum | kMinimum, kFirstAxis | kSecondAxis | kThirdAxis,
                                       kAngle | kDiameter | kHeight | kTolerance | kClearance};
 
@@ -98,12 +99,15 @@ class Contradictions {
   }
 
  private:
-  void warn(DiagnosticCode code, klartext::Slice<char> place, std::string message, const Block* block = nullptr) {
+  void warn(DiagnosticCode code, klartext::Slice<char> place, std::string message,
+            const Block* block = nullptr) {
     if (diagnostics_.size() >= kMostFindings) return;
-    diagnostics_.push_back(
-        diagnose(program_, block != nullptr ? *block : *block_, place, Severity::Warning, code, std::move(message)));
+    diagnostics_.push_back(diagnose(program_, block != nullptr ? *block : *block_, place,
+                                    Severity::Warning, code, std::move(message)));
   }
-  std::uint32_t line_of(const Block& block) const { return program_.range(block.written).begin.line; }
+  std::uint32_t line_of(const Block& block) const {
+    return program_.range(block.written).begin.line;
+  }
 
   // --- what stands before a block that probes
   void visit(const auto&) {}
@@ -141,8 +145,8 @@ class Contradictions {
   }
   void read(const klartext::Expr& value) {
     if (const auto* parameter = std::get_if<klartext::QRef>(&value)) {
-      const bool is_result = parameter->space == klartext::QSpace::Q && parameter->number >= kFirstResult &&
-                             parameter->number < kEndOfResults;
+      const bool is_result = parameter->space == klartext::QSpace::Q &&
+                             parameter->number >= kFirstResult && parameter->number < kEndOfResults;
       if (is_result) reads_.try_emplace(parameter->number, block_);
     } else if (const auto* node = std::get_if<klartext::NodeIndex>(&value)) {
       for (const klartext::Expr& operand : program_.operands(*node)) read(operand);
@@ -164,10 +168,12 @@ class Contradictions {
     for (const auto& [number, block] : reads_) {
       if (set_.test(number)) continue;
       std::string given;
-      for (const auto& result : last_measured_->results) given += fmt::format("{}Q{}", given.empty() ? "" : ", ", result.q);
+      for (const auto& result : last_measured_->results)
+        given += fmt::format("{}Q{}", given.empty() ? "" : ", ", result.q);
       warn(DiagnosticCode::ResultUnset, block->written,
-           fmt::format("no cycle and no block of this program sets Q{}; cycle {} gives {}: read one of these", number,
-                       last_measured_->number, given),
+           fmt::format("no cycle and no block of this program sets Q{}; cycle {} gives {}: read "
+                       "one of these",
+                       number, last_measured_->number, given),
            block);
     }
   }
@@ -189,15 +195,18 @@ class Contradictions {
     if (cycle.family != klartext::CycleFamily::TchProbe) return;
     if (!descriptor->results.empty()) last_measured_ = descriptor;
     check_words(cycle, *descriptor);
-    const bool touches = descriptor->errors.contains(1093) && descriptor->kind != probing::CycleKind::Tool;
+    const bool touches =
+        descriptor->errors.contains(1093) && descriptor->kind != probing::CycleKind::Tool;
     if (!touches) return;
     if (spindle_ != nullptr) {
       warn(DiagnosticCode::StylusMissing, block_->written,
-           fmt::format("the spindle turns since line {} when cycle {} probes: call the touch probe, or stop with M5",
+           fmt::format("the spindle turns since line {} when cycle {} probes: call the touch "
+                       "probe, or stop with M5",
                        line_of(*spindle_), descriptor->number));
     } else if (cutter_ != nullptr) {
       warn(DiagnosticCode::StylusMissing, block_->written,
-           fmt::format("the tool that machines in line {} is still in the spindle when cycle {} probes: TOOL CALL of the "
+           fmt::format("the tool that machines in line {} is still in the spindle when cycle {} "
+                       "probes: TOOL CALL of the "
                        "touch probe is missing",
                        line_of(*cutter_), descriptor->number));
     }
@@ -208,21 +217,24 @@ class Contradictions {
     const std::string_view dialog = program_.text(cycle.dialog);
     const CycleDescriptor* named = nullptr;
     for (const probing::TouchProbeCycle* other : probing::cycles()) {
-      if (other->descriptor.family != descriptor.family || !ascii_iequals(other->descriptor.name, dialog)) continue;
+      if (other->descriptor.family != descriptor.family ||
+          !ascii_iequals(other->descriptor.name, dialog))
+        continue;
       named = &other->descriptor;
       if (ascii_iequals(descriptor.name, dialog)) named = nullptr;
     }
     if (named != nullptr) {
       warn(DiagnosticCode::DialogContradicts, block_->written,
-           fmt::format("'{}' is cycle {}, but this is cycle {} {}: correct the number or the text", dialog, named->number,
-                       descriptor.number, descriptor.name));
+           fmt::format("'{}' is cycle {}, but this is cycle {} {}: correct the number or the text",
+                       dialog, named->number, descriptor.number, descriptor.name));
     } else if (contradict(senses_of(dialog), meant, kOfCycles)) {
       warn(DiagnosticCode::DialogContradicts, block_->written,
-           fmt::format("'{}' contradicts cycle {}, which is {}: correct the number or the text", dialog, descriptor.number,
-                       descriptor.name));
+           fmt::format("'{}' contradicts cycle {}, which is {}: correct the number or the text",
+                       dialog, descriptor.number, descriptor.name));
     } else if (contradict(senses_of(comment_above()), meant, std::array{kSide})) {
       warn(DiagnosticCode::CommentContradicts, block_->written,
-           fmt::format("the comment '{}' contradicts cycle {}, which is {}: it would probe from the wrong side",
+           fmt::format("the comment '{}' contradicts cycle {}, which is {}: it would probe from "
+                       "the wrong side",
                        comment_above(), descriptor.number, descriptor.name));
     }
     for (const auto& written : program_.view(cycle.parameters)) {
@@ -230,12 +242,14 @@ class Contradictions {
       const std::string_view comment = program_.text(written.comment);
       if (parameter == nullptr || comment.empty()) continue;
       const unsigned said = senses_of(comment);
-      if (!contradict(said, senses_of(parameter->meaning), kOfParameters) && !contradict(said, meant, std::array{kSide})) {
+      if (!contradict(said, senses_of(parameter->meaning), kOfParameters) &&
+          !contradict(said, meant, std::array{kSide})) {
         continue;
       }
       warn(DiagnosticCode::CommentContradicts, written.written,
-           fmt::format("the comment '{}' contradicts {} of cycle {} {}, which is: {}", comment, name(written.parameter),
-                       descriptor.number, descriptor.name, parameter->meaning));
+           fmt::format("the comment '{}' contradicts {} of cycle {} {}, which is: {}", comment,
+                       name(written.parameter), descriptor.number, descriptor.name,
+                       parameter->meaning));
     }
   }
 
@@ -243,8 +257,11 @@ class Contradictions {
   std::string_view comment_above() const {
     if (!block_->comment.empty()) return program_.text(block_->comment);
     if (before_ == nullptr) return {};
-    if (const auto* structure = std::get_if<klartext::Structure>(&before_->statement)) return program_.text(structure->text);
-    return std::holds_alternative<klartext::Empty>(before_->statement) ? program_.text(before_->comment) : std::string_view();
+    if (const auto* structure = std::get_if<klartext::Structure>(&before_->statement))
+      return program_.text(structure->text);
+    return std::holds_alternative<klartext::Empty>(before_->statement)
+               ? program_.text(before_->comment)
+               : std::string_view();
   }
 
   void check_order(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {
@@ -258,9 +275,12 @@ class Contradictions {
     }
     const bool is_probing = descriptor.family == probing::CycleFamily::TchProbe;
     for (const int height : {261, 294}) {
-      if (!is_probing || !values.contains(260) || !values.contains(height) || values[260] >= values[height]) continue;
+      if (!is_probing || !values.contains(260) || !values.contains(height) ||
+          values[260] >= values[height])
+        continue;
       warn(DiagnosticCode::OrderContradicts, places[260],
-           fmt::format("the clearance height Q260 = {} lies below Q{} = {}, at which the cycle probes: the ball moves through "
+           fmt::format("the clearance height Q260 = {} lies below Q{} = {}, at which the cycle "
+                       "probes: the ball moves through "
                        "the part; raise Q260",
                        values[260], height, values[height]));
     }
@@ -269,21 +289,25 @@ class Contradictions {
       const auto& least = descriptor.parameters[i];
       const int upper = static_cast<int>(most.id);
       const int lower = static_cast<int>(least.id);
-      if (!values.contains(upper) || !values.contains(lower) || values[upper] >= values[lower]) continue;
-      if ((senses_of(most.meaning) & kMaximum) == 0 || (senses_of(least.meaning) & kMinimum) == 0) continue;
+      if (!values.contains(upper) || !values.contains(lower) || values[upper] >= values[lower])
+        continue;
+      if ((senses_of(most.meaning) & kMaximum) == 0 || (senses_of(least.meaning) & kMinimum) == 0)
+        continue;
       warn(DiagnosticCode::OrderContradicts, places[upper],
-           fmt::format("the maximum Q{} = {} lies below the minimum Q{} = {}: exchange them", upper, values[upper], lower,
-                       values[lower]));
+           fmt::format("the maximum Q{} = {} lies below the minimum Q{} = {}: exchange them", upper,
+                       values[upper], lower, values[lower]));
     }
     if (!is_probing && values.contains(201) && values[201] > 0) {
       warn(DiagnosticCode::OrderContradicts, places[201],
-           fmt::format("the depth Q201 = {} lies above the surface: write it with a minus", values[201]));
+           fmt::format("the depth Q201 = {} lies above the surface: write it with a minus",
+                       values[201]));
     }
   }
 
   /// `Q274=+50` right behind a cycle that lacks Q274: the line before it has no `~`.
   void check_line_before(klartext::QRef target) {
-    const auto* cycle = before_ == nullptr ? nullptr : std::get_if<klartext::Cycle>(&before_->statement);
+    const auto* cycle =
+        before_ == nullptr ? nullptr : std::get_if<klartext::Cycle>(&before_->statement);
     if (cycle == nullptr || block_->has_number) return;
     const CycleDescriptor* descriptor = bind_cycle(program_, *cycle).descriptor();
     if (descriptor == nullptr || find_parameter(*descriptor, target) == nullptr) return;
@@ -291,8 +315,9 @@ class Contradictions {
       if (written.parameter == target) return;
     }
     warn(DiagnosticCode::ContinuationMissing, block_->written,
-         fmt::format("{} is a parameter of cycle {} before it, whose last line has no '~' at its end: add it there", name(target),
-                     descriptor->number));
+         fmt::format("{} is a parameter of cycle {} before it, whose last line has no '~' at its "
+                     "end: add it there",
+                     name(target), descriptor->number));
     diagnostics_.back().severity = Severity::Error;
   }
 
@@ -321,7 +346,8 @@ bool ignores(std::string_view line, std::string_view code) {
 
 }  // namespace
 
-void check_contradictions(const klartext::Program& program, std::vector<klartext::Diagnostic>& diagnostics) {
+void check_contradictions(const klartext::Program& program,
+                          std::vector<klartext::Diagnostic>& diagnostics) {
   Contradictions(program, diagnostics).check();
   std::erase_if(diagnostics, [&](const klartext::Diagnostic& found) {
     if (found.severity == Severity::Error || found.range.begin.line == 0) return false;

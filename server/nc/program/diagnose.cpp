@@ -48,7 +48,8 @@ Diagnostic diagnose(const klartext::Program& program, const klartext::Block& blo
 }
 
 std::string m_function_hint(int number) {
-  if (const MFunction* known = m_function(number)) return fmt::format("M{} is not available: {}", number, known->text);
+  if (const MFunction* known = m_function(number))
+    return fmt::format("M{} is not available: {}", number, known->text);
   return fmt::format(
       "M{0} is not available here; if the builder of the machine made it, say in the setup what it "
       R"(does: "m_functions":{{"{0}":"ignore"}}, or {{"call":"TNC:\\oem\\m{0}.h"}})",
@@ -57,8 +58,8 @@ std::string m_function_hint(int number) {
 
 std::string cycle_hint(bool is_probing, int number) {
   if (!is_builders_cycle(number)) {
-    return fmt::format("{} {} is a cycle of HEIDENHAIN that is not available here", is_probing ? "TCH PROBE" : "CYCL DEF",
-                       number);
+    return fmt::format("{} {} is a cycle of HEIDENHAIN that is not available here",
+                       is_probing ? "TCH PROBE" : "CYCL DEF", number);
   }
   return fmt::format(
       "{0} {1} is not available here; if the builder of the machine made it, say in the setup what "

@@ -106,11 +106,12 @@ class BlockCheck {
   std::string owner(const klartext::Cycle& block) const {
     for (const probing::TouchProbeCycle* other : probing::cycles()) {
       const auto all = program_.view(block.parameters);
-      const bool has_all = std::ranges::all_of(
-          all, [&](const auto& written) { return find_parameter(other->descriptor, written.parameter) != nullptr; });
+      const bool has_all = std::ranges::all_of(all, [&](const auto& written) {
+        return find_parameter(other->descriptor, written.parameter) != nullptr;
+      });
       if (!has_all || other->descriptor.dotted) continue;
-      return fmt::format("; all parameters of the block are those of cycle {} {}", other->descriptor.number,
-                         other->descriptor.name);
+      return fmt::format("; all parameters of the block are those of cycle {} {}",
+                         other->descriptor.number, other->descriptor.name);
     }
     return {};
   }
@@ -119,9 +120,11 @@ class BlockCheck {
                       const probing::CycleDescriptor& cycle) {
     SpellingHint hint(name(written.parameter));
     for (const auto& parameter : cycle.parameters) hint.consider(name(parameter));
-    report(Severity::Error, DiagnosticCode::CycleParameterUnknown, written.written,
-           fmt::format("cycle {} has no parameter {}{}{}", cycle.number, name(written.parameter), hint.text(),
-                       block.family == klartext::CycleFamily::TchProbe ? owner(block) : std::string()));
+    report(
+        Severity::Error, DiagnosticCode::CycleParameterUnknown, written.written,
+        fmt::format(
+            "cycle {} has no parameter {}{}{}", cycle.number, name(written.parameter), hint.text(),
+            block.family == klartext::CycleFamily::TchProbe ? owner(block) : std::string()));
   }
 
   /// PREDEF stands for a value of a GLOBAL DEF, so a parameter that none has takes no PREDEF.

@@ -222,13 +222,16 @@ NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm) {
   const machine::MachineState& state = channel.machine().state();
   const machine::Tool* tool = state.active_tool();
   if (says("CENTER") && tool != nullptr && tool->r2 + tool->dr2 + state.tool.dr2 != 0) {
-    return nc_error("REFPNT is the tip here, and R2 of the tool is not 0: program the tip with REFPNT TIP-TIP");
+    return nc_error(
+        "REFPNT is the tip here, and R2 of the tool is not 0: program the tip with REFPNT TIP-TIP");
   }
   if (says("F CONT")) {
-    if (auto noted = channel.note("F CONT: F counts at the tip, as with F TCP"); !noted) return noted;
+    if (auto noted = channel.note("F CONT: F counts at the tip, as with F TCP"); !noted)
+      return noted;
   }
   if (says("FMAX") || options.find_first_of("0123456789") != options.npos) {
-    auto noted = channel.note("FUNCTION TCPM F: the compensating moves of the linear axes take no feed of their own");
+    auto noted = channel.note(
+        "FUNCTION TCPM F: the compensating moves of the linear axes take no feed of their own");
     if (!noted) return noted;
   }
   channel.spatial_angles.reset();

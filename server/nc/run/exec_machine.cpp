@@ -45,7 +45,8 @@ NcResult<void> read_written_tools(Channel& channel) {
     machine::Tool tool = found != nullptr ? *found : machine::Tool{};
     tool.number = number;
     if (set_tool_value(tool, nr, value) == ToolWrite::OutOfRange) {
-      return nc_error(1093, fmt::format("tool {}: tool.t holds {} in a column of whole numbers", number, value));
+      return nc_error(1093, fmt::format("tool {}: tool.t holds {} in a column of whole numbers",
+                                        number, value));
     }
     if (auto done = checked(channel.machine().write_tool(tool)); !done) return done;
   }

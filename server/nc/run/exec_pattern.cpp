@@ -57,7 +57,8 @@ NcResult<std::vector<PatternPart>> read_elements(Channel& channel, klartext::Sli
     const double unit = is_length(words[i].letter) ? channel.length_unit() : 1;
     double from = 0;
     if (words[i].incremental) {
-      if (elements.size() < 2) return nc_error("PATTERN DEF: the first element has none before it; write it without I");
+      if (elements.size() < 2)
+        return nc_error("PATTERN DEF: the first element has none before it; write it without I");
       from = elements[elements.size() - 2].get(words[i].letter);
     }
     elements.back().values[words[i].letter] = from + *value * unit;

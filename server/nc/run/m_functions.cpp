@@ -78,7 +78,8 @@ NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& cal
       case 145: modes.kinematics_in_display = false; break;
       case 143:
         if (auto done = channel.contour.finish(channel.machine()); !done) return done;
-        if (auto done = probing::reset_basic_rotation(channel.machine()); !done) return from_cycle(done.error());
+        if (auto done = probing::reset_basic_rotation(channel.machine()); !done)
+          return from_cycle(done.error());
         break;
       default: break;
     }

@@ -93,7 +93,8 @@ machine::Feed Machining::retraction() const {
 
 NcResult<void> Machining::start() {
   if (heights.bottom == heights.surface) {
-    if (definition.value(343) == 1) return nc_error(1087, "Q343 is 1: T-ANGLE of the tool is 0, or Q344 is 0");
+    if (definition.value(343) == 1)
+      return nc_error(1087, "Q343 is 1: T-ANGLE of the tool is 0, or Q344 is 0");
     return nc_error(1042, "Q201 is 0");
   }
   if (definition.cycle->descriptor.dotted) return {};  // the tool stands there

@@ -75,7 +75,8 @@ NcResult<void> read_m(Channel& channel, const Word& word, std::vector<MCall>& ca
   if (const MFunction* known = m_function(called)) {
     if (known->role == MRole::Refuses) return unknown_m_function(called);
     if (known->role == MRole::Notes) {
-      if (auto noted = channel.note(fmt::format("M{}: {}", called, known->text)); !noted) return noted;
+      if (auto noted = channel.note(fmt::format("M{}: {}", called, known->text)); !noted)
+        return noted;
     }
     calls.push_back({.number = called});
     return {};
@@ -89,7 +90,8 @@ NcResult<void> read_m(Channel& channel, const Word& word, std::vector<MCall>& ca
 /// What follows an M function. Of those that only leave a note it has no effect.
 NcResult<void> read_argument(Channel& channel, const Word& word, std::vector<MCall>& calls) {
   if (!calls.empty() && calls.back().number == 128) {
-    return channel.note("M128 F: the compensating moves of the linear axes take no feed of their own");
+    return channel.note(
+        "M128 F: the compensating moves of the linear axes take no feed of their own");
   }
   if (calls.empty() || calls.back().number != 140) return {};
   MCall& retraction = calls.back();
@@ -167,7 +169,8 @@ NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<Word> words) 
   // M136 and M137 hold for the F of their own block.
   const bool per_revolution = channel.contour.feed_per_revolution;
   for (const MCall& call : out.m) {
-    if (call.number == 136 || call.number == 137) channel.contour.feed_per_revolution = call.number == 136;
+    if (call.number == 136 || call.number == 137)
+      channel.contour.feed_per_revolution = call.number == 136;
   }
   if (feed != nullptr && channel.contour.feed_per_revolution != per_revolution) {
     if (auto read = read_word(channel, *feed, out); !read) return read.error();

@@ -147,7 +147,8 @@ NcResult<void> TableAccess::write(QRef first, std::int64_t row, std::string_view
       return nc_error(fmt::format("table {}: {}", open_->path.text(), set.error().message));
     }
     if (const std::int64_t nr = tool_column(column); nr != 0 && is_tool_table) {
-      const double unit = is_tool_length(nr) && table.header().unit == "INCH" ? kMillimetresPerInch : 1;
+      const double unit =
+          is_tool_length(nr) && table.header().unit == "INCH" ? kMillimetresPerInch : 1;
       tool_cells_.push_back({static_cast<int>(row), nr, *table.number(row, column) * unit});
     }
   }

@@ -64,7 +64,8 @@ auto column(const Columns& columns, std::int64_t nr) {
 
 template <class Columns>
 std::int64_t number_of(const Columns& columns, std::string_view name) {
-  const auto* it = std::ranges::find_if(columns, [&](const auto& entry) { return ascii_iequals(entry.name, name); });
+  const auto* it = std::ranges::find_if(
+      columns, [&](const auto& entry) { return ascii_iequals(entry.name, name); });
   return it == std::end(columns) ? 0 : it->nr;
 }
 
@@ -104,7 +105,9 @@ std::int64_t tool_column(std::string_view name) {
   return plain != 0 ? plain : number_of(kWholeColumns, name);
 }
 
-bool is_tool_length(std::int64_t nr) { return nr < 8 || nr == 13 || (nr > 15 && nr < 28) || nr == 33; }
+bool is_tool_length(std::int64_t nr) {
+  return nr < 8 || nr == 13 || (nr > 15 && nr < 28) || nr == 33;
+}
 
 void update_preassigned(Channel& channel) {
   const machine::MachineState& state = channel.machine().state();

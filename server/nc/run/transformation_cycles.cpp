@@ -84,7 +84,8 @@ NcResult<void> working_plane_cycle(Channel& channel, Words words) {
   Vec3 angles;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& word = (*axes)[i + 3];
-    if (word && word->incremental) return nc_error("cycle 19 takes no I: write the angles themselves");
+    if (word && word->incremental)
+      return nc_error("cycle 19 takes no I: write the angles themselves");
     if (word) angles[i] = word->value;
   }
   if (angles == Vec3{}) return reset_tilt(channel, {});

@@ -206,7 +206,7 @@ class LogService {
   Snapshot<std::string> verifier_keys_;
   Snapshot<Head> head_;
   Snapshot<Head> changes_head_;  ///< the newest that was asked for
-  tlog::Frontier frontier_;  ///< of the thread
+  tlog::Frontier frontier_;      ///< of the thread
 
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;

@@ -56,13 +56,13 @@ struct MeasurementQuery {
   std::optional<Timestamp> received_from;        ///< from <= received_at
   std::optional<Timestamp> received_to;          ///< received_at < to
   // Of one note beside the row:
-  std::optional<std::string> cause;              ///< that it names
-  std::optional<Timestamp> noted_from;           ///< from <= its received_at
-  std::optional<Timestamp> noted_to;             ///< its received_at < to
-  bool has_notes = false;                        ///< only rows with a note
-  std::optional<bool> confirmed;                 ///< by a person, or not
-  bool history = false;                          ///< corrected rows too
-  std::optional<std::int64_t> as_of;             ///< the state when this id was the newest
+  std::optional<std::string> cause;     ///< that it names
+  std::optional<Timestamp> noted_from;  ///< from <= its received_at
+  std::optional<Timestamp> noted_to;    ///< its received_at < to
+  bool has_notes = false;               ///< only rows with a note
+  std::optional<bool> confirmed;        ///< by a person, or not
+  bool history = false;                 ///< corrected rows too
+  std::optional<std::int64_t> as_of;    ///< the state when this id was the newest
 
   // Of lists.
   bool newest_first = false;

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/capability.hpp"
-#include "metrology/statistics/zone_rules.hpp"
 #include "metrology/statistics/gauge_study.hpp"
+#include "metrology/statistics/process_model.hpp"
+#include "metrology/statistics/zone_rules.hpp"
 #include "service/qualification/qualification.hpp"
 
 namespace fitgauge::app::qualification {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "metrology/gauging/gauge.hpp"
 #include "metrology/gauging/conformance.hpp"
+#include "metrology/gauging/gauge.hpp"
 #include "metrology/statistics/gauge_study.hpp"
 #include "metrology/statistics/uncertainty.hpp"
 #include "service/qualification/qualification.hpp"

@@ -81,14 +81,13 @@ TEST_CASE("limits are shown with the names of the standard") {
 }
 
 TEST_CASE("a refusal says what, where and what to do") {
-  const Failure failure = failure_of(
-      problem(422, R"({"title":"Request has invalid fields","detail":"is missing",
+  const Failure failure =
+      failure_of(problem(422, R"({"title":"Request has invalid fields","detail":"is missing",
                        "code":"request.invalid",
                        "errors":[{"pointer":"/measured_mm","code":"x","detail":"is missing"}]})"),
-      "http://x");
+                 "http://x");
   CHECK(failure.exit_code == ExitCode::Refused);
-  CHECK(failure.message ==
-        "Request has invalid fields; /measured_mm: is missing");
+  CHECK(failure.message == "Request has invalid fields; /measured_mm: is missing");
   CHECK_FALSE(failure.document.empty());
 }
 

@@ -46,12 +46,14 @@ CycleResult<void> reset_basic_rotation(machine::Machine& machine) {
 CycleResult<void> begin_without_rotation(const CycleContext& context) {
   const Vec3 rotation = context.machine.state().frames.preset().basic_rotation_deg;
   if (rotation == Vec3{}) return {};
-  const std::string shown = rotation.x == 0 && rotation.y == 0
-                                ? fmt::format("{:g}", rotation.z)
-                                : fmt::format("SPA{:+g} SPB{:+g} SPC{:+g}", rotation.x, rotation.y, rotation.z);
-  auto noted = context.host.note(fmt::format("basic rotation of {} degrees is reset by cycle {}: its coordinates, and "
-                                             "those of the blocks after it, count without",
-                                             shown, context.arguments.descriptor().number));
+  const std::string shown =
+      rotation.x == 0 && rotation.y == 0
+          ? fmt::format("{:g}", rotation.z)
+          : fmt::format("SPA{:+g} SPB{:+g} SPC{:+g}", rotation.x, rotation.y, rotation.z);
+  auto noted = context.host.note(
+      fmt::format("basic rotation of {} degrees is reset by cycle {}: its coordinates, and "
+                  "those of the blocks after it, count without",
+                  shown, context.arguments.descriptor().number));
   return noted ? reset_basic_rotation(context.machine) : noted;
 }
 

@@ -191,8 +191,10 @@ constinit const TouchProbeCycle kCycle444{
          "to the start (MB) and stays there. A basic rotation stays active. In a tilted plane the "
          "rotary axes must stand square to it, except with TCPM. The points of a run share one "
          "log, which colours the value along the normal and each axis against its share of the "
-         "tolerance. Q309 = 2 stops when the point lies below the lower limit, and without a tolerance never. Two manuals "
-         "say below the nominal coordinate; but Q309 is the reaction to a tolerance error, and the same page says that "
+         "tolerance. Q309 = 2 stops when the point lies below the lower limit, and without a "
+         "tolerance never. Two manuals "
+         "say below the nominal coordinate; but Q309 is the reaction to a tolerance error, and the "
+         "same page says that "
          "the program can be made to stop after a determined undersize."},
     measure,
     check_arguments};

@@ -34,7 +34,10 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
 
 /// A file with nothing but these instances.
 std::string with_data(std::string_view data) {
-  return fmt::format("ISO-10303-21;HEADER;FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));ENDSEC;\nDATA;\n{}ENDSEC;END-ISO-10303-21;", data);
+  return fmt::format(
+      "ISO-10303-21;HEADER;FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));ENDSEC;\nDATA;\n{}ENDSEC;END-ISO-"
+      "10303-21;",
+      data);
 }
 
 std::string error_of(std::string_view text, std::size_t most = Part21::kMostInstances) {
@@ -49,7 +52,8 @@ std::string limits_of(const DrawnSize& size) {
   if (size.tolerance_class) text += " " + *size.tolerance_class;
   if (size.upper) text += " " + format_um(*size.upper);
   if (size.lower) text += " " + format_um(*size.lower);
-  return fmt::format("{} {} {}", text, word(size.quantity), size.feature ? word(*size.feature) : "-");
+  return fmt::format("{} {} {}", text, word(size.quantity),
+                     size.feature ? word(*size.feature) : "-");
 }
 
 }  // namespace
@@ -88,7 +92,8 @@ TEST_CASE("what is not gauged is listed with its name and why") {
   CHECK(drawing->not_read.size() == 8);
   CHECK(why("#180").find("lacks a sign") != std::string::npos);
   CHECK(why("#185").find("theoretical") != std::string::npos);
-  CHECK(why("#191").find("25 H7 is +21 0 µm of a hole, and the limits of the file are +25 0 µm") != std::string::npos);
+  CHECK(why("#191").find("25 H7 is +21 0 µm of a hole, and the limits of the file are +25 0 µm") !=
+        std::string::npos);
   CHECK(why("#203").find("do not show a hole or a shaft") != std::string::npos);
   CHECK(why("#190") == "angle: an angle is not gauged here");
   CHECK(why("#200") == "Position.1: position tolerance is not gauged here");
@@ -98,8 +103,9 @@ TEST_CASE("what is not gauged is listed with its name and why") {
 
 TEST_CASE("signs and orders of deviations are read or named, never guessed") {
   const auto slot = [](std::string_view lower, std::string_view upper) {
-    std::string text = replaced(housing(), "#139=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(0.)",
-                                fmt::format("#139=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({})", lower));
+    std::string text =
+        replaced(housing(), "#139=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(0.)",
+                 fmt::format("#139=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({})", lower));
     text = replaced(std::move(text), "#140=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(-0.036)",
                     fmt::format("#140=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({})", upper));
     const auto drawing = read_drawing(text, tables());
@@ -128,27 +134,35 @@ TEST_CASE("a file that is cut anywhere is an error with its line") {
 }
 
 TEST_CASE("what a file may not have is an error with its line") {
-  CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(0.),#5", "LENGTH_MEASURE(0.),#9")).find(
-            "#139 has the unit #9, which is no length") != std::string::npos);
+  CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(0.),#5", "LENGTH_MEASURE(0.),#9"))
+            .find("#139 has the unit #9, which is no length") != std::string::npos);
   CHECK(error_of(replaced(housing(), "#7=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#5)",
-                          "#7=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#6)")).starts_with("line "));
-  CHECK(error_of(replaced(housing(), "(#125),$);\n#125", "(#999),$);\n#125")).find("refers to #999, which is missing") !=
+                          "#7=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#6)"))
+            .starts_with("line "));
+  CHECK(error_of(replaced(housing(), "(#125),$);\n#125", "(#999),$);\n#125"))
+            .find("refers to #999, which is missing") != std::string::npos);
+  CHECK(error_of(replaced(housing(), "#103=", "#102=")).find("#102 stands twice") !=
         std::string::npos);
-  CHECK(error_of(replaced(housing(), "#103=", "#102=")).find("#102 stands twice") != std::string::npos);
-  CHECK(error_of(replaced(housing(), "AP242_", "IFC4_")).find("line 6: FILE_SCHEMA is not") != std::string::npos);
-  CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(8.)", "LENGTH_MEASURE(8.E30)")).find("1000 km") != std::string::npos);
+  CHECK(error_of(replaced(housing(), "AP242_", "IFC4_")).find("line 6: FILE_SCHEMA is not") !=
+        std::string::npos);
+  CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(8.)", "LENGTH_MEASURE(8.E30)"))
+            .find("1000 km") != std::string::npos);
   CHECK(error_of(housing() + "more").starts_with("line "));
-  for (const std::string_view bad : {"#1=A(1E5);\n", "#1=A(,);\n", "#1=A('x);\n", "#1=A(.T);\n", "#1=A(B());\n", "#1=a();\n",
-                                     "#4294967296=A();\n", "#1=A() B();\n", "#=A();\n", "1=A();\n", "#1=A(/*);\n", "#1=();\n"}) {
+  for (const std::string_view bad :
+       {"#1=A(1E5);\n", "#1=A(,);\n", "#1=A('x);\n", "#1=A(.T);\n", "#1=A(B());\n", "#1=a();\n",
+        "#4294967296=A();\n", "#1=A() B();\n", "#=A();\n", "1=A();\n", "#1=A(/*);\n", "#1=();\n"}) {
     CHECK_MESSAGE(error_of(with_data(bad)).starts_with("line "), bad);
   }
-  CHECK(error_of(with_data(fmt::format("#1=A{:(>40}1{:)>40};\n", "", ""))).find("32 deep") != std::string::npos);
-  CHECK(error_of(with_data(fmt::format("#1=A('{:x>1048577}');\n", ""))).find("1048576 bytes") != std::string::npos);
+  CHECK(error_of(with_data(fmt::format("#1=A{:(>40}1{:)>40};\n", "", ""))).find("32 deep") !=
+        std::string::npos);
+  CHECK(error_of(with_data(fmt::format("#1=A('{:x>1048577}');\n", ""))).find("1048576 bytes") !=
+        std::string::npos);
 }
 
 TEST_CASE("aspects that refer to each other in a ring end") {
   const std::string ring = replaced(housing(), "#104=SHAPE_ASPECT_RELATIONSHIP('',$,#101,#102);",
-                                    "#104=SHAPE_ASPECT_RELATIONSHIP('',$,#101,#102);#98=SHAPE_ASPECT_RELATIONSHIP('',$,#102,#101);");
+                                    "#104=SHAPE_ASPECT_RELATIONSHIP('',$,#101,#102);#98=SHAPE_"
+                                    "ASPECT_RELATIONSHIP('',$,#102,#101);");
   const auto drawing = read_drawing(ring, tables());
   REQUIRE(drawing.has_value());
   CHECK(drawing->sizes.size() == 5);
@@ -162,11 +176,14 @@ TEST_CASE("a million instances are read, one more than the bound is an error") {
 }
 
 TEST_CASE("edition 3 and texts in every coding are read") {
-  std::string text = replaced(housing(), "DATA;\n", "ANCHOR;\n<a>=#100{tag:'x'};ENDSEC;REFERENCE;#900=<b.stp#c>;ENDSEC;DATA('',('A'));\n");
+  std::string text = replaced(
+      housing(), "DATA;\n",
+      "ANCHOR;\n<a>=#100{tag:'x'};ENDSEC;REFERENCE;#900=<b.stp#c>;ENDSEC;DATA('',('A'));\n");
   text += "SIGNATURE;\nTWlJ;ENDSEC;";
   CHECK(error_of(text).empty());
   const auto name = [](std::string_view written) {
-    const auto drawing = read_drawing(replaced(housing(), R"(Bore \X2\00D8\X0\ A)", written), tables());
+    const auto drawing =
+        read_drawing(replaced(housing(), R"(Bore \X2\00D8\X0\ A)", written), tables());
     REQUIRE(drawing.has_value());
     return drawing->sizes[0].name;
   };

@@ -87,8 +87,10 @@ TEST_CASE("G26 and G27 give the blocks before and behind them an arc") {
 }
 
 TEST_CASE("Tools, blank and stop") {
-  check({{"N10 T5 G17 S2000 DL+0.1 DR-0.2 DR2+0.3 F400 *", "10 TOOL CALL 5 Z S2000 DL+0.1 DR-0.2 DR2+0.3 F400"},
-         {"N10 T\"PROBE\" G19 *\nN20 TQS1\nN30 TQ5", "10 TOOL CALL \"PROBE\" X\n20 TOOL CALL QS1 X\n30 TOOL CALL Q5 X"},
+  check({{"N10 T5 G17 S2000 DL+0.1 DR-0.2 DR2+0.3 F400 *",
+          "10 TOOL CALL 5 Z S2000 DL+0.1 DR-0.2 DR2+0.3 F400"},
+         {"N10 T\"PROBE\" G19 *\nN20 TQS1\nN30 TQ5",
+          "10 TOOL CALL \"PROBE\" X\n20 TOOL CALL QS1 X\n30 TOOL CALL Q5 X"},
          {"N10 T1 G00 Z+5 S100 M3 *", "10 TOOL CALL 1 Z S100\n10 L Z+5 FMAX M3"},
          {"N10 S500 *", "10 TOOL CALL S500"},
          {"N10 G51 T7 *", "10 TOOL DEF 7"},
@@ -103,8 +105,10 @@ TEST_CASE("Transformations and the other cycles of words") {
          {"N10 G28 X Y *", "10 CYCL DEF 8.0 MIRROR IMAGE\n10 CYCL DEF 8.1 X Y"},
          {"N10 G28 *", "10 CYCL DEF 8.0 MIRROR IMAGE\n10 CYCL DEF 8.1"},
          {"N10 G36 S+90 *", "10 CYCL DEF 13.0 ORIENTATION\n10 CYCL DEF 13.1 ANGLE +90"},
-         {"N10 G37 P01 1 P02 3 *", "10 CYCL DEF 14.0 CONTOUR GEOMETRY\n10 CYCL DEF 14.1 CONTOUR LABEL 1/3"},
-         {"N10 G39 TNC:\\A\\LOT31.I *", "10 CYCL DEF 12.0 PGM CALL\n10 CYCL DEF 12.1 PGM TNC:\\A\\LOT31.I"},
+         {"N10 G37 P01 1 P02 3 *",
+          "10 CYCL DEF 14.0 CONTOUR GEOMETRY\n10 CYCL DEF 14.1 CONTOUR LABEL 1/3"},
+         {"N10 G39 TNC:\\A\\LOT31.I *",
+          "10 CYCL DEF 12.0 PGM CALL\n10 CYCL DEF 12.1 PGM TNC:\\A\\LOT31.I"},
          {"N10 G39 P01 12 *", "10 CYCL DEF 12.0 PGM CALL\n10 CYCL DEF 12.1 PGM 12"},
          {"N10 G53 P01 5 *", "10 CYCL DEF 7.0 DATUM SHIFT\n10 CYCL DEF 7.1 #5"},
          {"N10 G54 G90 X+25 G91 Y+5 *", "10 CYCL DEF 7.0 DATUM SHIFT\n10 CYCL DEF 7.1 X+25 IY+5"},
@@ -112,7 +116,8 @@ TEST_CASE("Transformations and the other cycles of words") {
          {"N10 G62 *", "10 CYCL DEF 32.0 TOLERANCE\n10 CYCL DEF 32.1"},
          {"N10 G72 F0.8 *", "10 CYCL DEF 11.0 SCALING\n10 CYCL DEF 11.1 SCL0.8"},
          {"N10 G73 G91 H+35 *", "10 CYCL DEF 10.0 ROTATION\n10 CYCL DEF 10.1 IROT+35"},
-         {"N10 G80 A+0 B+30 C-Q5 *", "10 CYCL DEF 19.0 WORKING PLANE\n10 CYCL DEF 19.1 A+0 B+30 C-Q5"},
+         {"N10 G80 A+0 B+30 C-Q5 *",
+          "10 CYCL DEF 19.0 WORKING PLANE\n10 CYCL DEF 19.1 A+0 B+30 C-Q5"},
          {"N10 G55 P01 10 P02 X- P03 X+50 Y+0 Z-5 *",
           "10 TCH PROBE 0.0 REF. PLANE Q10 X-\n10 TCH PROBE 0.1 X+50 Y+0 Z-5"},
          {"N10 G79 M3 *\nN20 G79:PAT F100 *", "10 CYCL CALL M3\n20 CYCL CALL PAT F100"},
@@ -120,12 +125,16 @@ TEST_CASE("Transformations and the other cycles of words") {
 }
 
 TEST_CASE("Cycles stand in one line or in several") {
-  const std::string_view probe = "10 TCH PROBE 421 MEASURE HOLE ~\n    Q273=+50 ;CENTRE ~\n    Q274=+Q5";
-  check({{"N10 G421 MEASURE HOLE Q273=+50 Q274=+Q5 * ;all", "10 TCH PROBE 421 MEASURE HOLE ~\n    Q273=+50 ~\n    Q274=+Q5 ;all"},
+  const std::string_view probe =
+      "10 TCH PROBE 421 MEASURE HOLE ~\n    Q273=+50 ;CENTRE ~\n    Q274=+Q5";
+  check({{"N10 G421 MEASURE HOLE Q273=+50 Q274=+Q5 * ;all",
+          "10 TCH PROBE 421 MEASURE HOLE ~\n    Q273=+50 ~\n    Q274=+Q5 ;all"},
          {"N10 G421 MEASURE HOLE ~\n Q273=+50 ;CENTRE~\n Q274=+Q5 *", probe},
          {"N10 G421 MEASURE HOLE\nQ273=+50 ;CENTRE\n  Q274=+Q5 * ;", probe},
-         {"N10 G421 MEASURE HOLE\n  Q273=+50  ;CENTRE\n  Q274=+Q5\nN20 G00 X+1", std::string(probe) + "\n20 L X+1 FMAX"},
-         {"N10 G444 Q263=+0 QS400=\"0.4;-0.1\" *", "10 TCH PROBE 444 ~\n    Q263=+0 ~\n    QS400=\"0.4;-0.1\""},
+         {"N10 G421 MEASURE HOLE\n  Q273=+50  ;CENTRE\n  Q274=+Q5\nN20 G00 X+1",
+          std::string(probe) + "\n20 L X+1 FMAX"},
+         {"N10 G444 Q263=+0 QS400=\"0.4;-0.1\" *",
+          "10 TCH PROBE 444 ~\n    Q263=+0 ~\n    QS400=\"0.4;-0.1\""},
          {"N10 G200 Q200=2 *\nQ5 = 1 *", "10 CYCL DEF 200 ~\n    Q200=+2\nQ5 = 1"},
          {"N10 G120 Q1=-20 *", "10 CYCL DEF 20 ~\n    Q1=-20"},
          {"N10 TCH PROBE 421\n Q273=+50 *", "10 TCH PROBE 421 ~\n    Q273=+50"}});
@@ -133,8 +142,10 @@ TEST_CASE("Cycles stand in one line or in several") {
 
 TEST_CASE("Labels, repetitions and calls") {
   check({{"N10 G98 L1 *\nN20 G98 L\"UP\" *\nN30 G98 L0 *", "10 LBL 1\n20 LBL \"UP\"\n30 LBL 0"},
-         {"N10 L1,0 *\nN20 L1 *\nN30 L\"UP\",3 *\nN40 LQS1,Q5", "10 CALL LBL 1\n20 CALL LBL 1\n30 CALL LBL \"UP\" REP3\n40 CALL LBL QS1 REPQ5"},
-         {"N10 %UP1 *\nN20 %TNC:\\a\\b.h *\nN30 %:'QS1' *", "10 CALL PGM UP1\n20 CALL PGM TNC:\\a\\b.h\n30 CALL PGM :'QS1'"}});
+         {"N10 L1,0 *\nN20 L1 *\nN30 L\"UP\",3 *\nN40 LQS1,Q5",
+          "10 CALL LBL 1\n20 CALL LBL 1\n30 CALL LBL \"UP\" REP3\n40 CALL LBL QS1 REPQ5"},
+         {"N10 %UP1 *\nN20 %TNC:\\a\\b.h *\nN30 %:'QS1' *",
+          "10 CALL PGM UP1\n20 CALL PGM TNC:\\a\\b.h\n30 CALL PGM :'QS1'"}});
 }
 
 TEST_CASE("Parameters and functions") {
@@ -143,7 +154,8 @@ TEST_CASE("Parameters and functions") {
          {"N10 D00 Q5 P01 +60 *", "10 FN 0: Q5 = +60"},
          {"N10 D01 QL1 P01 -Q2 P02 -5 *", "10 FN 1: QL1 = -Q2 + -5"},
          {"N10 D04 Q4 P01 +8 P02 +Q02 *", "10 FN 4: Q4 = +8 DIV +Q2"},
-         {"N10 D05 Q20 P01 +4 *\nN20 D13 Q1 P01 +3 P02 +4", "10 FN 5: Q20 = SQRT +4\n20 FN 13: Q1 = +3 ANG +4"},
+         {"N10 D05 Q20 P01 +4 *\nN20 D13 Q1 P01 +3 P02 +4",
+          "10 FN 5: Q20 = SQRT +4\n20 FN 13: Q1 = +3 ANG +4"},
          {"N10 D09 P01 +Q1 P02 +Q3 P03 \"UP 25\" *", "10 FN 9: IF +Q1 EQU +Q3 GOTO LBL \"UP 25\""},
          {"N10 D12 P01 +Q1 P02 +3 P03 5 *", "10 FN 12: IF +Q1 LT +3 GOTO LBL 5"},
          {"N10 D14 P01 1000 *", "10 FN 14: ERROR = 1000"},
@@ -152,7 +164,8 @@ TEST_CASE("Parameters and functions") {
          {"N10 D18: SYSREAD Q25 = ID210 NR4 IDX3 *", "10 FN 18: SYSREAD Q25 = ID210 NR4 IDX3"},
          {"N10 D19 P01 +10 P02 +Q5 *", "10 FN 19: PLC = +10/+Q5"},
          {"N10 D20: WAIT FOR SYNC *", "10 FN 20: WAIT FOR SYNC"},
-         {"N10 D26: TABOPEN x.tab *\nN20 D28: TABREAD Q1 = 5/\"X,Y\"", "10 FN 26: TABOPEN x.tab\n20 FN 28: TABREAD Q1 = 5/\"X,Y\""},
+         {"N10 D26: TABOPEN x.tab *\nN20 D28: TABREAD Q1 = 5/\"X,Y\"",
+          "10 FN 26: TABOPEN x.tab\n20 FN 28: TABREAD Q1 = 5/\"X,Y\""},
          {"N10 D37 P01 10 P02 Q5 *", "10 FN 37: EXPORT +10/+Q5"},
          {"N10 D38 P01 \"a %F\" P02 +Q1 *", "10 FN 38: SEND /\"a %F\"/+Q1"},
          {"N10 DECLARE STRING QS1 = \"a\" *", "10 DECLARE STRING QS1 = \"a\""},

@@ -16,14 +16,17 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> twins() {
   std::vector<std::string> found;
-  for (const auto& folder : fs::directory_iterator(fs::path(FITGAUGE_SOURCE_DIR) / "tests/golden/nc")) {
+  for (const auto& folder :
+       fs::directory_iterator(fs::path(FITGAUGE_SOURCE_DIR) / "tests/golden/nc")) {
     std::ifstream in(folder.path() / "main.i", std::ios::binary);
-    if (in) found.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    if (in)
+      found.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
   }
   return found;
 }
 
-/// Every finding has its place; without errors, the program printed as Klartext reads back as the same.
+/// Every finding has its place; without errors, the program printed as Klartext reads back as the
+/// same.
 /// @returns whether it has no errors.
 bool check_read(const std::string& text) {
   const auto parsed = parse_program(text, "t.i");
@@ -33,7 +36,8 @@ bool check_read(const std::string& text) {
     CHECK_FALSE(klartext::render(found).empty());
   }
   for (const klartext::Block& block : parsed.program.blocks()) {
-    REQUIRE(std::size_t{block.written.first} + block.written.count <= parsed.program.source().size());
+    REQUIRE(std::size_t{block.written.first} + block.written.count <=
+            parsed.program.source().size());
   }
   if (parsed.has_errors()) return false;
   const auto again = klartext::parse_program(klartext::print_program(parsed.program), "t.h");
@@ -49,8 +53,9 @@ TEST_CASE("Each twin prints as Klartext that reads back as the same") {
 }
 
 TEST_CASE("Damaged programs are read or refused, never half") {
-  constexpr std::string_view kPieces[] = {"*", "~", "\n", ";", "\"", "%", "G", "G91 ", "G26 R5 ", "P01 ", "L1,2", "Q1 = ",
-                                          " ",  "/",  "N", ",", "-",  "X+", "QS1", "\xFF", "D09 ", "CYCL DEF 7.0", "G421 "};
+  constexpr std::string_view kPieces[] = {
+      "*", "~", "\n", ";", "\"", "%",  "G",   "G91 ", "G26 R5 ", "P01 ",         "L1,2", "Q1 = ",
+      " ", "/", "N",  ",", "-",  "X+", "QS1", "\xFF", "D09 ",    "CYCL DEF 7.0", "G421 "};
   std::mt19937 random(1);
   const auto below = [&random](std::size_t n) { return random() % n; };
   std::size_t good = 0;

@@ -10,23 +10,27 @@ namespace {
 
 /// The first finding of blocks between the first and the last line, as `line:column code: message`.
 std::string finding(std::string_view blocks) {
-  const auto parsed = parse_program("%T G71 *\n" + std::string(blocks) + "\nN99999999 %T G71 *\n", "t.i");
+  const auto parsed =
+      parse_program("%T G71 *\n" + std::string(blocks) + "\nN99999999 %T G71 *\n", "t.i");
   if (parsed.diagnostics.empty()) return {};
   const klartext::Diagnostic& first = parsed.diagnostics.front();
-  return std::to_string(first.range.begin.line) + ":" + std::to_string(first.range.begin.column) + " " +
-         std::string(klartext::id(first.code)) + ": " + first.message;
+  return std::to_string(first.range.begin.line) + ":" + std::to_string(first.range.begin.column) +
+         " " + std::string(klartext::id(first.code)) + ": " + first.message;
 }
 
 TEST_CASE("A code that is not available says what to use instead") {
   CHECK(finding("N10 G83 P01 2 *") == "2:5 syntax.error: G83 is not available; use cycle G200");
   CHECK(finding("N10 G57 P01 2 *") == "2:5 syntax.error: G57 is not available; use cycle G122");
-  CHECK(finding("N10 G50 *") == "2:5 syntax.error: G50 is not available; leave it out: it protects a file");
+  CHECK(finding("N10 G50 *") ==
+        "2:5 syntax.error: G50 is not available; leave it out: it protects a file");
   CHECK(finding("N10 G21 *") ==
-        "2:5 syntax.error: G21 is no code of these controls; docs/reference/language.md lists their codes");
+        "2:5 syntax.error: G21 is no code of these controls; docs/reference/language.md lists "
+        "their codes");
 }
 
 TEST_CASE("A finding stands at its place in the DIN/ISO text") {
-  CHECK(finding("N10 G00 X+1 *\nN20 G01 X+1 X+2 *") == "3:13 word.repeated: X stands twice in this block");
+  CHECK(finding("N10 G00 X+1 *\nN20 G01 X+1 X+2 *") ==
+        "3:13 word.repeated: X stands twice in this block");
   CHECK(finding("N10 G421 ~\n  Q273=+1 ;A ~\n  Q273=+2 ;B *") ==
         "4:3 cycle.parameter_repeated: this parameter stands twice in the cycle");
   CHECK(finding("N10 Q1 = 5 / *").starts_with("2:"));
@@ -34,34 +38,44 @@ TEST_CASE("A finding stands at its place in the DIN/ISO text") {
 }
 
 TEST_CASE("A block says what is missing or does not belong to it") {
-  CHECK(finding("N10 X+5 *") ==
-        "2:1 syntax.error: the block has no path function: write G00 or G01 before its coordinates");
+  CHECK(
+      finding("N10 X+5 *") ==
+      "2:1 syntax.error: the block has no path function: write G00 or G01 before its coordinates");
   CHECK(finding("N10 G04 *") == "2:1 syntax.error: F is missing in this block");
   CHECK(finding("N10 G04 F1 X+5 *") == "2:1 syntax.error: X+5 does not belong into a block of G04");
-  CHECK(finding("N10 G04 F1 G28 X *") == "2:12 syntax.error: G28 needs a block of its own: G04 stands in this one");
+  CHECK(finding("N10 G04 F1 G28 X *") ==
+        "2:12 syntax.error: G28 needs a block of its own: G04 stands in this one");
   CHECK(finding("N10 D01 Q1 P01 +5 *") == "2:1 syntax.error: P02 is missing");
-  CHECK(finding("N10 D00 Q1 P01 +5 P02 +6 *") == "2:1 syntax.error: P02 does not belong into this block");
+  CHECK(finding("N10 D00 Q1 P01 +5 P02 +6 *") ==
+        "2:1 syntax.error: P02 does not belong into this block");
   CHECK(finding("N10 G62 T0.1 P01 1 *") == "2:1 syntax.error: P01 does not belong into this block");
-  CHECK(finding("N10 D00 P01 +5 *") == "2:1 syntax.error: a Q parameter is missing behind the function");
+  CHECK(finding("N10 D00 P01 +5 *") ==
+        "2:1 syntax.error: a Q parameter is missing behind the function");
   CHECK(finding("N10 G26 R5 *") ==
-        "2:1 syntax.error: G26 stands behind the block of the first contour point, which has G41 or G42");
-  CHECK(finding("N10 G27 R5 *\nN20 G98 L1 *") == "3:1 syntax.error: G27 needs the end point in the next block, with G40");
+        "2:1 syntax.error: G26 stands behind the block of the first contour point, which has G41 "
+        "or G42");
+  CHECK(finding("N10 G27 R5 *\nN20 G98 L1 *") ==
+        "3:1 syntax.error: G27 needs the end point in the next block, with G40");
   CHECK(finding("N10 G27 R5 *").starts_with("3:1 syntax.error: G27 needs the end point"));
   CHECK(finding("N10 G05 X+5 R+3 *") ==
         "2:1 syntax.error: the arc has no direction: write G02 or G03, or G12 or G13");
   CHECK(finding("N10 T1 G17 *\nN20 G18 G40 *") ==
         "3:1 syntax.error: the tool axis changes with the tool: write G17, G18 or G19 behind T");
-  CHECK(finding("N10 G70 *") == "2:5 syntax.error: G70 is not available; the unit of the program stands in its first line");
+  CHECK(finding("N10 G70 *") ==
+        "2:5 syntax.error: G70 is not available; the unit of the program stands in its first line");
   CHECK(finding("N10 G90 G421 Q273=+1 *") == "2:1 syntax.error: a cycle stands first in its block");
 }
 
 TEST_CASE("A mode that holds on over a label is named at its use") {
   const std::string text = "N10 G00 G90 X+1 *\nN20 L1,0 *\nN30 X+5 *\nN40 M30 *\nN50 G98 L1 *\n";
   CHECK(finding(text + "N60 G01 G90 X+1 *\nN70 G98 L0 *") ==
-        "4:1 block.modal_state_assumed: behind a label or a call the block has no path function: G00 holds, as in the "
+        "4:1 block.modal_state_assumed: behind a label or a call the block has no path function: "
+        "G00 holds, as in the "
         "blocks above it; write the code into this block");
-  CHECK(finding("N10 G00 G90 X+1 *\nN20 L1,0 *\nN30 G00 X+5 *\nN50 G98 L1 *\nN60 G01 G91 X+1 *\nN70 G98 L0 *") ==
-        "4:1 block.modal_state_assumed: behind a label or a call the block has no G90 or G91: G90 holds, as in the blocks "
+  CHECK(finding("N10 G00 G90 X+1 *\nN20 L1,0 *\nN30 G00 X+5 *\nN50 G98 L1 *\nN60 G01 G91 X+1 "
+                "*\nN70 G98 L0 *") ==
+        "4:1 block.modal_state_assumed: behind a label or a call the block has no G90 or G91: G90 "
+        "holds, as in the blocks "
         "above it; write the code into this block");
 }
 
@@ -70,10 +84,13 @@ TEST_CASE("A program has a first and a last line") {
     const auto parsed = parse_program(std::move(text), "t.i");
     return parsed.diagnostics.empty() ? std::string() : parsed.diagnostics.front().message;
   };
-  CHECK(first("%T *\nN99999999 %T G71 *") .starts_with("the first line is %NAME G71 *"));
-  CHECK(first("%T G71 *\nN10 M3 *") == "the program ends with N99999999 %NAME G71 *, or G70 for inch");
-  CHECK(first("N10 M3 *\n%T G71 *\nN99999999 %T G71 *") == "a DIN/ISO program begins with %NAME G71 *, or G70 for inch");
-  CHECK(first("%T G71 *\nN99999999 %U G71 *") == "the name or unit differs from the first line, which holds");
+  CHECK(first("%T *\nN99999999 %T G71 *").starts_with("the first line is %NAME G71 *"));
+  CHECK(first("%T G71 *\nN10 M3 *") ==
+        "the program ends with N99999999 %NAME G71 *, or G70 for inch");
+  CHECK(first("N10 M3 *\n%T G71 *\nN99999999 %T G71 *") ==
+        "a DIN/ISO program begins with %NAME G71 *, or G70 for inch");
+  CHECK(first("%T G71 *\nN99999999 %U G71 *") ==
+        "the name or unit differs from the first line, which holds");
 }
 
 TEST_CASE("A damaged program is bounded") {

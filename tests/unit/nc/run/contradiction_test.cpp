@@ -8,11 +8,16 @@ namespace fitgauge::interpreter {
 namespace {
 
 const std::string kHole =
-    "Q273=+50 ;CENTER IN 1ST AXIS ~\n Q274=+50 ;CENTER IN 2ND AXIS ~\n Q262=+12 ;NOMINAL DIAMETER ~\n Q325=+0 ~\n "
-    "Q247=+90 ;STEPPING ANGLE ~\n Q261=-5 ;MEASURING HEIGHT ~\n Q320=+0 ;SET-UP CLEARANCE ~\n Q260=+20 ;CLEARANCE HEIGHT ~\n "
-    "Q301=+0 ~\n Q275=+12.1 ;MAX. ~\n Q276=+12 ;MIN. ~\n Q279=+0 ~\n Q280=+0 ~\n Q281=+0 ~\n Q309=+0 ~\n Q330=+0\n";
+    "Q273=+50 ;CENTER IN 1ST AXIS ~\n Q274=+50 ;CENTER IN 2ND AXIS ~\n Q262=+12 ;NOMINAL DIAMETER "
+    "~\n Q325=+0 ~\n "
+    "Q247=+90 ;STEPPING ANGLE ~\n Q261=-5 ;MEASURING HEIGHT ~\n Q320=+0 ;SET-UP CLEARANCE ~\n "
+    "Q260=+20 ;CLEARANCE HEIGHT ~\n "
+    "Q301=+0 ~\n Q275=+12.1 ;MAX. ~\n Q276=+12 ;MIN. ~\n Q279=+0 ~\n Q280=+0 ~\n Q281=+0 ~\n "
+    "Q309=+0 ~\n Q330=+0\n";
 
-std::string hole(std::string dialog = "MEASURE HOLE") { return "TCH PROBE 421 " + dialog + " ~\n " + kHole; }
+std::string hole(std::string dialog = "MEASURE HOLE") {
+  return "TCH PROBE 421 " + dialog + " ~\n " + kHole;
+}
 
 std::string replaced(std::string text, std::string_view what, std::string_view by) {
   const auto at = text.find(what);
@@ -26,8 +31,8 @@ std::vector<std::string> findings(std::string_view body) {
   control.program(body);
   std::vector<std::string> found;
   for (const auto& each : control.diagnostics()) {
-    found.push_back(std::string(word(each.severity)) + " " + std::to_string(each.range.begin.line) + " " +
-                    std::string(id(each.code)));
+    found.push_back(std::string(word(each.severity)) + " " + std::to_string(each.range.begin.line) +
+                    " " + std::string(id(each.code)));
   }
   return found;
 }
@@ -55,18 +60,22 @@ TEST_CASE("a contradiction is found at its line") {
       {replaced(hole(), ";MAX.", ";MIN."), {"warning 12 cycle.comment_contradicts"}},
       {replaced(hole(), ";MAX.", ";STUD"), {"warning 12 cycle.comment_contradicts"}},
       {replaced(hole(), "1ST AXIS", "2ND AXIS"), {"warning 3 cycle.comment_contradicts"}},
-      {replaced(hole(), ";NOMINAL DIAMETER", ";MEASURING HEIGHT"), {"warning 5 cycle.comment_contradicts"}},
+      {replaced(hole(), ";NOMINAL DIAMETER", ";MEASURING HEIGHT"),
+       {"warning 5 cycle.comment_contradicts"}},
       {replaced(hole(), ";MAX.", ";MIN. check:ignore"), {}},
       {replaced(hole(), ";MAX.", ";MIN. check:ignore cycle.comment_contradicts"), {}},
-      {replaced(hole(), ";MAX.", ";MIN. check:ignore file.missing"), {"warning 12 cycle.comment_contradicts"}},
+      {replaced(hole(), ";MAX.", ";MIN. check:ignore file.missing"),
+       {"warning 12 cycle.comment_contradicts"}},
       {"; check:ignore\n" + hole("MEASURE BOSS"), {}},
       {replaced(hole(), "Q275=+12.1", "Q275=+11"), {"warning 12 cycle.order_contradicts"}},
       {replaced(hole(), "Q260=+20", "Q260=-20"), {"warning 10 cycle.order_contradicts"}},
       {replaced(hole(), "Q320=+0", "Q320=-1"), {"error 9 cycle.parameter_invalid"}},
-      {"CYCL DEF 200 DRILLING Q200=2 Q201=5 Q206=100 Q202=5 Q203=0 Q204=50", {"warning 2 cycle.order_contradicts"}},
+      {"CYCL DEF 200 DRILLING Q200=2 Q201=5 Q206=100 Q202=5 Q203=0 Q204=50",
+       {"warning 2 cycle.order_contradicts"}},
       {"TOOL CALL 5 Z S1000\nM3\n" + hole(), {"warning 4 cycle.stylus_missing"}},
       {"TOOL CALL 5 Z S1000\nM3\nTOOL CALL 30 Z\n" + hole(), {}},
-      {"CYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=100 Q202=5 Q203=0 Q204=50\n" + hole(), {"warning 3 cycle.stylus_missing"}},
+      {"CYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=100 Q202=5 Q203=0 Q204=50\n" + hole(),
+       {"warning 3 cycle.stylus_missing"}},
       {hole() + "Q1 = Q153 + Q180", {}},
       {hole() + "Q1 = Q155", {"warning 19 parameter.result_unset"}},
       {"Q155 = 1\n" + hole() + "Q1 = Q155", {}},
@@ -92,7 +101,8 @@ TEST_CASE("no right program of the tree raises an alarm") {
   namespace fs = std::filesystem;
   std::size_t programs = 0;
   for (const char* folder : {"/clients/nc", "/tests/golden/nc"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(std::string(FITGAUGE_SOURCE_DIR) + folder)) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(std::string(FITGAUGE_SOURCE_DIR) + folder)) {
       const std::string path = entry.path().string();
       if (entry.path().extension() != ".h" || path.find("/bad/") != path.npos) continue;
       Control control;
@@ -102,7 +112,8 @@ TEST_CASE("no right program of the tree raises an alarm") {
       for (const auto& found : control.diagnostics()) {
         const std::string_view code = id(found.code);
         const bool is_alarm = code.ends_with("_contradicts") || code == "cycle.stylus_missing" ||
-                              code == "parameter.result_unset" || code == "block.continuation_missing";
+                              code == "parameter.result_unset" ||
+                              code == "block.continuation_missing";
         CHECK_MESSAGE(!is_alarm, render(found));
       }
     }

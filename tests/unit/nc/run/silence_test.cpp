@@ -18,8 +18,8 @@ std::string shown(Workshop& control, const std::string& body) {
 }
 
 bool says(const RunResult& result, std::string_view text) {
-  return std::ranges::any_of(result.messages,
-                             [&](const RunMessage& m) { return m.text.find(text) != std::string::npos; });
+  return std::ranges::any_of(
+      result.messages, [&](const RunMessage& m) { return m.text.find(text) != std::string::npos; });
 }
 
 /// With tables A and C and a preset that is turned by 30 degrees.
@@ -36,7 +36,8 @@ TEST_CASE("each M function of the table changes something, says something, or en
                                           "M136", "M128", "PLANE SPATIAL SPA+20 SPB+0 SPC+0 STAY"};
   for (const MFunction& function : m_functions()) {
     CAPTURE(function.number);
-    const std::string block = "M" + std::to_string(function.number) + (function.number == 140 ? " MB10" : "");
+    const std::string block =
+        "M" + std::to_string(function.number) + (function.number == 140 ? " MB10" : "");
     if (function.role == MRole::Ends) {
       const MFunction* ended = m_function(std::stoi(std::string(function.text)));
       REQUIRE(ended != nullptr);
@@ -47,10 +48,13 @@ TEST_CASE("each M function of the table changes something, says something, or en
     bool changes = false;
     for (const std::string_view before : kBefore) {
       Tilting control;
-      std::string text = "TOOL CALL 5 Z S1000 F500\nCYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=100 Q202=5 Q210=0 Q203=0 "
-                         "Q204=50 Q211=0\n";
+      std::string text =
+          "TOOL CALL 5 Z S1000 F500\nCYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=100 Q202=5 Q210=0 "
+          "Q203=0 "
+          "Q204=50 Q211=0\n";
       text += std::string(before) + "\n";
-      const std::string with = shown(control, text + "L X+20 Y+5 Z+40 R0 F100 " + block + "\nL X+30 Z+45");
+      const std::string with =
+          shown(control, text + "L X+20 Y+5 Z+40 R0 F100 " + block + "\nL X+30 Z+45");
       const std::string without = shown(control, text + "L X+20 Y+5 Z+40 R0 F100\nL X+30 Z+45");
       if (with == without) continue;
       changes = true;
@@ -64,7 +68,8 @@ TEST_CASE("each M function of the table changes something, says something, or en
 
 TEST_CASE("M143 deletes the basic rotation, M130 counts in the plane without tilt") {
   Tilting control;
-  control.path("FN 18: SYSREAD Q1 = ID210 NR1\nM143\nFN 18: SYSREAD Q2 = ID210 NR1\nL X+20 Y+0 F100");
+  control.path(
+      "FN 18: SYSREAD Q1 = ID210 NR1\nM143\nFN 18: SYSREAD Q2 = ID210 NR1\nL X+20 Y+0 F100");
   CHECK(value(control.last, "Q1") == "30");
   CHECK(value(control.last, "Q2") == "0");
   CHECK(control.machine->state().nose[machine::Axis::X] == doctest::Approx(20));
@@ -84,9 +89,11 @@ TEST_CASE("M136 holds for the feed of its own block") {
 }
 
 TEST_CASE("I of PATTERN DEF counts from the element before") {
-  const std::string hole = "CYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=100 Q202=5 Q210=0 Q203=0 Q204=20 Q211=0\n";
+  const std::string hole =
+      "CYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=100 Q202=5 Q210=0 Q203=0 Q204=20 Q211=0\n";
   Workshop control;
-  control.path(hole + "PATTERN DEF POS1 (X+25 Y+33.5 Z+0) POS2 (X+15 IY+6.5 Z+0)\nCYCL CALL PAT FMAX");
+  control.path(hole +
+               "PATTERN DEF POS1 (X+25 Y+33.5 Z+0) POS2 (X+15 IY+6.5 Z+0)\nCYCL CALL PAT FMAX");
   const auto end = control.machine->position().linear;
   CHECK(end.x == doctest::Approx(15));
   CHECK(end.y == doctest::Approx(40));
@@ -97,18 +104,20 @@ TEST_CASE("I of PATTERN DEF counts from the element before") {
 TEST_CASE("what a parser accepts, the run reads") {
   for (const char* refused :
        {"PATTERN DEF ROW1 (X+1 Y+1 D5 NUM2 IROT+5 Z+0)", "PLANE AXIAL IA+10 STAY",
-        "PLANE PROJECTED PROPR+1 PROMIN+2 IROT+3 STAY", "PLANE SPATIAL SPA+1 SPB+0 SPC+0 STAY SEQ+ SYM-",
+        "PLANE PROJECTED PROPR+1 PROMIN+2 IROT+3 STAY",
+        "PLANE SPATIAL SPA+1 SPB+0 SPC+0 STAY SEQ+ SYM-",
         "PLANE SPATIAL SPA+1 SPB+0 SPC+0 STAY SEQ+ SEQ-", "PLANE RELATIV SPA+1 SPB+2 STAY",
-        "PLANE SPATIAL SPA+1 SPB+0 SPC+0 STAY TABLE ROT COORD ROT", "CYCL DEF 26.1 X1 ICCX+3", "L X+1 M118 IX+1",
-        "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS BANANA", "FUNCTION TCPM F TCP F TCP"}) {
+        "PLANE SPATIAL SPA+1 SPB+0 SPC+0 STAY TABLE ROT COORD ROT", "CYCL DEF 26.1 X1 ICCX+3",
+        "L X+1 M118 IX+1", "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS BANANA",
+        "FUNCTION TCPM F TCP F TCP"}) {
     CAPTURE(refused);
     Workshop control;
     control.program(refused);
     CHECK(has_errors(control.diagnostics()));
   }
   for (const char* failing :
-       {"CYCL DEF 19.0 WORKING PLANE\nCYCL DEF 19.1 IA+10", "L X+1 FT5", "TOOL CALL 5.1 Z S100", "FUNCTION MODE TURN",
-        "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS REFPNT CENTER-CENTER"}) {
+       {"CYCL DEF 19.0 WORKING PLANE\nCYCL DEF 19.1 IA+10", "L X+1 FT5", "TOOL CALL 5.1 Z S100",
+        "FUNCTION MODE TURN", "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS REFPNT CENTER-CENTER"}) {
     CAPTURE(failing);
     Workshop control;
     control.setup.machine.tools[1].row.r2 = 1;
@@ -126,8 +135,10 @@ TEST_CASE("a cycle that resets a basic rotation says so") {
   Workshop control;
   control.setup.machine.presets[0].frame.basic_rotation_deg = {0, 0, 30};
   control.setup.features = {machine::Block{{-50, -50, -40}, {50, 50, 0}}};
-  control.path("TOOL CALL 30 Z\nL Z+50 FMAX\nTCH PROBE 427 MEASURE Q263=1 Q264=1 Q261=0 Q320=0 Q272=3 Q267=-1 Q260=9 "
-               "Q281=0 Q288=1 Q289=-1 Q309=0 Q330=0");
+  control.path(
+      "TOOL CALL 30 Z\nL Z+50 FMAX\nTCH PROBE 427 MEASURE Q263=1 Q264=1 Q261=0 Q320=0 Q272=3 "
+      "Q267=-1 Q260=9 "
+      "Q281=0 Q288=1 Q289=-1 Q309=0 Q330=0");
   CHECK(outcome(control.last) == "completed");
   CHECK(says(control.last, "basic rotation of 30 degrees is reset by cycle 427"));
 }
@@ -135,10 +146,13 @@ TEST_CASE("a cycle that resets a basic rotation says so") {
 TEST_CASE("the next TOOL CALL sees what FN 27 has written into tool.t") {
   Workshop control;
   control.disk.write("TNC:\\table\\tool.t",
-                     "BEGIN TOOL .T MM\nT    NAME     L         R\n5    MILL     +100      +4\n40            +0        "
+                     "BEGIN TOOL .T MM\nT    NAME     L         R\n5    MILL     +100      +4\n40  "
+                     "          +0        "
                      "+0\n[END]\n");
-  control.path("Q5 = 115.029\nQ6 = 7.516\nFN 26: TABOPEN TNC:\\table\\tool.t\nFN 27: TABWRITE 40/\"L,R\" = Q5\n"
-               "TOOL CALL 40 Z");
+  control.path(
+      "Q5 = 115.029\nQ6 = 7.516\nFN 26: TABOPEN TNC:\\table\\tool.t\nFN 27: TABWRITE 40/\"L,R\" = "
+      "Q5\n"
+      "TOOL CALL 40 Z");
   CHECK(outcome(control.last) == "completed");
   CHECK(value(control.last, "Q108") == "7.516");
   CHECK(value(control.last, "Q114") == "115.029");
@@ -146,7 +160,9 @@ TEST_CASE("the next TOOL CALL sees what FN 27 has written into tool.t") {
 
 TEST_CASE("the datum table of the setup is active at the start") {
   Workshop control;
-  control.disk.write("TNC:\\table\\zero.d", "BEGIN ZERO .D MM\nNR   X         Y         Z\n1    +10       +20       +0\n[END]\n");
+  control.disk.write(
+      "TNC:\\table\\zero.d",
+      "BEGIN ZERO .D MM\nNR   X         Y         Z\n1    +10       +20       +0\n[END]\n");
   control.options.datum_table = ControlPath::parse("TNC:\\table\\zero.d").value();
   control.path("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 #1\nL X+0 Y+0 F500");
   CHECK(outcome(control.last) == "completed");
@@ -155,7 +171,9 @@ TEST_CASE("the datum table of the setup is active at the start") {
 
 TEST_CASE("a hole by its countersink names the point angle") {
   Workshop control;
-  control.path("CYCL DEF 240 CENTERING Q200=2 Q343=1 Q201=-2 Q344=-10 Q206=100 Q211=0 Q203=0 Q204=20\nCYCL CALL");
+  control.path(
+      "CYCL DEF 240 CENTERING Q200=2 Q343=1 Q201=-2 Q344=-10 Q206=100 Q211=0 Q203=0 Q204=20\nCYCL "
+      "CALL");
   CHECK(outcome(control.last).find("No point angle defined") != std::string::npos);
 }
 
