@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import Any, Iterator
 
 from ._json import loads
-from ._transport import Parameter, Transport, path_of
-
+from ._transport import Transport, path_of
+from ._values import Parameter
 
 
 class LogCalls(Transport):

@@ -42,6 +42,7 @@ constexpr std::pair<std::string_view, std::string_view> kOrders[] = {
      R"({"part":"2","operator":"A","trial":2,"value":25.015},{"part":"1","operator":"B","trial":1,"value":25.01},)"
      R"({"part":"1","operator":"B","trial":2,"value":25.01},{"part":"2","operator":"B","trial":1,"value":25.016},)"
      R"({"part":"2","operator":"B","trial":2,"value":25.015}]})"},
+    {"NewCalibration", R"({"from":"2026-03-31","due":"2027-03-31","certificate":"K-1"})"},
     {"UncertaintyBudget",
      R"({"contributions":[{"name":"repeatability","standard_uncertainty":0.5}]})"},
 };
