@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include "base/digest.hpp"
 #include "base/text.hpp"
 #include "formats/step/faces.hpp"
+#include "formats/step/values.hpp"
 
 namespace fitgauge::step {
 namespace {
@@ -117,25 +117,6 @@ constexpr std::array<std::pair<std::string_view, Quantity>, 10> kQuantities = {{
     {"linear", Quantity::Width},
 }};
 
-/// Millimetres of a metre with a prefix of SI_UNIT.
-constexpr std::array<std::pair<std::string_view, double>, 7> kMetres = {{
-    {"", 1e3},
-    {".MILLI.", 1},
-    {".CENTI.", 10},
-    {".DECI.", 100},
-    {".MICRO.", 1e-3},
-    {".NANO.", 1e-6},
-    {".KILO.", 1e6},
-}};
-
-/// A number with its unit: a length, or an angle.
-struct Value {
-  std::string name{};
-  std::string qualifier{};
-  std::optional<Length> length{};
-  double number = 0;  ///< in mm
-};
-
 /// All that the file says of one dimension.
 struct Found {
   std::optional<Length> nominal{};
@@ -153,7 +134,7 @@ std::string signed_um(std::optional<Length> length) {
 class Walker {
  public:
   Walker(const Part21& file, const iso286::ToleranceTables& tables, Drawing& drawing)
-      : file_(file), tables_(tables), to_(drawing) {}
+      : file_(file), tables_(tables), to_(drawing), values_(file) {}
 
   void walk() {
     each({Group::Value, Group::Tolerance, Group::Face, Group::Part, Group::Callout},
@@ -165,7 +146,7 @@ class Walker {
          });
     for (auto& each : links_) std::stable_sort(each.begin(), each.end(), by_first);
     each({Group::Product}, [&](auto id, const Entity& entity) {
-      to_.part = seen_.empty() ? text(id, entity.name, 0) : std::string();
+      to_.part = seen_.empty() ? text_in(file_, id, entity.name, 0) : std::string();
       seen_.insert(id);
     });
     each({Group::Size, Group::Location, Group::Angle}, [&](auto id, const Entity& entity) {
@@ -181,7 +162,8 @@ class Walker {
     }
     each({Group::Note}, [&](auto id, const Entity& entity) {
       if (!used.contains(id))
-        refuse(id, text(id, entity.name, 0), "a note, a datum or another text is not gauged here");
+        refuse(id, text_in(file_, id, entity.name, 0),
+               "a note, a datum or another text is not gauged here");
     });
   }
 
@@ -200,36 +182,12 @@ class Walker {
     return {first, last};
   }
 
-  /// The parameters of the record with that name.
-  std::vector<Parameter> record(std::uint32_t id, std::string_view name,
-                                std::uint32_t from = 0) const {
-    for (const Record& each : file_.records(id, from != 0 ? from : id)) {
-      if (each.name == name) return file_.parameters(each.list);
-    }
-    return {};
-  }
-  std::string text(std::uint32_t id, std::string_view name, std::size_t at,
-                   std::uint32_t from = 0) const {
-    const auto all = record(id, name, from);
-    return at < all.size() ? std::string(trim(text_of(all[at]))) : std::string();
-  }
-  std::vector<std::uint32_t> references(const Parameter& in) const {
-    if (in.is(Kind::Reference)) return {in.id};
-    std::vector<std::uint32_t> found;
-    if (!in.is(Kind::List) && !in.is(Kind::Typed)) return found;
-    for (const Parameter& item : file_.parameters(in.text)) {
-      const auto more = references(item);
-      found.insert(found.end(), more.begin(), more.end());
-    }
-    return found;
-  }
-
   void link(std::uint32_t id, const Relation& relation, std::string_view name) {
-    const auto all = record(id, name);
+    const auto all = record_of(file_, id, name);
     if (all.size() <= std::max(relation.from, relation.to) ||
         !all[relation.from].is(Kind::Reference))
       return;
-    for (const std::uint32_t to : references(all[relation.to])) {
+    for (const std::uint32_t to : references_in(file_, all[relation.to])) {
       links(relation.group).emplace_back(all[relation.from].id, to);
       if (++link_count_ > kMostLinks)
         return file_.fail(id, "more relations than are read: export fewer parts");
@@ -246,15 +204,15 @@ class Walker {
   std::string callout_of(std::uint32_t id) {
     std::string name;
     for (const auto& [_, callout] : linked(Group::Callout, id)) {
-      if (name.empty()) name = text(callout, "DRAUGHTING_CALLOUT", 0, id);
+      if (name.empty()) name = text_in(file_, callout, "DRAUGHTING_CALLOUT", 0, id);
     }
     return name;
   }
   /// Of the callout that shows it, else its own, else of its entity in words.
   std::string name_of(std::uint32_t id, std::string_view entity) {
     std::string name = callout_of(id);
-    if (name.empty()) name = text(id, entity, 0);
-    if (name.empty()) name = text(id, "GEOMETRIC_TOLERANCE", 0);
+    if (name.empty()) name = text_in(file_, id, entity, 0);
+    if (name.empty()) name = text_in(file_, id, "GEOMETRIC_TOLERANCE", 0);
     return name.empty() ? in_words(entity) : name;
   }
   std::string unique(std::string name) {
@@ -278,66 +236,6 @@ class Walker {
     return faces;
   }
 
-  /// Millimetres of a unit of length; fails if it is another, or refers to itself.
-  double millimetres(std::uint32_t id, std::uint32_t from, int deep = 8) {
-    if (const auto known = units_.find(id); known != units_.end()) return known->second;
-    double factor = 0;
-    for (const Record& each : file_.records(id, from)) {
-      const auto all = file_.parameters(each.list);
-      if (each.name == "SI_UNIT" && all.size() >= 2 && all.back().text == ".METRE.") {
-        const Parameter& prefix = all[all.size() - 2];
-        const auto found = std::find_if(kMetres.begin(), kMetres.end(), [&](const auto& p) {
-          return p.first == (prefix.is(Kind::Word) ? prefix.text : std::string_view());
-        });
-        if (found != kMetres.end()) factor = found->second;
-      } else if (each.name == "CONVERSION_BASED_UNIT" && !all.empty() &&
-                 all.back().is(Kind::Reference) && deep > 0) {
-        factor = value(all.back().id, id, deep - 1).number;
-      }
-    }
-    if (!(factor > 0) || !std::isfinite(factor)) {
-      file_.fail(from, fmt::format("#{} has the unit #{}, which is no length: export the file with "
-                                   "lengths in mm or inch",
-                                   from, id));
-    }
-    units_[id] = factor;
-    return factor;
-  }
-
-  Value value(std::uint32_t id, std::uint32_t from, int deep = 8) {
-    Value read;
-    for (const Record& each : file_.records(id, from)) {
-      const auto all = file_.parameters(each.list);
-      if (each.name.ends_with("REPRESENTATION_ITEM") && !all.empty() && all[0].is(Kind::Text))
-        read.name = trim(text_of(all[0]));
-      if (each.name == "QUALIFIED_REPRESENTATION_ITEM" && !all.empty()) {
-        for (const std::uint32_t qualifier : references(all[0])) {
-          if (auto word = text(qualifier, "TYPE_QUALIFIER", 0, id); !word.empty())
-            read.qualifier = std::move(word);
-        }
-      }
-      for (std::size_t i = 0; i + 1 < all.size(); ++i) {
-        if (all[i].is(Kind::Typed) && all[i + 1].is(Kind::Reference))
-          measure(all[i], all[i + 1].id, id, deep, read);
-      }
-    }
-    return read;
-  }
-
-  void measure(const Parameter& typed, std::uint32_t unit, std::uint32_t id, int deep,
-               Value& read) {
-    const std::string_view type = typed.text.substr(0, typed.text.find_first_of("( "));
-    const auto number = file_.parameters(typed.text);
-    if (!type.ends_with("LENGTH_MEASURE") || number.size() != 1) return;
-    read.number = number_of(number[0]) * millimetres(unit, id, deep);
-    const auto length = Length::nearest_mm(read.number);
-    if (!length || *length > kLongest || *length < -kLongest) {
-      return file_.fail(id,
-                        fmt::format("#{} is a length beyond 1000 km: export the file again", id));
-    }
-    read.length = *length;
-  }
-
   /// Nominal value, limits and words of the representation. @returns why it cannot be used
   std::string take_values(std::uint32_t id, Found& found, DrawnSize& size) {
     std::optional<Length> upper;
@@ -348,7 +246,7 @@ class Walker {
         const auto items = std::find_if(all.begin(), all.end(),
                                         [](const Parameter& p) { return p.is(Kind::List); });
         if (items == all.end()) continue;
-        for (const std::uint32_t item : references(*items))
+        for (const std::uint32_t item : references_in(file_, *items))
           take_value(item, each, found, upper, lower, size);
       }
     }
@@ -367,11 +265,12 @@ class Walker {
 
   void take_value(std::uint32_t id, std::uint32_t from, Found& found, std::optional<Length>& upper,
                   std::optional<Length>& lower, DrawnSize& size) {
-    if (std::string words = text(id, "DESCRIPTIVE_REPRESENTATION_ITEM", 1, from); !words.empty()) {
+    if (std::string words = text_in(file_, id, "DESCRIPTIVE_REPRESENTATION_ITEM", 1, from);
+        !words.empty()) {
       size.modifiers.push_back(std::move(words));
       return;
     }
-    const Value read = value(id, from);
+    const Value read = values_.read(id, from);
     if (!read.length) {
       found.is_angle = true;
       return;
@@ -385,18 +284,18 @@ class Walker {
   /// Class or deviations of the tolerances. @returns why they cannot be used
   std::string take_tolerances(std::uint32_t id, Found& found, DrawnSize& size) {
     for (const auto& [_, each] : linked(Group::Tolerance, id)) {
-      const auto fit = record(each, "LIMITS_AND_FITS", id);
+      const auto fit = record_of(file_, each, "LIMITS_AND_FITS", id);
       if (fit.size() >= 3) {
         std::string grade = text_of(fit[2]);
         if (ascii_upper(grade).starts_with("IT")) grade.erase(0, 2);
         found.class_name = std::string(trim(text_of(fit[0]))) + std::string(trim(grade));
         found.zone = iso286::feature_from_word(ascii_lower(trim(text_of(fit[1]))));
       }
-      const auto range = record(each, "TOLERANCE_VALUE", id);
+      const auto range = record_of(file_, each, "TOLERANCE_VALUE", id);
       if (range.size() != 2 || !range[0].is(Kind::Reference) || !range[1].is(Kind::Reference))
         continue;
-      const auto low = value(range[0].id, each).length;
-      const auto high = value(range[1].id, each).length;
+      const auto low = values_.read(range[0].id, each).length;
+      const auto high = values_.read(range[1].id, each).length;
       if (!low || !high) return "an angle is not gauged here";
       const std::string both = fmt::format("lower deviation {} µm, upper deviation {} µm",
                                            signed_um(*low), signed_um(*high));
@@ -447,8 +346,9 @@ class Walker {
     if (entity.group == Group::Angle) return "an angle is not gauged here";
     size.quantity = Quantity::Distance;
     if (entity.group == Group::Size) {
-      const auto own = record(
-          id, entity.name == "DIMENSIONAL_SIZE_WITH_PATH" ? entity.name : "DIMENSIONAL_SIZE");
+      const auto own =
+          record_of(file_, id,
+                    entity.name == "DIMENSIONAL_SIZE_WITH_PATH" ? entity.name : "DIMENSIONAL_SIZE");
       const std::string name = own.size() > 1 ? ascii_lower(text_of(own[1])) : std::string();
       for (const auto& [part, quantity] : kQuantities) {
         if (name.find(part) == std::string::npos) continue;
@@ -507,9 +407,9 @@ class Walker {
   const Part21& file_;
   const iso286::ToleranceTables& tables_;
   Drawing& to_;
+  Values values_;
   std::size_t link_count_ = 0;
   std::array<std::vector<Link>, kEntities.size()> links_;
-  std::map<std::uint32_t, double> units_;
   std::map<std::string, int> names_;
   std::set<std::uint32_t> seen_;
 };
