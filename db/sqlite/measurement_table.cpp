@@ -14,7 +14,6 @@ namespace fitgauge::store::sqlite {
 namespace {
 
 constexpr std::size_t kMostRowsPerStatement = 32;
-constexpr std::uint64_t kAllFields = ~std::uint64_t{0};
 /// Cached statements, one for each combination of fields; beyond that, the one with all columns.
 constexpr std::size_t kMostStatements = 64;
 
@@ -27,7 +26,11 @@ bool is_given(const std::optional<T>& value) {
   return value.has_value();
 }
 
-bool contains(std::uint64_t fields, unsigned bit) { return ((fields >> bit) & 1U) != 0; }
+constexpr unsigned kFields = [] {
+  unsigned count = 0;
+  for_each_field(MeasurementRow(), [&count](std::string_view, const auto&) { ++count; });
+  return count;
+}();
 
 }  // namespace
 
@@ -50,6 +53,7 @@ void MeasurementTable::append(std::span<const MeasurementRow> rows) {
 }
 
 MeasurementTable::Fields MeasurementTable::fields_of(std::span<const MeasurementRow> rows) {
+  static_assert(kFields <= 8 * sizeof(Fields));
   Fields fields = 0;
   for (const MeasurementRow& row : rows) {
     unsigned bit = 0;

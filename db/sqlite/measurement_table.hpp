@@ -26,7 +26,7 @@ class MeasurementTable final : public sql::MeasurementTable {
 
  private:
   /// A set of fields, one bit each in the order of for_each_field.
-  using Fields = std::uint64_t;
+  __extension__ using Fields = unsigned __int128;
   /// What a statement is made for.
   struct Shape {
     Fields fields = 0;
@@ -36,6 +36,8 @@ class MeasurementTable final : public sql::MeasurementTable {
     friend auto operator<=>(const Shape&, const Shape&) = default;
   };
 
+  static constexpr Fields kAllFields = ~Fields{0};
+  static bool contains(Fields fields, unsigned bit) { return ((fields >> bit) & 1U) != 0; }
   static Fields fields_of(std::span<const MeasurementRow> rows);
   static std::string insert_sql(const Shape& shape);
   std::pair<const Shape, Prepared>& statement_for(const Shape& shape);

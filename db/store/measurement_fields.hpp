@@ -10,7 +10,7 @@ namespace fitgauge::store {
 /// Calls `field(column, value)` for what a measurement says, all but its id and hash. The one place
 /// where rows and columns meet.
 template <class Row, class Field>
-void for_each_field(Row&& row, Field&& field) {
+constexpr void for_each_field(Row&& row, Field&& field) {
   field("source", row.source);
   field("measured_at", row.measured_at_ns);
   field("received_at", row.received_at_ns);

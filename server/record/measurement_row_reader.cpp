@@ -76,6 +76,7 @@ void MeasurementRowReader::report_row(ErrorCode code, std::string message) {
 bool MeasurementRowReader::field(std::string_view name, const RawValue& value) {
   const std::size_t field = find_field(name);
   if (field == RowField::Count || given(field)) return false;
+  static_assert(RowField::Count <= 8 * sizeof(draft_.given));
   draft_.given |= std::uint64_t{1} << field;
   assign(field, value);
   return true;
