@@ -29,15 +29,15 @@ void rest(const std::stop_token& stop) {
   over.wait_for(lock, stop, kRest, [] { return false; });
 }
 
-/// Gives the calling thread a name that `top -H` shows.
-void show_as(std::string_view place) {
+/// Gives a thread a name that `top -H` shows.
+void show_as(pthread_t thread, std::string_view place) {
   constexpr std::size_t kLongestName = 15;  // of the kernel
   for (const std::string_view article : {"a ", "an ", "the "}) {
     if (!place.starts_with(article)) continue;
     place.remove_prefix(article.size());
     break;
   }
-  pthread_setname_np(pthread_self(), std::string(place.substr(0, kLongestName)).c_str());
+  pthread_setname_np(thread, std::string(place.substr(0, kLongestName)).c_str());
 }
 
 }  // namespace
@@ -50,9 +50,10 @@ void report_bug(std::string_view place, std::string_view what) noexcept {
 
 Thread::Thread(std::string_view place, Body body)
     : thread_([place, body = std::move(body)](const std::stop_token& stop) {
-        show_as(place);
         while (!guarded(place, [&] { body(stop); }) && !stop.stop_requested()) rest(stop);
-      }) {}
+      }) {
+  show_as(thread_.native_handle(), place);
+}
 
 void Thread::stop() {
   thread_.request_stop();
