@@ -82,7 +82,7 @@ Result<iso286::FitDesignation> of_one_segment(const http::Request& request) {
 /// chooses them.
 template <class Designation>
 http::AsyncHandler answer_fit(const Services& services, const std::shared_ptr<ResponseCache>& cache,
-                              const Designation& designation_of) {
+                              Designation designation_of) {
   auto from_tables = ResponseCache::of_revision(
       cache,
       [designation_of](const http::Request& request,
