@@ -109,8 +109,9 @@ void write_block(BlockWriter& out, const Plane& plane) {
       kFeedsAndM | LetterSet(Letter::Mb, Letter::MbMax, Letter::Dist, Letter::Seq, Letter::Sym,
                              Letter::TableRot, Letter::CoordRot);
   out.write("PLANE ").write(kPlaneKinds[static_cast<std::size_t>(plane.kind)]);
-  std::string mark(kPlanePositionings[static_cast<std::size_t>(plane.positioning)]);
-  if (!mark.empty()) mark.insert(0, " ");
+  const std::string_view how = kPlanePositionings[static_cast<std::size_t>(plane.positioning)];
+  std::string mark(how.empty() ? "" : " ");
+  mark += how;
   out.words(plane.words, mark, kBehind);
 }
 
