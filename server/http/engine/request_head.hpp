@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/result.hpp"
+
 namespace fitgauge::http {
 
 /// Why a request is refused before its handler runs.
