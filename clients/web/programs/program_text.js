@@ -23,7 +23,7 @@ export class ProgramText {
 
   /**
    * @param leaving the signal of the view that is left
-   * @param onLine takes the number of a line that was touched, and its program where that is a called one; @param onState is called when the text is stored or not any more
+   * @param onLine takes the number of a line that was touched, and its program if that is a called one; @param onState is called when the text is stored or changed
    * @param onStore called on Ctrl+S
    */
   constructor({ leaving, onLine, onState, onStore }) {

@@ -188,7 +188,7 @@ export class ControlChart {
       ctx.fillText(...text);
     };
     for (const [i, x] of inSight(plot, this.firsts, APART.rules * size)) write([...rules.get(i)].join(','), x, plot.valToPos(row.data[i], 'nm', true) - 13 * size);
-    // What was done at a value stands below it, at the foot of the values.
+    // Marks of notes and corrections stand below their value, at the foot of the chart.
     const foot = plot.valToPos(this.range.low, 'nm', true) - 4 * size;
     for (const [i, x] of inSight(plot, this.events.keys(), APART.events * size)) write(this.events.get(i).map((name) => t(`trend.event.${name}`)).join(''), x, foot);
     // A point beyond the edge: an arrow with its distance.

@@ -52,7 +52,7 @@ class CertificateDraft {
   app::VerdictTally verdicts_{};
   std::string records_;  ///< JSON, with commas between them
   std::vector<certificate::Line> lines_;
-  /// What the records say of a gauge.
+  /// A gauge, as the records name it.
   struct UsedGauge {
     std::string name{};
     std::string budget{};

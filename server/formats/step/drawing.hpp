@@ -31,7 +31,7 @@ struct DrawnSize {
   std::vector<std::string> remarks{};
 };
 
-/// What stands in the file and is not gauged here, or cannot be as it stands.
+/// An entry of the file that is not gauged here, or cannot be as it stands.
 struct NotRead {
   std::string entity{};
   std::string name{};

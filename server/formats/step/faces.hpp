@@ -9,7 +9,7 @@
 
 namespace fitgauge::step {
 
-/// What the faces of a dimension show of it.
+/// The shape of a dimension, as its faces show it.
 struct Shape {
   std::optional<iso286::Feature> feature{};  ///< none unless all faces agree
   std::int64_t count = 1;                    ///< of axes: `4X` is four bores

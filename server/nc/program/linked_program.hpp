@@ -15,7 +15,7 @@
 
 namespace fitgauge::interpreter {
 
-/// What a program is called when `caller` names it without one: `CALL PGM 82551`, `%82551`.
+/// The extension of a program that `caller` names without one: `CALL PGM 82551`, `%82551`.
 inline std::string_view program_extension(const ControlPath& caller) {
   return caller.key().ends_with(".i") ? ".I" : ".H";
 }
