@@ -17,7 +17,6 @@ namespace {
 
 using gauging::Quantity;
 using iso286::Feature;
-using Kind = Parameter::Kind;
 
 enum class Group : std::uint8_t {
   NotGauged,

@@ -26,6 +26,7 @@ struct Parameter {
 
   bool is(Kind other) const { return kind == other; }
 };
+using Kind = Parameter::Kind;
 
 /// `NAME(…)`: a record of an instance or a typed parameter.
 struct Record {

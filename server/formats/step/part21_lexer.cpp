@@ -102,7 +102,6 @@ bool Lexer::reference(Parameter& to) {
 }
 
 bool Lexer::parameter(Parameter& to, int deep) {
-  using Kind = Parameter::Kind;
   const std::size_t begin = at_;
   const char first = peek();
   bool is_read = true;

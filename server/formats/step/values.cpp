@@ -11,8 +11,6 @@
 namespace fitgauge::step {
 namespace {
 
-using Kind = Parameter::Kind;
-
 /// Millimetres of a metre with a prefix of SI_UNIT.
 constexpr std::array<std::pair<std::string_view, double>, 7> kMetres = {{
     {"", 1e3},
