@@ -290,7 +290,7 @@ void LogFollower::take(const Delivery& delivery, std::size_t measurements) {
   is_dirty_ = is_dirty_ || delivery.dealt_with > 0;
   for (const DeadLetter& letter : delivery.refused) {
     progress_.refuse(letter);
-    plant_.tell("connection_refused",
+    plant_.tell("connection_measurement_refused",
                 fmt::format("{}: {}: {}", options_.name, letter.measurement, letter.reason));
   }
   change([&](ConnectionState& state) {

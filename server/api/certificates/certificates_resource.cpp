@@ -30,7 +30,7 @@ Result<CertificateOrder> order_of(const http::Request& request) {
     return Error{ErrorCode::QueryMissing,
                  "a certificate is of an order or of a part: give order, part_id or both", "order"};
   }
-  order.title = request.text("title").value_or("Inspection certificate");
+  order.title = request.text("title").value_or("Inspection report");
   order.company = request.text("company").value_or("");
   order.customer = request.text("customer").value_or("");
   order.paper =
@@ -99,7 +99,7 @@ std::vector<http::Parameter> parameters() {
   const std::vector<http::Parameter> others = {
       {.name = "title",
        .type = http::Text{200},
-       .description = "Its first line; Inspection certificate when absent"},
+       .description = "Its first line; Inspection report when absent"},
       {.name = "company", .type = http::Text{200}, .description = "Who makes it out"},
       {.name = "customer", .type = http::Text{200}, .description = "For whom"},
       {.name = "paper", .type = http::Words{{"a4", "letter"}}, .description = "a4 when absent"},
@@ -114,7 +114,7 @@ void add_certificates_routes(std::vector<http::Route>& routes, const Services& s
   routes.push_back({
       .pattern = "/v1/certificates",
       .handler = with(services, make_certificate),
-      .summary = "Inspection certificate of an order or a part",
+      .summary = "Inspection report of an order or a part",
       .description =
           "Every value of the order, the part or both, in storage order, with limits, verdict, "
           "rule, gauge and the "

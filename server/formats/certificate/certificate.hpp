@@ -28,7 +28,7 @@ struct Column {
   std::string Line::*text = nullptr;
 };
 
-/// What an inspection certificate says, or another report of that form.
+/// What an inspection report says, or another report of that form.
 struct Certificate {
   std::string title{};
   std::vector<std::string> facts{};  ///< lines below the title: what it is of, when it was made

@@ -144,7 +144,7 @@ class Intake(unittest.TestCase):
             "two rows": (batch(self.station, swapped, note=note), "log.root_mismatch"),
             "a row less": (batch(self.station, records[:-1], note=note), "request.invalid"),
             "the root": (batch(self.station, records, note=re.sub(r"\n[^\n]+=\n\n", lambda root: "\n" + flip(
-                root.group().strip()) + "\n\n", note)), "note.unverified"),
+                root.group().strip()) + "\n\n", note)), "log_note.unverified"),
             "no heading": ("\n".join(records), "request.invalid"),
             "a member more": (whole.replace('{"basis"', '{"aaa":1,"basis"', 1), "log.root_mismatch"),
             "no JSON": (whole.replace('"basis"', 'basis', 1), "json.malformed"),

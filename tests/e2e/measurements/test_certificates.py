@@ -38,7 +38,7 @@ class Certificates(DaemonTest):
         for part in range(60):
             self.assertEqual(len(re.findall(rf"SN-{part:02d}\b", text)), 1, part)
         self.assertIn("60 measured values: 22 good, 0 rework, 38 reject, 0 indeterminate.", text)
-        for word in ("Inspection certificate", "Muster GmbH", "Customer: Öhler & Co", "Order: WO-1", "25.000 to 25.021",
+        for word in ("Inspection report", "Muster GmbH", "Customer: Öhler & Co", "Order: WO-1", "25.000 to 25.021",
                      "Bohrung Ø", "чертежу", "G-07", "fitgauge/"):
             self.assertIn(word, text)
         self.assertNotIn("u 0.801", text)

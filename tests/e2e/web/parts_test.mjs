@@ -168,7 +168,7 @@ describe('the parts', () => {
     ]);
     assert.equal(sheet.headers()['content-type'], 'application/pdf');
     const asked = Object.fromEntries(new URL(sheet.url()).searchParams);
-    assert.deepEqual(asked, { order: 'WO-9', title: 'Inspection certificate', company: 'Muster GmbH & Co.', customer: 'ACME', paper: 'letter' });
+    assert.deepEqual(asked, { order: 'WO-9', title: 'Inspection report', company: 'Muster GmbH & Co.', customer: 'ACME', paper: 'letter' });
     await page.reload();
     await page.waitForSelector('.records tbody tr');
     await page.click('.certificate summary');
