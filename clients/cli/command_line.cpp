@@ -41,7 +41,7 @@ void add_common(CLI::App& app, CommonOptions& common) {
   app.add_option("--cert-key", common.certificate_key_file, "Private key of --cert (PEM)");
   app.add_flag("--json", common.json, "Print the documents of the service");
   app.add_option("--retry", common.retry_seconds,
-                 "Seconds a write waits for the service in all; measure: 60, others: 0")
+                 "Seconds a write waits for the service in all; import: 60, others: 0")
       ->check(CLI::Range(0, 86'400));
 }
 
@@ -147,7 +147,7 @@ int run_command_line(int argc, char** argv) {
   add_commands(app, action);
   try {
     app.parse(argc, argv);
-    if (app.got_subcommand("measure") && app.count("--retry") == 0) {
+    if (app.got_subcommand("import") && app.count("--retry") == 0) {
       common.retry_seconds = kMeasureRetrySeconds;
     }
     for (int i = 1; i < argc; ++i) {

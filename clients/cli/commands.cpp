@@ -170,6 +170,25 @@ void add_tables(CLI::App& app, Action& chosen) {
   out->add_option("--classes", options->classes, "Only these classes: H7,JS7");
   out->add_option("--revision", options->revision, "As the tables were");
   out->add_option("--output,-o", options->output, "File, else standard output");
+  const auto classes = [](const std::string& feature) {
+    return StoredKind{
+        "", "", "", feature == "hole" ? "/v1/tables/hole/classes" : "/v1/tables/shaft/classes", ""};
+  };
+  const auto of_feature = CLI::IsMember({"hole", "shaft"});
+  add_words(*tables, "set", "Store a custom tolerance class: tables set hole PRESS press.json",
+            chosen, {"feature", "name", "file"}, 3,
+            [classes](const Context& context, const Words& words) {
+              return run_stored_put(context, classes(words[0]), words[1], words[2]);
+            })
+      ->get_option("feature")
+      ->check(of_feature);
+  add_words(*tables, "reset", "Delete a custom tolerance class: the standard applies again", chosen,
+            {"feature", "name"}, 2,
+            [classes](const Context& context, const Words& words) {
+              return run_stored_rm(context, classes(words[0]), words[1]);
+            })
+      ->get_option("feature")
+      ->check(of_feature);
 }
 
 void add_watch(CLI::App& app, Action& chosen) {

@@ -143,7 +143,7 @@ std::string format_limits(const JsonValue& limits, const Terminal& terminal) {
   const JsonValue& range = limits.member("size_range_mm");
   std::string text =
       fmt::format("{}  {}{}\n", limits.text_of("designation"), limits.text_of("feature"),
-                  limits.text_of("basis") == "custom" ? ", a column of the shop's own" : "");
+                  limits.text_of("basis") == "custom" ? ", custom tolerance class" : "");
   text += fmt::format("upper limit  {:{}}  {} {} {}\n", sizes[0], width, zone.upper_name,
                       signed_text(limits.text_of("upper_deviation_um")), unit);
   text += fmt::format("lower limit  {:{}}  {} {} {}\n", sizes[1], width, zone.lower_name,

@@ -27,7 +27,7 @@ struct MeasureOptions {
   bool exit_verdict = false;  ///< the exit code is the worst verdict
 };
 
-/// `fitgauge measure`: stores the rows of a CSV, chunk by chunk, each with an idempotency key of
+/// `fitgauge import`: stores the rows of a CSV, chunk by chunk, each with an idempotency key of
 /// its own. What is stored, and what was sent last, is in the journal before it is needed: a run
 /// that was stopped at any moment goes on where it was and stores nothing twice.
 Outcome<ExitCode> run_measure(const Context& context, const MeasureOptions& options);

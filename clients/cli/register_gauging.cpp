@@ -77,8 +77,9 @@ void add_gauge(CLI::App& app, Action& chosen) {
 void add_measure(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<MeasureOptions>();
   CLI::App* measure =
-      add_command(app, "measure", "Store the rows of a CSV file, or the values of a DFQ", chosen,
-                  options, run_measure);
+      add_command(app, "import", "Store the rows of a CSV file, or the values of a DFQ", chosen,
+                  options, run_measure)
+          ->alias("measure");
   measure->add_option("file", options->input, "CSV file or DFQ, or - for standard input")
       ->required();
   measure->add_option("--state", options->state_file, "File that says how far a stopped run was");

@@ -70,11 +70,12 @@ void add_listed(CLI::App& app, Action& chosen) {
 
   const auto said = std::make_shared<NoteOptions>();
   CLI::App* note = add_command(
-      app, "note", "Note a cause or measure beside a record; without one, show its notes", chosen,
+      app, "note", "Add a cause or an action to a measurement; without one, show its notes", chosen,
       said, run_note);
   note->add_option("id", said->id, "The record")->required();
   note->add_option("--cause", said->cause, "Why the value is what it is");
-  note->add_option("--measure", said->measure, "What was done about it");
+  note->add_option("--action", said->measure, "Action that was taken");
+  note->add_option("--measure", said->measure, "Another name of --action");
   note->add_option("--text", said->text, "Whatever else");
   note->add_option("--operator", said->operator_name, "Who says so");
 }

@@ -115,7 +115,7 @@ const std::vector<Setting>& settings() {
        .texts = &Config::listen},
       {.name = "data", .help = "Folder of the database", .text = &Config::data},
       {.name = "database",
-       .help = "PostgreSQL that several daemons share, as postgresql://host/name; empty: a file in "
+       .help = "PostgreSQL that several services share, as postgresql://host/name; empty: a file in "
                "data",
        .text = &Config::database},
       {.name = "origin-name",

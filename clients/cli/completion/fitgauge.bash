@@ -4,7 +4,7 @@
 _fitgauge() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
   local common='--server --key-file --ca --cert --cert-key --json --retry --help'
-  local commands='limits fit fits limit-gauge standards gauge measure list export summary capability chart statistics
+  local commands='limits fit fits limit-gauge standards gauge import list export summary capability chart statistics
     correct note plan nc setups budgets gauges runs control replay tables watch version completion'
   COMPREPLY=()
 
@@ -68,7 +68,7 @@ _fitgauge() {
                --part-id --characteristic --order --operation --machine --operator --gauge --unit --subgroup --tool --offset-um --confirmed --measured-at --temperature-c --comment --feature --upper-um --lower-um
                --degrees-of-freedom --quantity --size-operator --envelope --go-gauge
                --serial --baud --pattern' ;;
-    measure) options='--state --chunk --map --set --time-zone --length-unit --encoding --leave-out-others --again --exit-verdict' ;;
+    import | measure) options='--state --chunk --map --set --time-zone --length-unit --encoding --leave-out-others --again --exit-verdict' ;;
     list) options="$filters --limit --after" ;;
     export) options="$filters --format --time-zone --output" ;;
     summary) options="$filters --group-by" ;;
@@ -76,7 +76,7 @@ _fitgauge() {
     capability) options="$filters --target-mm --confidence --subgroups" ;;
     chart) options="$filters --kind --rules --subgroups" ;;
     correct) options='--reason' ;;
-    note) options='--cause --measure --text --operator' ;;
+    note) options='--cause --action --measure --text --operator' ;;
     fits) options='--min-um --max-um --limit' ;;
     standards)
       options=--size-mm
@@ -103,7 +103,8 @@ _fitgauge() {
     completion) ((${#words[@]} > 1)) || options='bash fish zsh' ;;
     tables)
       case ${words[1]-} in
-        '') options=export ;;
+        '') options='export set reset' ;;
+        set | reset) ((${#words[@]} > 2)) || options='hole shaft' ;;
         export)
           options='--classes --revision --output --format'
           ((${#words[@]} > 2)) || options+=' hole shaft' ;;
@@ -118,7 +119,7 @@ _fitgauge() {
       esac ;;
   esac
   case ${words[*]} in
-    measure | plan\ from\ * | nc\ check\ * | nc\ format\ * | nc\ check | nc\ format | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
+    import | measure | tables\ set\ *\ * | plan\ from\ * | nc\ check\ * | nc\ format\ * | nc\ check | nc\ format | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
   esac
   _fitgauge_words "$options $common"
 }

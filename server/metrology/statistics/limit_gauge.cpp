@@ -77,7 +77,7 @@ Result<LimitGauge> limit_gauge(const iso286::LimitsOfSize& limits, std::string_v
   const auto standard = iso286::class_from_name(class_name);
   if (!standard || limits.basis != iso286::Basis::Iso286) {
     return without_value(
-        fmt::format("{} is a column of the shop's own: gauges go by the standard "
+        fmt::format("{} is a custom tolerance class: gauges go by the standard "
                     "tolerance grades",
                     class_name));
   }

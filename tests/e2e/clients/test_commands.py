@@ -60,6 +60,16 @@ class Tables(ClientTest):
         self.assertEqual(document["feature"], "shaft")
         self.assert_fails(4, "tables", "export", "hole", "--format", "tab", "--classes", "H7")
 
+    def test_a_custom_tolerance_class(self):
+        (self.client.folder / "press.json").write_text(
+            '{"rows":[{"over_mm":18,"up_to_mm":30,"upper_um":15,"lower_um":-3}]}')
+        self.assert_runs(0, "tables", "set", "hole", "PRESS", "press.json")
+        self.assertRegex(self.assert_runs(0, "limits", "25PRESS"), r"custom tolerance class\nupper limit  25\.015 mm")
+        self.assert_runs(0, "tables", "reset", "hole", "PRESS")
+        self.assert_fails(7, "limits", "25PRESS")
+        self.assert_fails(7, "tables", "reset", "hole", "PRESS")
+        self.assert_fails(4, "tables", "set", "bore", "PRESS", "press.json")
+
     def test_version(self):
         self.assertRegex(self.assert_runs(0, "version"),
                          r"^fitgauge \d+\.\d+\.\d+\nfitgauged \d+\.\d+\.\d+ at http://127\.0\.0\.1:")

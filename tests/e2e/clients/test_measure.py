@@ -1,4 +1,4 @@
-"""fitgauge measure: every row is stored once, however often it is stopped.
+"""fitgauge import: every row is stored once, however often it is stopped.
 
 $MEASURE_ROUNDS sets how often a run is stopped, 12 when absent; $SEED repeats the bytes at which it is stopped.
 """

@@ -11,14 +11,14 @@ import unittest
 from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT
 
-COMMANDS = ("limits", "fit", "fits", "limit-gauge", "standards", "gauge", "measure", "list", "export", "summary",
+COMMANDS = ("limits", "fit", "fits", "limit-gauge", "standards", "gauge", "import", "list", "export", "summary",
             "capability", "chart", "statistics", "correct", "note", "plan", "nc", "setups", "budgets", "gauges", "runs", "control", "replay",
             "tables", "watch", "version", "completion")
 SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "plan", "tables", "setups", "budgets", "gauges", "runs", "control")] + [
     ("control", name) for name in ("ls", "get", "put", "run", "state")] + [
     (kind, name) for kind in ("setups", "budgets", "gauges") for name in ("ls", "put", "get", "rm")] + [
     ("runs", name) for name in ("ls", "show", "get", "cancel")] + [
-    ("nc", name) for name in ("ls", "put", "get", "check", "format", "run")] + [("tables", "export"), ("plan", "from")]
+    ("nc", name) for name in ("ls", "put", "get", "check", "format", "run")] + [("tables", name) for name in ("export", "set", "reset")] + [("plan", "from")]
 
 
 def options(program, *command):
@@ -75,12 +75,12 @@ class Manual(unittest.TestCase):
 class Completion(unittest.TestCase):
     def test_every_command_is_offered(self):
         self.assertEqual(completions(""), set(COMMANDS))
-        self.assertEqual(completions("me"), {"measure"})
+        self.assertEqual(completions("im"), {"import"})
         self.assertEqual(completions("nc", ""), {"check", "format", "run", "put", "get", "ls"})
         self.assertEqual(completions("setups", ""), {"ls", "put", "get", "rm"})
         self.assertEqual(completions("runs", ""), {"ls", "show", "get", "cancel"})
         self.assertEqual(completions("control", ""), {"ls", "get", "put", "run", "state"})
-        self.assertEqual(completions("--server", "x", "--json", "tables", ""), {"export"})
+        self.assertEqual(completions("--server", "x", "--json", "tables", ""), {"export", "set", "reset"})
 
     def test_every_option_is_offered_where_it_is_taken(self):
         common = options(FITGAUGE)
@@ -92,6 +92,7 @@ class Completion(unittest.TestCase):
 
     def test_words_that_an_option_or_a_command_takes(self):
         self.assertEqual(completions("tables", "export", ""), {"hole", "shaft"})
+        self.assertEqual(completions("tables", "reset", ""), {"hole", "shaft"})
         self.assertEqual(completions("tables", "export", "hole", ""), set())
         self.assertEqual(completions("tables", "export", "hole", "--format", ""), {"csv", "json", "tab"})
         self.assertEqual(completions("export", "--format", ""), {"csv", "ndjson", "dfq", "qif", "xlsx"})
@@ -126,7 +127,7 @@ class Completion(unittest.TestCase):
             script = f"{FITGAUGE} completion fish | source; complete -C {line!r}"
             done = subprocess.run(["fish", "--no-config", "-c", script], capture_output=True, text=True, check=True, timeout=60)
             return {entry.split("\t")[0] for entry in done.stdout.splitlines()}
-        self.assertEqual(offered("fitgauge me"), {"measure"})
+        self.assertEqual(offered("fitgauge im"), {"import"})
         self.assertEqual(offered("fitgauge nc "), {"ls", "put", "get", "check", "format", "run"})
         self.assertLessEqual({"--setup", "--on-stop"}, offered("fitgauge nc run --"))
 

@@ -1,4 +1,4 @@
-"""QIF 3.0 in watched folders, in lists and in `fitgauge measure`: read by the XML parser of Python, held against the
+"""QIF 3.0 in watched folders, in lists and in `fitgauge import`: read by the XML parser of Python, held against the
 schemas where QIF_SCHEMAS names their folder, and the same records when what was written comes in again."""
 
 import decimal

@@ -6,7 +6,11 @@ A fenced block says in its first line what becomes of it:
     console       lines with `$ ` are run, and what stands below each is what it prints; … is any text
     python        is run
     … needs-X     is run where the Python module X can be imported, and else only compiled
-    sh not-run    is only read by the shell, for it needs what a test has not: a container engine, systemd
+    sh not-run    is only read by the shell: it needs a container engine or builds the product
+    sh example    is only read by the shell: it needs a device, a control or another machine
+
+A block without a language holds no command. The shell of the blocks has no variable of the test's: `fitgauge` and
+`curl` find the service at the default address, as they do for a reader.
 """
 
 import importlib.util
@@ -18,15 +22,22 @@ import stat
 import subprocess
 import sys
 import tempfile
+import textwrap
 
 from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT
 from support.ports import free_port
 from support.waiting import PATIENCE
 
-BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^( *)```([^\n]*)\n(.*?)^\1```$", re.MULTILINE | re.DOTALL)
 # Where a document names a place of the machine, the test has a folder of its own.
 PLACES = re.compile(r"(?<![\w./:$-])/(backup|restore|etc|usr/local|usr/share|var/lib)\b")
+
+# The programs as a reader has them on the PATH, with the test's service behind the default address.
+FITGAUGE_AT_PORT = """#!/bin/bash
+export FITGAUGE_SERVER="${{FITGAUGE_SERVER:-http://127.0.0.1:{port}}}"
+exec {program} "$@"
+"""
 
 # curl as it is, but: localhost:8286 is the test's service, an error is an error, and what has no end is
 # read for a second.
@@ -70,10 +81,10 @@ class Block:
     def __init__(self, document, match):
         self.document = document
         self.line = document.count("\n", 0, match.start()) + 2
-        self.language, *flags = match[1].split() or [""]
+        self.language, *flags = match[2].split() or [""]
         self.flags = set(flags)
         self.modules = [flag.removeprefix("needs-") for flag in flags if flag.startswith("needs-")]
-        self.text = match[2]
+        self.text = textwrap.dedent(match[3])
 
     def commands(self):
         """Of `console`: each command with what it prints. A command goes on after a line that ends in \\."""
@@ -106,7 +117,8 @@ def agrees(shown, printed):
 class Reader:
     """A folder that looks like the repository, a service, and a shell that keeps its directory and variables."""
 
-    def __init__(self):
+    def __init__(self, installed=True):
+        """@param installed  the programs are on the PATH; else the reader has built them and no more."""
         self.holder = tempfile.TemporaryDirectory(prefix="fitgauge-docs-")
         self.folder = pathlib.Path(self.holder.name)
         self.state = self.folder / "state"
@@ -118,20 +130,20 @@ class Reader:
         for path in ROOT.iterdir():
             if not (self.tree / path.name).exists():
                 (self.tree / path.name).symlink_to(path)
-        for program in map(pathlib.Path, (FITGAUGE, FITGAUGED)):
-            (self.tree / "build/release/bin" / program.name).symlink_to(program.resolve())
-            (self.folder / "bin" / program.name).symlink_to(program.resolve())
+        port = str(free_port())
         self.provide("curl", CURL)
         self.provide("systemctl", SYSTEMCTL)
-        port = str(free_port())
+        built = self.tree / "build/release/bin"
+        self.provide(built / "fitgauge", FITGAUGE_AT_PORT.format(port=port, program=pathlib.Path(FITGAUGE).resolve()))
+        (built / "fitgauged").symlink_to(pathlib.Path(FITGAUGED).resolve())
         self.environment = {
             **{name: value for name, value in os.environ.items() if not name.startswith(("FITGAUGE", "XDG_"))},
             "HOME": str(self.folder), "LC_ALL": "C.UTF-8",
-            "PATH": f"{self.folder}/bin:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}",
+            "PATH": f"{self.folder}/bin:{str(built) + ':' if installed else ''}{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}",
             "DOCS_TEST_STATE": str(self.state), "DOCS_TEST_DATA": str(self.data),
             "DOCS_TEST_BINARY": str(pathlib.Path(FITGAUGED).resolve()), "DOCS_TEST_PORT": port,
-            "FITGAUGE_SERVER": f"http://127.0.0.1:{port}",
             "PYTHONPATH": str(ROOT / "clients/python"), "PYTHONDONTWRITEBYTECODE": "1"}
+        self.server = f"http://127.0.0.1:{port}"
         for name, text in (("environment", ""), ("directory", str(self.tree))):
             (self.state / name).write_text(text)
         self.shell("systemctl start fitgauged")
@@ -157,17 +169,18 @@ class Reader:
 
     def python(self, text):
         directory = (self.state / "directory").read_text().strip()
-        return self.check([sys.executable, "-W", "error", "-c", self.placed(text)], text, directory)
+        return self.check([sys.executable, "-W", "error", "-c", self.placed(text)], text, directory,
+                          {"FITGAUGE_SERVER": self.server})
 
-    def check(self, command, text, directory=None):
+    def check(self, command, text, directory=None, variables=None):
         done = subprocess.run(command, capture_output=True, text=True, timeout=3 * PATIENCE, check=False, cwd=directory,
-                              stdin=subprocess.DEVNULL, env=self.environment)
+                              stdin=subprocess.DEVNULL, env={**self.environment, **(variables or {})})
         if done.returncode != 0:
             raise AssertionError(f"{text}\nended with {done.returncode}: {done.stdout}{done.stderr}")
         return done.stdout
 
     def run(self, block):
-        if "not-run" in block.flags:
+        if block.flags & {"not-run", "example"}:
             self.check(["bash", "-n", "-c", block.text], block.text)
         elif block.language == "sh":
             printed = self.shell(block.text)
