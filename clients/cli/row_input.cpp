@@ -14,7 +14,6 @@
 #include "cli/problem.hpp"
 #include "formats/dfq/measurement_csv.hpp"
 #include "formats/qif/qif_csv.hpp"
-#include "formats/sheet/measurement_fields.hpp"
 #include "formats/sheet/record_reader.hpp"
 #include "formats/sheet/shop_csv.hpp"
 

@@ -1,15 +1,17 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "api/services.hpp"
 #include "api/wire/response_cache.hpp"
+#include "base/json/schema.hpp"
 #include "http/route.hpp"
 
-// One function adds the routes of each resource. Services outlive the routes.
-
 namespace fitgauge::api {
+
+// One function adds the routes of each resource. Services outlive the routes.
 
 /// /v1/limits: the limits of size of one designation.
 void add_limits_routes(std::vector<http::Route>& routes,
@@ -74,5 +76,67 @@ void add_events_routes(std::vector<http::Route>& routes, const Services& service
 void add_service_routes(std::vector<http::Route>& routes, const Services& services);
 /// The web page at / and the files it is made of below /web/.
 void add_page_routes(std::vector<http::Route>& routes);
+
+/// Every operation of the service. /openapi.json is made from the others.
+/// @param services outlive the routes.
+/// @param of_plant, schemas the routes and the components of the rooms above
+http::RouteTable make_routes(const Services& services, std::vector<http::Route> of_plant,
+                             const Schemas& schemas);
+
+// The components of /openapi.json: each room describes the bodies it reads and the answers it
+// gives. Setups describe themselves (runs/setup_codec.hpp).
+
+void add_limits_schemas(Schemas& schemas);
+void add_gauges_schemas(Schemas& schemas);
+void add_statistics_schemas(Schemas& schemas);
+void add_uncertainty_schemas(Schemas& schemas);
+void add_changes_schemas(Schemas& schemas);
+void add_documents_schemas(Schemas& schemas);
+void add_compensation_schemas(Schemas& schemas);
+void add_measurement_schemas(Schemas& schemas);
+void add_note_schemas(Schemas& schemas);
+void add_table_schemas(Schemas& schemas);
+void add_plan_schemas(Schemas& schemas);
+void add_parts_schemas(Schemas& schemas);
+void add_file_schemas(Schemas& schemas);
+void add_run_schemas(Schemas& schemas);
+void add_diagnostic_schemas(Schemas& schemas);
+void add_cycle_schemas(Schemas& schemas);
+void add_service_schemas(Schemas& schemas);
+
+/// @param of_plant those of the rooms above
+Schemas make_schemas(const Schemas& of_plant = {});
+
+// What several rooms say in the same words.
+
+/// What a class of the tables gives, with the limits of a drawing what is not of the tables absent.
+schema::Fields limits_fields();
+/// Beside the limits: the measured value and what follows from it.
+schema::Fields verdict_fields();
+/// The warnings beside a verdict.
+schema::Fields warnings_field();
+
+/// What an answer was computed by.
+schema::Fields formula_fields();
+
+/// Which stored measurements a figure is of.
+schema::Fields selection_field();
+
+inline std::string verdict_words() {
+  return schema::words({"good", "rework", "reject", "indeterminate"});
+}
+std::string quantity_words();
+inline std::string feature_words() { return schema::words({"hole", "shaft"}); }
+inline std::string rule_words() { return schema::words({"simple", "guard_band", "conformance"}); }
+inline std::string source_words() { return schema::words({"gauge", "simulation"}); }
+
+/// Gives each schema that has none an example, made of its members and of the examples it names.
+void add_examples(Schemas& schemas);
+
+/// The OpenAPI 3.1 document of the routes. @param of_plant as make_schemas
+std::string openapi_json(const std::vector<http::Route>& routes, const Schemas& of_plant);
+
+/// Adds GET /openapi.json, which describes the routes before it and itself.
+void add_openapi_route(std::vector<http::Route>& routes, const Schemas& of_plant);
 
 }  // namespace fitgauge::api

@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <memory>
+#include <string_view>
 
 #include "base/clock.hpp"
 #include "service/state/readiness.hpp"
 
 namespace fitgauge::app {
+
 class TableCatalog;
 class LogService;
 class LogIntake;
@@ -17,6 +19,7 @@ class DocumentService;
 class RunService;
 class EventService;
 struct Jobs;
+
 }  // namespace fitgauge::app
 
 namespace fitgauge::api {
@@ -43,5 +46,8 @@ struct Services {
   const Clock& clock;
   std::function<app::Readiness()> readiness;
 };
+
+/// The version of the service, from the build.
+inline constexpr std::string_view kVersion = FITGAUGE_VERSION;
 
 }  // namespace fitgauge::api

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -67,6 +69,22 @@ class SpellingHint {
   std::string word_;
   std::string best_;
   std::size_t distance_;
+};
+
+/// A place in a text: line and column count from 1, columns in characters (code points).
+struct SourcePosition {
+  std::uint32_t line = 1;
+  std::uint32_t column = 1;
+
+  friend auto operator<=>(const SourcePosition&, const SourcePosition&) = default;
+};
+
+/// From `begin` up to and not including `end`.
+struct SourceRange {
+  SourcePosition begin;
+  SourcePosition end;
+
+  friend auto operator<=>(const SourceRange&, const SourceRange&) = default;
 };
 
 }  // namespace fitgauge

@@ -2,8 +2,6 @@
 
 #include <string>
 
-#include "base/thread.hpp"
-
 namespace fitgauge {
 
 WorkerPool::WorkerPool(std::string_view place, unsigned threads, std::size_t queue)

@@ -9,7 +9,7 @@
 #include <map>
 #include <thread>
 
-#include "api/service/version.hpp"
+#include "api/services.hpp"
 #include "base/result.hpp"
 #include "base/text.hpp"
 #include "daemon/application_options.hpp"

@@ -14,7 +14,7 @@
 #include <memory>
 #include <system_error>
 
-#include "api/service/version.hpp"
+#include "api/services.hpp"
 #include "base/folder.hpp"
 #include "daemon/application_options.hpp"
 #include "http/server.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/service/exposition.hpp"
+#include "api/service/metrics.hpp"
 #include "base/clock.hpp"
 #include "daemon/config.hpp"
 #include "plant/centre/forwarder.hpp"

@@ -13,7 +13,7 @@
 #include <memory>
 #include <optional>
 
-#include "api/service/caller.hpp"
+#include "api/wire/request_facts.hpp"
 #include "base/json/json_writer.hpp"
 
 namespace fitgauge::daemon {

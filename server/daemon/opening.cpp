@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "api/runs/control_program.hpp"
+#include "api/runs/run_posting.hpp"
 #include "api/wire/problem.hpp"
 #include "daemon/log.hpp"
 

@@ -11,11 +11,10 @@
 #include <mutex>
 #include <thread>
 
-#include "api/routes.hpp"
+#include "api/resources.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/service/guard.hpp"
 #include "api/service/metrics.hpp"
-#include "api/service/verdict_counts.hpp"
 #include "api/wire/problem.hpp"
 #include "base/clock.hpp"
 #include "base/thread.hpp"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "api/service/exposition.hpp"
+#include "api/service/metrics.hpp"
 #include "base/clock.hpp"
 #include "http/server.hpp"
 #include "plant/plant.hpp"

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "base/digest.hpp"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/csv.hpp"
 #include "base/json/json_value.hpp"
@@ -10,6 +11,12 @@
 
 namespace fitgauge::api {
 namespace {
+
+std::optional<Timestamp> parse_date(std::string_view text, std::string_view time_of_day) {
+  if (const auto time = parse_rfc3339(text)) return *time;
+  const auto time = parse_rfc3339(std::string(text).append(time_of_day));
+  return time ? std::optional(*time) : std::nullopt;
+}
 
 Error too_many_rows() {
   return {ErrorCode::RequestInvalid,
@@ -159,6 +166,29 @@ Result<void> decode_csv(std::string_view body, const BatchContext& context,
 }
 
 }  // namespace
+
+const GaugePeriod& GaugeInUse::at(Timestamp time) const {
+  const auto next = std::upper_bound(
+      periods.begin() + 1, periods.end(), time,
+      [](Timestamp wanted, const GaugePeriod& period) { return wanted < period.from; });
+  return *(next - 1);
+}
+
+std::optional<Timestamp> parse_from(std::string_view text) {
+  return parse_date(text, "T00:00:00Z");
+}
+std::optional<Timestamp> parse_due(std::string_view text) {
+  return parse_date(text, "T23:59:59.999999999Z");
+}
+
+std::optional<Length> rounded_up(double micrometres) {
+  constexpr double kNanometres = 1e3;
+  constexpr double kNoise = 1e6;  // binary fractions of decimals are not rounded up
+  constexpr double kMost = 1e9;
+  const double nanometres = std::ceil(std::round(micrometres * kNanometres * kNoise) / kNoise);
+  if (!(nanometres >= 0 && nanometres <= kMost)) return std::nullopt;
+  return Length::nanometres(static_cast<std::int64_t>(nanometres));
+}
 
 void take_full(MeasurementBatch& batch, const BatchContext& context, const FieldErrors& errors) {
   if (!context.take || batch.rows.size() < kRowsAtATime || !errors.empty()) return;

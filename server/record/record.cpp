@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
-#include <string_view>
 #include <tuple>
 
 #include "base/clock.hpp"

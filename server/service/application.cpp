@@ -7,7 +7,7 @@
 
 #include "db/sqlite/data_directory.hpp"
 #include "db/store/database.hpp"
-#include "proof/tile.hpp"
+#include "proof/frontier.hpp"
 #include "service/log/log_check.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/measurements/mapping.hpp"

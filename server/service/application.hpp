@@ -16,7 +16,6 @@
 #include "base/histogram.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/documents/key_service.hpp"
-#include "service/events/commit_signal.hpp"
 #include "service/events/event_service.hpp"
 #include "service/files/file_service.hpp"
 #include "service/jobs.hpp"

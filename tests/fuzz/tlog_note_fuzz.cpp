@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "proof/checkpoint.hpp"
-#include "proof/tile.hpp"
+#include "proof/frontier.hpp"
+#include "proof/note.hpp"
 
 using namespace fitgauge::tlog;
 

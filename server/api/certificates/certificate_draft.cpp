@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "api/measurements/measurement_codec.hpp"
-#include "api/service/version.hpp"
+#include "api/services.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/length.hpp"
 #include "record/record.hpp"

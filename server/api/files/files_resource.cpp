@@ -5,7 +5,6 @@
 #include "api/files/file_path.hpp"
 #include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
-#include "api/schemas.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/body_forms.hpp"
 #include "base/text.hpp"

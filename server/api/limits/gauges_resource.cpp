@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include "api/limits/limits_codec.hpp"
-#include "api/schemas.hpp"
 #include "api/statistics/computation.hpp"
-#include "api/statistics/exact_reader.hpp"
 #include "api/wire/formulas.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
 #include "metrology/statistics/limit_gauge.hpp"

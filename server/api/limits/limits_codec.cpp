@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "api/resources.hpp"
+#include "metrology/gauging/gauge.hpp"
 #include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
@@ -82,6 +84,168 @@ std::string etag_of(const standards::Standard& standard) {
   std::string tag = '"' + standard.revision + '"';
   std::replace(tag.begin(), tag.end(), ' ', '-');  // a tag has no blank
   return tag;
+}
+
+std::string quantity_words() {
+  return schema::words({gauging::kQuantityWords.begin(), gauging::kQuantityWords.end()});
+}
+
+using schema::Others;
+
+schema::Fields limits_fields() {
+  const std::string range = schema::object(
+      {{"over", schema::number(), "Exclusive"}, {"up_to", schema::number(), "Inclusive"}});
+  return {
+      {"designation", schema::text(), "Size and class; absent with the limits of a drawing", false},
+      {"nominal_mm", schema::number(), "Nominal size"},
+      {"tolerance_class", schema::text(), "Absent with the limits of a drawing", false},
+      {"feature", feature_words(),
+       "A hole is too small before it is too large, a shaft the other way"},
+      {"upper_deviation_um", schema::number(), "ES or es"},
+      {"lower_deviation_um", schema::number(), "EI or ei"},
+      {"upper_limit_mm", schema::number(), "Largest good size, inclusive"},
+      {"lower_limit_mm", schema::number(), "Smallest good size, inclusive"},
+      {"tolerance_um", schema::number(), "Upper minus lower limit"},
+      {"size_range_mm", range, "Step of the standard tolerance", false},
+      {"basis", schema::words({"iso286", "custom", "explicit", "standard"}),
+       "ISO 286, a column of the shop's own, a drawing, or a designation of another standard"},
+      {"table_revision", schema::text(), "The tables the limits were taken from", false},
+  };
+}
+
+schema::Fields verdict_fields() {
+  return {
+      {"measured_mm", schema::number(), "As it is stored: rounded to 1 nm"},
+      {"deviation_um", schema::number(), "Measured minus nominal size"},
+      {"verdict", verdict_words(),
+       "rework: hole too small, shaft too large; reject: hole too large, shaft too small"},
+      {"excess_um", schema::number(),
+       "Beyond the upper limit (positive) or the lower limit (negative); 0 inside"},
+  };
+}
+
+schema::Fields warnings_field() {
+  const std::string warning =
+      schema::object({{"code", schema::text(),
+                       "rule.no_acceptance, uncertainty.large, gauge.unknown, query.unused"},
+                      {"detail", schema::text(), "What it is of, and what to do"}});
+  return {{"warnings", schema::array(warning), "Of this answer alone, no part of a record", false}};
+}
+
+namespace {
+
+void add_found_fits(Schemas& schemas, const schema::Fields& fit_fields) {
+  const std::string fit = schema::object(
+      fit_fields + schema::Fields{
+                       {"hole_class", schema::text(), ""},
+                       {"shaft_class", schema::text(), ""},
+                       {"preferred", schema::boolean(), "By ISO 286-1:2010, figures B.2 and B.3"},
+                   });
+  schemas.push_back({"FoundFits", schema::object({{"fits", schema::array(fit), "The first"},
+                                                  {"total", schema::count(), "All there are"}})});
+}
+
+void add_standards(Schemas& schemas) {
+  const schema::Fields identity = {
+      {"name", schema::text(), "iso2768-1"},
+      {"edition", schema::text(), "ISO 2768-1:1989"},
+      {"title", schema::text(), ""},
+      {"revision", schema::text(), "The table_revision of what is judged by it"},
+      {"designation", schema::text(), "An example; absent where it has none for limits", false},
+      {"left_out", schema::text(), "What the standard has beside this, and why it is not here",
+       false}};
+  const std::string standard =
+      schema::object(identity + schema::Fields{
+                                    {"tables", schema::array(schema::text()), ""},
+                                    {"sources", schema::array(schema::text()), "Compared with"},
+                                });
+  schemas.push_back({"Standards", schema::object({{"standards", schema::array(standard), ""}})});
+  const std::string item = schema::object(schema::optional({
+      {"designation", schema::text(), "Of ISO 286, of the width of a keyway"},
+      {"nominal_mm", schema::number(), ""},
+      {"upper_um", schema::number(), "Upper deviation"},
+      {"lower_um", schema::number(), "Lower deviation"},
+      {"tolerance_um", schema::number(), ""},
+      {"deviation_um", schema::number(),
+       "Of the position of a thread, the one next to its profile"},
+      {"upper_arcmin", schema::number(), "In minutes"},
+      {"lower_arcmin", schema::number(), "In minutes"},
+  }));
+  const std::string row = schema::object(
+      schema::Fields{{"table", schema::text(), ""}, {"limits", schema::map(item), "By item"}} +
+      schema::optional({{"over_mm", schema::number(), "Exclusive"},
+                        {"up_to_mm", schema::number(), "Inclusive; absent: without end"},
+                        {"pitch_mm", schema::number(), ""},
+                        {"diameter_mm", schema::number(), ""}}));
+  schemas.push_back(
+      {"Standard", schema::object(identity + schema::Fields{{"rows", schema::array(row), ""}})});
+}
+
+}  // namespace
+
+void add_limits_schemas(Schemas& schemas) {
+  constexpr std::string_view kLimits =
+      R"({"designation":"25 H7","nominal_mm":25,"tolerance_class":"H7","feature":"hole",)"
+      R"("upper_deviation_um":21,"lower_deviation_um":0,"upper_limit_mm":25.021,"lower_limit_mm":25,)"
+      R"("tolerance_um":21,"size_range_mm":{"over":18,"up_to":30},"basis":"iso286",)"
+      R"("table_revision":"1-f0a85b3a"})";
+  constexpr std::string_view kVerdict =
+      R"({"designation":"25 H7","nominal_mm":25,"tolerance_class":"H7","feature":"hole",)"
+      R"("upper_deviation_um":21,"lower_deviation_um":0,"upper_limit_mm":25.021,"lower_limit_mm":25,)"
+      R"("tolerance_um":21,"size_range_mm":{"over":18,"up_to":30},"basis":"iso286",)"
+      R"("table_revision":"1-f0a85b3a","measured_mm":25.0215,"deviation_um":21.5,)"
+      R"("verdict":"reject","excess_um":0.5})";
+  schemas.push_back({"Limits", schema::object(limits_fields(), Others::Allowed, kLimits)});
+  const std::string likely =
+      schema::object({{"probability_of_interference", schema::number(), ""}});
+  const std::string side = schema::object(
+      selection_field() + schema::Fields{{"mean", schema::number(), "In mm"},
+                                         {"standard_deviation_overall", schema::number(), "In mm"},
+                                         {"stable", schema::boolean(), "No rule is broken"}});
+  const std::string stored = schema::object(
+      {{"probability_of_interference", schema::number(), "Independent and normal, as measured"},
+       {"mean_clearance_um", schema::number(), ""},
+       {"standard_deviation_um", schema::number(), "Of the clearance"},
+       {"stable", schema::boolean(), "Both are: else the next parts may be others"},
+       {"hole", side, ""},
+       {"shaft", side, ""}});
+  const std::string statistical =
+      schema::object({{"normal", likely, "Six standard deviations wide"},
+                      {"uniform", likely, ""},
+                      {"stored", stored, "Of the values that filters choose", false}});
+  const schema::Fields fit_members = {
+      {"designation", schema::text(), "25 H7/g6"},
+      {"hole", schema::ref("Limits"), ""},
+      {"shaft", schema::ref("Limits"), ""},
+      {"type", schema::words({"clearance", "transition", "interference"}), ""},
+      {"max_clearance_um", schema::number(), "ES - ei; negative: interference"},
+      {"min_clearance_um", schema::number(), "EI - es; negative: interference"},
+      {"assumes_envelope", schema::boolean(),
+       "True: form counts too unless both sizes have the modifier (E) of ISO 14405-1"},
+      {"statistical", statistical, "Sizes independent; centred but where stored"},
+  };
+  const schema::Fields fit = fit_members + formula_fields();
+  schemas.push_back({"Fit", schema::object(fit)});
+  add_found_fits(schemas, fit);
+  add_standards(schemas);
+  add_gauges_schemas(schemas);
+  const schema::Fields rule = schema::optional({
+      {"corrected_mm", schema::number(),
+       "The size at 20 °C, which decides, where an expansion is given"},
+      {"added_uncertainty_um", schema::number(),
+       "Standard uncertainty that the correction adds to uncertainty_um, where one of a "
+       "temperature or expansion is given; the rule decides with both"},
+      {"rule", rule_words(), "Where it is not simple"},
+      {"uncertainty_um", schema::number(), "Standard uncertainty u of the rule"},
+      {"degrees_of_freedom", schema::number(), "Of uncertainty_um, where they were given"},
+      {"coverage_factor", schema::number(), "k of guard_band"},
+      {"probability", schema::number(0.5, 1), "Of conformance: what a good part has at least"},
+      {"conformance_probability", schema::number(0, 1), "Of the part, to 1e-9"},
+      {"guard_band_um", schema::number(), "Of conformance: inside both limits"},
+  });
+  schemas.push_back(
+      {"Verdict", schema::object(limits_fields() + verdict_fields() + rule + warnings_field(),
+                                 Others::Allowed, kVerdict)});
 }
 
 }  // namespace fitgauge::api

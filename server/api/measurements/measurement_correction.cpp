@@ -1,4 +1,4 @@
-#include "api/measurements/measurement_correction.hpp"
+#include "api/measurements/measurement_posting.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <array>
 #include <memory>
 
-#include "api/measurements/measurement_posting.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/length.hpp"
 #include "record/measurement_row_reader.hpp"

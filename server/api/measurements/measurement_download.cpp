@@ -1,4 +1,4 @@
-#include "api/measurements/measurement_download.hpp"
+#include "api/measurements/measurement_listing.hpp"
 
 #include <fmt/format.h>
 

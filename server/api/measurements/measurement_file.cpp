@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "api/measurements/measurement_dfq.hpp"
-#include "api/measurements/measurement_qif.hpp"
+#include "base/length.hpp"
 #include "formats/xlsx/workbook.hpp"
+#include "metrology/gauging/conformance.hpp"
 #include "record/record_members.hpp"
 
 namespace fitgauge::api {
@@ -96,6 +96,65 @@ class XlsxFile final : public MeasurementFile {
   const std::optional<sheet::TimeZone> zone_;
 };
 
+/// How a record is judged, as far as that is not by its limits alone.
+std::string rule_of(const app::Measurement& m) {
+  std::string rule;
+  const auto say = [&rule](std::string_view name, std::string_view text) {
+    if (!rule.empty()) rule += ';';
+    rule += fmt::format("{}={}", name, text);
+  };
+  if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) say("rule", word(m.rule.kind()));
+  if (m.standard_uncertainty) {
+    // Of the size at 20 degrees, which is what is written.
+    say("uncertainty_um", format_um(gauging::combined_uncertainty(
+                              *m.standard_uncertainty, m.added_uncertainty.value_or(0))));
+  }
+  if (m.coverage_factor) say("coverage_factor", format(*m.coverage_factor));
+  if (m.degrees_of_freedom) say("degrees_of_freedom", format_decimal(*m.degrees_of_freedom, 6));
+  if (m.size_operator && m.size_operator != "LP") say("size_operator", *m.size_operator);
+  if (m.envelope) say("envelope", *m.envelope);
+  if (m.go_gauge) say("go_gauge", *m.go_gauge);
+  if (m.conformance) say("probability", format(m.rule.probability()));
+  return rule;
+}
+
+qif::Status status_of(gauging::Verdict verdict) {
+  switch (verdict) {
+    case gauging::Verdict::Good: return qif::Status::Pass;
+    case gauging::Verdict::Rework: return qif::Status::Rework;
+    case gauging::Verdict::Reject: return qif::Status::Fail;
+    case gauging::Verdict::Unjudged: return qif::Status::Undefined;
+    case gauging::Verdict::Indeterminate: break;
+  }
+  return qif::Status::Indeterminate;
+}
+
+/// What QIF has no place for.
+std::vector<std::pair<std::string_view, std::string>> other_fields(const app::Measurement& m) {
+  std::vector<std::pair<std::string_view, std::string>> fields;
+  const auto add = [&](const app::MeasurementField& field) {
+    if (field.text != nullptr) {
+      if (m.*field.text) fields.emplace_back(field.name, *(m.*field.text));
+    } else if (m.*field.number) {
+      fields.emplace_back(field.name, app::number_text(field, *(m.*field.number)));
+    }
+  };
+  for (const app::MeasurementField& field : app::kLabels) {
+    if (field.name != "part_id" && field.name != "characteristic") add(field);
+  }
+  if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) {
+    fields.emplace_back("rule", word(m.rule.kind()));
+  }
+  if (m.coverage_factor) fields.emplace_back("coverage_factor", format(*m.coverage_factor));
+  if (m.conformance) fields.emplace_back("probability", format(m.rule.probability()));
+  for (const bool is_text : {false, true}) {
+    for (const app::MeasurementField& field : app::kGivenFields.subspan(app::kLabels.size())) {
+      if ((field.text != nullptr) == is_text) add(field);
+    }
+  }
+  return fields;
+}
+
 }  // namespace
 
 std::unique_ptr<MeasurementFile> make_dfq_file(aqdef::DfqOptions options) {
@@ -115,6 +174,55 @@ Result<std::unique_ptr<MeasurementFile>> make_xlsx_file(std::optional<sheet::Tim
   if (!book) return book.error();
   return std::unique_ptr<MeasurementFile>(
       std::make_unique<XlsxFile>(*std::move(book), std::move(zone)));
+}
+
+Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
+  if (m.source != app::Source::Gauge) {
+    return Error{ErrorCode::FieldInvalid, "it is of a simulation, which a DFQ cannot say"};
+  }
+  const std::string rule = rule_of(m);
+  aqdef::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
+  value.measured = m.decisive();
+  if (m.has_nominal) value.nominal = m.nominal_size;
+  if (m.has_upper_limit()) value.limits.upper = m.upper_limit();
+  if (m.has_lower_limit()) value.limits.lower = m.lower_limit();
+  value.class_name = m.class_name.value_or("");
+  if (m.has_feature()) value.feature = word(m.feature);
+  if (m.quantity && (m.quantity != gauging::Quantity::Diameter || !m.is_judged())) {
+    value.quantity = word(*m.quantity);
+  }
+  value.rule = rule;
+  value.part_id = m.part_id.value_or("");
+  value.characteristic = m.characteristic.value_or("");
+  value.order = m.order.value_or("");
+  value.operation = m.operation.value_or("");
+  value.machine = m.machine.value_or("");
+  value.operator_name = m.operator_id.value_or("");
+  value.gauge = m.gauge.value_or("");
+  value.unit = m.unit.value_or("");
+  value.comment = m.comment.value_or("");
+  value.subgroup = m.subgroup.value_or("");
+  return writer.add(value);
+}
+
+Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& m) {
+  if (m.source != app::Source::Gauge) {
+    return Error{ErrorCode::FieldInvalid, "it is of a simulation, and no result of an inspection"};
+  }
+  qif::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
+  value.measured = m.measured;
+  if (m.has_nominal) value.nominal = m.nominal_size;
+  if (m.has_upper_limit()) value.upper = m.upper_limit();
+  if (m.has_lower_limit()) value.lower = m.lower_limit();
+  value.class_name = m.class_name.value_or("");
+  value.quantity = m.quantity.value_or(gauging::Quantity::Diameter);
+  if (m.has_feature()) value.feature = word(m.feature);
+  value.status = status_of(m.result.verdict);
+  value.uncertainty = m.standard_uncertainty;
+  value.part_id = m.part_id;
+  value.characteristic = m.characteristic;
+  value.fields = other_fields(m);
+  return writer.add(value);
 }
 
 }  // namespace fitgauge::api

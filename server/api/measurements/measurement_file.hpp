@@ -6,6 +6,7 @@
 
 #include "base/result.hpp"
 #include "formats/dfq/dfq_writer.hpp"
+#include "formats/qif/qif_writer.hpp"
 #include "record/measurement.hpp"
 
 namespace fitgauge::api {
@@ -39,5 +40,11 @@ std::unique_ptr<MeasurementFile> make_qif_file();
 /// XLSX, with the columns of the CSV. @param zone of its times; none: UTC
 /// @errors StorageUnavailable
 Result<std::unique_ptr<MeasurementFile>> make_xlsx_file(std::optional<sheet::TimeZone> zone);
+
+/// Adds a measurement. @errors those of aqdef::DfqWriter::add; FieldInvalid: it is of a simulation.
+Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& measurement);
+
+/// Adds a measurement. @errors those of qif::QifWriter::add; FieldInvalid: it is of a simulation.
+Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& measurement);
 
 }  // namespace fitgauge::api

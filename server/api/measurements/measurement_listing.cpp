@@ -9,8 +9,6 @@
 
 #include "api/limits/limits_codec.hpp"
 #include "api/measurements/measurement_codec.hpp"
-#include "api/measurements/measurement_download.hpp"
-#include "api/measurements/notes_resource.hpp"
 #include "api/wire/request_facts.hpp"
 #include "http/response.hpp"
 #include "record/record.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "api/services.hpp"
@@ -22,5 +23,19 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
 /// match as a stream in constant memory; DFQ and XLSX are files made whole.
 void list_measurements(const Services& services, const http::Request& request,
                        http::Responder responder);
+
+inline constexpr std::string_view kDfqType = "application/octet-stream";
+inline constexpr std::string_view kQifType = "application/xml";
+inline constexpr std::string_view kXlsxType =
+    "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet";
+
+/// The parameters that a file takes beside those of a list.
+std::vector<http::Parameter> download_parameters();
+
+/// Answers with a file of the measurements that match, whole or, with a `limit`, a page of them.
+/// @param media_type kDfqType, kQifType or kXlsxType. @param after the cursor.
+void send_file(const Services& services, const http::Request& request, http::Responder responder,
+               std::string_view media_type, app::MeasurementQuery query, std::int64_t after,
+               std::optional<std::int64_t> limit);
 
 }  // namespace fitgauge::api

@@ -1,9 +1,20 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "api/posting.hpp"
+#include "api/services.hpp"
+#include "api/wire/request_facts.hpp"
+#include "http/route.hpp"
 #include "record/measurement_batch.hpp"
+#include "record/verdict_codec.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 
@@ -18,5 +29,45 @@ void record(const SharedPosting& posting, MeasurementBatch batch);
 /// POST /v1/measurements: reads the body, judges its rows and records them.
 void post_measurements(const Services& services, const http::Request& request,
                        http::Responder responder);
+
+/// Reasons for care that do not keep a value from the store: an acceptance zone that is empty, an
+/// uncertainty above a tenth of the tolerance that the simple rule does not see, a gauge that is
+/// not registered while others are, is blocked, or is overdue for calibration.
+std::vector<Warning> warnings_of(const app::Measurement& measurement);
+
+/// The 201 to stored measurements, in the form the client prefers: the record of one, the records
+/// of all, their number with the counts of verdicts, or nothing.
+class MeasurementAnswer final : public app::Rendering {
+ public:
+  explicit MeasurementAnswer(Preference wanted) : wanted_(wanted) {}
+
+  /// Before add(): whether the body was one object, not a list.
+  void set_single(bool single) { single_ = single; }
+  /// Takes room for the answer to a list of so many bytes.
+  void expect(std::size_t body_size);
+
+  void add(std::span<const app::Measurement> measurements, std::string_view records) override;
+  app::Answer finish() override;
+
+ private:
+  void end_with_warnings();
+  void warn_of(const app::Measurement& measurement);
+  bool lists_records() const { return !single_ && wanted_ == Preference::Representation; }
+
+  const Preference wanted_;
+  bool single_ = false;
+  app::Answer answer_{
+      .status = 201, .content_type = "application/json", .location = {}, .body = {}};
+  std::string first_id_;
+  std::string last_id_;
+  std::int64_t count_ = 0;
+  app::VerdictTally verdicts_{};
+  std::vector<Warning> warnings_;
+};
+
+/// POST /v1/measurements/{id}/corrections: stores a measurement that takes the place of another and
+/// says why. What the body leaves open is taken over, limits as they were applied.
+void post_correction(const Services& services, const http::Request& request,
+                     http::Responder responder);
 
 }  // namespace fitgauge::api

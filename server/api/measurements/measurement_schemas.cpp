@@ -1,4 +1,4 @@
-#include "api/schemas.hpp"
+#include "api/resources.hpp"
 #include "record/measurement_row_fields.hpp"
 #include "service/measurements/measurement_service.hpp"
 

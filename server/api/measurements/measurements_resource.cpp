@@ -4,8 +4,6 @@
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_codec.hpp"
-#include "api/measurements/measurement_correction.hpp"
-#include "api/measurements/measurement_download.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "api/measurements/measurement_posting.hpp"
 #include "record/record.hpp"

@@ -1,4 +1,4 @@
-#include "api/measurements/notes_resource.hpp"
+#include "api/measurements/measurement_codec.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_posting.hpp"
 #include "api/resources.hpp"
-#include "api/schemas.hpp"
 #include "api/service/document_routes.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/body_forms.hpp"

@@ -5,7 +5,6 @@
 
 #include "api/handlers.hpp"
 #include "api/resources.hpp"
-#include "api/schemas.hpp"
 #include "base/json/body_forms.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/measurements/measurement_service.hpp"

@@ -4,9 +4,9 @@
 
 #include <charconv>
 
+#include "api/resources.hpp"
 #include "api/runs/run_order_codec.hpp"
 #include "api/runs/trace_codec.hpp"
-#include "api/schemas.hpp"
 #include "base/json/body_forms.hpp"
 #include "record/measurement.hpp"
 

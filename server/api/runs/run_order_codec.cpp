@@ -11,7 +11,6 @@
 #include "api/runs/run_codec.hpp"
 #include "api/runs/setup_builder.hpp"
 #include "api/runs/setup_codec.hpp"
-#include "api/runs/setup_forms.hpp"
 
 namespace fitgauge::api {
 

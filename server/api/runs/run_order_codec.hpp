@@ -8,7 +8,7 @@
 #include "base/json/schema.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/runs/control_tables.hpp"
-#include "service/runs/run_report.hpp"
+#include "service/runs/stored_run.hpp"
 
 namespace fitgauge::api {
 

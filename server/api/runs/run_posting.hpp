@@ -1,10 +1,29 @@
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include "api/services.hpp"
 #include "http/request.hpp"
 #include "http/response.hpp"
+#include "nc/machine/machine_setup.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
+
+// For a control that shows a machine and starts its programs. Both wait; not for I/O threads.
+
+/// The machine of a named setup with the rows of the control's tables; without a name the default.
+/// @errors SetupUnknown; RequestInvalid, TableFileMalformed: it cannot be built;
+/// StorageUnavailable.
+Result<machine::Setup> machine_of_setup(const Services& services, const std::string& name);
+
+/// Starts a stored program on that machine as POST /v1/runs does, with the most that a run may
+/// take.
+/// @errors as POST /v1/runs.
+Result<std::shared_ptr<app::ActiveRun>> start_program(const Services& services,
+                                                      const interpreter::ControlPath& program,
+                                                      const std::string& setup);
 
 /// POST /v1/runs: checks the order, starts the run and answers with its end, or at once where
 /// `Prefer: respond-async` asks for it.

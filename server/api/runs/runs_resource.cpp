@@ -1,4 +1,3 @@
-#include "api/posting.hpp"
 #include "api/resources.hpp"
 
 #include "api/files/file_path.hpp"

@@ -1,10 +1,122 @@
 #include "api/runs/setup_codec.hpp"
 
+#include <fmt/format.h>
+
 #include "api/runs/setup_builder.hpp"
-#include "api/runs/setup_workpiece.hpp"
+#include "api/runs/setup_machine.hpp"
 #include "api/service/document_routes.hpp"
 
 namespace fitgauge::api {
+
+// The members of a setup's workpiece.
+
+void members(auto& v, machine::Block& block) {
+  v.member("min_mm", block.min, Mm3{}, "The corner with the smallest coordinates");
+  v.member("max_mm", block.max, Mm3{}, "The corner with the largest coordinates");
+}
+
+void members(auto& v, machine::Bore& bore) {
+  v.member("center_mm", bore.centre, Mm2{}, "X and Y of the opening's centre");
+  v.optional("top_mm", bore.top, Mm{}, "Z of the opening");
+  v.optional("depth_mm", bore.depth, Mm{}, "From the opening to the flat bottom");
+  v.member("diameter_mm", bore.diameter, Mm{}, "At the opening");
+  v.optional("lobes", bore.lobes, Integer{0, 1000},
+             "n of r = R + a cos(n (angle - phase)); 0: round");
+  v.optional("lobe_amplitude_um", bore.lobe_amplitude_um, Um{}, "a of the lobes");
+  v.optional("lobe_phase_deg", bore.lobe_phase_deg, Number{}, "Angle of the first lobe's top");
+  v.optional("taper_um_per_mm", bore.taper_um_per_mm, Number{},
+             "Change of the diameter for each millimetre of depth");
+  v.optional("tilt_deg", bore.tilt_deg, Numbers2{},
+             "Of the bore's axis around X, then around Y, at the opening");
+}
+
+void members(auto& v, machine::Plane& plane) {
+  v.optional("point_mm", plane.point, Mm3{}, "A point of the plane");
+  v.optional("normal", plane.normal, Numbers3{}, "Away from the material, any length");
+}
+
+void members(auto& v, machine::Sphere& sphere) {
+  v.member("center_mm", sphere.centre, Mm3{}, "Its centre");
+  v.member("diameter_mm", sphere.diameter, Mm{}, "Its diameter");
+}
+
+void members(auto& v, machine::Surface& surface) {
+  v.member("points_mm", surface.points, PointList{},
+           "X, Y and Z of measured points; material below, piecewise "
+           "linear between them, nothing outside their hull");
+}
+
+void members(auto& v, machine::Mesh& mesh) {
+  v.member("file", mesh.file, DiskFile{},
+           "STL of the control's disk, text or binary: `parts/flange.stl`");
+  constexpr double kInch = 25.4;
+  bool is_inch = false;
+  v.optional("unit", is_inch, OneOf<2>{"mm", "inch"}, "Of the file's figures");
+  mesh.unit = is_inch ? kInch : 1;
+  v.optional("origin_mm", mesh.origin, Mm3{}, "Where the file's zero lies");
+  v.optional("spatial_angles_deg", mesh.spatial_angles_deg, Numbers3{},
+             "How the file's axes are turned around its zero, as "
+             "PLANE SPATIAL turns");
+}
+
+/// A kind of feature: the word for it, its component and its meaning.
+struct FeatureKind {
+  std::string_view word;
+  std::string_view component;
+  std::string_view meaning;
+
+  std::string schema(Side) const {
+    return fmt::format(R"({{"type":"string","const":"{}"}})", word);
+  }
+};
+
+/// Calls `use(kind, feature)` for each kind, with a feature that has the defaults of the contract.
+void each_kind_of_feature(const auto& use) {
+  use(FeatureKind{"block", "Block", "Material between two corners"}, machine::Block{});
+  use(FeatureKind{"bore", "Bore", "Removes material: a hole that is open upwards"},
+      machine::Bore{.depth = 30});
+  use(FeatureKind{"boss", "Boss", "Material: an upright cylinder"},
+      machine::Boss{.top = 10, .height = 10});
+  use(FeatureKind{"plane", "Plane", "Material everywhere behind a plane"}, machine::Plane{});
+  use(FeatureKind{"sphere", "Sphere", "Material: a ball"}, machine::Sphere{});
+  use(FeatureKind{"surface", "Surface", "Material below a measured surface"}, machine::Surface{});
+  use(FeatureKind{"mesh", "Mesh", "Material inside a closed mesh of triangles"}, machine::Mesh{});
+}
+
+/// The form of a feature, whose other members depend on the word `type`.
+struct FeatureForm {
+  std::string schema(Side) const { return schema::ref("Feature"); }
+  void read_item(const JsonValue& item, const std::string& pointer, FieldErrors& errors,
+                 machine::Feature& to) const {
+    BodyReader v(item, pointer, errors);
+    std::string word;
+    to = machine::Plane{};
+    if (item.is(JsonValue::Kind::Object)) v.member("type", word);
+    std::string words;
+    bool is_known = false;
+    each_kind_of_feature([&](const FeatureKind& kind, auto feature) {
+      words.append(words.empty() ? "" : " ").append(kind.word);
+      if (kind.word != word) return;
+      is_known = true;
+      members(v, feature);
+      v.end();
+      to = feature;
+    });
+    if (is_known || errors.has(pointer) || errors.has(pointer_to(pointer, "type"))) return;
+    errors.add(ErrorCode::FieldInvalid, pointer_to(pointer, "type"),
+               fmt::format("type takes {}", listed(words)));
+  }
+};
+
+inline constexpr Nested kWorkpieceForm{
+    "Workpiece", [](auto& v, auto& setup) {
+      const List<machine::Feature, FeatureForm> list;
+      v.optional("features", setup.features, list, "Joined in this order");
+      v.optional("fixtures", setup.fixtures, list,
+                 "Clamps and vices, joined likewise: no value is taken from them, and a tool that "
+                 "touches one ends the run as failed");
+    }};
+
 namespace {
 
 constexpr std::string_view kSetupExample =

@@ -10,7 +10,6 @@
 
 #include "api/runs/run_codec.hpp"
 #include "base/csv.hpp"
-#include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"
 

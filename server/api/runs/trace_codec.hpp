@@ -6,7 +6,7 @@
 
 #include "base/json/json_value.hpp"
 #include "base/json/schema.hpp"
-#include "service/runs/run_report.hpp"
+#include "service/runs/stored_run.hpp"
 
 namespace fitgauge::api {
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "api/schemas.hpp"
 #include "base/json/body_forms.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/machining_cycles.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "api/handlers.hpp"
-#include "api/statistics/exact_reader.hpp"
+#include "api/statistics/computation.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/clock.hpp"
 #include "service/jobs.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "api/service/caller.hpp"
+#include "api/wire/request_facts.hpp"
 #include "http/server.hpp"
 #include "service/documents/key_service.hpp"
 

@@ -1,15 +1,40 @@
 #include "api/service/metrics.hpp"
 
-#include <functional>
+#include <charconv>
+#include <cmath>
+#include <iterator>
 #include <map>
-#include <mutex>
 #include <tuple>
 
-#include "api/service/version.hpp"
+#include "api/services.hpp"
 #include "api/wire/problem.hpp"
 
 namespace fitgauge::api {
 namespace {
+
+void append_number(std::string& out, double value) {
+  if (std::isinf(value)) {
+    out += value > 0 ? "+Inf" : "-Inf";
+    return;
+  }
+  char digits[32];
+  const auto end = std::to_chars(std::begin(digits), std::end(digits), value).ptr;
+  out.append(std::begin(digits), end);
+}
+
+void append_label(std::string& out, std::string_view name, std::string_view value) {
+  out += out.back() == '{' ? "" : ",";
+  out.append(name) += "=\"";
+  for (const char c : value) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (c == '\n') {
+      out += "\\n";
+    } else {
+      out += c;
+    }
+  }
+  out += '"';
+}
 
 using Seconds = Histogram<15>;
 constexpr Seconds::Bounds kSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025,
@@ -18,7 +43,51 @@ constexpr Seconds::Bounds kSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.
 constexpr int kUnauthorized = 401;
 constexpr int kServerError = 500;
 
+/// What one refresh reads at most; the next goes on.
+constexpr std::size_t kRowsOfAStep = 200'000;
+
 }  // namespace
+
+Exposition& Exposition::counter(std::string_view name, std::string_view help) {
+  return family(name, help, "counter");
+}
+Exposition& Exposition::gauge(std::string_view name, std::string_view help) {
+  return family(name, help, "gauge");
+}
+Exposition& Exposition::histogram(std::string_view name, std::string_view help) {
+  return family(name, help, "histogram");
+}
+
+Exposition& Exposition::family(std::string_view name, std::string_view help,
+                               std::string_view type) {
+  family_ = name;
+  out_.append("# HELP ").append(name).append(" ").append(help).append("\n");
+  out_.append("# TYPE ").append(name).append(" ").append(type).append("\n");
+  return *this;
+}
+
+Exposition& Exposition::sample(double value, Labels labels) {
+  line("", labels, {}, value);
+  return *this;
+}
+
+void Exposition::line(std::string_view suffix, Labels labels, std::optional<double> bound,
+                      double value) {
+  out_.append(family_).append(suffix);
+  if (labels.size() > 0 || bound) {
+    out_ += '{';
+    for (const auto& [name, text] : labels) append_label(out_, name, text);
+    if (bound) {
+      std::string text;
+      append_number(text, *bound);
+      append_label(out_, "le", text);
+    }
+    out_ += '}';
+  }
+  out_ += ' ';
+  append_number(out_, value);
+  out_ += '\n';
+}
 
 struct Metrics::Parts {
   /// By the route's text (whose address is its identity), the method and the status.
@@ -101,6 +170,65 @@ std::string Metrics::text() const {
   }
   for (const Source& source : sources) source(out);
   return out.take();
+}
+
+void VerdictCounts::refresh(std::function<void()> done) {
+  std::optional<std::int64_t> after;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!std::exchange(reading_, true)) {
+      after = position_.value_or(std::numeric_limits<std::int64_t>::max());
+    }
+  }
+  if (!after) return done();
+  struct Read {
+    Counts counts{};
+    std::int64_t last = 0;
+  };
+  const auto read = std::make_shared<Read>();
+  app::MeasurementQuery everything;
+  everything.source.reset();
+  everything.history = true;
+  measurements_.list(
+      everything, *after, kRowsOfAStep,
+      [read](const app::Measurement& row) {
+        ++read->counts[static_cast<std::size_t>(row.source)]
+                      [static_cast<std::size_t>(row.result.verdict)];
+        read->last = row.id;
+      },
+      [self = shared_from_this(), read, done = std::move(done)](Result<app::ListPage> page) {
+        self->take(page, read->counts, read->last);
+        done();
+      });
+}
+
+void VerdictCounts::take(const Result<app::ListPage>& page, const Counts& counts,
+                         std::int64_t last) {
+  const std::lock_guard lock(mutex_);
+  reading_ = false;
+  if (!page) return;
+  if (!position_) {
+    position_ = page->as_of;
+    return;
+  }
+  if (last > 0) position_ = last;
+  for (std::size_t source = 0; source < kSources; ++source) {
+    for (std::size_t verdict = 0; verdict < gauging::kVerdicts; ++verdict) {
+      counts_[source][verdict] += counts[source][verdict];
+    }
+  }
+}
+
+void VerdictCounts::write(Exposition& out) const {
+  const std::lock_guard lock(mutex_);
+  out.counter("fitgauge_measurements_total", "Measurements recorded, by source and verdict");
+  for (std::size_t source = 0; source < kSources; ++source) {
+    for (std::size_t verdict = 0; verdict < gauging::kVerdicts; ++verdict) {
+      out.sample(static_cast<double>(counts_[source][verdict]),
+                 {{"source", word(static_cast<app::Source>(source))},
+                  {"verdict", word(static_cast<gauging::Verdict>(verdict))}});
+    }
+  }
 }
 
 }  // namespace fitgauge::api

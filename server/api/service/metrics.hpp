@@ -1,15 +1,63 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
+#include <initializer_list>
+#include <limits>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "api/service/exposition.hpp"
+#include "base/histogram.hpp"
 #include "base/result.hpp"
 #include "http/server.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
+
+/// Writes the Prometheus text format 0.0.4: a family, then its samples. Used by one thread.
+class Exposition {
+ public:
+  using Labels = std::initializer_list<std::pair<std::string_view, std::string_view>>;
+
+  // Each begins a family; the samples that follow are of it. Names are plain words of the contract.
+  Exposition& counter(std::string_view name, std::string_view help);
+  Exposition& gauge(std::string_view name, std::string_view help);
+  Exposition& histogram(std::string_view name, std::string_view help);
+
+  Exposition& sample(double value, Labels labels = {});
+
+  /// The samples of one histogram of the family.
+  template <std::size_t N>
+  Exposition& sample(const Histogram<N>& histogram, Labels labels = {}) {
+    std::uint64_t below = 0;
+    for (std::size_t i = 0; i < N; ++i) {
+      below += histogram.count(i);
+      line("_bucket", labels, histogram.bounds()[i], static_cast<double>(below));
+    }
+    below += histogram.count(N);
+    line("_bucket", labels, kInfinity, static_cast<double>(below));
+    line("_sum", labels, {}, histogram.sum());
+    line("_count", labels, {}, static_cast<double>(below));
+    return *this;
+  }
+
+  std::string take() { return std::move(out_); }
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  Exposition& family(std::string_view name, std::string_view help, std::string_view type);
+  void line(std::string_view suffix, Labels labels, std::optional<double> bound, double value);
+
+  std::string out_;
+  std::string_view family_;
+};
 
 /// What /metrics shows: requests and problems, which are counted here, and what its sources write
 /// when somebody asks. docs/reference/metrics.md lists it. Thread-safe; counting a request takes
@@ -34,6 +82,32 @@ class Metrics {
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
+};
+
+/// Counts what was recorded since the start by source and verdict, for metrics: reads the rows that
+/// are new when somebody asks, so that recording costs nothing more. Thread-safe.
+class VerdictCounts : public std::enable_shared_from_this<VerdictCounts> {
+ public:
+  explicit VerdictCounts(app::MeasurementService& measurements) : measurements_(measurements) {}
+
+  /// Reads what is new, the first time only where the log ends, and calls `done`, on a storage
+  /// thread or at once; also when the storage cannot be read. One that comes while another reads
+  /// does not wait.
+  void refresh(std::function<void()> done);
+
+  void write(Exposition& out) const;
+
+ private:
+  static constexpr std::size_t kSources = 2;
+  using Counts = std::array<std::array<std::uint64_t, gauging::kVerdicts>, kSources>;
+
+  void take(const Result<app::ListPage>& page, const Counts& counts, std::int64_t last);
+
+  app::MeasurementService& measurements_;
+  mutable std::mutex mutex_;
+  bool reading_ = false;
+  std::optional<std::int64_t> position_;  ///< the last id that was counted
+  Counts counts_{};
 };
 
 }  // namespace fitgauge::api

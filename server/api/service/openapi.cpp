@@ -1,4 +1,4 @@
-#include "api/service/openapi.hpp"
+#include "api/resources.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "api/runs/setup_codec.hpp"
-#include "api/schemas.hpp"
-#include "api/service/version.hpp"
+#include "api/services.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/length.hpp"
 #include "base/text.hpp"

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "api/service/openapi.hpp"
+#include "api/resources.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 

@@ -5,7 +5,6 @@
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
-#include "api/schemas.hpp"
 #include "api/wire/formulas.hpp"
 #include "metrology/statistics/compensation.hpp"
 

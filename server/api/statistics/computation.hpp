@@ -1,14 +1,97 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "api/services.hpp"
+#include "base/json/body_forms.hpp"
 #include "base/json/json_value.hpp"
 #include "http/route.hpp"
+#include "metrology/statistics/control_chart.hpp"
+#include "metrology/statistics/decimals.hpp"
 
 namespace fitgauge::api {
+
+// Decimals of a body, exactly: JSON numbers and strings with one. What cannot be read goes to the
+// FieldErrors with its pointer.
+
+/// One decimal to the end of `to`; also reports what is neither a number nor a string.
+void add_exact(const JsonValue& value, const std::string& pointer, metrology::Decimals& to,
+               FieldErrors& errors);
+
+/// A decimal of an order, and the nearest figure in an answer.
+struct ExactNumber {
+  std::string schema(Side side) const {
+    return side == Side::Order ? schema::exact() : schema::null_or(schema::number());
+  }
+  bool read(FieldReader& fields, std::string_view name, metrology::Exact& to) const;
+  void write(JsonWriter& json, const metrology::Exact& from) const {
+    json.figure(metrology::nearest(from));
+  }
+};
+template <>
+struct FormOf<metrology::Exact> {
+  using Type = ExactNumber;
+};
+
+/// A decimal above 0.
+struct PositiveExact {
+  ErrorCode code;
+  std::string_view refusal;
+
+  std::string schema(Side) const { return schema::above_zero(schema::exact()); }
+  bool read(FieldReader& fields, std::string_view name, metrology::Exact& to) const;
+};
+inline constexpr PositiveExact kTolerance{ErrorCode::LimitsInvalid,
+                                          "the tolerance must be above 0"};
+
+/// Decimals, one or more.
+struct ExactNumbers {
+  std::string schema(Side) const { return schema::array(schema::exact(), 1); }
+  bool read(FieldReader& fields, std::string_view name, metrology::Decimals& to) const;
+};
+template <>
+struct FormOf<metrology::Decimals> {
+  using Type = ExactNumbers;
+};
+
+/// Groups of decimals, none of them empty.
+struct ExactGroups {
+  std::string schema(Side side) const { return schema::array(ExactNumbers().schema(side), 1); }
+  bool read(FieldReader& fields, std::string_view name, metrology::Groups& to) const;
+};
+template <>
+struct FormOf<metrology::Groups> {
+  using Type = ExactGroups;
+};
+
+/// Subgroups of one size, of two values or more.
+struct ExactSubgroups {
+  std::string schema(Side) const { return schema::array(schema::array(schema::exact(), 2), 1); }
+  bool read(FieldReader& fields, std::string_view name, metrology::Subgroups& to) const;
+};
+
+/// Single values, where no subgroups are given.
+struct SingleValues : ExactNumbers {
+  bool read(FieldReader& fields, std::string_view name, metrology::Subgroups& to) const {
+    return fields.has("subgroups") ? fields.optional(name) != nullptr
+                                   : ExactNumbers::read(fields, name, to.values);
+  }
+};
+
+/// `values`, or `subgroups` of one size.
+void data_members(auto& v, metrology::Subgroups& data) {
+  v.optional("values", data, SingleValues{}, "One after another, or subgroups");
+  v.optional("subgroups", data, ExactSubgroups{}, "Of one size, two values or more");
+  v.check([](FieldReader& fields) {
+    if (!fields.has("subgroups") && !fields.has("values")) fields.array("values");
+  });
+}
+
+/// Puts the error of a computation at a member, with the error's own code.
+Error at_member(std::string_view name, Error error);
 
 /// A figure that is computed from a JSON body and nothing else.
 struct Computation {

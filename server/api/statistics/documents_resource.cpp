@@ -5,12 +5,11 @@
 #include <algorithm>
 
 #include "api/handlers.hpp"
-#include "api/schemas.hpp"
 #include "api/service/document_routes.hpp"
 #include "api/statistics/uncertainty_resource.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/body_forms.hpp"
-#include "record/gauge_book.hpp"
+#include "record/measurement_batch.hpp"
 #include "service/measurements/gauges_in_use.hpp"
 
 namespace fitgauge::api {

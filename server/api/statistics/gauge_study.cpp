@@ -1,4 +1,4 @@
-#include "api/statistics/gauge_study.hpp"
+#include "api/statistics/statistics_answers.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include <span>
 #include <tuple>
 
-#include "api/statistics/statistics_answers.hpp"
 #include "metrology/statistics/gauge_study.hpp"
 
 namespace fitgauge::api {

@@ -9,17 +9,20 @@
 #include <utility>
 #include <vector>
 
-#include "api/statistics/exact_reader.hpp"
+#include "api/statistics/computation.hpp"
 #include "api/statistics/value_selection.hpp"
 #include "api/wire/formulas.hpp"
+#include "base/json/json_value.hpp"
+#include "base/json/schema.hpp"
+#include "base/result.hpp"
 #include "metrology/statistics/capability.hpp"
 #include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/summary.hpp"
 
+namespace fitgauge::api {
+
 // The answers of /v1/statistics that stored values have too. Figures have 17 significant digits; an
 // undefined one is null.
-
-namespace fitgauge::api {
 
 /// Members of a chart's order that only some kinds use, of values that are sent or stored.
 std::span<const Applicable> chart_members();
@@ -223,5 +226,10 @@ void members(auto& v, const CapabilityAnswer& answer) {
   v.member("percentile", c.percentile, "From 25 values, of the distribution");
   v.member("reason", c.reason(), "Why indices are null");
 }
+
+/// The answer to a gauge study's body, by its method.
+Result<std::string> gauge_study(const JsonValue& body);
+
+void add_gauge_study_schemas(Schemas& schemas);
 
 }  // namespace fitgauge::api

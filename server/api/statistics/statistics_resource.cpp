@@ -4,9 +4,7 @@
 
 #include <array>
 
-#include "api/schemas.hpp"
 #include "api/statistics/computation.hpp"
-#include "api/statistics/gauge_study.hpp"
 #include "api/statistics/statistics_answers.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
 #include "metrology/statistics/gauge_study.hpp"

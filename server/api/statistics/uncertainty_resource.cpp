@@ -1,9 +1,7 @@
 #include "api/statistics/uncertainty_resource.hpp"
 
 #include "api/resources.hpp"
-#include "api/schemas.hpp"
 #include "api/statistics/computation.hpp"
-#include "api/statistics/exact_reader.hpp"
 #include "api/wire/formulas.hpp"
 #include "service/measurements/uncertainty_budget.hpp"
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "api/schemas.hpp"
+#include "api/resources.hpp"
 
 namespace fitgauge::api {
 namespace {

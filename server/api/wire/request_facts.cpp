@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "api/service/caller.hpp"
 #include "base/digest.hpp"
 #include "base/text.hpp"
 #include "http/field_list.hpp"
@@ -154,6 +153,40 @@ TextPrecondition text_precondition_of(const http::Request& request) {
   return [conditions = std::move(conditions)](std::optional<std::string_view> text) {
     return text ? conditions.hold(etag_of_text(*text)) : conditions.hold(std::nullopt);
   };
+}
+
+http::Parameter idempotency_parameter() {
+  return {.name = "Idempotency-Key",
+          .place = http::ParameterPlace::Header,
+          .description = "Makes a repeat answer what the first was answered"};
+}
+
+SharedPosting begin_posting(const Services& services, const http::Request& request,
+                            http::Responder responder) {
+  auto posting = std::make_shared<Posting>(Posting{services, request, std::move(responder)});
+  auto key = idempotency_key(request);
+  if (!key) {
+    posting->responder.fail(key.error());
+    return nullptr;
+  }
+  if (*key) {
+    posting->scope = app::IdempotencyScope{.caller = std::string(caller_name(request).value_or("")),
+                                           .method = "POST",
+                                           .path = std::string(request.path()),
+                                           .key = **std::move(key),
+                                           .body = request.body()};
+  }
+  return posting;
+}
+
+http::Response response_of(app::Answer answer) {
+  http::Response response(answer.status, std::move(answer.content_type), std::move(answer.body));
+  if (!answer.location.empty()) response.with("Location", std::move(answer.location));
+  return response;
+}
+
+http::Response replayed(app::Answer kept) {
+  return response_of(std::move(kept)).with("Idempotency-Replayed", "true");
 }
 
 }  // namespace fitgauge::api

@@ -1,16 +1,27 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "api/services.hpp"
 #include "base/result.hpp"
 #include "http/request.hpp"
 #include "http/route.hpp"
+#include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
+
+/// Who sent a request, as the guard found out: the name of an API key, or empty where none is
+/// needed.
+struct Caller {
+  std::string name;
+  std::int64_t key = 0;  ///< of app::KeyService
+};
 
 /// What `Prefer: return=` asks for (RFC 7240).
 enum class Preference { None, Minimal, Representation };
@@ -58,5 +69,25 @@ void add_precondition_parameters(std::vector<http::Parameter>& parameters);
 std::optional<std::string_view> caller_name(const http::Request& request);
 /// The same as a text of its own.
 std::optional<std::string> caller_text(const http::Request& request);
+
+/// Everything one POST needs until it is answered. The request lives as long as its responder.
+struct Posting {
+  const Services& services;
+  const http::Request& request;
+  http::Responder responder;
+  std::optional<app::IdempotencyScope> scope{};  ///< of its Idempotency-Key
+};
+using SharedPosting = std::shared_ptr<Posting>;
+
+/// The header of a route that answers a repeat as it did the first time.
+http::Parameter idempotency_parameter();
+
+/// @returns null when the Idempotency-Key is no key: that has been answered.
+SharedPosting begin_posting(const Services& services, const http::Request& request,
+                            http::Responder responder);
+
+http::Response response_of(app::Answer answer);
+/// The same for a repeat, from what was kept.
+http::Response replayed(app::Answer kept);
 
 }  // namespace fitgauge::api

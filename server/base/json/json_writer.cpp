@@ -6,8 +6,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "base/length.hpp"
-
 namespace fitgauge {
 
 char* write_escape(char* to, char c) {

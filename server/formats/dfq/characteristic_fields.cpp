@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 #include "formats/dfq/measurement_csv.hpp"
-#include "formats/sheet/measurement_fields.hpp"
+#include "formats/sheet/record_reader.hpp"
 #include "metrology/gauging/gauge.hpp"
 
 namespace fitgauge::aqdef {

@@ -9,7 +9,7 @@
 #include "base/clock.hpp"
 #include "base/csv.hpp"
 #include "base/text.hpp"
-#include "formats/sheet/measurement_fields.hpp"
+#include "formats/sheet/record_reader.hpp"
 
 namespace fitgauge::aqdef {
 namespace {

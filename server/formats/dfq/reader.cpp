@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "formats/dfq/lines.hpp"
 
 namespace fitgauge::aqdef {
 namespace {

@@ -6,10 +6,9 @@
 
 #include "base/csv.hpp"
 #include "base/text.hpp"
-#include "formats/dfq/lines.hpp"
 #include "formats/qif/qif_definitions.hpp"
 #include "formats/qif/xml_reader.hpp"
-#include "formats/sheet/measurement_fields.hpp"
+#include "formats/sheet/record_reader.hpp"
 
 namespace fitgauge::qif {
 namespace {

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "base/length.hpp"
-#include "formats/dfq/lines.hpp"
 #include "formats/qif/xml_reader.hpp"
 
 namespace fitgauge::qif {

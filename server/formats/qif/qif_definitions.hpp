@@ -12,7 +12,7 @@
 #include "base/result.hpp"
 #include "formats/dfq/description.hpp"
 #include "formats/dfq/lines.hpp"
-#include "formats/sheet/measurement_fields.hpp"
+#include "formats/sheet/record_reader.hpp"
 
 namespace fitgauge::qif {
 

@@ -5,7 +5,6 @@
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"
-#include "formats/sheet/measurement_fields.hpp"
 
 namespace fitgauge::sheet {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "metrology/statistics/distributions.hpp"
+#include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::gauging {
 namespace {

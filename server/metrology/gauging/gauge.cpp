@@ -2,8 +2,6 @@
 
 #include <cassert>
 
-#include "base/length.hpp"
-
 namespace fitgauge::gauging {
 namespace {
 

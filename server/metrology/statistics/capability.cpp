@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "metrology/statistics/distributions.hpp"
-
 namespace fitgauge::metrology {
 namespace {
 

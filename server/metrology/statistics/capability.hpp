@@ -9,7 +9,6 @@
 
 #include "metrology/statistics/control_chart.hpp"
 #include "metrology/statistics/decimals.hpp"
-#include "metrology/statistics/distributions.hpp"
 #include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/summary.hpp"
 

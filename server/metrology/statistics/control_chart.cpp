@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "metrology/statistics/summary.hpp"
-#include "metrology/statistics/zone_rules.hpp"
 
 namespace fitgauge::metrology {
 namespace {

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "base/allowance.hpp"
-#include "metrology/statistics/distributions.hpp"
+#include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {
 namespace {

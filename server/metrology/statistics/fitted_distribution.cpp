@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "metrology/statistics/distributions.hpp"
 #include "metrology/statistics/process_model.hpp"
+#include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {
 namespace {

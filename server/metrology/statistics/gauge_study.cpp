@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "metrology/statistics/distributions.hpp"
+#include "metrology/statistics/summary.hpp"
 #include "metrology/statistics/zone_rules.hpp"
 
 namespace fitgauge::metrology {

@@ -1,6 +1,6 @@
 
-#include "metrology/statistics/distributions.hpp"
 #include "metrology/statistics/gauge_study.hpp"
+#include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {
 namespace {

@@ -8,8 +8,6 @@
 #include <map>
 #include <optional>
 
-#include "metrology/statistics/distributions.hpp"
-
 namespace fitgauge::metrology {
 namespace {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "metrology/statistics/distributions.hpp"
+#include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/source_range.hpp"
+#include "base/text.hpp"
 #include "nc/klartext/expression.hpp"
 
 namespace fitgauge::klartext {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/source_range.hpp"
+#include "base/text.hpp"
 
 namespace fitgauge::klartext {
 

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/source_range.hpp"
+#include "base/text.hpp"
 #include "nc/klartext/expression.hpp"
 #include "nc/klartext/statement.hpp"
 #include "nc/klartext/word_names.hpp"

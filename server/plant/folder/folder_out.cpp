@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "api/measurements/measurement_codec.hpp"
-#include "api/measurements/measurement_dfq.hpp"
-#include "api/measurements/measurement_qif.hpp"
+#include "api/measurements/measurement_file.hpp"
 #include "base/folder.hpp"
 #include "base/text.hpp"
 #include "formats/dfq/dfq_writer.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "api/handlers.hpp"
-#include "api/measurements/measurement_qif.hpp"
+#include "api/measurements/measurement_file.hpp"
 #include "plant/mtconnect/mtconnect_document.hpp"
 #include "service/measurements/measurement_service.hpp"
 

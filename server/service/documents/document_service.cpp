@@ -8,7 +8,7 @@
 #include "base/json/json_value.hpp"
 #include "db/store/database.hpp"
 #include "service/log/changes.hpp"
-#include "service/revisions/revision.hpp"
+#include "service/revisions/revision_feed.hpp"
 
 namespace fitgauge::app {
 namespace {

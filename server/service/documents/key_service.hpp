@@ -12,7 +12,6 @@
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
-#include "base/snapshot.hpp"
 #include "base/thread.hpp"
 
 namespace fitgauge::store {

@@ -3,16 +3,19 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <chrono>
 #include <utility>
 
-#include "base/thread.hpp"
 #include "db/store/database.hpp"
-#include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
 namespace {
+
+/// Between two rounds, so that a busy writer does not keep the readers busy for each of its
+/// commits.
+constexpr std::chrono::milliseconds kRest{5};
 
 constexpr std::size_t kRowsAPage = 200;
 
@@ -112,6 +115,49 @@ class EventReader {
 };
 
 }  // namespace
+
+CommitSignal::CommitSignal()
+    : thread_("commit signal", [this](const std::stop_token& stop) { run(stop); }) {}
+CommitSignal::~CommitSignal() = default;
+
+void CommitSignal::stop() { thread_.stop(); }
+
+void CommitSignal::raise() {
+  const std::lock_guard lock(mutex_);
+  if (raised_ || listeners_.empty()) return;
+  raised_ = true;
+  wake_.notify_one();
+}
+
+void CommitSignal::add(std::shared_ptr<CommitListener> listener) {
+  const std::lock_guard lock(mutex_);
+  listeners_.insert(std::move(listener));
+}
+
+void CommitSignal::remove(const std::shared_ptr<CommitListener>& listener) {
+  const std::lock_guard lock(mutex_);
+  listeners_.erase(listener);
+}
+
+std::size_t CommitSignal::listeners() const {
+  const std::lock_guard lock(mutex_);
+  return listeners_.size();
+}
+
+void CommitSignal::run(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (wake_.wait(lock, stop, [this] { return raised_; })) {
+    raised_ = false;
+    std::vector<std::shared_ptr<CommitListener>> listeners(listeners_.begin(), listeners_.end());
+    lock.unlock();
+    for (const auto& listener : listeners) {
+      guarded("a listener of commits", [&] { listener->committed(); });
+    }
+    listeners.clear();
+    lock.lock();
+    wake_.wait_for(lock, stop, kRest, [] { return false; });
+  }
+}
 
 std::string event_id_text(const EventPosition& position, std::string_view history) {
   return fmt::format("m{}{}.e{}-{}", position.measurement, position.reject_is_due ? "r" : "",

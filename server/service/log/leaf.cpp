@@ -1,7 +1,5 @@
 #include "service/log/leaf.hpp"
 
-#include <string>
-
 #include "record/record.hpp"
 
 namespace fitgauge::app {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "db/store/database.hpp"
-#include "proof/tile.hpp"
 #include "service/log/leaf.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"

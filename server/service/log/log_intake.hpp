@@ -12,8 +12,8 @@
 #include "base/digest.hpp"
 #include "base/result.hpp"
 #include "db/store/keys_store.hpp"
-#include "proof/checkpoint.hpp"
 #include "proof/frontier.hpp"
+#include "proof/note.hpp"
 #include "record/measurement.hpp"
 #include "record/origins.hpp"
 

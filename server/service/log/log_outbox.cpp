@@ -6,7 +6,6 @@
 #include "db/store/database.hpp"
 #include "record/record.hpp"
 #include "service/log/log_reader.hpp"
-#include "service/log/log_service.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/tables/table_catalog.hpp"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "db/store/stores.hpp"
 #include "record/record.hpp"
 #include "service/log/changes.hpp"
 

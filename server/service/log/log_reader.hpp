@@ -7,7 +7,6 @@
 
 #include "db/store/stores.hpp"
 #include "proof/frontier.hpp"
-#include "proof/tile.hpp"
 #include "service/log/leaf.hpp"
 #include "service/measurements/mapping.hpp"
 

@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "base/digest.hpp"
-#include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "db/store/stores.hpp"
-#include "proof/note.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
 #include "service/measurements/mapping.hpp"

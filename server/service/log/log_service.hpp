@@ -15,12 +15,11 @@
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
-#include "base/snapshot.hpp"
 #include "base/thread.hpp"
 #include "db/store/changes_store.hpp"
 #include "db/store/log_store.hpp"
-#include "proof/checkpoint.hpp"
 #include "proof/frontier.hpp"
+#include "proof/note.hpp"
 #include "record/measurement.hpp"
 #include "record/origins.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "base/json/text_arena.hpp"
 #include "base/result.hpp"
-#include "service/revisions/revision.hpp"
+#include "service/revisions/revision_feed.hpp"
 
 namespace fitgauge::api {
 

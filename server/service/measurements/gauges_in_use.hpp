@@ -6,8 +6,8 @@
 #include <mutex>
 
 #include "base/result.hpp"
-#include "base/snapshot.hpp"
-#include "record/gauge_book.hpp"
+#include "base/thread.hpp"
+#include "record/measurement_batch.hpp"
 
 namespace fitgauge::app {
 class DocumentService;

@@ -1,7 +1,5 @@
 #include "service/measurements/measurement_queue.hpp"
 
-#include <utility>
-
 #include "base/thread.hpp"
 #include "db/store/database.hpp"
 

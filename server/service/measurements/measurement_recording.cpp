@@ -5,7 +5,6 @@
 #include "db/store/database.hpp"
 #include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"
-#include "service/measurements/measurement_notes.hpp"
 #include "service/measurements/measurement_queue.hpp"
 #include "service/measurements/measurement_service.hpp"
 #include "service/measurements/measurement_storage.hpp"

@@ -7,7 +7,6 @@
 #include "db/store/database.hpp"
 #include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"
-#include "service/measurements/measurement_notes.hpp"
 #include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 

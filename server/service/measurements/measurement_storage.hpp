@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -48,5 +49,14 @@ Error unknown_measurement(const RecordName& name, const Origins& origins);
 
 /// The error when the queue of writes is full.
 Error too_much_work();
+
+// Notes as rows of this folder; the service calls these in its jobs.
+
+/// Keeps a note beside a row and gives it its id.
+void append_note(store::Stores& stores, std::int64_t row, const Origins& origins, Note& note);
+
+/// The notes of a row, oldest first. @param measurement the id of its record
+std::vector<Note> notes_of(const store::Stores& stores, std::int64_t row,
+                           const std::string& measurement, const Origins& origins);
 
 }  // namespace fitgauge::app

@@ -1,15 +1,77 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "base/clock.hpp"
+#include "base/digest.hpp"
 #include "base/result.hpp"
-#include "service/revisions/revision.hpp"
+#include "record/measurement.hpp"
+#include "service/documents/key_service.hpp"
+#include "tables/iso286/table_data.hpp"
+
+namespace fitgauge::app {
+
+/// The refusal to change at a station what its centre has given. @param what `the plan 'X'`
+inline Error centre_decides(std::string_view what) {
+  return {ErrorCode::Forbidden,
+          std::string(what) +
+              " came from the centre: change it there, and it is here within half a minute"};
+}
+
+/// Numbered as in the database.
+enum class RevisionKind : std::uint8_t {
+  Tables = 1,
+  Key = 2,
+  Setup = 3,
+  Plan = 4,
+  Correction = 5,
+  Catalogue = 7
+};
+
+/// `tables`, `key`, `setup`, `plan`, `correction`, `catalogue`.
+std::string_view word(RevisionKind kind);
+std::optional<RevisionKind> revision_kind_from_word(std::string_view text);
+
+/// Change `number` of a centre: what it sets or removes. Members of other kinds are empty.
+struct Revision {
+  std::int64_t number = 0;
+  RevisionKind kind = RevisionKind::Tables;
+  std::string name{};       ///< of the key or document
+  bool is_removed = false;  ///< a key: revoked
+  std::string text{};       ///< of the document, or the correction's record
+
+  std::string id{};  ///< of the tables, as records name them
+  std::vector<iso286::CustomColumn> columns{};
+
+  Role role = Role::Viewer;
+  Digest token_hash{};
+  std::optional<Timestamp> expires_at{};
+
+  std::int64_t place = 0;                    ///< of the correction in the centre's log
+  std::optional<Measurement> measurement{};  ///< what `text` says, where it was read
+};
+
+/// Revisions in the order of their numbers.
+struct RevisionPage {
+  std::string position{};  ///< the next page is asked for with it
+  bool more = false;
+  std::string origin{};   ///< of the centre: 16 hexadecimal digits
+  std::int64_t size = 0;  ///< records of the station's log that are at the centre
+  std::vector<Revision> revisions{};
+};
+
+}  // namespace fitgauge::app
 
 namespace fitgauge::store {
+
 class Database;
 struct Stores;
+
 }  // namespace fitgauge::store
 
 namespace fitgauge::app {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/result.hpp"
-#include "service/revisions/revision.hpp"
+#include "service/revisions/revision_feed.hpp"
 
 namespace fitgauge::store {
 class Database;

@@ -1,11 +1,26 @@
 #include "service/runs/active_run.hpp"
 
 #include <algorithm>
-#include <utility>
 
-#include "base/thread.hpp"
+#include "db/store/database.hpp"
 
 namespace fitgauge::app {
+namespace {
+
+constexpr std::chrono::milliseconds kBetweenLooks{250};
+
+/// What the store says of runs.
+struct Seen {
+  std::vector<std::int64_t> to_be_cancelled;
+  std::vector<std::int64_t> begun;
+  std::vector<store::Run> ended;
+};
+
+Error no_longer() {
+  return {ErrorCode::ShuttingDown, "the service is shutting down and follows no run any more"};
+}
+
+}  // namespace
 
 RunState ActiveRun::state() const {
   const std::lock_guard lock(mutex_);
@@ -110,6 +125,104 @@ void ActiveRun::finished(Result<FinishedRun> end) {
   });
   for (const auto& done : at_end) {
     guarded("a run's end", [&] { done(*end_); });
+  }
+}
+
+SharedRuns::SharedRuns(store::Database& database, Own own)
+    : database_(database),
+      own_(std::move(own)),
+      thread_("shared runs", [this](const std::stop_token& stop) { run(stop); }) {}
+
+SharedRuns::~SharedRuns() { stop(); }
+
+void SharedRuns::stop() {
+  thread_.stop();
+  {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+  }
+  end(followed(), no_longer());
+}
+
+std::shared_ptr<ActiveRun> SharedRuns::follow(const StoredRun& run) {
+  const std::lock_guard lock(mutex_);
+  std::weak_ptr<ActiveRun>& place = followed_[run.id];
+  if (auto known = place.lock()) return known;
+  auto order = std::make_shared<const RunOrder>(
+      RunOrder{.program = interpreter::ControlPath::parse(run.program).value(),
+               .setup = {},
+               .options = {},
+               .request = {}});
+  auto made = std::make_shared<ActiveRun>(run.id, run.origin, std::move(order), run.created_at);
+  if (run.state == RunState::Running) made->started();
+  if (stopped_) {
+    made->finished(no_longer());
+  } else {
+    place = made;
+  }
+  return made;
+}
+
+void SharedRuns::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    {
+      std::unique_lock lock(mutex_);
+      ended_.wait_for(lock, stop, kBetweenLooks, [] { return false; });
+    }
+    if (stop.stop_requested()) return;
+    const bool runs_any = own_.has_any();
+    const Followed now = followed();
+    if (runs_any || !now.empty()) look(now, runs_any);
+  }
+}
+
+/// Those that somebody follows still.
+SharedRuns::Followed SharedRuns::followed() {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(followed_, [](const auto& run) { return run.second.expired(); });
+  return followed_;
+}
+
+void SharedRuns::look(const Followed& followed, bool runs_any) {
+  const auto seen = database_.readers().wait([&](const store::Stores& stores) -> Result<Seen> {
+    Seen found;
+    if (runs_any) found.to_be_cancelled = stores.runs.to_be_cancelled();
+    for (const auto& [id, run] : followed) {
+      const auto status = stores.runs.status(id);
+      if (!status || *status == store::RunStatus::Queued) continue;
+      if (store::is_finished(*status)) {
+        found.ended.push_back(*stores.runs.find(id));
+      } else {
+        found.begun.push_back(id);
+      }
+    }
+    return found;
+  });
+  if (!seen) {
+    if (seen.error().code != ErrorCode::StorageBusy) end(followed, seen.error());
+    return;
+  }
+  const auto of = [&followed](std::int64_t id) { return followed.at(id).lock(); };
+  for (const std::int64_t id : seen->to_be_cancelled) own_.cancel(id);
+  for (const std::int64_t id : seen->begun) {
+    if (const auto active = of(id); active && active->state() == RunState::Queued) {
+      active->started();
+    }
+  }
+  for (const store::Run& run : seen->ended) {
+    if (const auto active = of(run.id)) {
+      active->finished(FinishedRun{.state = run_state(run.status), .report = run.result});
+    }
+    const std::lock_guard lock(mutex_);
+    followed_.erase(run.id);
+  }
+}
+
+void SharedRuns::end(const Followed& followed, const Error& error) {
+  for (const auto& [id, run] : followed) {
+    if (const auto active = run.lock()) active->finished(error);
+    const std::lock_guard lock(mutex_);
+    followed_.erase(id);
   }
 }
 

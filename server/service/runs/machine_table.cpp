@@ -6,8 +6,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "tables/tabfile/tab_table.hpp"
-
 namespace fitgauge::app {
 namespace {
 

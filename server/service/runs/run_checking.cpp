@@ -18,7 +18,7 @@
 #include "nc/program/check.hpp"
 #include "nc/program/control_disk.hpp"
 #include "nc/program/program_cache.hpp"
-#include "service/files/disks.hpp"
+#include "service/files/file_service.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/runs/run_service.hpp"
 #include "tables/tabfile/tab_table.hpp"

@@ -8,7 +8,6 @@
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/run/q_parameters.hpp"
 #include "nc/run/run_files.hpp"
-#include "service/runs/stored_run.hpp"
 
 namespace fitgauge::app {
 namespace {

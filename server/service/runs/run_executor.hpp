@@ -4,7 +4,7 @@
 
 #include "record/measurement.hpp"
 #include "service/runs/active_run.hpp"
-#include "service/runs/run_report.hpp"
+#include "service/runs/stored_run.hpp"
 
 namespace fitgauge::app {
 

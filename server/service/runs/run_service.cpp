@@ -1,9 +1,7 @@
 #include "service/runs/run_service.hpp"
 
-#include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "service/measurements/mapping.hpp"
-#include "service/runs/stored_run.hpp"
 
 namespace fitgauge::app {
 namespace {

@@ -13,16 +13,13 @@
 #include "base/worker_pool.hpp"
 #include "nc/klartext/diagnostic.hpp"
 #include "record/origins.hpp"
-#include "service/files/disks.hpp"
+#include "service/files/file_service.hpp"
 #include "service/measurements/measurement_service.hpp"
 #include "service/runs/active_run.hpp"
+#include "service/runs/control_files.hpp"
 #include "service/runs/control_tables.hpp"
-#include "service/runs/mesh_files.hpp"
 #include "service/runs/run_executor.hpp"
-#include "service/runs/run_report.hpp"
-#include "service/runs/shared_runs.hpp"
 #include "service/runs/stored_run.hpp"
-#include "service/tables/live_tables.hpp"
 
 namespace fitgauge::app {
 

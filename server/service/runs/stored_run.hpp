@@ -1,19 +1,131 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/clock.hpp"
 #include "base/gzip.hpp"
-#include "service/runs/run_report.hpp"
+#include "base/result.hpp"
+#include "nc/machine/machine_setup.hpp"
+#include "nc/machine/scripted_machine.hpp"
+#include "nc/machine/tracing_machine.hpp"
+#include "nc/run/interpreter.hpp"
+#include "record/measurement.hpp"
+
+namespace fitgauge::app {
+
+struct ControlTables;
+
+/// What a run measures, for its records; empty: unknown.
+struct RunSubject {
+  std::string part_id{};
+  std::string order{};
+};
+
+/// A run as it is ordered.
+struct RunOrder {
+  interpreter::ControlPath program;
+  machine::Setup setup;  ///< validated
+  interpreter::RunOptions options;
+  std::string request;  ///< kept with the run, so that it can be repeated
+  /// What each probing move of a real machine found, in order; nothing: the machine is simulated.
+  std::optional<std::vector<machine::ScriptedContact>> contacts{};
+  RunSubject subject{};
+  std::optional<std::string> caller{};
+  /// Parameters whose values after each block stand in the trace.
+  std::vector<klartext::QRef> watch{};
+};
+
+enum class RunState : std::uint8_t {
+  Queued,
+  Running,
+  Completed,
+  Stopped,
+  Failed,
+  LimitExceeded,
+  Cancelled
+};
+
+inline constexpr std::size_t kRunStates = 7;
+
+/// `queued`, `running`, `completed`, ...
+std::string_view word(RunState state);
+std::optional<RunState> run_state_from_word(std::string_view text);
+RunState state_of(interpreter::RunStatus status);
+
+/// A run that is over.
+struct RunReport {
+  std::int64_t id = 0;
+  std::string_view origin{};  ///< of the data folder
+  std::string program;
+  interpreter::RunResult result{};
+  std::uint64_t seed = 1;
+  RunSubject subject{};
+  Timestamp created_at{};
+  Timestamp finished_at{};
+
+  std::string id_text() const { return run_id_text(id, origin); }
+};
+
+/// Whose move it is.
+struct TracePlace {
+  std::string_view program{};
+  std::uint32_t line = 0;
+  std::optional<std::uint32_t> block{};  ///< its number as written
+  int cycle = 0;                         ///< that commands the machine, 0 for the block itself
+};
+
+/// The blocks of a run that is watched, as they are written down.
+struct WatchedBlocks {
+  static constexpr std::size_t kLongest = std::size_t{4} << 20;
+  std::string text{};       ///< at most kLongest bytes
+  std::size_t dropped = 0;  ///< blocks that came after that
+};
+
+/// How the moves of a run are written down, one after the other while it moves.
+struct TraceFormat {
+  std::string_view head{};
+  std::string_view separator{};  ///< between two moves
+  /// @param axes that the machine has
+  std::function<void(std::string& out, const machine::TracedMove&, const TracePlace&,
+                     std::span<const machine::Axis> axes)>
+      move{};
+  /// A block that has run, with those of the watched parameters that are defined then.
+  std::function<void(std::string& out, const TracePlace&,
+                     std::span<const interpreter::ParameterValue> values)>
+      block{};
+  /// @param dropped moves that came after the longest trace was full
+  /// @param blocks of a run that is watched, with commas between them
+  std::function<std::string(std::size_t dropped, const std::optional<WatchedBlocks>& blocks)>
+      tail{};
+};
+
+/// How runs are written down; the text is opaque here and in the store.
+struct RunFormat {
+  std::function<std::string(const RunReport&)> report;
+  TraceFormat trace;
+  /// The seed of the setup in an order as it was stored.
+  std::function<std::uint64_t(const std::string& request)> seed;
+  /// An order as it was stored, which names nothing outside but the control's disk.
+  std::function<Result<RunOrder>(const std::string& request, const ControlTables&)> order{};
+  /// The payload of the event run.finished.
+  std::function<std::string(const RunReport&)> event;
+};
+
+}  // namespace fitgauge::app
 
 namespace fitgauge::store {
+
 struct Run;
 enum class RunStatus : std::uint8_t;
+
 }  // namespace fitgauge::store
 
 namespace fitgauge::app {

@@ -8,7 +8,7 @@
 #include "db/store/database.hpp"
 #include "service/log/changes.hpp"
 #include "service/measurements/mapping.hpp"
-#include "service/revisions/revision.hpp"
+#include "service/revisions/revision_feed.hpp"
 #include "service/tables/custom_column.hpp"
 #include "tables/iso286/table_data.hpp"
 #include "tables/standards/standard.hpp"

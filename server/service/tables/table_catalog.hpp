@@ -13,7 +13,7 @@
 #include "base/clock.hpp"
 #include "base/digest.hpp"
 #include "base/result.hpp"
-#include "base/snapshot.hpp"
+#include "base/thread.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::store {

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "api/measurements/measurement_answer.hpp"
+#include "api/measurements/measurement_posting.hpp"
 #include "http/request.hpp"
 #include "record/measurement_batch.hpp"
 #include "record/record.hpp"

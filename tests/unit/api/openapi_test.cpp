@@ -1,4 +1,4 @@
-#include "api/service/openapi.hpp"
+#include "api/resources.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,6 @@
 #include <set>
 
 #include "api/runs/setup_codec.hpp"
-#include "api/schemas.hpp"
 #include "base/json/json_value.hpp"
 
 using namespace fitgauge;

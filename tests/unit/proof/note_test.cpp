@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/digest.hpp"
-#include "proof/checkpoint.hpp"
+#include "proof/note.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::tlog;

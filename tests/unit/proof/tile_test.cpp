@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "proof/tile.hpp"
+#include "proof/frontier.hpp"
 
 using namespace fitgauge::tlog;
 

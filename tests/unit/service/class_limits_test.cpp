@@ -9,8 +9,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "service/runs/control_files.hpp"
 #include "service/runs/run_executor.hpp"
-#include "service/tables/live_tables.hpp"
 #include "tables/iso286/table_data.hpp"
 
 namespace fitgauge::app {

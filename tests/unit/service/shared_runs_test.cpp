@@ -1,4 +1,4 @@
-#include "service/runs/shared_runs.hpp"
+#include "service/runs/active_run.hpp"
 
 #include <doctest/doctest.h>
 

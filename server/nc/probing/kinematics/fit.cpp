@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "metrology/statistics/distributions.hpp"
+#include "metrology/statistics/summary.hpp"
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/kinematics/adjustment.hpp"
 

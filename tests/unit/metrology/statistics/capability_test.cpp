@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "metrology/statistics/capability.hpp"
-#include "metrology/statistics/distributions.hpp"
+#include "metrology/statistics/summary.hpp"
 #include "support.hpp"
 
 using namespace fitgauge;

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "metrology/statistics/capability.hpp"
-#include "metrology/statistics/distributions.hpp"
+#include "metrology/statistics/summary.hpp"
 
 namespace fitgauge::metrology {
 namespace {

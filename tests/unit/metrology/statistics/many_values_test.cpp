@@ -4,7 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include "metrology/statistics/distributions.hpp"
 #include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/summary.hpp"
 

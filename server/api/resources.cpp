@@ -1,11 +1,8 @@
-#include "api/routes.hpp"
+#include "api/resources.hpp"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
-
-#include "api/resources.hpp"
-#include "api/service/openapi.hpp"
 
 namespace fitgauge::api {
 

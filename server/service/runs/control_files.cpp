@@ -1,10 +1,13 @@
-#include "service/runs/mesh_files.hpp"
+#include "service/runs/control_files.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
 #include "nc/machine/stl_file.hpp"
+#include "service/tables/table_catalog.hpp"
+#include "tables/tabfile/iso286_projection.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -24,6 +27,15 @@ Result<std::shared_ptr<const TriangleTree>> read_body(std::string_view bytes, do
     for (Vec3& corner : triangle) corner = corner * unit;
   }
   return std::make_shared<const TriangleTree>(*std::move(triangles));
+}
+
+interpreter::ProjectingDisk::Projection projection(const iso286::ToleranceTables& tables,
+                                                   iso286::Feature feature) {
+  auto table = std::make_shared<const tabfile::TabTable>(tabfile::project(tables, feature));
+  return {.file_name = "82553_" + std::string(word(feature)) + ".tab",
+          .bytes = std::make_shared<const std::string>(tabfile::write_tab(*table)),
+          .revision = tables.revision().id,
+          .table = table};
 }
 
 }  // namespace
@@ -69,6 +81,22 @@ Result<void> MeshFiles::load(machine::Setup& setup, std::string_view pointer,
   });
   if (found.empty()) return {};
   return listed(ErrorCode::RequestInvalid, std::move(found));
+}
+
+std::vector<interpreter::ProjectingDisk::Projection> project(
+    const iso286::ToleranceTables& tables) {
+  return {projection(tables, iso286::Feature::Hole), projection(tables, iso286::Feature::Shaft)};
+}
+
+std::vector<interpreter::ProjectingDisk::Projection> LiveTables::projections() {
+  const auto tables = catalog_.tables();
+  if (!tables) return {};
+  const std::lock_guard lock(mutex_);
+  if (const std::string& revision = (*tables)->revision().id; revision_ != revision) {
+    projections_ = project(**tables);
+    revision_ = revision;
+  }
+  return projections_;
 }
 
 }  // namespace fitgauge::app
