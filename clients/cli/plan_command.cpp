@@ -87,9 +87,9 @@ Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing,
                                                      .body = plan->text}),
                                 context.client.url());
   if (!answer) return answer.error();
-  for (const std::string& name : plan->added) context.note("added: " + name);
-  for (const std::string& name : plan->gone) context.note("gone: " + name);
-  for (const auto& one : plan->changed)
+  for (const std::string& name : plan->compared.added) context.note("added: " + name);
+  for (const std::string& name : plan->compared.gone) context.note("gone: " + name);
+  for (const auto& one : plan->compared.changed)
     context.note(fmt::format("changed: {}: {}, before {}", one.name, one.after, one.before));
   return ExitCode::Good;
 }

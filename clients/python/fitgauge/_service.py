@@ -35,9 +35,11 @@ class ServiceCalls(Transport):
         """Makes a plan of a STEP file: what was `added`, `gone` and `changed`, and what was `not_read`."""
         return loads(self._put(path_of("plans", part), drawing, "model/step").body)
 
-    def read_drawing(self, drawing: bytes) -> dict[str, Any]:
-        """The `sizes` of a STEP file, and what was `not_read`; nothing is stored."""
-        return loads(self._perform(Request("POST", "/v1/drawings", drawing, {"Content-Type": "model/step"})).body)
+    def read_drawing(self, drawing: bytes, part: str | None = None) -> dict[str, Any]:
+        """The `sizes` of a STEP file, and what was `not_read`; nothing is stored. With a `part` that has a plan also how
+        it is `compared`: `added`, `gone` and `changed`."""
+        target = "/v1/drawings" + query_of({"part": part})
+        return loads(self._perform(Request("POST", target, drawing, {"Content-Type": "model/step"})).body)
 
     def delete_plan(self, part: str) -> None:
         self._perform(Request("DELETE", path_of("plans", part)))

@@ -42,35 +42,48 @@ Result<step::Drawing> drawing_of(const Services& services, std::string_view text
 }
 
 /// The plan of a drawing, with what people gave the characteristics of the plan before.
+/// @param stored gets the text of that plan; empty if there is none
+Result<step::DrawnPlan> drawn_plan(const Services& services, const step::Drawing& drawing,
+                                   const std::string& part, std::string& stored) {
+  auto found = services.documents.wait_for(app::DocumentKind::Plan, part);
+  if (!found && found.error().code == ErrorCode::PlanUnknown)
+    return step::plan_of(drawing, part, nullptr);
+  if (!found) return found.error();
+  stored = std::move(found->text);
+  const auto before = parse_stored_json(stored, "plan");
+  return before ? step::plan_of(drawing, part, &*before) : before.error();
+}
+
 Result<CheckedDocument> check_drawn(const Services& services, const std::string& part,
                                     std::string_view text) {
   const auto drawing = drawing_of(services, text);
   if (!drawing) return drawing.error();
-  const auto stored = services.documents.wait_for(app::DocumentKind::Plan, part);
-  if (!stored && stored.error().code != ErrorCode::PlanUnknown) return stored.error();
-  std::optional<JsonValue> before;
-  if (stored) {
-    auto read = parse_stored_json(stored->text, "plan");
-    if (!read) return read.error();
-    before = *std::move(read);
-  }
-  const auto plan = step::plan_of(*drawing, part, before ? &*before : nullptr);
+  std::string stored;
+  const auto plan = drawn_plan(services, *drawing, part, stored);
   if (!plan) return plan.error();
   auto checked = check_plan(services, part, plan->text);
   if (!checked) return checked.error();
   checked->answer = body_json(*plan);
-  checked->before = stored ? stored->text : std::string();
+  checked->before = std::move(stored);
   return checked;
+}
+
+Result<http::Response> drawing_answer(const Services& services, const http::Request& request) {
+  auto drawing = drawing_of(services, request.body());
+  if (!drawing) return drawing.error();
+  if (const auto part = request.text("part"); part && !drawing->sizes.empty()) {
+    std::string stored;
+    auto plan = drawn_plan(services, *drawing, std::string(*part), stored);
+    if (!plan) return plan.error();
+    if (!stored.empty()) drawing->compared = std::move(plan->compared);
+  }
+  return json_response(body_json(*drawing));
 }
 
 void read_drawing(const Services& services, const http::Request& request,
                   http::Responder responder) {
-  services.jobs.figures.run(
-      [&services, &request]() -> Result<http::Response> {
-        const auto drawing = drawing_of(services, request.body());
-        return json_response(drawing ? Result<std::string>(body_json(*drawing)) : drawing.error());
-      },
-      answer_by(share(std::move(responder))));
+  services.jobs.figures.run([&services, &request] { return drawing_answer(services, request); },
+                            answer_by(share(std::move(responder))));
 }
 
 Result<void> describe_plan(JsonWriter& json, const app::NamedDocument& plan) {
@@ -114,6 +127,8 @@ void add_plans_routes(std::vector<http::Route>& routes, const Services& services
       .description = "AP242, AP203 or AP214 with product manufacturing information. Nothing is "
                      "stored: PUT the file to "
                      "/v1/plans/{part} to make a plan of it.",
+      .parameters = {{.name = "part",
+                      .description = "Part number of a plan to compare its characteristics with"}},
       .body = {.use = http::BodyUse::Required,
                .media_types = {std::string(kStep)},
                .limit = kLongestDrawing,

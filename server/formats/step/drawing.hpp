@@ -38,11 +38,26 @@ struct NotRead {
   std::string why{};
 };
 
+struct ChangedLimits {
+  std::string name{};
+  std::string before{};  ///< `nominal_mm 35, upper_um 200, lower_um 0`
+  std::string after{};
+};
+
+/// What the characteristics of a drawing have that those of a plan have not.
+struct Comparison {
+  std::optional<std::string> digest{};  ///< of the drawing that the plan came from
+  std::vector<std::string> added{};
+  std::vector<std::string> gone{};
+  std::vector<ChangedLimits> changed{};
+};
+
 struct Drawing {
   std::string part{};    ///< the number of the one product; empty if there are several
   std::string digest{};  ///< SHA-256 of the file in hexadecimal
   std::vector<DrawnSize> sizes{};
   std::vector<NotRead> not_read{};
+  std::optional<Comparison> compared{};  ///< with a plan
 };
 
 void members(auto& v, const DrawnSize& size) {
@@ -66,12 +81,29 @@ void members(auto& v, const NotRead& other) {
   v.member("name", other.name, "Of its callout, else of its entity");
   v.member("why", other.why, "And what to do");
 }
+void members(auto& v, const ChangedLimits& change) {
+  v.member("name", change.name, "Of the characteristic");
+  v.member("before", change.before, "Its limits in the plan");
+  v.member("after", change.after, "Its limits in the drawing");
+}
+void comparison_members(auto& v, const Comparison& compared) {
+  v.member("added", compared.added, api::List<std::string, api::Text>{},
+           "Names that the plan has not");
+  v.member("gone", compared.gone, api::List<std::string, api::Text>{},
+           "Names of drawn ones that the drawing has not");
+  v.member("changed", compared.changed, "Other limits under the same name");
+}
+void members(auto& v, const Comparison& compared) {
+  v.optional("digest", compared.digest, "Of the drawing that the plan came from");
+  comparison_members(v, compared);
+}
 void members(auto& v, const Drawing& drawing) {
   v.member("part", drawing.part, "The number of the product; empty if there are several");
   v.member("digest", drawing.digest, "SHA-256 of the file, in hexadecimal");
   v.member("sizes", drawing.sizes, "Which a plan can have as they are");
   v.member("not_read", drawing.not_read,
            "Tolerances of form and place, notes, and sizes that lack something");
+  v.optional("compared", drawing.compared, "With the plan of the part; absent if there is none");
 }
 
 /// @param text a whole file; lengths are converted to mm and rounded to the nearest nanometre

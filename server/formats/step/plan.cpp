@@ -77,6 +77,9 @@ Result<DrawnPlan> plan_of(const Drawing& drawing, std::string_view part, const J
                              drawing.not_read.size())};
   }
   DrawnPlan plan{.digest = drawing.digest, .not_read = drawing.not_read};
+  Comparison& compared = plan.compared;
+  if (const auto digest = old.member("drawing").text_of("digest"); !digest.empty())
+    compared.digest.emplace(digest);
   JsonWriter json(plan.text);
   json.begin_object().member("part", part);
   if (const JsonValue* name = old.find("name")) write_json(json.key("name"), *name);
@@ -94,7 +97,7 @@ Result<DrawnPlan> plan_of(const Drawing& drawing, std::string_view part, const J
   for (const JsonValue& one : known) {
     if (names.contains(one.text_of("name"))) continue;
     if (one.find("entity") != nullptr)
-      plan.gone.emplace_back(one.text_of("name"));
+      compared.gone.emplace_back(one.text_of("name"));
     else
       write_json(json, one);
   }
@@ -107,9 +110,9 @@ Result<DrawnPlan> plan_of(const Drawing& drawing, std::string_view part, const J
     const std::string name(one.text_of("name"));
     const JsonValue* other = find(known, name);
     if (other == nullptr)
-      plan.added.push_back(name);
+      compared.added.push_back(name);
     else if (limits_of(*other) != limits_of(one))
-      plan.changed.push_back({name, limits_of(*other), limits_of(one)});
+      compared.changed.push_back({name, limits_of(*other), limits_of(one)});
   }
   return plan;
 }

@@ -37,6 +37,18 @@ class Drawings(ClientTest):
         self.assert_problem(self.daemon.request("PUT", "/v1/plans/no", b'{"name":"' + b"x" * (1 << 20) + b'"}', {"Content-Type": "application/json"}),
                             413, "request.body_too_large")
 
+    def test_two_gigabytes_are_refused_before_they_are_sent(self):
+        for method, path in (("POST", "/v1/drawings"), ("PUT", "/v1/plans/no")):
+            connection = self.daemon.connect()
+            self.addCleanup(connection.close)
+            connection.putrequest(method, path)
+            for field in (*STEP.items(), ("Content-Length", str(2 << 30))):
+                connection.putheader(*field)
+            connection.endheaders()
+            answer = connection.getresponse()
+            self.assertEqual(answer.status, 413)
+            self.assertIn(b"67108864 bytes", answer.read())
+
     def test_a_revision_says_what_it_changed_and_keeps_what_people_gave(self):
         first = self.put("4711-A", HOUSING)
         self.assertEqual((first.status, len(first.json["added"])), (201, 5))
@@ -45,8 +57,13 @@ class Drawings(ClientTest):
         plan["characteristics"][1]["gauge"] = "G-07"
         plan["characteristics"].append({"name": "by hand", "designation": "30 k6"})
         self.assertEqual(self.daemon.request("PUT", "/v1/plans/4711-A", plan).status, 200)
+        self.assertNotIn("compared", self.daemon.request("POST", "/v1/drawings?part=none", HOUSING, STEP).json)
         revision = HOUSING.replace(b"'g6','shaft'", b"'f7','shaft'").replace(b"#170=DIMENSIONAL_LOCATION", b"#170=OTHER_LOCATION")
+        compared = self.daemon.request("POST", "/v1/drawings?part=4711-A", revision, STEP).json["compared"]
+        self.assertEqual(compared.pop("digest"), hashlib.sha256(HOUSING).hexdigest())
+        self.assertEqual(self.plan("4711-A")["characteristics"][1]["tolerance_class"], "g6")
         second = self.put("4711-A", revision)
+        self.assertEqual(compared, {name: second.json[name] for name in compared})
         self.assertEqual(second.status, 200)
         self.assertEqual(second.json["changed"], [{"name": "diameter 25", "before": "nominal_mm 25, tolerance_class g6",
                                                    "after": "nominal_mm 25, tolerance_class f7"}])

@@ -200,19 +200,21 @@ TEST_CASE("a plan keeps what people gave its characteristics and says what a new
   REQUIRE(drawing.has_value());
   const auto first = plan_of(*drawing, "4711-A", nullptr);
   REQUIRE(first.has_value());
-  CHECK(first->added.size() == 5);
-  const auto before = parse_json(R"({"part":"4711-A","name":"Housing","characteristics":[
+  CHECK(first->compared.added.size() == 5);
+  const auto before =
+      parse_json(R"({"part":"4711-A","name":"Housing","drawing":{"digest":"aa"},"characteristics":[
     {"name":"Bore Ø A","nominal_mm":25,"tolerance_class":"H8","gauge":"G-07","entity":"#9"},
     {"name":"slot of old","nominal_mm":8,"upper_um":1,"lower_um":0,"feature":"hole","entity":"#10"},
     {"name":"by hand","designation":"30 k6"}]})");
   REQUIRE(before.has_value());
   const auto next = plan_of(*drawing, "4711-A", &*before);
   REQUIRE(next.has_value());
-  CHECK(next->added.size() == 4);
-  CHECK(next->gone == std::vector<std::string>{"slot of old"});
-  REQUIRE(next->changed.size() == 1);
-  CHECK(next->changed[0].before == "nominal_mm 25, tolerance_class H8");
-  CHECK(next->changed[0].after == "designation 25 H7 (E)");
+  CHECK(next->compared.digest == "aa");
+  CHECK(next->compared.added.size() == 4);
+  CHECK(next->compared.gone == std::vector<std::string>{"slot of old"});
+  REQUIRE(next->compared.changed.size() == 1);
+  CHECK(next->compared.changed[0].before == "nominal_mm 25, tolerance_class H8");
+  CHECK(next->compared.changed[0].after == "designation 25 H7 (E)");
   const auto plan = parse_json(next->text);
   REQUIRE(plan.has_value());
   CHECK(plan->text_of("name") == "Housing");
