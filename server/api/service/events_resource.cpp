@@ -1,10 +1,10 @@
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "api/resources.hpp"
+#include "api/service/commit_stream.hpp"
 #include "api/wire/event_text.hpp"
 #include "http/response.hpp"
 #include "record/record.hpp"
@@ -13,12 +13,8 @@
 namespace fitgauge::api {
 namespace {
 
-/// The events that follow a position, for one reader, until it goes: reads a page when the one
-/// before has left, and waits for a commit where there is none. Owns no more than one page, so a
-/// slow reader costs nothing and falls behind; the connection drops one that takes nothing.
-class EventStream final : public http::BodyStream,
-                          public app::CommitListener,
-                          public std::enable_shared_from_this<EventStream> {
+/// The events that follow a position, in pages.
+class EventStream final : public CommitStream {
  public:
   struct Start {
     std::optional<app::EventPosition> after{};  ///< none: from now on
@@ -26,28 +22,15 @@ class EventStream final : public http::BodyStream,
   };
 
   EventStream(app::EventService& events, Start start, std::optional<app::Source> source)
-      : events_(events), place_{start.after, source}, gap_(start.gap) {}
-
-  void next(http::ChunkSink sink) override;
-  void cancelled() override;
-  void committed() override;
+      : CommitStream(events), place_{start.after, source}, gap_(start.gap) {}
 
  private:
-  void read();
+  void read() override;
   void take(const app::EventService::Page& page);
-  void fail();
-
-  app::EventService& events_;
 
   // Of the one thread that reads at a time.
   app::EventService::Place place_;
-  bool begun_ = false;
   bool gap_ = false;
-
-  std::mutex mutex_;
-  std::optional<http::ChunkSink> sink_;  ///< where the next piece goes; none while one is sent
-  bool reading_ = false;
-  bool missed_ = true;  ///< there may be more than was read: a commit came during the read
 };
 
 constexpr std::string_view kGap =
@@ -63,40 +46,12 @@ void write_event(std::string& text, const app::Event& event) {
   append_event(text, event.type, app::event_id_text(event.id, event.history), data);
 }
 
-void EventStream::next(http::ChunkSink sink) {
-  if (!std::exchange(begun_, true)) events_.add(shared_from_this());
-  {
-    const std::lock_guard lock(mutex_);
-    sink_ = std::move(sink);
-    reading_ = std::exchange(missed_, false);
-    if (!reading_) return;
-  }
-  read();
-}
-
-void EventStream::committed() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (reading_ || !sink_) {
-      missed_ = true;
-      return;
-    }
-    reading_ = true;
-  }
-  read();
-}
-
-void EventStream::cancelled() {
-  events_.remove(shared_from_this());
-  const std::lock_guard lock(mutex_);
-  sink_.reset();
-}
-
 void EventStream::read() {
   app::EventService::Place place = place_;
   if (gap_) place.after.reset();
   events_.read(place, write_event,
-               [self = shared_from_this()](const Result<app::EventService::Page>& page) {
+               [self = std::static_pointer_cast<EventStream>(shared_from_this())](
+                   const Result<app::EventService::Page>& page) {
                  if (!page) return self->fail();
                  self->take(*page);
                });
@@ -113,31 +68,7 @@ void EventStream::take(const app::EventService::Page& page) {
   }
   gap_ = false;
   place_.after = page.position;
-
-  std::optional<http::ChunkSink> sink;
-  {
-    const std::lock_guard lock(mutex_);
-    missed_ = missed_ || page.more;
-    reading_ = piece.empty() && missed_ && sink_;
-    if (reading_) missed_ = false;
-    if (!piece.empty()) sink = std::exchange(sink_, std::nullopt);
-    if (!reading_ && !sink) return;
-  }
-  if (sink) {
-    sink->put(std::move(piece));
-  } else {
-    read();
-  }
-}
-
-void EventStream::fail() {
-  std::optional<http::ChunkSink> sink;
-  {
-    const std::lock_guard lock(mutex_);
-    sink = std::exchange(sink_, std::nullopt);
-    reading_ = false;
-  }
-  if (sink) sink->fail();
+  took(std::move(piece), page.more);
 }
 
 EventStream::Start start_of(const Services& services, const http::Request& request) {

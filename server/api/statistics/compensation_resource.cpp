@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
+#include "api/service/commit_stream.hpp"
+#include "api/wire/event_text.hpp"
 #include "api/wire/formulas.hpp"
 #include "metrology/statistics/compensation.hpp"
+#include "record/record.hpp"
+#include "service/measurements/gauges_in_use.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -22,18 +27,33 @@ constexpr double kUsualCost = 0.1;
 
 /// The newest values of one characteristic, from the newest on.
 struct CorrectedParts {
-  std::vector<metrology::MadePart> parts{};
+  std::shared_ptr<const GaugeBook> gauges{};
   std::optional<Length> target{};
+  std::vector<metrology::MadePart> parts{};
+  std::string newest{};  ///< its id; empty before the first value
   std::optional<Length> lower{};
   std::optional<Length> upper{};
-  bool is_overdue = false;  ///< the gauge of the newest value is
+  std::optional<std::string> tool{};  ///< of the value after
+  bool is_unfit = false;              ///< the gauge of the newest value is
   std::optional<Error> error{};
+
+  /// As it is known now: a gauge may be blocked after it has measured.
+  bool is_gauge_fit(const app::Measurement& value) const {
+    if (value.calibration_due) return false;
+    const auto gauge = value.gauge ? gauges->find(*value.gauge) : gauges->end();
+    if (gauge == gauges->end()) return true;
+    const GaugePeriod& period = gauge->second.at(value.measured_at);
+    return !period.is_blocked && !period.is_overdue(value.measured_at);
+  }
 
   void add(const app::Measurement& value) {
     const auto low = value.has_lower_limit() ? std::optional(value.lower_limit()) : std::nullopt;
     const auto high = value.has_upper_limit() ? std::optional(value.upper_limit()) : std::nullopt;
-    const bool is_first = parts.empty() && !is_overdue;
+    const bool is_first = newest.empty();
+    const bool is_fit = is_gauge_fit(value);
     if (is_first) {
+      newest = app::measurement_id_text(value.id, value.origin);
+      is_unfit = !is_fit;
       lower = low;
       upper = high;
       if (!target && low && high) target = Length::nanometres((low->count() + high->count()) / 2);
@@ -41,11 +61,18 @@ struct CorrectedParts {
       error = Error{ErrorCode::LimitsMixed,
                     "the values have different limits: select those of one characteristic"};
     }
-    is_overdue = is_overdue || (is_first && value.calibration_due);
-    if (value.calibration_due || !target) return;
-    parts.push_back(
-        {.deviation = static_cast<double>((value.decisive() - *target).count()) / kNanometresOfUm,
-         .offset = static_cast<double>(value.offset.value_or(0)) / kNanometresOfUm});
+    if (!target) return;
+    if (value.tool && tool && *value.tool != *tool && !parts.empty())
+      parts.back().has_new_tool = true;
+    if (value.tool) tool.emplace(*value.tool);
+    const double offset = static_cast<double>(value.offset.value_or(0)) / kNanometresOfUm;
+    if (is_fit) {
+      parts.push_back(
+          {.deviation = static_cast<double>((value.decisive() - *target).count()) / kNanometresOfUm,
+           .offset = offset});
+    } else if (!parts.empty()) {
+      parts.back().offset += offset;  // the value is of no use, its correction was made
+    }
   }
 
   /// From the target to the nearer limit, in µm.
@@ -84,7 +111,7 @@ void members(auto& v, const Proposal& proposal) {
   formula_members(v, "compensation");
 }
 
-Result<http::Response> proposal_of(CorrectedParts& read, double cost) {
+Result<Proposal> proposal_of(CorrectedParts& read, double cost) {
   if (read.error) return *read.error;
   if (!read.target && (read.lower || read.upper)) {
     return Error{ErrorCode::QueryInvalid, "values with one limit need a target", "target_mm"};
@@ -95,26 +122,70 @@ Result<http::Response> proposal_of(CorrectedParts& read, double cost) {
   }
   std::reverse(read.parts.begin(), read.parts.end());
   Proposal proposal{metrology::propose_offset(read.parts, half, cost), read.parts.size()};
-  if (read.is_overdue) {
-    proposal.found = {.reason = "the gauge of the last value is overdue for calibration"};
+  if (read.is_unfit) {
+    proposal.found = {.reason =
+                          "the gauge of the last value is overdue for calibration or blocked"};
   }
-  return json_response(body_json(proposal));
+  return proposal;
 }
+
+/// Of what a request asks for the offset.
+struct OffsetOrder {
+  app::MeasurementQuery query{};
+  std::optional<Length> target{};
+  double cost = kUsualCost;
+
+  /// @param done gets the id of the newest value with its proposal, on a storage thread
+  template <class Done>
+  void find(const Services& services, Done done) const {
+    const auto read = std::make_shared<CorrectedParts>(
+        CorrectedParts{.gauges = services.gauges.book(), .target = target});
+    services.measurements.list(
+        query, 0, kMostParts, [read](const app::Measurement& value) { read->add(value); },
+        [read, cost = cost, done = std::move(done)](const Result<app::ListPage>& page) {
+          done(page ? proposal_of(*read, cost) : Result<Proposal>(page.error()), read->newest);
+        });
+  }
+};
+
+/// Tells the proposal at its beginning, and again whenever its state is another.
+class OffsetStream final : public CommitStream {
+ public:
+  OffsetStream(const Services& services, OffsetOrder order)
+      : CommitStream(services.events), services_(services), order_(std::move(order)) {}
+
+ private:
+  void read() override {
+    order_.find(services_, [self = std::static_pointer_cast<OffsetStream>(shared_from_this())](
+                               const Result<Proposal>& found, const std::string& newest) {
+      if (!found) return self->fail();
+      std::string piece;
+      if (std::exchange(self->state_, found->found.state) != found->found.state)
+        append_event(piece, "compensation.changed", newest, body_json(*found));
+      self->took(std::move(piece));
+    });
+  }
+
+  const Services& services_;
+  const OffsetOrder order_;
+  std::optional<CompensationState> state_{};  ///< of the one thread that reads at a time
+};
 
 void propose(const Services& services, const http::Request& request, http::Responder responder) {
   auto query = measurement_query(services, request);
   if (!query) return responder.fail(query.error());
-  query->newest_first = true;
-  const auto given = request.integer("cost");
-  const double cost = given ? static_cast<double>(*given) / kMillionths : kUsualCost;
-  const auto read = std::make_shared<CorrectedParts>();
-  read->target = request.length("target_mm");
-  services.measurements.list(
-      *query, 0, kMostParts, [read](const app::Measurement& value) { read->add(value); },
-      [read, cost,
-       answer = answer_by(share(std::move(responder)))](const Result<app::ListPage>& page) {
-        answer(page ? proposal_of(*read, cost) : Result<http::Response>(page.error()));
-      });
+  OffsetOrder order{*std::move(query), request.length("target_mm")};
+  order.query.newest_first = true;
+  if (const auto given = request.integer("cost"))
+    order.cost = static_cast<double>(*given) / kMillionths;
+  if (request.response_type() == kEventStreamType) {
+    return responder.answer(
+        event_response(std::make_shared<OffsetStream>(services, std::move(order))));
+  }
+  order.find(services, [answer = answer_by(share(std::move(responder)))](
+                           const Result<Proposal>& found, const std::string&) {
+    answer(json_response(found ? Result<std::string>(body_json(*found)) : found.error()));
+  });
 }
 
 }  // namespace
@@ -133,8 +204,11 @@ void add_compensation_routes(std::vector<http::Route>& routes, const Services& s
       .handler = with(services, propose),
       .summary = "The next offset of a machine",
       .description = "A proposal from the newest 500 values that match; nothing moves a machine. "
-                     "Select one characteristic, and the machine or the tool that makes it.",
+                     "Select one characteristic, and the machine or the tool that makes it. As "
+                     "`text/event-stream`, `compensation.changed` carries it now and at each "
+                     "change of its state.",
       .parameters = std::move(parameters),
+      .response_types = {"application/json", std::string(kEventStreamType)},
       .access = "viewer",
       .operation = "proposeOffset",
       .tag = "measurements",

@@ -1,5 +1,6 @@
 """Capability and charts of stored values: certified figures, which values they are of, and what is refused."""
 
+import json
 import math
 import statistics
 
@@ -239,6 +240,74 @@ class Stored(DaemonTest):
         self.assertGreaterEqual(after["next_in_parts"], 1)
         self.assertEqual(self.find("compensation", "characteristic=none")["state"], "wait")
         self.assertIsNone(self.find("compensation", "characteristic=none")["offset_um"])
+
+    def about(self, level_um, count=30):
+        scatter = (0.9, -1.1, 0.4, -0.2, 1.2, -0.7, -0.9, 0.3, 0.6, -0.5)
+        return [f"{74 + (level_um + scatter[i % 10]) / 1000:.4f}" for i in range(count)]
+
+    def test_a_new_tool_moves_the_level_at_once(self):
+        for name, tools in (("tools", ({"tool": "T1"}, {"tool": "T2"})), ("untold", ({}, {}))):
+            self.store(name, self.about(0), **tools[0])
+            self.store(name, self.about(20, 1), **tools[1])
+        found = self.find("compensation", "characteristic=tools")
+        self.assertEqual(found["state"], "propose", found)
+        self.assertAlmostEqual(found["offset_um"], -20, delta=2)
+        self.assertEqual(self.find("compensation", "characteristic=tools&tool=T1")["values"], 30)
+        found = self.find("compensation", "characteristic=untold")
+        self.assertEqual((found["state"], found["next_in_parts"]), ("wait", 1), found)
+
+    def test_values_of_a_gauge_that_is_overdue_or_blocked_propose_nothing(self):
+        at = {"measured_at": "2026-11-20T08:00:00Z"}
+        path = "/v1/gauges-in-use/G-77"
+        self.assertEqual(self.daemon.request("PUT", path, {"calibration_due": "2027-01-01"}).status, 201)
+        self.store("drifted", self.about(20), gauge="G-77", **at)
+        self.assertEqual(self.find("compensation", "characteristic=drifted")["state"], "propose")
+        # What is said of the gauge later counts, for all that it has measured since.
+        self.assertEqual(self.daemon.post(f"{path}/calibrations", {"from": "2026-11-01", "status": "blocked"}).status, 201)
+        found = self.find("compensation", "characteristic=drifted")
+        self.assertEqual((found["state"], found["values"], found["offset_um"]), ("wait", 0, None), found)
+        self.assertRegex(found["reason"], "overdue for calibration or blocked")
+        self.assertEqual(self.daemon.post(f"{path}/calibrations", {"from": "2026-11-01", "due": "2026-11-10"}).status, 200)
+        self.assertEqual(self.find("compensation", "characteristic=drifted")["state"], "wait")
+        # The value is of no use, but the correction before it was made.
+        self.store("drifted", self.about(5, 1), gauge="G-77", offset_um="-15", **at)
+        self.store("drifted", self.about(5, 1))
+        self.assertEqual(self.find("compensation", "characteristic=drifted")["values"], 1)
+
+    def test_a_correction_before_a_value_that_is_left_out_counts(self):
+        self.assertEqual(self.daemon.request("PUT", "/v1/gauges-in-use/G-78", {"calibration_due": "2026-01-01"}).status, 201)
+        self.store("carried", self.about(20))
+        self.store("carried", self.about(9, 1), gauge="G-78", offset_um="-20", measured_at="2026-11-20T08:00:00Z")
+        self.store("carried", self.about(0, 2))
+        found = self.find("compensation", "characteristic=carried")
+        self.assertEqual((found["state"], found["values"]), ("wait", 32), found)
+        self.assertLess(abs(found["offset_um"]), 1)
+
+    def test_a_stream_tells_each_change_of_state(self):
+        connection = self.daemon.connect()
+        self.addCleanup(connection.close)
+        self.store("told", self.about(0), tool="T1")
+        connection.request("GET", "/v1/measurements/compensation?characteristic=told", headers={"Accept": "text/event-stream"})
+        events = connection.getresponse()
+        self.assertEqual(events.status, 200)
+
+        def changed(state):
+            while (line := events.readline().decode()) != "event: compensation.changed\n":
+                self.assertNotEqual(line, "")
+            fields = dict(events.readline().decode().rstrip().split(": ", 1) for _ in range(2))
+            found = json.loads(fields["data"])
+            self.assertEqual(found["state"], state, found)
+            newest = self.daemon.get("/v1/measurements?characteristic=told&last=1").json["measurements"][0]["id"]
+            self.assertEqual(fields["id"], newest)
+            return found["offset_um"]
+
+        changed("wait")
+        self.store("told", self.about(20, 3), tool="T1")
+        offset = changed("propose")
+        self.store("told", self.about(20 + offset, 1), tool="T1", offset_um=f"{offset:.3f}")
+        changed("wait")
+        self.store("told", self.about(-30, 1), tool="T2")
+        self.assertAlmostEqual(changed("propose"), 30, delta=3)
 
     def test_what_an_offset_cannot_be_proposed_for(self):
         one_sided = {"nominal_mm": 74, "feature": "hole", "upper_um": 50}

@@ -44,7 +44,7 @@ exec {program} "$@"
 CURL = """#!/bin/bash
 options=(--connect-to "localhost:8286:127.0.0.1:$DOCS_TEST_PORT" --show-error --max-time 60)
 [[ " $* " == *" --fail "* ]] || options+=(--fail-with-body)
-if [[ " $* " =~ " -N " || " $* " =~ " -sN " ]] && [[ "$*" == */v1/events* ]]; then
+if [[ " $* " =~ " -N " || " $* " =~ " -sN " ]] && [[ "$*" == */v1/events* || "$*" == *text/event-stream* ]]; then
   /usr/bin/curl "${options[@]}" --max-time 1 "$@" || [ $? = 28 ]
 else
   exec /usr/bin/curl "${options[@]}" "$@"

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "http/response.hpp"
+#include "service/events/event_service.hpp"
+
+namespace fitgauge::api {
+
+/// What is new after each commit, for one reader, until it goes: reads when the piece before has
+/// left, and waits for a commit where there is none. Owns no more than one piece, so a slow reader
+/// costs nothing and falls behind; the connection drops one that takes nothing.
+class CommitStream : public http::BodyStream,
+                     public app::CommitListener,
+                     public std::enable_shared_from_this<CommitStream> {
+ public:
+  explicit CommitStream(app::EventService& events) : events_(events) {}
+
+  void next(http::ChunkSink sink) final;
+  void cancelled() final;
+  void committed() final;
+
+ protected:
+  /// Reads once, and ends with took() or fail() on any thread.
+  virtual void read() = 0;
+  /// @param piece empty: nothing is sent yet. @param more than was read is there already
+  void took(std::string piece, bool more = false);
+  void fail();
+
+  app::EventService& events_;
+
+ private:
+  bool begun_ = false;  // of the connection's thread
+  std::mutex mutex_;
+  std::optional<http::ChunkSink> sink_;  ///< where the next piece goes; none while one is sent
+  bool reading_ = false;
+  bool missed_ = true;  ///< there may be more than was read: a commit came during the read
+};
+
+}  // namespace fitgauge::api
