@@ -17,6 +17,7 @@ void LineWriter::begin_block(klartext::Slice<char> place, std::string prefix) {
 void LineWriter::start_line() {
   if (!out_.lines.empty()) out_.klartext += '\n';
   out_.lines.push_back(place_);
+  ++out_.blocks;
   out_.klartext += prefix_;
   is_written_ = true;
 }

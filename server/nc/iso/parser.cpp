@@ -23,6 +23,7 @@ class Origin {
  public:
   Origin(const std::string& source, const Translation& translation, std::string_view klartext)
       : source_(source), lines_(translation.lines), klartext_(klartext) {
+    starts_.reserve(lines_.size() + 1);
     starts_.push_back(0);
     for (std::size_t at = klartext.find('\n'); at != klartext.npos;
          at = klartext.find('\n', at + 1)) {

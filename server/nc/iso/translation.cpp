@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/klartext/parser_rules.hpp"
+#include "nc/klartext/source_text.hpp"
 
 namespace fitgauge::iso {
 namespace {
@@ -17,7 +18,7 @@ using klartext::is_digit;
 using klartext::Slice;
 
 /// Longer Klartext is refused; this bounds the memory of a translation.
-constexpr std::size_t kLargestKlartext = std::size_t{24} << 20;
+constexpr std::size_t kLargestKlartext = std::size_t{16} << 20;
 /// More than the parser keeps, which are the first of a text.
 constexpr std::size_t kMostFindings = 250;
 constexpr unsigned kLargestBlockNumber = 999'999'999;
@@ -74,9 +75,14 @@ class Translator {
         mixes_(source.find("G91") != std::string::npos) {}
 
   Translation translate() && {
+    const std::size_t lines = klartext::count_lines(source_);
+    out_.is_too_large = lines > klartext::kMostLines;
+    out_.lines.reserve(std::min(lines, klartext::kMostLines));
+    out_.klartext.reserve(std::min(source_.size() + source_.size() / 4, kLargestKlartext));
     for (std::size_t at = 0; at < source_.size() && !ended_ && !out_.is_too_large;) {
-      out_.is_too_large =
-          out_.klartext.size() > kLargestKlartext || out_.lines.size() > klartext::kMostLines;
+      out_.is_too_large = out_.klartext.size() > kLargestKlartext ||
+                          out_.lines.size() > klartext::kMostLines ||
+                          out_.blocks > klartext::kMostBlocks;
       at = block(at) + 1;
     }
     return std::move(out_);

@@ -22,6 +22,7 @@ struct Translation {
   std::vector<klartext::Slice<char>> lines;  ///< for each line of the Klartext its place
   std::vector<Finding> unreadable;           ///< of lines that are no Klartext, in their order
   std::vector<Finding> warnings;
+  std::size_t blocks = 0;
   bool is_too_large = false;  ///< the text ends early
 };
 

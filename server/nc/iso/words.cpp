@@ -14,6 +14,8 @@ using klartext::Lexer;
 constexpr unsigned kLargestCode = 9999;
 constexpr unsigned kLargestLabel = 65534;
 constexpr unsigned kMostP = 99;
+/// Of a block; a long line of them would take a multiple of its bytes.
+constexpr std::size_t kMostWords = 1000;
 
 std::string_view between(const char* begin, const char* end) {
   return trim({begin, static_cast<std::size_t>(end - begin)});
@@ -148,6 +150,8 @@ BlockWords read_words(Lexer& in, Modes& modes) {
     }
     const bool is_label = word.name == "L" && block.block != nullptr && block.block->number == 98;
     word.value = is_label ? read_label(in) : read_value(in);
+    if (block.words.size() == kMostWords)
+      fail(in, begin, fmt::format("a block has at most {} words", kMostWords));
     block.words.push_back(std::move(word));
   }
   return block;

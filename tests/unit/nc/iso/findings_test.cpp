@@ -104,5 +104,16 @@ TEST_CASE("A damaged program is bounded") {
   CHECK(parse_program("%T G71 *\nN10 \"~\n;", "t.i").has_errors());
 }
 
+TEST_CASE("A block has a bounded number of words, a program one of lines") {
+  std::string words;
+  for (int i = 0; i < 1001; ++i) words += "X1 ";
+  const auto block = parse_program("%T G71 *\n" + words + "\nN99 %T G71 *\n", "t.i");
+  REQUIRE_FALSE(block.diagnostics.empty());
+  CHECK(block.diagnostics.front().message == "a block has at most 1000 words");
+  const auto lines = parse_program("%T G71 *\n" + std::string(klartext::kMostLines, '\n'), "t.i");
+  REQUIRE(lines.diagnostics.size() == 1);
+  CHECK(lines.diagnostics.front().code == klartext::DiagnosticCode::ProgramTooLarge);
+}
+
 }  // namespace
 }  // namespace fitgauge::iso
