@@ -107,6 +107,8 @@ const Code* find_code(unsigned number) {
   return found != std::end(kCodes) ? found : nullptr;
 }
 
+std::span<const Code> codes() { return kCodes; }
+
 std::string function_pattern(unsigned number) {
   constexpr unsigned kFirstComparison = 9;
   if (const auto* row = klartext::find_arithmetic(number)) {

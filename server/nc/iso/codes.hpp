@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -29,6 +30,8 @@ struct Code {
 
 /// @returns nullptr if there is no such code.
 const Code* find_code(unsigned number);
+/// All but those of cycles in Q-form, in the order of their numbers.
+std::span<const Code> codes();
 
 /// The pattern of a D function with P words; empty if the text of the Klartext function stands
 /// behind D.

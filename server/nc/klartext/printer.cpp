@@ -56,4 +56,14 @@ std::string format_program(const Program& program) {
   return text;
 }
 
+std::string print_statement(const Program& program, const Block& block) {
+  Block bare = block;
+  bare.skip = false;
+  bare.comment_mark &= std::holds_alternative<Cycle>(block.statement);
+  std::string text;
+  BlockWriter out(program, text);
+  print_block(out, program, bare, std::nullopt);
+  return text;
+}
+
 }  // namespace fitgauge::klartext

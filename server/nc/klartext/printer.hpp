@@ -13,4 +13,7 @@ std::string print_program(const Program& program);
 /// As print_program, with every block numbered from 0: how a control lists it.
 std::string format_program(const Program& program);
 
+/// One block without skip mark, number and comment; a cycle with its comments.
+std::string print_statement(const Program& program, const Block& block);
+
 }  // namespace fitgauge::klartext

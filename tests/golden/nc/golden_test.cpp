@@ -10,6 +10,8 @@
 #include <set>
 
 #include "golden_setup.hpp"
+#include "nc/iso/parser.hpp"
+#include "nc/iso/printer.hpp"
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/machine/tracing_machine.hpp"
 #include "nc/program/check.hpp"
@@ -184,6 +186,44 @@ TEST_CASE("each DIN/ISO twin runs as its Klartext program") {
     CHECK(without_lines(twin.run("main.h")) == without_lines(read_file(folder / "expected.txt")));
   }
   CHECK(cases >= 50);
+}
+
+/// A program in the other dialect.
+std::string converted(const std::string& text, const std::string& name) {
+  const auto parsed = iso::parse_program(text, name);
+  const bool is_iso = iso::is_iso(text, name);
+  const auto conversion =
+      is_iso ? iso::to_klartext(parsed.program, ".I") : iso::to_iso(parsed.program, ".H");
+  for (const auto& found : conversion.findings) {
+    CAPTURE(klartext::render(found));
+    CHECK(found.severity != klartext::Severity::Error);
+  }
+  return conversion.text;
+}
+
+TEST_CASE("each program and its conversion run the same, and it converts back to itself") {
+  std::size_t cases = 0;
+  for (const fs::path& folder : entries(kFolder)) {
+    for (const std::string name : {"main.h", "main.i"}) {
+      if (!fs::exists(folder / name)) continue;
+      ++cases;
+      CAPTURE(folder.filename().string());
+      const std::string other = name == "main.h" ? "main.i" : "main.h";
+      const std::string text = converted(read_file(folder / name), name);
+      CAPTURE(text);
+      Case twin(folder);
+      twin.replace("main.h", text);
+      for (const auto& found : twin.diagnostics("main.h")) {
+        CAPTURE(klartext::render(found));
+        CHECK(found.severity != klartext::Severity::Error);
+        CHECK(found.code != klartext::DiagnosticCode::ModalStateAssumed);
+      }
+      CHECK(without_lines(twin.run("main.h")) == without_lines(read_file(folder / "expected.txt")));
+      const std::string back = converted(text, other);
+      CHECK(converted(converted(back, name), other) == back);
+    }
+  }
+  CHECK(cases >= 100);
 }
 
 TEST_CASE("each bad program ends as its first line says") {

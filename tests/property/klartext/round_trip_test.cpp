@@ -6,6 +6,8 @@
 #include <random>
 #include <string>
 
+#include "nc/iso/parser.hpp"
+#include "nc/iso/printer.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/klartext/printer.hpp"
 #include "program_generator.hpp"
@@ -61,6 +63,29 @@ TEST_CASE("Of damaged programs each finding has its place, and those without err
     }
     if (!parsed.has_errors()) check_round_trip(parsed);
   }
+}
+
+TEST_CASE("What converts to DIN/ISO is the same program there") {
+  ProgramGenerator generator(seed());
+  std::size_t converted = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::string text = generator.program();
+    const ParsedProgram parsed = parse_program(text, "generated.h");
+    const auto conversion = iso::to_iso(parsed.program, ".H");
+    CAPTURE(text);
+    CAPTURE(conversion.text);
+    if (contains_error(conversion.findings)) continue;
+    ++converted;
+    const ParsedProgram there = iso::parse_program(conversion.text, "generated.i");
+    REQUIRE_FALSE(there.has_errors());
+    REQUIRE(iso::to_iso(there.program, ".H").text == conversion.text);
+    const ParsedProgram back =
+        parse_program(iso::to_klartext(there.program, ".I").text, "generated.h");
+    REQUIRE_FALSE(back.has_errors());
+    REQUIRE(format_program(back.program) == format_program(there.program));
+  }
+  MESSAGE(converted, " of 200 have a form in DIN/ISO");
+  CHECK(converted > 0);
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+; G200 by G79, M99 and at positions: each hole is 20 deep
+%DRILLING G71 *
+N10 Q97 = 0 *
+N20 T5 G17 S1000 *
+N30 G200 ~
+    Q200=+2 ~
+    Q201=-20 ~
+    Q206=+250 ~
+    Q202=+20 ~
+    Q210=+0 ~
+    Q203=+0 ~
+    Q204=+50 ~
+    Q211=+0 *
+N40 G00 G40 G90 X+10 Y+10 Z+50 M3 *
+N50 G79 *
+N60 G00 X+20 M99 *
+N70 D18: SYSREAD Q1 = ID270 NR1 IDX1 *
+N80 D18: SYSREAD Q2 = ID270 NR1 IDX2 *
+N90 D18: SYSREAD Q3 = ID270 NR1 IDX3 *
+N100 Q98 = Q1 - 20 * ;as written
+N110 L98,0 *
+N120 Q98 = Q3 - 50 * ;the second clearance
+N130 L98,0 *
+N140 G79:G01 X+30 Y+15 Z+0 F500 *
+N150 D18: SYSREAD Q1 = ID270 NR1 IDX1 *
+N160 D18: SYSREAD Q2 = ID270 NR1 IDX2 *
+N170 D18: SYSREAD Q3 = ID270 NR1 IDX3 *
+N180 Q98 = Q1 - 30 * ;as written
+N190 L98,0 *
+N200 Q98 = Q2 - 15 * ;as written
+N210 L98,0 *
+N220 Q98 = Q3 - 50 * ;the second clearance
+N230 L98,0 *
+N240 M30 *
+N250 G98 L98 * ;the figure before counts, and is right to a nanometre
+N260 Q97 = Q97 + 1 *
+N270 Q98 = ABS Q98 *
+N280 D11 P01 +Q98 P02 +0.000001 P03 99 *
+N290 G98 L0 *
+N300 G98 L99 *
+N310 D14 P01 +1000 *
+N320 G98 L0 *
+N99999999 %DRILLING G71 *

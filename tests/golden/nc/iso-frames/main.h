@@ -1,0 +1,38 @@
+; Shift, rotation, mirror and scaling one after the other
+%FRAMES G71 *
+N10 Q97 = 0 *
+N20 T5 G17 S1000 *
+N30 G54 X+100 Y+50 Z+10 *
+N40 G73 G90 H+90 *
+N50 G72 F0.5 *
+N60 G28 X *
+N70 G00 G40 G90 X+20 Y+8 Z+6 *
+N80 D18: SYSREAD Q1 = ID240 NR1 IDX1 *
+N90 D18: SYSREAD Q2 = ID240 NR1 IDX2 *
+N100 D18: SYSREAD Q3 = ID240 NR1 IDX3 *
+N110 Q98 = Q1 - 104 * ;100 + 8 by 2: turned to the left, then mirrored
+N120 L98,0 *
+N130 Q98 = Q2 - 60 * ;50 + 20 by 2
+N140 L98,0 *
+N150 Q98 = Q3 - 113 * ;10 + 6 by 2, and the tool of 100
+N160 L98,0 *
+N170 G72 F1 *
+N180 G28 *
+N190 G73 G90 H+0 *
+N200 G54 X+0 Y+0 Z+0 *
+N210 G54 G91 X+5 G90 *
+N220 G54 G91 X+5 G90 *
+N230 G00 X+1 Y+1 *
+N240 D18: SYSREAD Q1 = ID240 NR1 IDX1 *
+N250 Q98 = Q1 - 11 * ;2 times 5 + 1
+N260 L98,0 *
+N270 M30 *
+N280 G98 L98 * ;the figure before counts, and is right to a nanometre
+N290 Q97 = Q97 + 1 *
+N300 Q98 = ABS Q98 *
+N310 D11 P01 +Q98 P02 +0.000001 P03 99 *
+N320 G98 L0 *
+N330 G98 L99 *
+N340 D14 P01 +1000 *
+N350 G98 L0 *
+N99999999 %FRAMES G71 *

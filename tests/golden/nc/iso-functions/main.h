@@ -1,0 +1,64 @@
+; D functions, formulas and texts
+%FUNCTIONS G71 *
+N10 Q97 = 0 *
+N20 D00 Q1 P01 +7 *
+N30 Q98 = Q1 - 7 * ;as written
+N40 L98,0 *
+N50 D01 Q2 P01 +Q1 P02 -2.5 *
+N60 Q98 = Q2 - 4.5 * ;7 - 2.5
+N70 L98,0 *
+N80 D02 Q3 P01 +Q1 P02 +Q2 *
+N90 Q98 = Q3 - 2.5 * ;7 - 4.5
+N100 L98,0 *
+N110 D03 Q4 P01 +Q3 P02 +Q3 *
+N120 Q98 = Q4 - 6.25 * ;2.5 squared
+N130 L98,0 *
+N140 D04 Q5 P01 +Q4 P02 +2.5 *
+N150 Q98 = Q5 - 2.5 * ;6.25 by 2.5
+N160 L98,0 *
+N170 D05 Q6 P01 +6.25 *
+N180 Q98 = Q6 - 2.5 * ;its root
+N190 L98,0 *
+N200 D06 Q7 P01 +30 *
+N210 Q98 = Q7 - 0.5 * ;sine of 30
+N220 L98,0 *
+N230 D07 Q8 P01 +60 *
+N240 Q98 = Q8 - 0.5 * ;cosine of 60
+N250 L98,0 *
+N260 D08 Q9 P01 +5 P02 +12 *
+N270 Q98 = Q9 - 13 * ;root of 25 + 144
+N280 L98,0 *
+N290 D13 Q10 P01 +1 P02 +1 *
+N300 Q98 = Q10 - 45 * ;1 up, 1 along
+N310 L98,0 *
+N320 Q11 = ( 3 + 4 ) * 2 - SQ 3 *
+N330 Q98 = Q11 - 5 * ;14 - 9
+N340 L98,0 *
+N350 Q12 = 2 ^ 10 % 1000 *
+N360 Q98 = Q12 - 24 * ;1024 - 1000
+N370 L98,0 *
+N380 Q13 = ATAN 1 + INT 2.9 + FRAC 3.25 *
+N390 Q98 = Q13 - 47.25 * ;45 + 2 + 0.25
+N400 L98,0 *
+N410 QS1 = "BORE 25H7" *
+N420 QS2 = SUBSTR ( SRC_QS1 BEG5 LEN2 ) *
+N430 Q14 = TONUMB ( SRC_QS2 ) *
+N440 Q98 = Q14 - 25 * ;the digits
+N450 L98,0 *
+N460 Q15 = INSTR ( SRC_QS1 SEA_"H" BEG0 ) *
+N470 Q98 = Q15 - 7 * ;B is 0
+N480 L98,0 *
+N490 QS3 = TOCHAR ( DAT+Q2 DECIMALS2 ) || " MM" *
+N500 Q16 = STRLEN ( SRC_QS3 ) *
+N510 Q98 = Q16 - 7 * ;4.50 MM
+N520 L98,0 *
+N530 M30 *
+N540 G98 L98 * ;the figure before counts, and is right to a nanometre
+N550 Q97 = Q97 + 1 *
+N560 Q98 = ABS Q98 *
+N570 D11 P01 +Q98 P02 +0.000001 P03 99 *
+N580 G98 L0 *
+N590 G98 L99 *
+N600 D14 P01 +1000 *
+N610 G98 L0 *
+N99999999 %FUNCTIONS G71 *
