@@ -1,12 +1,11 @@
 #include "cli/local_programs.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <optional>
 
 #include "base/allowance.hpp"
-#include "base/text.hpp"
+#include "cli/folder_disk.hpp"
 #include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
 #include "cli/output_file.hpp"
@@ -17,49 +16,8 @@
 namespace fitgauge::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using klartext::Diagnostic;
 using klartext::Severity;
-
-/// The folder of a file as that of a control, each file read when it is asked for. What a program
-/// names beside it is found, and the folder TNC:\ is that one. Files that the service makes of its
-/// tables exist.
-class FolderDisk final : public interpreter::ControlDisk {
- public:
-  explicit FolderDisk(fs::path folder) : folder_(std::move(folder)) {}
-
-  std::optional<interpreter::ControlFile> find(
-      const interpreter::ControlPath& path) const override {
-    const auto found = local(path);
-    if (!found) return std::nullopt;
-    auto bytes = read_file(found->string());
-    if (!bytes) return std::nullopt;
-    return interpreter::ControlFile{path, std::make_shared<const std::string>(*std::move(bytes)),
-                                    "local"};
-  }
-  std::optional<std::string> revision(const interpreter::ControlPath& path) const override {
-    const std::string_view name = path.file_name();
-    const bool is_made =
-        ascii_iequals(name, "82553_hole.tab") || ascii_iequals(name, "82553_shaft.tab");
-    return is_made || local(path) ? std::optional<std::string>("local") : std::nullopt;
-  }
-  bool has_directory(std::string_view) const override { return false; }
-
-  /// As this machine names it. Case does not count on a control.
-  std::optional<fs::path> local(const interpreter::ControlPath& path) const {
-    std::string relative = path.text().substr(path.text().find('\\') + 1);
-    std::ranges::replace(relative, '\\', '/');
-    std::error_code failed;
-    if (fs::is_regular_file(folder_ / relative, failed)) return folder_ / relative;
-    for (const auto& entry : fs::directory_iterator(folder_, failed)) {
-      if (ascii_iequals(entry.path().filename().string(), relative)) return entry.path();
-    }
-    return std::nullopt;
-  }
-
- private:
-  fs::path folder_;
-};
 
 using Levels = std::map<std::string, std::optional<Severity>, std::less<>>;
 
@@ -146,20 +104,14 @@ Outcome<ExitCode> run_nc_check_local(const Context& context, const CheckOptions&
   if (!levels) return levels.error();
   std::vector<Diagnostic> all;
   for (const std::string& file : options.files) {
-    if (const auto readable = read_file(file); !readable) return readable.error();
-    const fs::path path(file);
-    const auto name = interpreter::ControlPath::parse("TNC:\\" + path.filename().string());
-    if (!name) return Failure{ExitCode::LocalFile, file + ": " + name.error().message};
-    const FolderDisk disk(path.has_parent_path() ? path.parent_path() : fs::path("."));
+    const auto name = local_program(file);
+    if (!name) return name.error();
+    const FolderDisk disk(file);
     Allowance unlimited;
     interpreter::ProgramCache programs;
     auto found = interpreter::check(*name, disk, programs, unlimited);
     if (!found) return Failure{ExitCode::LocalFile, file + ": " + found.error().message};
-    for (Diagnostic& each : *found) {
-      const auto place = interpreter::ControlPath::parse(each.program);
-      const auto local = place ? disk.local(*place) : std::nullopt;
-      if (local) each.program = local->lexically_normal().generic_string();
-    }
+    for (Diagnostic& each : *found) each.program = disk.name_here(each.program);
     apply(*levels, *found);
     all.insert(all.end(), found->begin(), found->end());
   }

@@ -29,4 +29,13 @@ struct FormatOptions {
 /// cannot be read.
 Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& options);
 
+struct RunOptions;
+
+/// Runs a program of this machine here, on the setup of a file, with what it calls in its folder
+/// and the tool tables there or in its folder `table`.
+/// @returns the document of the run as the service writes it, with places of this machine.
+/// @errors LocalFile, Usage, Refused for the setup, ProgramFailed for a program with errors, which
+///   are printed.
+Outcome<std::string> run_here(const Context& context, RunOptions options);
+
 }  // namespace fitgauge::cli

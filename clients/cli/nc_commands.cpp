@@ -178,10 +178,15 @@ Outcome<std::string> run_order(const RunOptions& options) {
   return order.text();
 }
 
-Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options) {
+namespace {
+
+/// The document of a run at the service.
+Outcome<std::string> run_there(const Context& context, const RunOptions& options) {
+  if (!options.files_to.empty())
+    return Failure{ExitCode::Usage, "--files-to is for runs here: use fitgauge runs get ID NAME"};
   const auto order = run_order(options);
   if (!order) return order.error();
-  const auto answer =
+  auto answer =
       send_persistently(context, {.method = "POST",
                                   .target = "/v1/runs",
                                   .headers = {"Idempotency-Key: " + new_idempotency_key()},
@@ -189,21 +194,44 @@ Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options) 
                                   .body = *order});
   if (!answer) return answer.error();
   if (!answer->ok()) return refused_run(context, *answer);
-  const auto run = read_document(*answer, context.client.url());
-  if (!run) return run.error();
+  return std::move(answer->body);
+}
+
+Outcome<ExitCode> run_one(const Context& context, const RunOptions& options) {
+  const auto body = options.from_control ? run_there(context, options) : run_here(context, options);
+  if (!body) return body.error();
+  const auto run = parse_document(*body);
+  if (!run)
+    return Failure{ExitCode::NoAnswer, context.client.url() + " answers with something else"};
   if (context.json) {
-    context.print_document(answer->body);
+    context.print_document(*body);
   } else {
     for (const JsonValue& line : run->member("screen").items) context.print("{}\n", line.text);
     print_messages(*run);
   }
   const std::string_view status = run->text_of("status");
   if (status != "completed") {
-    return Failure{ExitCode::ProgramFailed,
-                   fmt::format("run {} ended as {}", run->text_of("id"), status)};
+    return Failure{
+        ExitCode::ProgramFailed,
+        fmt::format("run {} ended as {}",
+                    options.from_control ? run->text_of("id") : options.program, status)};
   }
   const std::string_view verdict = run->text_of("verdict");
   return verdict.empty() ? ExitCode::Good : verdict_exit_code(verdict);
+}
+
+}  // namespace
+
+Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options) {
+  ExitCode worst = ExitCode::Good;
+  for (const std::string& program : options.programs) {
+    RunOptions one = options;
+    one.program = program;
+    const auto code = run_one(context, one);
+    if (!code) return code;
+    worst = std::max(worst, *code);
+  }
+  return worst;
 }
 
 }  // namespace fitgauge::cli

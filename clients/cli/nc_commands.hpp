@@ -37,8 +37,10 @@ void print_messages(const JsonValue& run);
 Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options);
 
 struct RunOptions {
-  std::string program;
-  std::string setup{};                    ///< the name of a stored one
+  std::string program;  ///< which of them runs
+  std::vector<std::string> programs{};
+  bool from_control = false;              ///< they are programs of the service
+  std::string setup{};                    ///< the name of a stored one; here a file
   std::string setup_file{};               ///< or a file that holds one
   std::vector<std::string> parameters{};  ///< `Q1=25`, `QS1=H7`
   std::string on_stop{};
@@ -46,9 +48,10 @@ struct RunOptions {
   std::string part_id{};
   std::string order{};
   bool block_skip = false;
+  std::string files_to{};  ///< here: the folder that gets what the run writes
 };
 
-/// `nc run PROGRAM`: prints the screen; the exit code is the verdict of the last measuring cycle,
+/// `nc run PROGRAM…`: prints the screen; the exit code is the verdict of the last measuring cycle,
 /// Good without one, ProgramFailed when the program did not complete.
 Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options);
 

@@ -54,8 +54,11 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* run =
       add_command(nc, "run", "Run a program on a simulated machine", chosen, options, run_nc_run);
-  run->add_option("program", options->program, "Path on the control")->required();
-  const auto setup = run->add_option("--setup", options->setup, "Name of a stored setup");
+  run->add_option("programs", options->programs, "Files here, or paths on the control")->required();
+  run->add_flag("--from-control", options->from_control, "The programs are those of the service");
+  run->add_option("--files-to", options->files_to, "Folder here that gets what the run writes");
+  const auto setup =
+      run->add_option("--setup", options->setup, "JSON file; of the service a stored setup's name");
   run->add_option("--setup-file", options->setup_file, "JSON file with a setup")->excludes(setup);
   run->add_option("--set", options->parameters, "Parameter before block 0: Q1=25, QS1=H7")
       ->expected(1)

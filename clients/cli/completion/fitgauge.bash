@@ -10,7 +10,7 @@ _fitgauge() {
 
   # What the option before takes.
   case $previous in
-    --server | --retry | --chunk | --count | --after | --set | --classes | --revision | --setup) return ;;
+    --server | --retry | --chunk | --count | --after | --set | --classes | --revision) return ;;
     --part-id | --characteristic | --order | --operation | --machine | --operator | --gauge) return ;;
     --unit | --measured-at | --temperature-c | --comment | --pattern | --uncertainty-um | --coverage-factor) return ;;
     --probability | --part-material | --part-expansion | --scale-temperature-c) return ;;
@@ -42,7 +42,7 @@ _fitgauge() {
     --on-stop) _fitgauge_words 'continue end'; return ;;
     --language) _fitgauge_words 'english german dutch italian polish'; return ;;
     --baud) _fitgauge_words '1200 2400 4800 9600 19200 38400 57600 115200'; return ;;
-    --serial | --key-file | --ca | --cert | --cert-key | --state | --setup-file | --contacts | --output | -o) _fitgauge_files; return ;;
+    --serial | --key-file | --ca | --cert | --cert-key | --state | --setup | --setup-file | --files-to | --contacts | --output | -o) _fitgauge_files; return ;;
   esac
 
   # The command and what follows it: the words that are neither options nor their values.
@@ -50,7 +50,7 @@ _fitgauge() {
   local i
   for ((i = 1; i < COMP_CWORD; ++i)); do
     case ${COMP_WORDS[i]} in
-      --json | --record | --again | --exit-verdict | --leave-out-others | --block-skip | --force) ;;
+      --json | --record | --again | --exit-verdict | --leave-out-others | --block-skip | --force | --from-control | --in-place) ;;
       -*) ((++i)) ;;
       *) words+=("${COMP_WORDS[i]}") ;;
     esac
@@ -115,11 +115,11 @@ _fitgauge() {
         check) options='--from-control --format --level' ;;
         format) options=--in-place ;;
         get) options=--force ;;
-        run) options='--setup --setup-file --set --on-stop --language --part-id --order --block-skip' ;;
+        run) options='--from-control --files-to --setup --setup-file --set --on-stop --language --part-id --order --block-skip' ;;
       esac ;;
   esac
   case ${words[*]} in
-    import | measure | tables\ set\ *\ * | plan\ from\ * | nc\ check\ * | nc\ format\ * | nc\ check | nc\ format | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
+    import | measure | tables\ set\ *\ * | plan\ from\ * | nc\ check\ * | nc\ format\ * | nc\ check | nc\ format | nc\ run | nc\ run\ * | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
   esac
   _fitgauge_words "$options $common"
 }

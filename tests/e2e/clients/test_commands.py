@@ -196,14 +196,14 @@ class Programs(ClientTest):
         for name, code in (("hole-good", 0), ("hole-rework", 1), ("hole-reject", 2)):
             with self.subTest(name):
                 setup = EXAMPLES / "8255" / "setups" / f"{name}.json"
-                screen = self.assert_runs(code, "nc", "run", "TNC:\\nc_prog\\8255\\8255.h",
+                screen = self.assert_runs(code, "nc", "run", "--from-control", "TNC:\\nc_prog\\8255\\8255.h",
                                           "--setup-file", setup)
                 self.assertIn("CHECKED FIT: 25H7\n", screen)
 
     def test_parameters_and_stored_setups(self):
         setup = json.loads((EXAMPLES / "8255" / "setups" / "hole-good.json").read_text())
         self.daemon.request("PUT", "/v1/setups/hole-good", setup)
-        run = json.loads(self.assert_runs(2, "--json", "nc", "run", "nc_prog/8255/8255.h", "--setup",
+        run = json.loads(self.assert_runs(2, "--json", "nc", "run", "--from-control", "nc_prog/8255/8255.h", "--setup",
                                           "hole-good", "--set", "Q1=25", "--set", "QS1=H5"))
         self.assertEqual((run["verdict"], run["parameters"]["QS1"]), ("reject", "H5"))
         self.assert_fails(4, "nc", "run", "nc_prog/8255/8255.h", "--set", "Q1=x")
@@ -230,17 +230,50 @@ class Programs(ClientTest):
         self.assert_fails(4, "nc", "check", "a.h", "--level", "x=loud")
         self.assert_fails(5, "nc", "check", "gone.h")
 
+    def test_programs_run_here_as_at_the_service(self):
+        folder = EXAMPLES / "8255"
+        for name, code in (("hole-good", 0), ("hole-rework", 1), ("hole-reject", 2)):
+            with self.subTest(name):
+                setup = folder / "setups" / f"{name}.json"
+                there = self.assert_runs(code, "nc", "run", "--from-control", "nc_prog/8255/8255.h", "--setup-file", setup)
+                here = self.assert_runs(code, "--server", "localhost:1", "nc", "run", folder / "8255.h", "--setup", setup)
+                self.assertEqual(here, there)
+        documents = [json.loads(self.assert_runs(2, "--json", "nc", "run", *program, "--setup-file", setup, "--set", "Q1=25"))
+                     for program in (("--from-control", "nc_prog/8255/8255.h"), (folder / "8255.h",))]
+        for name in ("status", "verdict", "parameters", "screen", "tables", "measurements", "presets", "machining_time_s"):
+            if name not in ("tables", "measurements"):  # they have paths
+                self.assertEqual(documents[1][name], documents[0][name], name)
+        self.assertEqual(documents[1]["measurements"][0]["sizes"], documents[0]["measurements"][0]["sizes"])
+        self.client.write("tool.t", "BEGIN TOOL .T MM\nT       NAME            L          R\n7       MILL7           +80        +4\n[END]\n")
+        self.client.write("t.h", "BEGIN PGM T MM\nTOOL CALL \"MILL7\" Z S1000\nFN 16: F-PRINT m.a / out\\r.txt\nEND PGM T MM\n")
+        self.client.write("m.a", '"L %5.1f", Q114;\n')
+        self.assert_runs(0, "nc", "run", "t.h", "t.h", "--files-to", "kept")
+        self.assertIn("80.0", next((self.client.folder / "kept").rglob("*.txt"), None).read_text())
+        self.client.write("bad.h", "0 BEGIN PGM BAD MM\n1 LX 5\n2 END PGM BAD MM\n")
+        refused = self.client.run("nc", "run", "bad.h")
+        self.assertEqual(refused.returncode, 9)
+        self.assertIn("bad.h:2:", refused.stderr_text)
+        self.client.write("fails.h", "0 BEGIN PGM F MM\n1 CALL PGM GONE.H\n2 END PGM F MM\n")
+        failed = self.client.run("nc", "run", "fails.h")
+        self.assertEqual(failed.returncode, 9)
+        self.assertIn("fails.h:2:", failed.stderr_text)
+        self.client.write("wrong.json", '{"machine":{"tools":5}}')
+        self.assertIn("/setup/machine/tools", self.assert_fails(7, "nc", "run", "t.h", "--setup", "wrong.json"))
+        self.assert_fails(5, "nc", "run", "gone.h")
+        self.assert_fails(4, "nc", "run", "t.h", "--part-id", "p1")
+        self.assert_fails(4, "nc", "run", "--from-control", "t.h", "--files-to", "kept")
+
     def test_errors_name_their_place(self):
         self.client.write("bad.h", "0 BEGIN PGM BAD MM\n1 LX 5\n2 END PGM BAD MM\n")
         self.assert_runs(0, "nc", "put", "bad.h", "bad.h")
         self.assertIn("TNC:\\bad.h:2:", self.assert_runs(2, "nc", "check", "--from-control", "bad.h"))
-        refused = self.client.run("nc", "run", "bad.h")
+        refused = self.client.run("nc", "run", "--from-control", "bad.h")
         self.assertEqual(refused.returncode, 9)
         self.assertIn("TNC:\\bad.h:2:", refused.stderr_text)
         self.client.write("fails.h", "0 BEGIN PGM F MM\n1 CALL PGM GONE.H\n2 END PGM F MM\n")
         self.assert_runs(0, "nc", "put", "fails.h", "fails.h")
         self.assertIn("warning", self.assert_runs(1, "nc", "check", "--from-control", "fails.h"))
-        failed = self.client.run("nc", "run", "fails.h")
+        failed = self.client.run("nc", "run", "--from-control", "fails.h")
         self.assertEqual(failed.returncode, 9)
         self.assertIn("TNC:\\fails.h:2:", failed.stderr_text)
         self.assertIn("ended as failed", failed.stderr_text)
@@ -354,7 +387,7 @@ class Records(ClientTest):
         self.client.write("p.h", '0 BEGIN PGM P MM\n1 Q1 = 5\n2 FN 16: F-PRINT TNC:\\m.a / TNC:\\out.txt\n3 END PGM P MM\n')
         self.client.write("m.a", '"five";\n')
         self.assert_runs(0, "nc", "put", "p.h", "m.a", "/")
-        self.assert_runs(0, "nc", "run", "p.h", "--setup", "m3")
+        self.assert_runs(0, "nc", "run", "--from-control", "p.h", "--setup", "m3")
         run = json.loads(self.assert_runs(0, "--json", "runs", "ls", "--status", "completed"))["runs"][0]["id"]
         self.assertIn("TNC:\\p.h", self.assert_runs(0, "runs", "ls", "--program", "p.h"))
         self.assertIn("out.txt", self.assert_runs(0, "runs", "show", run).lower())

@@ -1,0 +1,80 @@
+#include "cli/folder_disk.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "cli/input_file.hpp"
+#include "service/tables/live_tables.hpp"
+
+namespace fitgauge::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// `nc_prog/8255` of `TNC:\nc_prog\8255`.
+std::string relative_of(std::string_view path) {
+  std::string relative(path.substr(path.find('\\') + 1));
+  std::ranges::replace(relative, '\\', '/');
+  return relative;
+}
+
+}  // namespace
+
+FolderDisk::FolderDisk(const std::string& file)
+    : folder_(fs::path(file).parent_path()),
+      tables_(
+          nothing_,
+          app::project(iso286::ToleranceTables::make(iso286::compiled_in_tables(), {}).value())) {
+  if (folder_.empty()) folder_ = ".";
+}
+
+std::optional<interpreter::ControlFile> FolderDisk::find(
+    const interpreter::ControlPath& path) const {
+  const auto found = local(path.text());
+  if (!found) return tables_.find(path);
+  auto bytes = read_file(found->string());
+  if (!bytes) return std::nullopt;
+  return interpreter::ControlFile{path, std::make_shared<const std::string>(*std::move(bytes)),
+                                  "local"};
+}
+
+std::optional<std::string> FolderDisk::revision(const interpreter::ControlPath& path) const {
+  return local(path.text()) ? "local" : tables_.revision(path);
+}
+
+bool FolderDisk::has_directory(std::string_view directory) const {
+  std::error_code failed;
+  return fs::is_directory(folder_ / relative_of(directory), failed);
+}
+
+std::optional<fs::path> FolderDisk::local(std::string_view path) const {
+  fs::path found = folder_;
+  std::error_code failed;
+  for (const fs::path& part : fs::path(relative_of(path))) {
+    if (fs::exists(found / part, failed)) {
+      found /= part;
+      continue;
+    }
+    const auto entries = fs::directory_iterator(found, failed);
+    const auto same = std::find_if(begin(entries), end(entries), [&part](const auto& entry) {
+      return ascii_iequals(entry.path().filename().string(), part.string());
+    });
+    if (same == end(entries)) return std::nullopt;
+    found = same->path();
+  }
+  return fs::is_regular_file(found, failed) ? std::optional(found) : std::nullopt;
+}
+
+std::string FolderDisk::name_here(const std::string& path) const {
+  const auto here = local(path);
+  return here ? here->lexically_normal().generic_string() : path;
+}
+
+Outcome<interpreter::ControlPath> local_program(const std::string& file) {
+  if (const auto readable = read_file(file); !readable) return readable.error();
+  auto name = interpreter::ControlPath::parse("TNC:\\" + fs::path(file).filename().string());
+  if (name) return *std::move(name);
+  return Failure{ExitCode::LocalFile, file + ": " + name.error().message};
+}
+
+}  // namespace fitgauge::cli

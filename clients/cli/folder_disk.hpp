@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/outcome.hpp"
+#include "nc/program/control_disk.hpp"
+
+namespace fitgauge::cli {
+
+/// The folder of a file as the disk of a control, each file read when it is asked for: what a
+/// program names beside it is found, and the folder TNC:\ is that one. 82553_hole.tab and
+/// 82553_shaft.tab are those of ISO 286 unless the folder has them.
+class FolderDisk final : public interpreter::ControlDisk {
+ public:
+  explicit FolderDisk(const std::string& file);
+
+  std::optional<interpreter::ControlFile> find(const interpreter::ControlPath& path) const override;
+  std::optional<std::string> revision(const interpreter::ControlPath& path) const override;
+  bool has_directory(std::string_view directory) const override;
+
+  /// A file of this disk as this machine names it; as it is if it is not there.
+  std::string name_here(const std::string& path) const;
+
+ private:
+  /// Case does not count on a control.
+  std::optional<std::filesystem::path> local(std::string_view path) const;
+
+  std::filesystem::path folder_;
+  interpreter::MemoryDisk nothing_;
+  interpreter::ProjectingDisk tables_;
+};
+
+/// A file as its FolderDisk names it. @errors LocalFile: it cannot be read, or no control has such
+/// a name.
+Outcome<interpreter::ControlPath> local_program(const std::string& file);
+
+}  // namespace fitgauge::cli
