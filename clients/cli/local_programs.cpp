@@ -5,11 +5,15 @@
 #include <optional>
 
 #include "base/allowance.hpp"
+#include "base/text.hpp"
+#include "cli/address.hpp"
 #include "cli/folder_disk.hpp"
 #include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
 #include "cli/output_file.hpp"
-#include "nc/klartext/parser.hpp"
+#include "cli/problem.hpp"
+#include "nc/iso/parser.hpp"
+#include "nc/iso/printer.hpp"
 #include "nc/klartext/printer.hpp"
 #include "nc/program/check.hpp"
 
@@ -121,23 +125,91 @@ Outcome<ExitCode> run_nc_check_local(const Context& context, const CheckOptions&
   return static_cast<ExitCode>(worst);  // 0, 1, 2
 }
 
+namespace {
+
+struct ReadProgram {
+  klartext::Program program;
+  bool is_iso = false;
+};
+
+/// A program of this machine, or of the service. @errors those of reading it, and ProgramFailed for
+/// one with errors.
+Outcome<ReadProgram> read_program(const Context& context, const std::string& file,
+                                  bool from_control) {
+  std::string bytes;
+  if (from_control) {
+    auto answer =
+        expect_ok(context.client.send({.target = file_target(file)}), context.client.url());
+    if (!answer) return answer.error();
+    bytes = std::move(answer->body);
+  } else {
+    auto read = read_file(file);
+    if (!read) return read.error();
+    bytes = *std::move(read);
+  }
+  const bool is_iso = iso::is_iso(bytes, file);
+  auto parsed = iso::parse_program(std::move(bytes), file);
+  for (const Diagnostic& found : parsed.diagnostics) {
+    if (found.severity == Severity::Error)
+      return Failure{ExitCode::ProgramFailed, klartext::render(found)};
+  }
+  return ReadProgram{std::move(parsed.program), is_iso};
+}
+
+/// The text of a conversion; what was found is printed. @errors ProgramFailed for a block without
+/// a form.
+Outcome<std::string> text_of(const std::string& file, iso::Conversion converted) {
+  for (const Diagnostic& found : converted.findings)
+    fmt::print(stderr, "{}\n", klartext::render(found));
+  if (!klartext::contains_error(converted.findings)) return std::move(converted.text);
+  return Failure{ExitCode::ProgramFailed,
+                 file + " has blocks without a form in DIN/ISO; nothing is written"};
+}
+
+bool is_iso_name(std::string_view file) {
+  return file.size() > 2 && ascii_iequals(file.substr(file.size() - 2), ".i");
+}
+
+}  // namespace
+
 Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& options) {
+  if (options.in_place && options.from_control)
+    return Failure{ExitCode::Usage,
+                   "--in-place is for files here: leave it out with --from-control"};
   for (const std::string& file : options.files) {
-    auto bytes = read_file(file);
-    if (!bytes) return bytes.error();
-    const auto parsed = klartext::parse_program(*std::move(bytes), file);
-    for (const Diagnostic& found : parsed.diagnostics) {
-      if (found.severity == Severity::Error)
-        return Failure{ExitCode::ProgramFailed, klartext::render(found)};
-    }
-    const std::string formatted = klartext::format_program(parsed.program);
+    const auto read = read_program(context, file, options.from_control);
+    if (!read) return read.error();
+    const auto formatted =
+        text_of(file, read->is_iso ? iso::to_iso(read->program, {})
+                                   : iso::Conversion{klartext::format_program(read->program)});
+    if (!formatted) return formatted.error();
     if (!options.in_place) {
-      context.print("{}", formatted);
-    } else if (const auto written = write_file(file, formatted); !written) {
+      context.print("{}", *formatted);
+    } else if (const auto written = write_file(file, *formatted); !written) {
       return written.error();
     }
   }
   return ExitCode::Good;
+}
+
+Outcome<ExitCode> run_nc_convert(const Context& context, const ConvertOptions& options) {
+  const bool is_iso = is_iso_name(options.file);
+  if (is_iso == is_iso_name(options.target))
+    return Failure{ExitCode::Usage,
+                   "one of the two files is called .i and has DIN/ISO: nc convert bore.i bore.h"};
+  const auto read = read_program(context, options.file, options.from_control);
+  if (!read) return read.error();
+  if (read->is_iso != is_iso)
+    return Failure{ExitCode::LocalFile,
+                   fmt::format("{} has {} in it, unlike its name says: rename it", options.file,
+                               is_iso ? "Klartext" : "DIN/ISO")};
+  const auto text = text_of(options.file, is_iso ? iso::to_klartext(read->program, ".I")
+                                                 : iso::to_iso(read->program, ".H"));
+  if (!text) return text.error();
+  if (const auto allowed = may_replace(options.target, options.force); !allowed)
+    return allowed.error();
+  const auto written = write_file(options.target, *text);
+  return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }
 
 }  // namespace fitgauge::cli

@@ -23,11 +23,23 @@ Outcome<ExitCode> run_nc_check_local(const Context& context, const CheckOptions&
 struct FormatOptions {
   std::vector<std::string> files;
   bool in_place = false;  ///< writes the files, else prints
+  bool from_control = false;
 };
 
 /// `nc format FILE…`: as a control lists a program. @errors LocalFile, ProgramFailed for what
 /// cannot be read.
 Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& options);
+
+struct ConvertOptions {
+  std::string file;
+  std::string target;         ///< a file here
+  bool from_control = false;  ///< `file` is one of the service
+  bool force = false;         ///< replace a file that is there
+};
+
+/// `nc convert A.i A.h` and `A.h A.i`: the program in the other dialect. @errors Usage for other
+/// names, LocalFile, ProgramFailed for a program with errors or a block without a form there.
+Outcome<ExitCode> run_nc_convert(const Context& context, const ConvertOptions& options);
 
 struct RunOptions;
 

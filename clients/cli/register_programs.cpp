@@ -50,6 +50,15 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
                                  formatted, run_nc_format);
   format->add_option("files", formatted->files, "Files here")->required();
   format->add_flag("--in-place", formatted->in_place, "Write the files, else print");
+  format->add_flag("--from-control", formatted->from_control, "The files are those of the service");
+
+  const auto converted = std::make_shared<ConvertOptions>();
+  CLI::App* convert = add_command(nc, "convert", "DIN/ISO to Klartext or back: nc convert a.i a.h",
+                                  chosen, converted, run_nc_convert);
+  convert->add_option("file", converted->file, "File here, or path on the control")->required();
+  convert->add_option("target", converted->target, "File here that gets the program")->required();
+  convert->add_flag("--from-control", converted->from_control, "The program is the service's");
+  convert->add_flag("--force", converted->force, "Replace a file that is there");
 
   const auto options = std::make_shared<RunOptions>();
   CLI::App* run =

@@ -111,15 +111,16 @@ _fitgauge() {
       esac ;;
     nc)
       case ${words[1]-} in
-        '') options='check format run put get ls' ;;
+        '') options='check format convert run put get ls' ;;
         check) options='--from-control --format --level' ;;
-        format) options=--in-place ;;
+        format) options='--in-place --from-control' ;;
+        convert) options='--from-control --force' ;;
         get) options=--force ;;
         run) options='--from-control --files-to --setup --setup-file --set --on-stop --language --part-id --order --block-skip' ;;
       esac ;;
   esac
   case ${words[*]} in
-    import | measure | tables\ set\ *\ * | plan\ from\ * | nc\ check\ * | nc\ format\ * | nc\ check | nc\ format | nc\ run | nc\ run\ * | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
+    import | measure | tables\ set\ *\ * | plan\ from\ * | nc\ check\ * | nc\ format\ * | nc\ check | nc\ format | nc\ convert | nc\ convert\ * | nc\ run | nc\ run\ * | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
   esac
   _fitgauge_words "$options $common"
 }

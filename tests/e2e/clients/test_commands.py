@@ -263,6 +263,28 @@ class Programs(ClientTest):
         self.assert_fails(4, "nc", "run", "t.h", "--part-id", "p1")
         self.assert_fails(4, "nc", "run", "--from-control", "t.h", "--files-to", "kept")
 
+    def test_programs_are_converted_to_the_other_dialect(self):
+        program = "0 BEGIN PGM C MM\n1 TOOL CALL 5 Z S1000\n2 L X+5 IY+2 FMAX\n3 CALL LBL 1 ;once\n4 LBL 1\n5 END PGM C MM\n"
+        self.client.write("c.h", program)
+        self.assert_runs(0, "nc", "convert", "c.h", "c.i")
+        text = (self.client.folder / "c.i").read_text()
+        self.assertIn("N2 G00 G90 X+5 G91 Y+2 *\nN3 L1,0 * ;once\nN4 G98 L1 *\n", text)
+        self.assert_runs(0, "nc", "check", "c.i")
+        self.assertEqual(self.assert_runs(0, "nc", "format", "c.i"), text)
+        self.assert_runs(0, "nc", "convert", "c.i", "back.h")
+        self.assertEqual((self.client.folder / "back.h").read_text(), program)
+        self.assertIn("--force", self.assert_fails(5, "nc", "convert", "c.h", "c.i"))
+        self.assert_fails(4, "nc", "convert", "c.h", "d.h")
+        self.assert_fails(5, "nc", "convert", "gone.i", "d.h")
+        self.client.write("klartext.i", program)
+        self.assert_fails(5, "nc", "convert", "klartext.i", "d.h")
+        self.client.write("arc.h", "BEGIN PGM A MM\nC X+5 Y+5\nEND PGM A MM\n")
+        self.assertIn("arc.h:2:", self.client.run("nc", "convert", "arc.h", "arc.i").stderr_text)
+        self.assertFalse((self.client.folder / "arc.i").exists())
+        self.assert_runs(0, "nc", "put", "c.i", "c.i")
+        self.assert_runs(0, "nc", "convert", "--from-control", "c.i", "there.h")
+        self.assertEqual(self.assert_runs(0, "nc", "format", "--from-control", "c.i"), text)
+
     def test_errors_name_their_place(self):
         self.client.write("bad.h", "0 BEGIN PGM BAD MM\n1 LX 5\n2 END PGM BAD MM\n")
         self.assert_runs(0, "nc", "put", "bad.h", "bad.h")
