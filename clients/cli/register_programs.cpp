@@ -1,6 +1,7 @@
 #include "cli/registration.hpp"
 
 #include "cli/control_commands.hpp"
+#include "cli/language_server.hpp"
 #include "cli/nc_commands.hpp"
 #include "cli/replay_command.hpp"
 #include "cli/stored_commands.hpp"
@@ -34,6 +35,8 @@ void add_nc_files(CLI::App& nc, Action& chosen) {
 }
 
 void add_nc_programs(CLI::App& nc, Action& chosen) {
+  add_words(nc, "lsp", "Serve an editor: a language server on standard input and output", chosen,
+            {}, 0, [](const Context& context, const Words&) { return run_nc_lsp(context); });
   const auto checked = std::make_shared<CheckOptions>();
   CLI::App* check = add_command(nc, "check", "Check programs, here or on the control", chosen,
                                 checked, run_nc_check);

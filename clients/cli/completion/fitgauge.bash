@@ -111,7 +111,7 @@ _fitgauge() {
       esac ;;
     nc)
       case ${words[1]-} in
-        '') options='check format convert run put get ls' ;;
+        '') options='check format convert lsp run put get ls' ;;
         check) options='--from-control --format --level' ;;
         format) options='--in-place --from-control' ;;
         convert) options='--from-control --force' ;;

@@ -76,7 +76,7 @@ class Completion(unittest.TestCase):
     def test_every_command_is_offered(self):
         self.assertEqual(completions(""), set(COMMANDS))
         self.assertEqual(completions("im"), {"import"})
-        self.assertEqual(completions("nc", ""), {"check", "convert", "format", "run", "put", "get", "ls"})
+        self.assertEqual(completions("nc", ""), {"check", "convert", "format", "lsp", "run", "put", "get", "ls"})
         self.assertEqual(completions("setups", ""), {"ls", "put", "get", "rm"})
         self.assertEqual(completions("runs", ""), {"ls", "show", "get", "cancel"})
         self.assertEqual(completions("control", ""), {"ls", "get", "put", "run", "state"})
@@ -128,7 +128,7 @@ class Completion(unittest.TestCase):
             done = subprocess.run(["fish", "--no-config", "-c", script], capture_output=True, text=True, check=True, timeout=60)
             return {entry.split("\t")[0] for entry in done.stdout.splitlines()}
         self.assertEqual(offered("fitgauge im"), {"import"})
-        self.assertEqual(offered("fitgauge nc "), {"ls", "put", "get", "check", "convert", "format", "run"})
+        self.assertEqual(offered("fitgauge nc "), {"ls", "put", "get", "check", "convert", "format", "lsp", "run"})
         self.assertLessEqual({"--setup", "--on-stop"}, offered("fitgauge nc run --"))
 
     def test_files_are_offered_where_a_file_is_wanted(self):

@@ -1,0 +1,387 @@
+"""fitgauge nc lsp: what an editor asks, in both dialects, and what no editor sends."""
+
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from support.cli import FITGAUGE
+from support.control import EXAMPLES
+from support.language_client import LanguageClient, frame
+from support.waiting import PATIENCE
+
+ERROR, WARNING, INFORMATION = 1, 2, 3
+HOLE = """TCH PROBE 421 MEASURE HOLE ~
+    Q273=+50 ;CENTRE IN 1ST AXIS ~
+    Q274=+40 ;CENTRE IN 2ND AXIS ~
+    Q262=+Q1 ;NOMINAL DIAMETER ~
+    Q325=+0 ;STARTING ANGLE ~
+    Q247=+90 ;STEPPING ANGLE ~
+    Q261=-5 ;MEASURING HEIGHT ~
+    Q320=+0 ;SET-UP CLEARANCE ~
+    Q260=+50 ;CLEARANCE HEIGHT ~
+    Q301=+0 ;MOVE TO CLEARANCE HEIGHT ~
+    Q275=+25.1 ;MAXIMUM SIZE ~
+    Q276=+24.9 ;MINIMUM SIZE ~
+    Q279=+0 ~
+    Q280=+0 ~
+    Q281=+0 ~
+    Q309=+0 ~
+    Q330=+0"""
+PROGRAM = f"""BEGIN PGM DEMO MM
+Q1 = +25 ;NOMINAL
+TOOL CALL 30 Z
+CALL LBL "HOLE"
+STOP
+LBL "HOLE"
+{HOLE}
+Q2 = Q153 - Q1
+LBL 0
+END PGM DEMO MM
+"""
+ISO = """%DEMO G71 *
+N5 D00 Q1 P01 +25 *
+N7 T30 G17 *
+N8 L1,0 *
+N9 G38 *
+N40 G98 L1 *
+N50 G421 MEASURE HOLE ~
+    Q273=+50 ~
+    Q274=+40 ~
+    Q262=+Q1 ~
+    Q325=+0 ~
+    Q247=+90 ~
+    Q261=-5 ~
+    Q320=+0 ~
+    Q260=+50 ~
+    Q301=+0 ~
+    Q275=+25.1 ~
+    Q276=+24.9 ~
+    Q279=+0 ~
+    Q280=+0 ~
+    Q281=+0 ~
+    Q309=+0 ~
+    Q330=+0 *
+N60 G98 L0 *
+N99999999 %DEMO G71 *
+"""
+
+
+class ServerTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.mkdtemp(prefix="fitgauge-lsp-")
+        self.addCleanup(shutil.rmtree, folder, ignore_errors=True)
+        self.client = self.start(folder)
+
+    def start(self, folder, **named):
+        client = LanguageClient(folder, **named)
+        self.addCleanup(client.close)
+        return client
+
+    def line_of(self, name, text):
+        return next(i for i, line in enumerate(self.client.text[name].split("\n")) if text in line)
+
+    def at(self, method, name, text, inside="", **more):
+        """The answer about the first place of `inside` in the first line that has `text`."""
+        line = self.line_of(name, text)
+        return self.client.at(method, name, line, self.client.text[name].split("\n")[line].index(inside or text), **more)
+
+    def corrected(self, name, line, title):
+        """The program after the remedy whose title begins so."""
+        action = next(each for each in self.client.actions(name, line) if each["title"].startswith(title))
+        return self.client.applied(name, action["edit"]["changes"][self.client.uri(name)])
+
+
+class Editing(ServerTest):
+    def setUp(self):
+        super().setUp()
+        self.capabilities = self.client.initialize()["capabilities"]
+
+    def test_it_offers_what_it_does_and_ends(self):
+        self.assertEqual(self.capabilities["textDocumentSync"]["change"], 2)
+        self.assertEqual(self.capabilities["positionEncoding"], "utf-16")
+        self.assertEqual(self.client.end(), 0)
+
+    def test_right_programs_have_no_findings(self):
+        self.assertEqual(self.client.open("demo.h", PROGRAM), [])
+        self.assertEqual(self.client.open("demo.i", ISO), [])
+
+    def test_findings_have_severity_code_and_place_in_utf16(self):
+        found = self.client.open("a.h", 'BEGIN PGM A MM\nQS1 = "\U0001f600é" Q9\nCALL LBL 5\nCALL PGM NONE\nEND PGM A MM\n')
+        self.assertEqual([(each["code"], each["severity"], each["range"]["start"]) for each in found],
+                         [("syntax.error", ERROR, {"line": 1, "character": 12}),
+                          ("label.unknown", ERROR, {"line": 2, "character": 0}),
+                          ("file.missing", WARNING, {"line": 3, "character": 0})])
+        twice = self.client.open("b.h", "BEGIN PGM B MM\nLBL 1\nLBL 1\nEND PGM B MM\n")
+        self.assertEqual(twice[0]["relatedInformation"][0]["location"]["range"]["start"]["line"], 1)
+        note = self.client.open("c.h", PROGRAM.replace("Q274=+40 ;CENTRE IN 2ND AXIS ~", "Q274=+40 ;CENTRE"))
+        self.assertEqual([(each["code"], each["severity"]) for each in note],
+                         [("block.continuation_missing", INFORMATION)])
+
+    def test_changes_are_those_of_a_text_of_utf16_units(self):
+        self.client.open("a.h", "BEGIN PGM A MM\r\nQS1 = \"\U0001f600\"\r\nCALL LBL 5\r\nEND PGM A MM\r\n")
+        at = lambda line, first, last: {"start": {"line": line, "character": first}, "end": {"line": line, "character": last}}
+        self.assertEqual(self.client.change("a.h", {"range": at(2, 0, 0), "text": "LBL 5\r\n"}), [])
+        found = self.client.change("a.h", {"range": at(1, 7, 9), "text": "é"}, {"range": at(1, 9, 9), "text": " Q2"})
+        self.assertEqual(found[0]["range"]["start"], {"line": 1, "character": 10})
+        self.assertEqual(self.client.change("a.h", {"range": at(1, 9, 12), "text": ""}), [])
+        self.assertEqual(self.client.change("a.h", {"range": {"start": {"line": 9, "character": 0},
+                                                              "end": {"line": 99, "character": 9}}, "text": ""}), [])
+        self.assertEqual(self.client.change("a.h", {"text": "BEGIN PGM A MM\nEND PGM A MM\n"}), [])
+
+    def test_a_file_that_is_open_is_seen_as_the_editor_has_it(self):
+        (self.client.folder / "SUB.H").write_text("BEGIN PGM SUB MM\nEND PGM SUB MM\n")
+        main = "BEGIN PGM A MM\nCALL PGM sub\nCALL PGM other\nEND PGM A MM\n"
+        self.assertEqual([each["range"]["start"]["line"] for each in self.client.open("a.h", main)], [2])
+        self.assertEqual(self.client.open("SUB.H", "BEGIN PGM SUB MM\nCALL LBL 1\nEND PGM SUB MM\n")[0]["code"], "label.unknown")
+        self.client.notify("textDocument/didClose", textDocument={"uri": self.client.uri("SUB.H")})
+        self.assertEqual(self.client.findings(), [])
+
+    def test_hover_shows_a_cycle_with_units_and_a_parameter_with_its_meaning(self):
+        for name, text, head in (("demo.h", PROGRAM, "TCH PROBE 421"), ("demo.i", ISO, "G421")):
+            self.client.open(name, text)
+            value = self.at("hover", name, head)["result"]["contents"]["value"]
+            self.assertIn("TCH PROBE 421 MEASURE HOLE", value)
+            self.assertRegex(value, r"\| Q262 \| Nominal diameter \| mm[^|]* \|")
+            self.assertRegex(value, r"\| Q247 \| Stepping angle \| deg[^|]* \|")
+            self.assertIn("| → Q153 | Diameter | mm |", value)
+            value = self.at("hover", name, "Q262=")["result"]["contents"]["value"]
+            self.assertTrue(value.startswith("**Q262** Nominal diameter\n\nmm"), value)
+        self.assertIn("Diameter of TCH PROBE 421", self.at("hover", "demo.h", "Q2 =", "Q153")["result"]["contents"]["value"])
+        self.assertIn("2: `Q1 = +25 ;NOMINAL`", self.at("hover", "demo.h", "Q262=", "Q1 ")["result"]["contents"]["value"])
+        self.assertIsNone(self.at("hover", "demo.h", "STOP")["result"])
+
+    def test_completion_writes_a_cycle_that_only_lacks_values(self):
+        for name, head, frame_of in (("a.h", "TCH PROBE 42", "BEGIN PGM A MM\n{}\nEND PGM A MM\n"),
+                                     ("a.i", "G42", "%A G71 *\nN10 {} *\nN99999999 %A G71 *\n")):
+            with self.subTest(name):
+                self.client.open(name, frame_of.format(head))
+                line = self.line_of(name, head)
+                column = self.client.text[name].split("\n")[line].index(head) + len(head)
+                items = self.client.at("completion", name, line, column)["result"]
+                item = next(each for each in items if each["label"].endswith("421 MEASURE HOLE"))
+                self.assertEqual(item["insertTextFormat"], 2)
+                self.assertTrue(all("42" in each["label"] for each in items), items)
+                written = self.client.applied(name, [item["textEdit"]])
+                filled = re.sub(r"\$\{\d+:(.*?)\}", lambda value: value[1] or "+25", written)
+                self.assertIn("Q262=+25 ;NOMINAL DIAMETER ~\n", filled)
+                self.assertEqual(self.client.change(name, {"text": filled}), [])
+                self.client.text[name] = filled
+                self.assertIn("Nominal diameter", self.at("hover", name, "Q262=")["result"]["contents"]["value"])
+
+    def test_completion_of_every_cycle_is_read_back(self):
+        self.client.open("a.h", "BEGIN PGM A MM\n\nEND PGM A MM\n")
+        items = self.client.at("completion", "a.h", 1, 0)["result"]
+        cycles = [each for each in items if each["label"].startswith(("TCH PROBE ", "CYCL DEF "))]
+        self.assertGreater(len(cycles), 60)
+        wrong = {"syntax.error", "cycle.parameter_unknown", "cycle.dialog_contradicts", "cycle.comment_contradicts",
+                 "block.continuation_missing", "block.unknown"}
+        for item in cycles:
+            with self.subTest(item["label"]):
+                filled = re.sub(r"\$\{\d+:(.*?)\}", lambda value: value[1] or "+1", item["textEdit"]["newText"])
+                found = self.client.change("a.h", {"text": f"BEGIN PGM A MM\n{filled}\nEND PGM A MM\n"})
+                self.assertEqual([each for each in found if each["code"] in wrong], [])
+
+    def test_completion_in_a_cycle_offers_what_it_lacks(self):
+        text = PROGRAM.replace("    Q262=+Q1 ;NOMINAL DIAMETER ~\n", "    \n").replace("    Q280=+0 ~\n", "")
+        self.client.open("a.h", text)
+        items = self.client.at("completion", "a.h", self.line_of("a.h", "Q274=") + 1, 4)["result"]
+        self.assertIn("Q262", [each["label"] for each in items])
+        self.assertNotIn("Q273", [each["label"] for each in items])
+        self.assertIn(" ~", next(each for each in items if each["label"] == "Q262")["textEdit"]["newText"])
+
+    def test_an_editor_without_snippets_gets_plain_text(self):
+        client = self.start(self.client.folder, snippets=False)
+        client.initialize()
+        client.open("a.h", "BEGIN PGM A MM\nTCH PROBE 421\nEND PGM A MM\n")
+        item = client.at("completion", "a.h", 1, 13)["result"][0]
+        self.assertEqual(item["insertTextFormat"], 1)
+        self.assertIn("Q261= ;MEASURING HEIGHT ~\n", item["textEdit"]["newText"])
+        self.assertNotIn("$", item["textEdit"]["newText"])
+
+    def test_definition_goes_to_labels_and_files(self):
+        (self.client.folder / "SUB.H").write_text("BEGIN PGM SUB MM\nEND PGM SUB MM\n")
+        (self.client.folder / "sub.i").write_text("%SUB G71 *\nN99999999 %SUB G71 *\n")
+        self.client.open("demo.h", PROGRAM.replace("STOP", "CALL PGM SUB\nFN 9: IF +0 EQU +0 GOTO LBL \"HOLE\"\nCALL PGM TNC:\\X.H"))
+        for call in ("CALL LBL", "GOTO"):
+            target = self.at("definition", "demo.h", call)["result"]
+            self.assertEqual(target["range"]["start"]["line"], self.client.text["demo.h"].split("\n").index('LBL "HOLE"'))
+        self.assertEqual(self.at("definition", "demo.h", "CALL PGM SUB")["result"]["uri"], self.client.uri("SUB.H"))
+        self.assertIsNone(self.at("definition", "demo.h", "X.H")["result"])
+        self.client.open("demo.i", ISO.replace("N9 G38 *", "N9 %SUB *"))
+        self.assertEqual(self.at("definition", "demo.i", "L1,0")["result"]["range"]["start"]["line"], 5)
+        self.assertEqual(self.at("definition", "demo.i", "%SUB *")["result"]["uri"], self.client.uri("sub.i"))
+
+    def test_rename_changes_every_use_and_no_text(self):
+        text = PROGRAM.replace("STOP", 'L X+Q1 F AUTO ;Q1\nQS5 = "Q1"\nCALL PGM TNC:\\Q1.H\nL Y+Q12 FQ1')
+        self.client.open("demo.h", text)
+        changes = self.at("rename", "demo.h", "Q1 = +25", newName="Q77")["result"]["changes"]
+        self.assertEqual(list(changes), [self.client.uri("demo.h")])
+        self.assertEqual(self.client.applied("demo.h", changes[self.client.uri("demo.h")]),
+                         text.replace("Q1 =", "Q77 =").replace("=+Q1 ", "=+Q77 ").replace("- Q1", "- Q77")
+                         .replace("X+Q1 ", "X+Q77 ").replace("FQ1", "FQ77"))
+        place = self.at("prepareRename", "demo.h", "L X+Q1", "Q1")["result"]
+        self.assertEqual(place["end"]["character"] - place["start"]["character"], 2)
+        self.client.open("demo.i", ISO)
+        edits = self.at("rename", "demo.i", "D00 Q1", "Q1", newName="Q77")["result"]["changes"][self.client.uri("demo.i")]
+        self.assertEqual(self.client.applied("demo.i", edits), ISO.replace("Q1 ", "Q77 "))
+
+    def test_rename_follows_the_calls_and_masks_of_the_folder(self):
+        for name in ("8255.h", "82551.h", "82552.a"):
+            shutil.copy(EXAMPLES / "8255" / name, self.client.folder / name)
+        (self.client.folder / "apart.h").write_text("BEGIN PGM APART MM\nQ1 = 1\nEND PGM APART MM\n")
+        texts = {name: (self.client.folder / name).read_text() for name in ("8255.h", "82551.h", "82552.a")}
+        self.client.open("8255.h", texts["8255.h"])
+        self.client.text.update(texts)
+        changes = self.at("rename", "8255.h", "Q1 = ", "Q1", newName="Q900")["result"]["changes"]
+        self.assertLessEqual({self.client.uri("8255.h"), self.client.uri("82551.h")}, set(changes))
+        self.assertNotIn(self.client.uri("apart.h"), changes)
+        for name in ("8255.h", "82551.h"):
+            renamed = self.client.applied(name, changes[self.client.uri(name)])
+            self.assertNotRegex(re.sub(r";.*|\".*?\"", "", renamed), r"Q1\b")
+        refused = self.at("rename", "8255.h", "Q1 = ", "Q1", newName="Q22")["error"]
+        self.assertIn("Q22 is used already: 82551.h, line 11", refused["message"])
+
+    def test_rename_refuses_what_would_mean_something_else(self):
+        self.client.open("a.h", PROGRAM.replace("STOP", "FN 23: Q20 = CDATA Q30\nQ31 = 1\nQL3 = Q1\nFN 28: TABREAD Q40 = 1/\"A,B\""))
+        for old, new, reason in (("Q1 = +25", "Q2", "used already"), ("Q1 = +25", "Q150", "keep their names"),
+                                 ("Q1 = +25", "X", "is not a parameter"), ("Q1 = +25", "QS7", "of its kind"), ("Q1 = +25", "Q9999", ""),
+                                 ("Q1 = +25", "Q41", "in a row"), ("Q31 = 1", "Q50", "in a row"),
+                                 ("Q2 = Q153", "Q262", "used already")):
+            with self.subTest(old, new=new):
+                answer = self.at("rename", "a.h", old, newName=new)
+                self.assertEqual(answer["error"]["code"], -32803)
+                self.assertIn(reason, answer["error"]["message"])
+        self.assertIsNone(self.at("prepareRename", "a.h", "Q262=")["result"])
+        self.assertEqual(self.at("rename", "a.h", "Q262=", newName="Q5")["error"]["code"], -32803)
+        self.assertEqual(self.at("rename", "a.h", "TOOL", newName="Q5")["error"]["code"], -32803)
+
+    def test_formatting_numbers_the_blocks(self):
+        def formatted(name):
+            edits = self.client.ask("textDocument/formatting", textDocument={"uri": self.client.uri(name)}, options={})["result"]
+            return self.client.applied(name, edits)
+        self.client.open("a.h", "BEGIN PGM A MM\nL   X+1   F100\nEND PGM A MM\n")
+        self.assertEqual(formatted("a.h"), "0 BEGIN PGM A MM\n1 L X+1 F100\n2 END PGM A MM\n")
+        self.client.open("demo.i", ISO)
+        self.assertEqual(re.findall(r"^N\d+", formatted("demo.i"), re.MULTILINE),
+                         ["N10", "N20", "N30", "N40", "N50", "N60", "N70", "N99999999"])
+        self.client.open("bad.h", "BEGIN PGM A MM\nRUBBISH\nEND PGM A MM\n")
+        answer = self.client.ask("textDocument/formatting", textDocument={"uri": self.client.uri("bad.h")}, options={})
+        self.assertIn("correct line 2 first", answer["error"]["message"])
+
+    def test_remedies_put_it_right(self):
+        missing, dialog, comment = "block.continuation_missing", "cycle.dialog_contradicts", "cycle.comment_contradicts"
+        depth = "BEGIN PGM A MM\nCYCL DEF 200 DRILLING ~\n    Q200=2 ~\n    Q201=+20 ;DEPTH\nEND PGM A MM\n"
+        broken_off = PROGRAM.replace("    Q309=+0 ~\n    Q330", "    Q309=+0 ;STOP\nQ330")
+        for code, wrong, title in ((missing, PROGRAM.replace("2ND AXIS ~", "2ND AXIS"), "Add the '~'"),
+                                   (missing, PROGRAM.replace(";CENTRE IN 2ND AXIS ~", "~ ;CENTRE IN 2ND AXIS"), "Add the '~'"),
+                                   (missing, broken_off, "Add the '~'"),
+                                   (dialog, PROGRAM.replace("421 MEASURE HOLE", "421 MEASURE CIRCLE OUTSIDE"), "Write the name"),
+                                   (dialog, ISO.replace("G421 MEASURE HOLE", "G421 MEASURE CIRCLE OUTSIDE"), "Write the name"),
+                                   (comment, PROGRAM.replace("MAXIMUM SIZE", "MINIMUM SIZE"), "Write what it means"),
+                                   ("cycle.order_contradicts", depth, "Write the depth with a minus")):
+            name = "a.i" if wrong.startswith("%") else "a.h"
+            with self.subTest(code, name=name):
+                found = next(each for each in self.client.open(name, wrong) if each["code"] == code)
+                line = found["range"]["start"]["line"]
+                right = self.corrected(name, line, title)
+                silent = self.corrected(name, line, "Silence") if found["severity"] != ERROR else None
+                for text in filter(None, (right, silent)):
+                    self.assertNotIn(code, [each["code"] for each in self.client.change(name, {"text": text})])
+
+
+class Protocol(ServerTest):
+    """What breaks the rules is answered, and the server goes on."""
+
+    def alive(self):
+        answer = self.client.ask("textDocument/hover", textDocument={"uri": "file:///no"}, position={"line": 0, "character": 0})
+        self.assertEqual(answer["error"]["code"], -32602)
+
+    def assert_refused(self, code, content):
+        self.client.send_bytes(content)
+        answer = self.client.receive()
+        self.assertEqual((answer["error"]["code"], answer["id"]), (code, None), answer)
+
+    def test_order_of_the_handshake(self):
+        self.assertEqual(self.client.ask("textDocument/hover")["error"]["code"], -32002)
+        self.client.initialize()
+        self.assertEqual(self.client.ask("initialize")["error"]["code"], -32600)
+        self.assertEqual(self.client.ask("textDocument/unknown")["error"]["code"], -32601)
+        self.client.ask("shutdown")
+        self.assertEqual(self.client.ask("textDocument/hover")["error"]["code"], -32600)
+        self.client.notify("exit")
+        self.assertEqual(self.client.process.wait(PATIENCE), 0)
+
+    def test_an_end_without_shutdown_is_1(self):
+        self.client.initialize()
+        self.client.process.stdin.close()
+        self.assertEqual(self.client.process.wait(PATIENCE), 1)
+
+    def test_hostile_headers(self):
+        self.client.initialize()
+        for header in (b"Content-Length: -5\r\n\r\n", b"Content-Length: 2147483648\r\n\r\n{}",
+                       b"Content-Length: 99999999999999999999999\r\n\r\n", b"Content-Length: 12x\r\n\r\n{\"a\":1}",
+                       b"Content-Length:\r\n\r\n", b"rubbish\r\n", b"\x00\xff\xfe\r\n", b"GET / HTTP/1.1\r\n\r\n",
+                       b"x" * 100_000 + b"\r\n"):
+            with self.subTest(header[:40]):
+                self.assert_refused(-32700, header)
+                self.alive()
+
+    def test_hostile_texts(self):
+        self.client.initialize()
+        for code, body in ((-32700, b"{"), (-32700, b""), (-32700, b'{"a":"\xff"}'), (-32700, b"[" * 100_000),
+                           (-32600, b"[]"), (-32600, b"1"), (-32600, b"{}"), (-32600, b'{"id":{},"method":"x"}'),
+                           (-32600, b'{"id":null,"method":"x"}'), (-32600, b'{"id":1,"method":7}')):
+            with self.subTest(body[:40]):
+                self.assert_refused(code, frame(body))
+                self.alive()
+
+    def test_half_a_message_is_said(self):
+        for content in (b"Content-Len", b"Content-Length: 5", b"Content-Length: 500\r\n\r\n{\"id\":1}"):
+            with self.subTest(content):
+                done = subprocess.run([FITGAUGE, "nc", "lsp"], input=content, capture_output=True, timeout=PATIENCE, check=False)
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(b"the input ends in", done.stdout)
+
+    def test_pieces_and_many_at_once(self):
+        self.client.initialize()
+        content = frame({"jsonrpc": "2.0", "id": "a", "method": "unknown"})
+        for i in range(len(content)):
+            self.client.send_bytes(content[i:i + 1])
+        self.assertEqual(self.client.receive()["id"], "a")
+        self.client.send_bytes(content * 200)
+        self.assertEqual([self.client.receive()["id"] for _ in range(200)], ["a"] * 200)
+
+    def test_wrong_parameters_are_refused(self):
+        self.client.initialize()
+        self.client.open("a.h", PROGRAM)
+        document = {"uri": self.client.uri("a.h")}
+        for params in ({}, {"textDocument": document}, {"textDocument": document, "position": {"line": -1, "character": 0}},
+                       {"textDocument": document, "position": {"line": 1e300, "character": 0}},
+                       {"textDocument": document, "position": {"line": 10**9, "character": 0}},
+                       {"textDocument": document, "position": []}, {"textDocument": 5, "position": {"line": 0, "character": 0}}):
+            for method in ("hover", "completion", "definition", "rename", "prepareRename", "codeAction", "formatting"):
+                answer = self.client.ask(f"textDocument/{method}", **params)
+                if method != "formatting" or "textDocument" not in params or params["textDocument"] == 5:
+                    self.assertEqual(answer["error"]["code"], -32602, (method, params))
+        self.client.notify("textDocument/didChange", textDocument=document, contentChanges=[{"range": 7, "text": "x"}])
+        self.assertEqual(self.client.receive()["method"], "window/logMessage")
+        for column in range(200):
+            for method in ("hover", "completion", "prepareRename"):
+                self.assertNotIn("error", self.client.at(method, "a.h", 0, column))
+
+    def test_broken_programs_at_every_place(self):
+        self.client.initialize()
+        for name, text in (("a.h", "TCH PROBE 99999999999 ~\nQ ~\nQ9999=\n~\n" + "~\n" * 300 + "\"Q1\nQ\nCYCL DEF"),
+                           ("a.i", "%\nG\nG421 ~\nQ273\nN\nN99999999999\nL\n%X G71"), ("b.h", ""), ("c.h", "\r\r\n\n\r")):
+            self.client.open(name, text)
+            for line in range(min(len(text.split("\n")), 12)):
+                for method in ("hover", "completion", "definition", "prepareRename"):
+                    answer = self.client.at(method, name, line, 3)
+                    self.assertNotEqual(answer.get("error", {}).get("code"), -32603, answer)
+        self.alive()
+
+
+if __name__ == "__main__":
+    unittest.main()
