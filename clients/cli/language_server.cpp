@@ -1,29 +1,22 @@
 #include "cli/language_server.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
-#include <deque>
-#include <map>
-#include <set>
+#include <iostream>
+#include <optional>
+#include <regex>
+#include <string>
+#include <vector>
 
-#include "base/allowance.hpp"
 #include "base/text.hpp"
 #include "cli/json_object.hpp"
-#include "cli/message_stream.hpp"
 #include "cli/open_programs.hpp"
 #include "cli/program_help.hpp"
-#include "nc/iso/parser.hpp"
-#include "nc/klartext/printer.hpp"
-#include "nc/program/check.hpp"
 
 namespace fitgauge::cli {
 namespace {
-
-using klartext::Diagnostic;
-using klartext::Severity;
 
 constexpr int kParseError = -32700;
 constexpr int kInvalidRequest = -32600;
@@ -31,6 +24,8 @@ constexpr int kMethodNotFound = -32601;
 constexpr int kInvalidParams = -32602;
 constexpr int kNotInitialized = -32002;
 constexpr int kRequestFailed = -32803;
+/// A program of 8 MiB, each character escaped.
+constexpr std::size_t kLargestMessage = std::size_t{64} << 20;
 
 /// An error of JSON-RPC.
 struct Refusal {
@@ -42,430 +37,344 @@ struct Refusal {
 /// JSON.
 using Reply = boost::system::result<std::string, Refusal>;
 
+struct Server {
+  OpenPrograms programs;
+  bool is_initialized = false;
+  bool is_shut_down = false;
+  bool is_over = false;
+  bool has_snippets = false;
+};
+
 std::string list_of(const std::vector<std::string>& items) {
   return fmt::format("[{}]", fmt::join(items, ","));
 }
 
-std::string json_of(Place place) {
-  return fmt::format(R"({{"line":{},"character":{}}})", place.line, place.character);
-}
 std::string json_of(Place begin, Place end) {
-  return fmt::format(R"({{"start":{},"end":{}}})", json_of(begin), json_of(end));
+  return fmt::format(
+      R"({{"start":{{"line":{},"character":{}}},"end":{{"line":{},"character":{}}}}})", begin.line,
+      begin.character, end.line, end.character);
 }
 
-/// A range of a finding, which counts in characters from 1.
-std::string json_of(const EditedText& text, const SourceRange& range) {
-  const std::size_t line = std::max(range.begin.line, 1U) - 1;
-  const std::size_t last = std::max(range.end.line, range.begin.line + 0U);
-  return json_of(text.place_of_column(line, range.begin.column),
-                 text.place_of_column(std::max(last, 1UL) - 1, range.end.column));
+std::string json_of(const Edit& edit) {
+  return fmt::format(R"({{"range":{},"newText":{}}})", json_of(edit.begin, edit.end),
+                     json_quoted(edit.by));
 }
 
-std::string edit_of(const std::string& range, std::string_view by) {
-  return JsonObject().add_raw("range", range).add("newText", by).text();
+std::string json_of(const Changes& changes) {
+  JsonObject files;
+  for (const auto& [uri, edits] : changes) {
+    std::vector<std::string> items;
+    for (const Edit& edit : edits) items.push_back(json_of(edit));
+    files.add_raw(uri, list_of(items));
+  }
+  return fmt::format(R"({{"changes":{}}})", files.text());
 }
 
-std::string whole_line(const EditedText& text, std::size_t line) {
-  return json_of({line, 0}, text.place(text.start(line) + text.line(line).size()));
+std::string json_of(const OpenProgram& program, const klartext::Diagnostic& found) {
+  constexpr int kSeverities[] = {3, 2, 1};  // information, warning, error
+  const auto [begin, end] = found.range;
+  const std::size_t line = std::max(begin.line, 1U) - 1;
+  return fmt::format(
+      R"({{"range":{},"severity":{},"code":"{}","source":"fitgauge","message":{}}})",
+      json_of(program.text.place_of_column(line, begin.column),
+              program.text.place_of_column(line, end.line == begin.line ? end.column : ~0U)),
+      kSeverities[static_cast<std::size_t>(found.severity)], id(found.code),
+      json_quoted(found.message));
 }
 
 std::optional<std::size_t> whole(const JsonValue& value) {
   std::uint32_t read = 0;
-  const auto [stop, error] =
-      std::from_chars(value.text.data(), value.text.data() + value.text.size(), read);
-  const bool is_whole = value.is(JsonValue::Kind::Number) && error == std::errc{} &&
-                        stop == value.text.data() + value.text.size();
+  const char* end = value.text.data() + value.text.size();
+  const auto [stop, error] = std::from_chars(value.text.data(), end, read);
+  const bool is_whole = value.is(JsonValue::Kind::Number) && error == std::errc{} && stop == end;
   return is_whole ? std::optional<std::size_t>(read) : std::nullopt;
 }
 
 std::optional<Place> place_of(const JsonValue& value) {
   const auto line = whole(value.member("line"));
   const auto character = whole(value.member("character"));
-  if (!line || !character) return std::nullopt;
-  return Place{*line, *character};
+  return line && character ? std::optional<Place>({*line, *character}) : std::nullopt;
 }
 
-std::string json_of(const OpenProgram& program, const Diagnostic& found) {
-  constexpr int kSeverities[] = {3, 2, 1};  // information, warning, error
-  JsonObject json;
-  json.add_raw("range", json_of(program.text, found.range));
-  json.add_raw("severity", std::to_string(kSeverities[static_cast<std::size_t>(found.severity)]));
-  json.add("code", id(found.code)).add("source", "fitgauge").add("message", found.message);
-  std::vector<std::string> notes;
-  for (const auto& note : found.notes) {
-    JsonObject location;
-    location.add("uri", program.uri).add_raw("range", json_of(program.text, note.range));
-    notes.push_back(
-        JsonObject().add_raw("location", location.text()).add("message", note.message).text());
+void send(std::string_view text) {
+  fmt::print(stdout, "Content-Length: {}\r\n\r\n{}", text.size(), text);
+  std::fflush(stdout);
+}
+
+void notify(std::string_view method, const JsonObject& params) {
+  send(fmt::format(R"({{"jsonrpc":"2.0","method":"{}","params":{}}})", method, params.text()));
+}
+
+void respond(std::string_view id, const Reply& reply) {
+  if (reply) return send(fmt::format(R"({{"jsonrpc":"2.0","id":{},"result":{}}})", id, *reply));
+  send(fmt::format(R"({{"jsonrpc":"2.0","id":{},"error":{{"code":{},"message":{}}}}})", id,
+                   reply.error().code, json_quoted(reply.error().message)));
+}
+
+void publish(Server& server) {
+  for (auto& [uri, program] : server.programs.all()) {
+    if (!program.is_stale) continue;
+    server.programs.check(program);
+    std::vector<std::string> findings;
+    for (const auto& found : program.found) findings.push_back(json_of(program, found));
+    JsonObject params;
+    params.add("uri", uri).add_raw("diagnostics", list_of(findings));
+    if (program.version) params.add_raw("version", std::to_string(*program.version));
+    notify("textDocument/publishDiagnostics", params);
   }
-  if (!notes.empty()) json.add_raw("relatedInformation", list_of(notes));
-  return json.text();
 }
 
-class LanguageServer {
- public:
-  ExitCode run();
-
- private:
-  using Handler = Reply (LanguageServer::*)(const JsonValue& params);
-  using Listener = void (LanguageServer::*)(const JsonValue& params);
-  struct Request {
-    std::string_view method;
-    Handler handle;
-  };
-  struct Notification {
-    std::string_view method;
-    Listener handle;
-  };
-  static const std::array<Request, 9> kRequests;
-  static const std::array<Notification, 4> kNotifications;
-
-  void handle(const std::string& text);
-  void answer(const std::string& id, const JsonValue& message);
-  void notify(std::string_view method, const JsonValue& params);
-  static void respond(const std::string& id, const Reply& reply);
-  static void send(std::string_view method, const JsonObject& params);
-  static void complain(std::string_view message);
-  void publish_all();
-  void publish(OpenProgram& program);
-
-  OpenProgram* program_of(const JsonValue& params);
-  /// Calls `answer(program, place)` for a request about a place.
-  template <class Answer>
-  Reply at_place(const JsonValue& params, const Answer& answer);
-
-  void open(const JsonValue& params);
-  void change(const JsonValue& params);
-  void close(const JsonValue& params);
-  void save(const JsonValue&) {
-    for (auto& [uri, program] : programs_.all()) program.is_stale = true;
-  }
-
-  Reply initialize(const JsonValue& params);
-  Reply shutdown(const JsonValue&) {
-    is_shut_down_ = true;
-    return std::string("null");
-  }
-  Reply hover(const JsonValue& params);
-  Reply complete(const JsonValue& params);
-  Reply define(const JsonValue& params);
-  Reply prepare_rename(const JsonValue& params);
-  Reply rename(const JsonValue& params);
-  Reply format(const JsonValue& params);
-  Reply act(const JsonValue& params);
-
-  OpenPrograms programs_;
-  bool is_initialized_ = false;
-  bool is_shut_down_ = false;
-  bool is_over_ = false;
-  bool has_snippets_ = false;
-};
-
-constexpr std::string_view kCapabilities =
-    R"({"capabilities":{"positionEncoding":"utf-16",)"
-    R"("textDocumentSync":{"openClose":true,"change":2,"save":true},"hoverProvider":true,)"
-    R"("completionProvider":{"triggerCharacters":[" ","Q"]},"definitionProvider":true,)"
-    R"("renameProvider":{"prepareProvider":true},"documentFormattingProvider":true,)"
-    R"("codeActionProvider":{"codeActionKinds":["quickfix"]}},)"
-    R"("serverInfo":{"name":"fitgauge","version":")" FITGAUGE_VERSION R"("}})";
-
-const std::array<LanguageServer::Request, 9> LanguageServer::kRequests{
-    {{"initialize", &LanguageServer::initialize},
-     {"shutdown", &LanguageServer::shutdown},
-     {"textDocument/hover", &LanguageServer::hover},
-     {"textDocument/completion", &LanguageServer::complete},
-     {"textDocument/definition", &LanguageServer::define},
-     {"textDocument/prepareRename", &LanguageServer::prepare_rename},
-     {"textDocument/rename", &LanguageServer::rename},
-     {"textDocument/formatting", &LanguageServer::format},
-     {"textDocument/codeAction", &LanguageServer::act}}};
-
-const std::array<LanguageServer::Notification, 4> LanguageServer::kNotifications{
-    {{"textDocument/didOpen", &LanguageServer::open},
-     {"textDocument/didChange", &LanguageServer::change},
-     {"textDocument/didClose", &LanguageServer::close},
-     {"textDocument/didSave", &LanguageServer::save}}};
-
-ExitCode LanguageServer::run() {
-  MessageReader reader(STDIN_FILENO);
-  while (!is_over_) {
-    // Findings follow once no other keystroke waits.
-    if (!reader.has_more()) publish_all();
-    const auto message = reader.next();
-    if (!message) break;
-    if (message->problem.empty()) {
-      handle(message->text);
-    } else {
-      respond("null", Refusal{kParseError, message->problem});
-    }
-  }
-  if (!is_over_) publish_all();
-  return is_over_ && is_shut_down_ ? ExitCode::Good : ExitCode::Rework;  // 1, as LSP has it
-}
-
-void LanguageServer::handle(const std::string& text) {
-  const auto message = parse_document(text);
-  if (!message) return respond("null", Refusal{kParseError, message.error().message});
-  const JsonValue& method = message->member("method");
-  const JsonValue* id = message->find("id");
-  if (!message->is(JsonValue::Kind::Object) ||
-      (!method.is(JsonValue::Kind::String) &&
-       (id == nullptr || (!message->find("result") && !message->find("error"))))) {
-    return respond("null", Refusal{kInvalidRequest, "a message is an object with a method"});
-  }
-  if (id == nullptr) return notify(method.text, message->member("params"));
-  if (!method.is(JsonValue::Kind::String)) return;  // the answer to nothing that was asked
-  if (!id->is(JsonValue::Kind::Number) && !id->is(JsonValue::Kind::String))
-    return respond("null", Refusal{kInvalidRequest, "id must be a number or a string"});
-  answer(id->is(JsonValue::Kind::String) ? json_quoted(id->text) : id->text, *message);
-}
-
-void LanguageServer::answer(const std::string& id, const JsonValue& message) {
-  const std::string& method = message.member("method").text;
-  const auto* found = std::ranges::find(kRequests, method, &Request::method);
-  if (is_shut_down_)
-    return respond(id, Refusal{kInvalidRequest, "only exit may follow behind shutdown"});
-  if (!is_initialized_ && method != "initialize")
-    return respond(id, Refusal{kNotInitialized, "the first request is initialize"});
-  if (found == kRequests.end())
-    return respond(id, Refusal{kMethodNotFound, "there is no method " + method});
-  respond(id, (this->*found->handle)(message.member("params")));
-}
-
-void LanguageServer::notify(std::string_view method, const JsonValue& params) {
-  is_over_ = method == "exit";
-  const auto* found = std::ranges::find(kNotifications, method, &Notification::method);
-  if (found != kNotifications.end() && is_initialized_ && !is_shut_down_)
-    (this->*found->handle)(params);
-}
-
-void LanguageServer::respond(const std::string& id, const Reply& reply) {
-  JsonObject message;
-  message.add("jsonrpc", "2.0").add_raw("id", id);
-  if (reply) {
-    message.add_raw("result", *reply);
-  } else {
-    JsonObject error;
-    error.add_raw("code", std::to_string(reply.error().code)).add("message", reply.error().message);
-    message.add_raw("error", error.text());
-  }
-  send_message(message.text());
-}
-
-void LanguageServer::send(std::string_view method, const JsonObject& params) {
-  JsonObject message;
-  message.add("jsonrpc", "2.0").add("method", method).add_raw("params", params.text());
-  send_message(message.text());
-}
-
-/// Of a notification, which has no answer.
-void LanguageServer::complain(std::string_view message) {
-  send("window/logMessage", JsonObject().add_raw("type", "1").add("message", message));
-}
-
-void LanguageServer::publish_all() {
-  for (auto& [uri, program] : programs_.all())
-    if (program.is_stale) publish(program);
-}
-
-void LanguageServer::publish(OpenProgram& program) {
-  programs_.check(program);
-  std::vector<std::string> findings;
-  for (const Diagnostic& found : program.found) findings.push_back(json_of(program, found));
-  JsonObject params;
-  params.add("uri", program.uri);
-  if (program.version) params.add_raw("version", std::to_string(*program.version));
-  send("textDocument/publishDiagnostics", params.add_raw("diagnostics", list_of(findings)));
-}
-
-OpenProgram* LanguageServer::program_of(const JsonValue& params) {
-  const auto found =
-      programs_.all().find(std::string(params.member("textDocument").text_of("uri")));
-  return found == programs_.all().end() ? nullptr : &found->second;
-}
-
-const Refusal kNotOpen{kInvalidParams, "textDocument.uri must name a program that is open"};
-
+/// Calls `answer(program)` with what textDocument names.
 template <class Answer>
-Reply LanguageServer::at_place(const JsonValue& params, const Answer& answer) {
-  OpenProgram* program = program_of(params);
-  if (program == nullptr) return kNotOpen;
-  const auto place = place_of(params.member("position"));
-  if (!place || place->line >= program->text.lines())
-    return Refusal{kInvalidParams, "position must be a line and a character of the program"};
-  return answer(*program, *place);
+Reply with_program(Server& server, const JsonValue& params, const Answer& answer) {
+  auto& all = server.programs.all();
+  const auto found = all.find(std::string(params.member("textDocument").text_of("uri")));
+  if (found == all.end())
+    return Refusal{kInvalidParams, "textDocument.uri must name a program that is open"};
+  return answer(found->second);
 }
 
-void LanguageServer::open(const JsonValue& params) {
-  const JsonValue& document = params.member("textDocument");
-  const JsonValue& text = document.member("text");
-  if (!document.member("uri").is(JsonValue::Kind::String) || !text.is(JsonValue::Kind::String))
-    return complain("didOpen: textDocument must have uri and text");
-  programs_.open(document.member("uri").text, text.text).version =
-      whole(document.member("version"));
-}
-
-void LanguageServer::change(const JsonValue& params) {
-  OpenProgram* program = program_of(params);
-  if (program == nullptr) return complain("didChange: " + kNotOpen.message);
-  for (const JsonValue& change : params.member("contentChanges").items) {
-    const JsonValue& text = change.member("text");
-    const JsonValue* range = change.find("range");
-    const auto begin = range == nullptr ? Place{} : place_of(range->member("start"));
-    const auto end = range == nullptr ? Place{} : place_of(range->member("end"));
-    if (!text.is(JsonValue::Kind::String) || !begin || !end)
-      return complain("didChange: a change must have text, and start and end in its range");
-    const std::size_t last =
-        range == nullptr ? program->text.text().size() : program->text.offset(*end);
-    program->text.replace(program->text.offset(*begin), last, text.text);
-  }
-  program->version = whole(params.member("textDocument").member("version"));
-  programs_.touch(*program);
-}
-
-void LanguageServer::close(const JsonValue& params) {
-  OpenProgram* program = program_of(params);
-  if (program == nullptr) return complain("didClose: " + kNotOpen.message);
-  send("textDocument/publishDiagnostics",
-       JsonObject().add("uri", program->uri).add_raw("diagnostics", "[]"));
-  programs_.all().erase(program->uri);
-}
-
-Reply LanguageServer::initialize(const JsonValue& params) {
-  if (is_initialized_) return Refusal{kInvalidRequest, "initialize comes once"};
-  is_initialized_ = true;
-  has_snippets_ = params.member("capabilities")
-                      .member("textDocument")
-                      .member("completion")
-                      .member("completionItem")
-                      .member("snippetSupport")
-                      .boolean;
-  return std::string(kCapabilities);
-}
-
-Reply LanguageServer::hover(const JsonValue& params) {
-  return at_place(params, [](const OpenProgram& program, Place place) -> Reply {
-    const std::string text = hover_text(program.text, place);
-    if (text.empty()) return std::string("null");
-    const JsonObject content = JsonObject().add("kind", "markdown").add("value", text);
-    return JsonObject().add_raw("contents", content.text()).text();
+/// Calls `answer(program, place)` for a request about a place.
+template <class Answer>
+Reply at_place(Server& server, const JsonValue& params, const Answer& answer) {
+  return with_program(server, params, [&](OpenProgram& program) -> Reply {
+    const auto place = place_of(params.member("position"));
+    if (!place || place->line >= program.text.lines())
+      return Refusal{kInvalidParams, "position must be a line and a character of the program"};
+    return answer(program, *place);
   });
 }
 
-Reply LanguageServer::complete(const JsonValue& params) {
-  return at_place(params, [this](const OpenProgram& program, Place place) -> Reply {
-    const std::size_t cursor = program.text.offset(place);
+Reply initialize(Server& server, const JsonValue& params) {
+  if (server.is_initialized) return Refusal{kInvalidRequest, "initialize comes once"};
+  server.is_initialized = true;
+  const JsonValue& client = params.member("capabilities").member("textDocument");
+  server.has_snippets =
+      client.member("completion").member("completionItem").member("snippetSupport").boolean;
+  return std::string(
+      R"({"capabilities":{"positionEncoding":"utf-16",)"
+      R"("textDocumentSync":{"openClose":true,"change":2,"save":true},"hoverProvider":true,)"
+      R"("completionProvider":{"triggerCharacters":[" ","Q"]},"definitionProvider":true,)"
+      R"("renameProvider":true,"documentFormattingProvider":true,)"
+      R"("codeActionProvider":{"codeActionKinds":["quickfix"]}},)"
+      R"("serverInfo":{"name":"fitgauge","version":")" FITGAUGE_VERSION R"("}})");
+}
+
+Reply did_open(Server& server, const JsonValue& params) {
+  const JsonValue& document = params.member("textDocument");
+  const JsonValue& text = document.member("text");
+  if (document.text_of("uri").empty() || !text.is(JsonValue::Kind::String))
+    return Refusal{kInvalidParams, "didOpen: textDocument must have uri and text"};
+  server.programs.open(document.member("uri").text, text.text).version =
+      whole(document.member("version"));
+  return {};
+}
+
+Reply did_change(Server& server, const JsonValue& params) {
+  return with_program(server, params, [&](OpenProgram& program) -> Reply {
+    program.version = whole(params.member("textDocument").member("version"));
+    program.is_stale = true;
+    for (const JsonValue& change : params.member("contentChanges").items) {
+      const JsonValue& range = change.member("range");
+      const bool is_all = change.find("range") == nullptr;
+      const auto begin = is_all ? Place{} : place_of(range.member("start"));
+      const auto end = is_all ? program.text.end() : place_of(range.member("end"));
+      if (!change.member("text").is(JsonValue::Kind::String) || !begin || !end)
+        return Refusal{kInvalidParams, "didChange: a change must have text, and a whole range"};
+      program.text.replace(*begin, *end, change.member("text").text);
+    }
+    return {};
+  });
+}
+
+Reply did_close(Server& server, const JsonValue& params) {
+  return with_program(server, params, [&](const OpenProgram& program) -> Reply {
+    notify("textDocument/publishDiagnostics",
+           JsonObject().add("uri", program.uri).add_raw("diagnostics", "[]"));
+    server.programs.all().erase(std::string(program.uri));
+    return {};
+  });
+}
+
+Reply did_save(Server& server, const JsonValue&) {
+  for (auto& [uri, program] : server.programs.all()) program.is_stale = true;
+  return {};
+}
+
+Reply hover(Server& server, const JsonValue& params) {
+  return at_place(server, params, [](const OpenProgram& program, Place place) -> Reply {
+    const std::string text = hover_text(program.text, place);
+    if (text.empty()) return std::string("null");
+    return fmt::format(R"({{"contents":{{"kind":"markdown","value":{}}}}})", json_quoted(text));
+  });
+}
+
+Reply complete(Server& server, const JsonValue& params) {
+  return at_place(server, params, [&](const OpenProgram& program, Place place) -> Reply {
+    static const std::regex kMark(R"(\$\{\d+:([^}]*)\})");
     std::vector<std::string> items;
-    for (const CompletionItem& item : completions(program.text, cursor, program.is_iso())) {
-      const Place begin = program.text.place(program.text.start(place.line) + item.replace);
-      JsonObject json;
-      json.add("label", item.label).add_given("detail", item.detail);
-      json.add_raw("insertTextFormat", has_snippets_ ? "2" : "1");
-      json.add_raw("textEdit", edit_of(json_of(begin, place),
-                                       has_snippets_ ? item.insert : plain_text(item.insert)));
-      items.push_back(json.text());
+    for (Completion& item : completions(program.text, place, program.is_iso())) {
+      if (!server.has_snippets) item.edit.by = std::regex_replace(item.edit.by, kMark, "$1");
+      items.push_back(
+          fmt::format(R"({{"label":{},"detail":{},"insertTextFormat":{},"textEdit":{}}})",
+                      json_quoted(item.label), json_quoted(item.detail),
+                      server.has_snippets ? 2 : 1, json_of(item.edit)));
     }
     return list_of(items);
   });
 }
 
-Reply LanguageServer::define(const JsonValue& params) {
-  return at_place(params, [this](const OpenProgram& program, Place place) -> Reply {
-    const auto target = programs_.definition(program, place.line);
+Reply define(Server& server, const JsonValue& params) {
+  return at_place(server, params, [&](const OpenProgram& program, Place place) -> Reply {
+    const auto target = server.programs.definition(program, place.line);
     if (!target) return std::string("null");
-    return JsonObject()
-        .add("uri", target->uri)
-        .add_raw("range", json_of({target->line, 0}, {target->line, 0}))
-        .text();
+    return fmt::format(R"({{"uri":{},"range":{}}})", json_quoted(target->first),
+                       json_of({target->second, 0}, {target->second, 0}));
   });
 }
 
-/// The parameter at a place, or nothing.
-std::optional<WrittenParameter> parameter_at(const OpenProgram& program, Place place) {
-  const std::size_t column = program.text.offset(place) - program.text.start(place.line);
-  for (const auto& written : parameters_of(program.text.line(place.line))) {
-    const bool is_cycles = written.is_cycles && cycle_at(program.text, place.line);
-    if (written.begin <= column && column <= written.end && !is_cycles) return written;
-  }
-  return std::nullopt;
-}
-
-Reply LanguageServer::prepare_rename(const JsonValue& params) {
-  return at_place(params, [](const OpenProgram& program, Place place) -> Reply {
-    const auto written = parameter_at(program, place);
-    if (!written) return std::string("null");
-    const std::size_t start = program.text.start(place.line);
-    return json_of(program.text.place(start + written->begin),
-                   program.text.place(start + written->end));
-  });
-}
-
-Reply LanguageServer::rename(const JsonValue& params) {
-  return at_place(params, [&](const OpenProgram& program, Place place) -> Reply {
-    const auto written = parameter_at(program, place);
+Reply rename(Server& server, const JsonValue& params) {
+  return at_place(server, params, [&](const OpenProgram& program, Place place) -> Reply {
+    const auto written = parameter_at(program.text, place);
     if (!written)
-      return Refusal{kRequestFailed,
-                     "only a Q, QL, QR or QS parameter that a program uses is renamed"};
-    const auto found = programs_.rename(program, written->parameter, params.text_of("newName"));
-    if (!found) return Refusal{kRequestFailed, found.error().message};
-    JsonObject changes;
-    for (const auto& [uri, file] : *found) {
-      std::vector<std::string> edits;
-      for (const auto& [begin, end] : file.places)
-        edits.push_back(edit_of(json_of(begin, end), params.text_of("newName")));
-      changes.add_raw(uri, list_of(edits));
-    }
-    return JsonObject().add_raw("changes", changes.text()).text();
+      return Refusal{kRequestFailed, "only a Q, QL, QR or QS can be renamed: there is none here"};
+    const auto changes = server.programs.rename(program, *written, params.text_of("newName"));
+    if (!changes) return Refusal{kRequestFailed, changes.error().message};
+    return json_of(*changes);
   });
 }
 
-Reply LanguageServer::format(const JsonValue& params) {
-  const OpenProgram* program = program_of(params);
-  if (program == nullptr) return kNotOpen;
-  std::string formatted;
-  if (program->is_iso()) {
-    formatted = renumbered(program->text);
-  } else {
-    const auto parsed = klartext::parse_program(program->text.text(), program->name.text());
-    for (const Diagnostic& found : parsed.diagnostics) {
-      if (found.severity != Severity::Error) continue;
-      return Refusal{kRequestFailed, fmt::format("correct line {} first: {}",
-                                                 found.range.begin.line, found.message)};
-    }
-    formatted = klartext::format_program(parsed.program);
-  }
-  if (formatted == program->text.text()) return std::string("[]");
-  const auto range = json_of({0, 0}, program->text.place(program->text.text().size()));
-  return list_of({edit_of(range, formatted)});
+Reply format(Server& server, const JsonValue& params) {
+  return with_program(server, params, [](const OpenProgram& program) -> Reply {
+    const auto formatted = formatted_text(program);
+    if (!formatted) return Refusal{kRequestFailed, formatted.error().message};
+    return list_of({json_of(Edit{{0, 0}, program.text.end(), *formatted})});
+  });
 }
 
-Reply LanguageServer::act(const JsonValue& params) {
-  OpenProgram* program = program_of(params);
-  const auto begin = place_of(params.member("range").member("start"));
-  const auto end = place_of(params.member("range").member("end"));
-  if (program == nullptr) return kNotOpen;
-  if (!begin || !end) return Refusal{kInvalidParams, "range must have start and end"};
-  if (program->is_stale) publish(*program);
-  std::vector<std::string> actions;
-  for (const Diagnostic& found : program->found) {
-    if (found.range.begin.line < begin->line + 1 || found.range.begin.line > end->line + 1)
-      continue;
-    for (const Remedy& remedy : remedies(program->text, found)) {
-      const std::string edit = edit_of(whole_line(program->text, remedy.line), remedy.by);
-      const JsonObject changes = JsonObject().add_raw(program->uri, list_of({edit}));
-      JsonObject action;
-      action.add("title", remedy.title).add("kind", "quickfix");
-      action.add_raw("isPreferred", remedy.is_preferred ? "true" : "false");
-      action.add_raw("diagnostics", list_of({json_of(*program, found)}));
-      action.add_raw("edit", JsonObject().add_raw("changes", changes.text()).text());
-      actions.push_back(action.text());
+Reply act(Server& server, const JsonValue& params) {
+  publish(server);
+  return with_program(server, params, [&](const OpenProgram& program) -> Reply {
+    const auto begin = place_of(params.member("range").member("start"));
+    const auto end = place_of(params.member("range").member("end"));
+    if (!begin || !end) return Refusal{kInvalidParams, "range must have start and end"};
+    std::vector<std::string> actions;
+    for (const auto& found : program.found) {
+      const std::size_t line = found.range.begin.line;
+      if (line <= begin->line || line > end->line + 1) continue;
+      for (const Remedy& remedy : remedies(program.text, found)) {
+        actions.push_back(fmt::format(
+            R"({{"title":{},"kind":"quickfix","isPreferred":{},"diagnostics":[{}],"edit":{}}})",
+            json_quoted(remedy.title), remedy.corrects, json_of(program, found),
+            json_of(Changes{{program.uri, {remedy.edit}}})));
+      }
     }
+    return list_of(actions);
+  });
+}
+
+Reply shut_down(Server& server, const JsonValue&) {
+  server.is_shut_down = true;
+  return std::string("null");
+}
+
+struct Method {
+  std::string_view name;
+  Reply (*handle)(Server& server, const JsonValue& params);
+};
+constexpr Method kMethods[] = {
+    {"initialize", initialize},           {"shutdown", shut_down},
+    {"textDocument/didOpen", did_open},   {"textDocument/didChange", did_change},
+    {"textDocument/didClose", did_close}, {"textDocument/didSave", did_save},
+    {"textDocument/hover", hover},        {"textDocument/completion", complete},
+    {"textDocument/definition", define},  {"textDocument/rename", rename},
+    {"textDocument/formatting", format},  {"textDocument/codeAction", act}};
+
+Reply reply_to(Server& server, std::string_view method, const JsonValue& params) {
+  if (server.is_shut_down) return Refusal{kInvalidRequest, "only exit may follow behind shutdown"};
+  if (!server.is_initialized && method != "initialize")
+    return Refusal{kNotInitialized, "the first request is initialize"};
+  const auto* found = std::ranges::find(kMethods, method, &Method::name);
+  if (found != std::end(kMethods)) return found->handle(server, params);
+  return Refusal{kMethodNotFound, fmt::format("there is no method {}", method)};
+}
+
+void handle(Server& server, const std::string& text) {
+  const auto message = parse_document(text);
+  if (!message) return respond("null", Refusal{kParseError, message.error().message});
+  const JsonValue& method = message->member("method");
+  const JsonValue& id = message->member("id");
+  const bool is_notice = message->find("id") == nullptr;
+  const bool is_text = id.is(JsonValue::Kind::String);
+  if (!method.is(JsonValue::Kind::String) ||
+      !(is_notice || is_text || id.is(JsonValue::Kind::Number)))
+    return respond("null",
+                   Refusal{kInvalidRequest,
+                           "a message has a method and, of a request, a number or text as id"});
+  server.is_over = is_notice && method.text == "exit";
+  if (server.is_over) return;
+  const Reply reply = reply_to(server, method.text, message->member("params"));
+  if (!is_notice) return respond(is_text ? json_quoted(id.text) : id.text, reply);
+  if (reply.has_error() && reply.error().code == kInvalidParams)
+    notify("window/logMessage",
+           JsonObject().add_raw("type", "1").add("message", reply.error().message));
+}
+
+/// The next message; an error for a wrong header, behind which the next header is looked for.
+/// Nothing at the end of the input.
+std::optional<Reply> next_message(bool& is_lost) {
+  constexpr std::string_view kLength = "content-length:";
+  const auto lose = [&is_lost](std::string problem) {
+    is_lost = true;
+    return Reply(Refusal{kParseError, std::move(problem)});
+  };
+  std::optional<std::size_t> length;
+  for (char buffer[8192];;) {
+    std::cin.getline(buffer, sizeof buffer);
+    const auto size = std::cin.gcount() - (std::cin.good() ? 1 : 0);
+    std::string_view line(buffer, static_cast<std::size_t>(std::max<std::streamsize>(size, 0)));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (std::cin.eof() && (is_lost || (line.empty() && !length))) return std::nullopt;
+    if (std::cin.eof()) return lose("the input ends in the middle of a header");
+    std::cin.clear();  // the rest of a line that is too long comes next
+    const std::size_t at = ascii_lower(line).rfind(kLength);
+    if (line.empty() && length) break;
+    const bool passes = is_lost || line.empty() || line.starts_with("Content-Type:");
+    if (at == line.npos && passes) continue;
+    if (at == line.npos || (at != 0 && !is_lost))
+      return lose(fmt::format("'{}' is no header", first_characters(line, 40)));
+    is_lost = false;
+    const JsonValue value{
+        JsonValue::Kind::Number, {}, std::string(trim(line.substr(at + kLength.size())))};
+    length = whole(value);
+    if (!length || *length > kLargestMessage)
+      return lose(fmt::format("Content-Length must be a whole number up to {}; got '{}'",
+                              kLargestMessage, first_characters(value.text, 40)));
   }
-  return list_of(actions);
+  std::string text(*length, '\0');
+  std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (std::cin.eof()) return lose(fmt::format("the input ends in a message of {} bytes", *length));
+  return text;
 }
 
 }  // namespace
 
-Outcome<ExitCode> run_nc_lsp(const Context&) { return LanguageServer().run(); }
+Outcome<ExitCode> run_nc_lsp(const Context&) {
+  std::ios::sync_with_stdio(false);
+  Server server;
+  for (bool is_lost = false; !server.is_over;) {
+    // Findings follow once no other keystroke waits.
+    if (std::cin.rdbuf()->in_avail() <= 0) publish(server);
+    const auto message = next_message(is_lost);
+    if (!message) break;
+    if (*message) {
+      handle(server, **message);
+    } else {
+      respond("null", *message);
+    }
+  }
+  return server.is_over && server.is_shut_down ? ExitCode::Good
+                                               : ExitCode::Rework;  // 1, as LSP has it
+}
 
 }  // namespace fitgauge::cli

@@ -12,6 +12,7 @@
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/input_file.hpp"
+#include "cli/program_help.hpp"
 #include "http/engine/request_head.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/source_text.hpp"
@@ -31,8 +32,7 @@ fs::path path_of(std::string_view uri) {
   std::string path;
   const std::size_t begin = uri.find('/', kFileScheme.size());
   const bool is_file = uri.starts_with(kFileScheme) && begin != uri.npos &&
-                       http::append_percent_decoded(path, uri.substr(begin), false) &&
-                       path.find('\0') == path.npos;
+                       http::append_percent_decoded(path, uri.substr(begin), false);
   return is_file ? fs::path(path).lexically_normal() : fs::path();
 }
 
@@ -43,10 +43,12 @@ std::string uri_of(const fs::path& path) {
   return uri;
 }
 
-bool is_program(const fs::path& path) {
-  const std::string extension = ascii_lower(path.extension().string());
-  return extension == ".h" || extension == ".i";
+/// The bytes of the character that begins here.
+std::size_t width(char first) {
+  const auto byte = static_cast<unsigned char>(first);
+  return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
 }
+std::size_t units(char first) { return width(first) == 4 ? 2 : 1; }
 
 /// The label that a block calls or jumps to; null if it does neither.
 const klartext::Label* called_label(const klartext::Statement& statement) {
@@ -55,50 +57,100 @@ const klartext::Label* called_label(const klartext::Statement& statement) {
   return jump == nullptr ? nullptr : &jump->target;
 }
 
-bool is_same(const klartext::Program& program, const klartext::Label& a, const klartext::Label& b) {
+bool is_same_label(const klartext::Program& program, const klartext::Label& a,
+                   const klartext::Label& b) {
   const auto* first = std::get_if<klartext::Text>(&a);
   const auto* second = std::get_if<klartext::Text>(&b);
   if (first == nullptr || second == nullptr) return a == b;
   return ascii_iequals(program.text(*first), program.text(*second));
 }
 
-/// A block that sets or reads several parameters in a row has this one among them.
-bool is_in_row(const klartext::Program& program, QRef parameter) {
-  const auto holds = [parameter](QRef first, std::ptrdiff_t count) {
-    return count > 1 && first.space == parameter.space && parameter.number >= first.number &&
-           parameter.number < first.number + count;
-  };
-  const auto columns_of = [&program](const klartext::Expr& cell) {
-    const auto columns = program.operands(std::get<klartext::NodeIndex>(cell)).back();
-    const auto* names = std::get_if<klartext::Text>(&columns);
-    return names == nullptr ? 1 : std::ranges::count(program.text(*names), ',') + 1;
-  };
-  return std::ranges::any_of(program.blocks(), [&](const klartext::Block& block) {
-    if (const auto* circle = std::get_if<klartext::CircleData>(&block.statement))
-      return holds(circle->target, 3) || holds(circle->first_point, 2 * circle->points);
-    if (const auto* read = std::get_if<klartext::TableRead>(&block.statement))
-      return holds(read->first, columns_of(read->cell));
-    const auto* written = std::get_if<klartext::TableWrite>(&block.statement);
-    return written != nullptr && holds(written->first, columns_of(written->cell));
-  });
+/// A file that a program names, or nothing if that is no path.
+std::optional<ControlPath> named(const interpreter::FileReference& reference,
+                                 const ControlPath& program) {
+  auto path = ControlPath::resolve(reference.written, program);
+  if (!path) return std::nullopt;
+  if (reference.kind != interpreter::FileReference::Kind::Program) return *path;
+  return path->with_default_extension(interpreter::program_extension(program));
 }
 
-bool is_of_control(QRef parameter) {
-  return parameter.space == klartext::QSpace::Q && parameter.number >= 100 &&
-         parameter.number < 200;
+/// What keeps a parameter from being renamed to or from this name, by the line that has `written`.
+std::string obstacle(QRef from, QRef to, std::string_view line, const WrittenParameter& written) {
+  constexpr int kLongestRow = 8;
+  const auto has = [&line](std::string_view word) { return line.find(word) != line.npos; };
+  const bool is_row = has("CDATA") || has("D23 ") || has("D24 ") || (has("TAB") && has(","));
+  for (const QRef each : {from, to}) {
+    const bool is_in_row = is_row && each.space == written.parameter.space &&
+                           each.number >= written.parameter.number &&
+                           each.number < written.parameter.number + kLongestRow;
+    if (is_in_row) return "may be one of several in a row there";
+  }
+  if (written.parameter == to) return "is used already";
+  return written.parameter == from && written.is_cycles ? "is a parameter of a cycle" : "";
 }
-
-Error refusal(std::string message) { return Error{ErrorCode::FieldInvalid, std::move(message)}; }
 
 }  // namespace
+
+void EditedText::find_lines() {
+  static std::uint64_t last_revision = 0;
+  revision_ = ++last_revision;
+  starts_.assign(1, 0);
+  for (std::size_t at = 0; (at = text_.find_first_of("\r\n", at)) != text_.npos;) {
+    at += text_.compare(at, 2, "\r\n") == 0 ? 2U : 1U;
+    starts_.push_back(at);
+  }
+}
+
+std::string_view EditedText::line(std::size_t number) const {
+  if (number >= starts_.size()) return {};
+  const auto rest = std::string_view(text_).substr(starts_[number]);
+  return rest.substr(0, rest.find_first_of("\r\n"));
+}
+
+std::size_t EditedText::column(Place place) const {
+  const std::string_view line = this->line(place.line);
+  std::size_t at = 0;
+  for (std::size_t seen = 0; at < line.size(); at += width(line[at])) {
+    seen += units(line[at]);
+    if (seen > place.character) break;
+  }
+  return at;
+}
+
+Place EditedText::place(std::size_t line, std::size_t column) const {
+  const std::string_view written = this->line(line);
+  Place place{line, 0};
+  for (std::size_t at = 0; at < std::min(column, written.size()); at += width(written[at]))
+    place.character += units(written[at]);
+  return place;
+}
+
+Place EditedText::place_of_column(std::size_t line, std::size_t column) const {
+  const std::string_view written = this->line(line);
+  std::size_t at = line == 0 && written.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  for (; column > 1 && at < written.size(); --column) at += width(written[at]);
+  return place(line, at);
+}
+
+void EditedText::replace(Place begin, Place end, std::string_view by) {
+  const auto offset = [this](Place place) {
+    return place.line < starts_.size() ? starts_[place.line] + column(place) : text_.size();
+  };
+  const std::size_t first = offset(begin);
+  text_.replace(first, std::max(first, offset(end)) - first, by);
+  find_lines();
+}
 
 bool OpenProgram::is_iso() const { return iso::is_iso(text.text(), name.text()); }
 
 /// The folder of a program with the texts that the editor has instead of its files.
 class OpenPrograms::Disk final : public interpreter::ControlDisk {
  public:
-  Disk(const OpenPrograms& programs, const OpenProgram& main)
-      : programs_(programs), folder_(main.path.parent_path()), main_(main) {}
+  Disk(const OpenPrograms& programs, const OpenProgram& main) : programs_(programs), main_(main) {
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator(main.path.parent_path(), failed))
+      entries_.emplace(ascii_lower(entry.path().filename().string()), entry.path());
+  }
 
   const OpenProgram* open(const ControlPath& path) const {
     if (path == main_.name) return &main_;
@@ -117,10 +169,10 @@ class OpenPrograms::Disk final : public interpreter::ControlDisk {
                                     revision(path).value_or("")};
   }
   std::optional<std::string> revision(const ControlPath& path) const override {
-    if (const OpenProgram* program = open(path)) return fmt::format("open {}", program->revision);
-    const auto here = local(path);
+    if (const OpenProgram* program = open(path))
+      return fmt::format("open {}", program->text.revision());
     std::error_code failed;
-    if (here)
+    if (const auto here = local(path))
       return fmt::format("{} {} {}", here->string(), fs::file_size(*here, failed),
                          fs::last_write_time(*here, failed).time_since_epoch().count());
     // The service makes these of its tables.
@@ -134,24 +186,16 @@ class OpenPrograms::Disk final : public interpreter::ControlDisk {
     const auto here = local(path);
     return here ? std::optional(uri_of(here->lexically_normal())) : std::nullopt;
   }
-  /// The files and folders of the folder, by name in small letters: case does not count on a
-  /// control. Listed once.
-  const std::map<std::string, fs::path>& entries() const {
-    std::error_code failed;
-    if (entries_.empty()) {
-      for (const auto& entry : fs::directory_iterator(folder_, failed))
-        entries_.emplace(ascii_lower(entry.path().filename().string()), entry.path());
-    }
-    return entries_;
-  }
+  /// By name in small letters: case does not count on a control.
+  const std::map<std::string, fs::path>& entries() const { return entries_; }
 
  private:
   std::optional<fs::path> local(const ControlPath& path) const {
     std::string below = path.text().substr(path.text().find('\\') + 1);
     std::ranges::replace(below, '\\', '/');
     const std::size_t name = below.find('/');
-    const auto found = entries().find(ascii_lower(below.substr(0, name)));
-    if (found == entries().end()) return std::nullopt;
+    const auto found = entries_.find(ascii_lower(below.substr(0, name)));
+    if (found == entries_.end()) return std::nullopt;
     const fs::path here =
         name == below.npos ? found->second : found->second / below.substr(name + 1);
     std::error_code failed;
@@ -159,26 +203,17 @@ class OpenPrograms::Disk final : public interpreter::ControlDisk {
   }
 
   const OpenPrograms& programs_;
-  fs::path folder_;
   const OpenProgram& main_;
-  mutable std::map<std::string, fs::path> entries_;
+  std::map<std::string, fs::path> entries_;
 };
 
 OpenProgram& OpenPrograms::open(const std::string& uri, std::string text) {
   fs::path path = path_of(uri);
-  auto name = ControlPath::parse(
-      "TNC:\\" + (path.empty() ? std::string(base_name(uri)) : path.filename().string()));
+  const std::string base(path.empty() ? base_name(uri) : path.filename().string());
+  auto name = ControlPath::parse("TNC:\\" + base);
   if (!name) name = ControlPath::parse(uri.ends_with(".i") ? "TNC:\\PROGRAM.I" : "TNC:\\PROGRAM.H");
-  all_.erase(uri);
-  return all_
-      .emplace(uri, OpenProgram{uri, std::move(path), *std::move(name), EditedText(std::move(text)),
-                                ++revisions_})
-      .first->second;
-}
-
-void OpenPrograms::touch(OpenProgram& program) {
-  program.revision = ++revisions_;
-  program.is_stale = true;
+  OpenProgram program{uri, std::move(path), *name, EditedText(std::move(text))};
+  return all_.insert_or_assign(uri, std::move(program)).first->second;
 }
 
 void OpenPrograms::check(OpenProgram& program) {
@@ -191,8 +226,8 @@ void OpenPrograms::check(OpenProgram& program) {
   });
 }
 
-std::optional<OpenPrograms::Target> OpenPrograms::definition(const OpenProgram& program,
-                                                             std::size_t line) {
+std::optional<std::pair<std::string, std::size_t>> OpenPrograms::definition(
+    const OpenProgram& program, std::size_t line) {
   const auto parsed = iso::parse_program(program.text.text(), program.name.text()).program;
   const klartext::Label* label = nullptr;
   for (const klartext::Block& block : parsed.blocks()) {
@@ -201,52 +236,42 @@ std::optional<OpenPrograms::Target> OpenPrograms::definition(const OpenProgram& 
       label = called_label(block.statement);
   }
   for (const klartext::Block& block : parsed.blocks()) {
-    const auto* definition = std::get_if<klartext::LabelDefinition>(&block.statement);
-    if (label != nullptr && definition != nullptr && is_same(parsed, definition->label, *label))
-      return Target{program.uri, parsed.range(block.written).begin.line - 1};
+    const auto* target = std::get_if<klartext::LabelDefinition>(&block.statement);
+    if (label != nullptr && target != nullptr && is_same_label(parsed, target->label, *label))
+      return std::pair(program.uri, std::size_t{parsed.range(block.written).begin.line} - 1);
   }
   const Disk disk(*this, program);
-  const auto linked = cache_.get(disk, program.name);
-  for (const auto& reference : linked->references) {
-    if (reference.place.range.begin.line != line + 1) continue;
-    const auto path = ControlPath::resolve(reference.written, program.name);
-    if (!path) continue;
-    const bool is_file = reference.kind != interpreter::FileReference::Kind::Program;
-    const auto uri = disk.uri(
-        is_file ? *path
-                : path->with_default_extension(interpreter::program_extension(program.name)));
-    if (uri) return Target{*uri, 0};
+  for (const auto& reference : cache_.get(disk, program.name)->references) {
+    const auto path = named(reference, program.name);
+    const auto uri = path ? disk.uri(*path) : std::nullopt;
+    if (uri && reference.place.range.begin.line == line + 1) return std::pair(*uri, std::size_t{0});
   }
   return std::nullopt;
 }
 
 /// This program, what it calls or is called by, and so on, with their masks: files of its folder.
 std::vector<ControlPath> OpenPrograms::connected(const OpenProgram& program, const Disk& disk) {
-  using Kind = interpreter::FileReference::Kind;
   std::deque<ControlPath> waiting{program.name};
   for (const auto& [lower, path] : disk.entries()) {
     const auto name = ControlPath::parse("TNC:\\" + path.filename().string());
-    if (name && is_program(path)) waiting.push_back(*name);
+    if (name && (lower.ends_with(".h") || lower.ends_with(".i"))) waiting.push_back(*name);
   }
   std::map<std::string, ControlPath> known;
   std::multimap<std::string, std::string> calls;
   for (; !waiting.empty(); waiting.pop_front()) {
     const ControlPath caller = waiting.front();
-    if (!known.emplace(caller.key(), caller).second) continue;
-    const auto linked = cache_.get(disk, caller);
+    const auto linked =
+        known.emplace(caller.key(), caller).second ? cache_.get(disk, caller) : nullptr;
     if (linked == nullptr) continue;
     for (const auto& reference : linked->references) {
-      const auto written = ControlPath::resolve(reference.written, caller);
-      if (!written || reference.kind == Kind::Table) continue;
-      const bool is_called = reference.kind == Kind::Program;
-      const ControlPath path =
-          is_called ? written->with_default_extension(interpreter::program_extension(caller))
-                    : *written;
-      if (!disk.uri(path)) continue;
-      calls.emplace(caller.key(), path.key());
-      calls.emplace(path.key(), caller.key());
-      if (is_called) waiting.push_back(path);
-      if (!is_called) known.emplace(path.key(), path);
+      const auto path = named(reference, caller);
+      if (!path || reference.kind == interpreter::FileReference::Kind::Table) continue;
+      if (!disk.uri(*path)) continue;
+      calls.emplace(caller.key(), path->key());
+      calls.emplace(path->key(), caller.key());
+      const bool is_called = reference.kind == interpreter::FileReference::Kind::Program;
+      if (is_called) waiting.push_back(*path);
+      if (!is_called) known.emplace(path->key(), *path);
     }
   }
   std::vector<ControlPath> reached{program.name};
@@ -259,50 +284,41 @@ std::vector<ControlPath> OpenPrograms::connected(const OpenProgram& program, con
   return reached;
 }
 
-Result<std::map<std::string, OpenPrograms::Renamed>> OpenPrograms::rename(
-    const OpenProgram& program, QRef from, std::string_view to) {
+Result<Changes> OpenPrograms::rename(const OpenProgram& program, const WrittenParameter& from,
+                                     std::string_view to) {
+  const auto refuse = [](QRef parameter, std::string_view reason) {
+    return Error{ErrorCode::FieldInvalid,
+                 fmt::format("{} {}", interpreter::name(parameter), reason)};
+  };
+  const QRef old = from.parameter;
   const auto name = interpreter::parse_parameter_name(to);
   if (!name) return name.error();
-  if (name->space != from.space)
-    return refusal(
-        fmt::format("{} must stay of its kind: Q, QL, QR or QS", interpreter::name(from)));
-  for (const QRef each : {from, *name}) {
-    if (is_of_control(each))
-      return refusal(fmt::format("the control and its cycles set {}: Q100 to Q199 keep their names",
-                                 interpreter::name(each)));
+  if (name->space != old.space) return refuse(old, "must stay of its kind: Q, QL, QR or QS");
+  for (const QRef each : {old, *name}) {
+    if (each.space == klartext::QSpace::Q && each.number >= 100 && each.number < 200)
+      return refuse(each, "is set by the control: Q100 to Q199 keep their names");
   }
   const Disk disk(*this, program);
-  std::map<std::string, Renamed> renamed;
-  const auto files =
-      from.space == klartext::QSpace::Ql ? std::vector{program.name} : connected(program, disk);
-  for (const ControlPath& path : files) {
+  Changes changes;
+  const bool is_local = old.space == klartext::QSpace::Ql;
+  for (const auto& path : is_local ? std::vector{program.name} : connected(program, disk)) {
     const auto file = disk.find(path);
     if (!file) continue;
-    const EditedText text(disk.open(path) != nullptr ? *file->bytes
-                                                     : klartext::decode_source(*file->bytes));
-    const auto parsed = iso::parse_program(text.text(), path.text()).program;
+    const OpenProgram* here = disk.open(path);
+    const EditedText text(here != nullptr ? *file->bytes : klartext::decode_source(*file->bytes));
     for (std::size_t line = 0; line < text.lines(); ++line) {
-      for (const auto& written : parameters_of(text.line(line))) {
-        const auto shown = fmt::format("{}, line {}", path.file_name(), line + 1);
-        if (written.parameter == *name && from != *name)
-          return refusal(fmt::format("{} is used already: {}", interpreter::name(*name), shown));
-        if (written.parameter != from) continue;
-        if (written.is_cycles && cycle_at(text, line))
-          return refusal(
-              fmt::format("{} is a parameter of a cycle: {}", interpreter::name(from), shown));
-        renamed[*disk.uri(path)].places.emplace_back(text.place(text.start(line) + written.begin),
-                                                     text.place(text.start(line) + written.end));
+      for (const WrittenParameter& written : parameters_of(text, line)) {
+        const std::string reason = obstacle(old, *name, text.line(line), written);
+        if (!reason.empty() && old != *name)
+          return refuse(written.parameter,
+                        fmt::format("{}: {}, line {}", reason, path.file_name(), line + 1));
+        if (written.parameter == old)
+          changes[*disk.uri(path)].push_back(
+              {text.place(line, written.begin), text.place(line, written.end), std::string(to)});
       }
     }
-    for (const QRef each : {from, *name}) {
-      if (is_in_row(parsed, each))
-        return refusal(
-            fmt::format("a block of {} sets or reads several parameters in a row, {} among "
-                        "them: rename it there first",
-                        path.file_name(), interpreter::name(each)));
-    }
   }
-  return renamed;
+  return changes;
 }
 
 }  // namespace fitgauge::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -10,12 +11,61 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "cli/edited_text.hpp"
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/program/control_disk.hpp"
 #include "nc/program/program_cache.hpp"
 
 namespace fitgauge::cli {
+
+/// A place as an editor counts (LSP 3.17): lines from 0, then UTF-16 code units.
+struct Place {
+  std::size_t line = 0;
+  std::size_t character = 0;
+};
+
+struct Edit {
+  Place begin;
+  Place end;
+  std::string by;
+};
+/// By URI.
+using Changes = std::map<std::string, std::vector<Edit>>;
+
+/// UTF-8 that an editor changes piece by piece; lines end with CRLF, LF or CR. Places beyond a line
+/// or the text are its end.
+class EditedText {
+ public:
+  explicit EditedText(std::string text) : text_(std::move(text)) { find_lines(); }
+
+  const std::string& text() const { return text_; }
+  std::size_t lines() const { return starts_.size(); }
+  /// Without its line end; empty beyond the last.
+  std::string_view line(std::size_t number) const;
+  /// In bytes.
+  std::size_t column(Place place) const;
+  Place place(std::size_t line, std::size_t column) const;
+  /// @param column in characters from 1, as a finding has it
+  Place place_of_column(std::size_t line, std::size_t column) const;
+  Place end() const { return place(lines() - 1, text_.size()); }
+  void replace(Place begin, Place end, std::string_view by);
+  /// No two texts have the same.
+  std::uint64_t revision() const { return revision_; }
+
+ private:
+  void find_lines();
+
+  std::string text_;
+  std::vector<std::size_t> starts_;
+  std::uint64_t revision_ = 0;
+};
+
+/// A Q, QL, QR or QS as it is written in a line.
+struct WrittenParameter {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  klartext::QRef parameter{};
+  bool is_cycles = false;  ///< a cycle's own: it stands left of `=` in its block
+};
 
 /// A program as an editor has it.
 struct OpenProgram {
@@ -23,7 +73,6 @@ struct OpenProgram {
   std::filesystem::path path;     ///< empty when no file has it
   interpreter::ControlPath name;  ///< as if its folder were TNC:\.
   EditedText text;
-  std::uint64_t revision = 0;            ///< of the text; no two are the same
   std::optional<std::size_t> version{};  ///< that of the editor
   bool is_stale = true;                  ///< `found` is not that of the text
   std::vector<klartext::Diagnostic> found{};
@@ -37,28 +86,20 @@ class OpenPrograms {
   /// By URI.
   std::map<std::string, OpenProgram>& all() { return all_; }
   OpenProgram& open(const std::string& uri, std::string text);
-  /// The text has changed.
-  void touch(OpenProgram& program);
 
   /// Fills `found` with what a check says about this program.
   void check(OpenProgram& program);
 
-  struct Target {
-    std::string uri;
-    std::size_t line = 0;
-  };
-  /// Of a line: the label that it calls or jumps to, or the file that it names.
-  std::optional<Target> definition(const OpenProgram& program, std::size_t line);
+  /// Of a line: URI and line of the label that it calls or jumps to, or of the file that it names.
+  std::optional<std::pair<std::string, std::size_t>> definition(const OpenProgram& program,
+                                                                std::size_t line);
 
-  struct Renamed {
-    std::vector<std::pair<Place, Place>> places;
-  };
-  /// By URI, the places of a parameter in this program and, unless it is a QL, in all that call it
-  /// or are called, masks too.
+  /// Renames a parameter in this program and, unless it is a QL, in all that call it or are called,
+  /// masks too.
   /// @errors FieldInvalid: the new name is none, is used already or means another kind of value; or
   ///   the control, a cycle, a table or a circle sets one of both.
-  Result<std::map<std::string, Renamed>> rename(const OpenProgram& program, klartext::QRef from,
-                                                std::string_view to);
+  Result<Changes> rename(const OpenProgram& program, const WrittenParameter& from,
+                         std::string_view to);
 
  private:
   class Disk;
@@ -66,7 +107,6 @@ class OpenPrograms {
 
   std::map<std::string, OpenProgram> all_;
   interpreter::ProgramCache cache_;
-  std::uint64_t revisions_ = 0;
 };
 
 }  // namespace fitgauge::cli

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <limits>
+#include <regex>
 #include <set>
 
 #include "base/text.hpp"
+#include "nc/iso/codes.hpp"
 #include "nc/klartext/lexer.hpp"
 #include "nc/klartext/parser.hpp"
+#include "nc/klartext/parser_rules.hpp"
+#include "nc/klartext/printer.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/parameter.hpp"
@@ -16,251 +20,324 @@
 namespace fitgauge::cli {
 namespace {
 
+using klartext::CycleFamily;
 using klartext::DiagnosticCode;
 using probing::CycleDescriptor;
 using probing::CycleParameter;
 
-std::string head_of(const CycleDescriptor& cycle, bool is_iso) {
-  if (!is_iso) {
-    const bool probes = cycle.family == probing::CycleFamily::TchProbe;
-    return fmt::format("{} {}", probes ? "TCH PROBE" : "CYCL DEF", cycle.number);
+constexpr std::string_view kBeforeCode = " \t/0123456789Nn";
+
+/// The cycle whose block a line belongs to.
+struct CycleAt {
+  const CycleDescriptor* cycle = nullptr;
+  std::size_t first_line = 0;
+  std::size_t dialog = 0;  ///< the column behind its number
+};
+
+const CycleDescriptor* find_descriptor(CycleFamily family, int number) {
+  if (family == CycleFamily::GlobalDef) return interpreter::global_definition(number);
+  if (const auto* probing = interpreter::probing_cycle(family, number)) return &probing->descriptor;
+  const auto* machining =
+      family == CycleFamily::CyclDef ? interpreter::machining_cycle(number) : nullptr;
+  return machining == nullptr ? nullptr : &machining->descriptor;
+}
+
+/// The cycle that a line begins.
+std::optional<CycleAt> cycle_of(std::string_view line) {
+  static const std::regex kHead(
+      R"(/?\s*(?:N?\d+)?\s*(?:(TCH\s+PROBE|CYCL\s+DEF|GLOBAL\s+DEF)\s*|G)(\d{1,4})(?!\d))",
+      std::regex::icase);
+  constexpr std::size_t kLongestHead = 80;
+  std::cmatch found;
+  const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+  line = line.substr(begin, kLongestHead);
+  if (!std::regex_search(line.data(), line.data() + line.size(), found, kHead,
+                         std::regex_constants::match_continuous))
+    return std::nullopt;
+  auto number = static_cast<unsigned>(std::stoul(found.str(2)));
+  char initial = found.length(1) == 0 ? 'C' : ascii_upper(*found[1].first);
+  if (found.length(1) == 0) {
+    const auto* code = iso::find_code(number);
+    if (code == nullptr || code->kind != iso::CodeKind::Cycle) return std::nullopt;
+    const auto head = iso::cycle_head(number);
+    initial = head.family.front();
+    number = head.number;
   }
+  const CycleFamily family = initial == 'T'   ? CycleFamily::TchProbe
+                             : initial == 'G' ? CycleFamily::GlobalDef
+                                              : CycleFamily::CyclDef;
+  const auto* cycle = find_descriptor(family, static_cast<int>(number));
+  if (cycle == nullptr) return std::nullopt;
+  return CycleAt{cycle, 0, begin + static_cast<std::size_t>(found.length(0))};
+}
+
+std::optional<CycleAt> cycle_at(const EditedText& text, std::size_t line) {
+  constexpr std::size_t kMostLines = 200;  // no cycle has as many parameters
+  for (std::size_t seen = 0; seen < kMostLines; ++seen, --line) {
+    const std::string_view here = text.line(line);
+    if (auto found = cycle_of(here)) {
+      found->first_line = line;
+      return found;
+    }
+    const std::size_t begin = std::min(here.find_first_not_of(" \t"), here.size());
+    const bool is_parameter =
+        begin != 0 && klartext::at_cycle_parameter(here.data() + begin, here.data() + here.size());
+    if (line == 0 || !(is_parameter || trim(text.line(line - 1)).ends_with('~'))) break;
+  }
+  return std::nullopt;
+}
+
+/// How far a Q of a line may be part of a name.
+enum class Names { Nothing, Paths, All };
+Names names_of(std::string_view line) {
+  const std::size_t begin = std::min(line.find_first_not_of(kBeforeCode), line.size());
+  const std::string code = ascii_upper(line.substr(begin));
+  for (const std::string_view frame : {"BEGIN PGM", "END PGM", "%", "* -", "ERROR"})
+    if (code.starts_with(frame)) return Names::All;
+  for (const std::string_view word :
+       {"CALL PGM", "SEL ", "1 PGM", "TABOPEN", "F-PRINT", "FORM FILE", "D16 ", "D26 ", "G39 "})
+    if (code.find(word) != code.npos) return Names::Paths;
+  return Names::Nothing;
+}
+
+std::string head_of(const CycleDescriptor& cycle, bool is_iso = false) {
+  const bool probes = cycle.family == probing::CycleFamily::TchProbe;
+  if (!is_iso) return fmt::format("{} {}", probes ? "TCH PROBE" : "CYCL DEF", cycle.number);
   constexpr int kContour = 100;  // CYCL DEF 20 is G120
   return fmt::format("G{}", cycle.number < kContour ? cycle.number + kContour : cycle.number);
 }
 
 std::string figures_of(const CycleParameter& parameter) {
   std::string figures(symbol(parameter.unit));
-  const probing::ValueRange any;
-  if (parameter.range.min != any.min && parameter.range.max != any.max)
+  if (parameter.range.min > -std::numeric_limits<double>::max() &&
+      parameter.range.max < std::numeric_limits<double>::max())
     figures += fmt::format(" {} to {}", parameter.range.min, parameter.range.max);
-  if (parameter.default_value) figures += fmt::format(", default {}", *parameter.default_value);
-  if (figures.starts_with(", ")) figures.erase(0, 2);
+  if (parameter.default_value) figures += fmt::format(" (default {})", *parameter.default_value);
   return std::string(trim(figures));
 }
 
-/// `Q262=+25 ;NOMINAL DIAMETER`. Without a default the value is to be written.
+/// As a control writes it behind a value.
+std::string dialog_of(const CycleParameter& parameter) {
+  return ascii_upper(parameter.meaning.substr(0, parameter.meaning.find(':')));
+}
+
+/// `Q262=${1:+25} ;NOMINAL DIAMETER`. Without a default the value is to be written.
 std::string snippet_of(const CycleParameter& parameter, std::size_t stop) {
-  std::string value;
-  if (parameter.default_value) {
-    const double number = *parameter.default_value;
-    value = number > std::numeric_limits<double>::max() ? "MAX" : fmt::format("{:+}", number);
-  }
-  if (parameter.is_text()) value = "\"\"";
-  const std::string_view meaning = parameter.meaning.substr(0, parameter.meaning.find(':'));
-  return fmt::format("{}=${{{}:{}}} ;{}", name(parameter), stop, value, ascii_upper(meaning));
+  std::string value = parameter.is_text() ? "\"\"" : "";
+  if (parameter.default_value)
+    value = *parameter.default_value > std::numeric_limits<double>::max()
+                ? "MAX"
+                : fmt::format("{:+}", *parameter.default_value);
+  return fmt::format("{}=${{{}:{}}} ;{}", name(parameter), stop, value, dialog_of(parameter));
 }
 
 std::string cycle_snippet(const CycleDescriptor& cycle, bool is_iso) {
   std::string snippet = fmt::format("{} {}", head_of(cycle, is_iso), cycle.name);
   std::size_t stop = 0;
-  for (const CycleParameter& parameter : cycle.parameters) {
+  for (const CycleParameter& parameter : cycle.parameters)
     if (!parameter.newer) snippet += " ~\n    " + snippet_of(parameter, ++stop);
-  }
   return snippet;
-}
-
-std::set<int> numbers_of_block(const EditedText& text, const CycleAt& cycle) {
-  std::set<int> numbers;
-  for (std::size_t line = cycle.first_line; line < text.lines(); ++line) {
-    const auto here = cycle_at(text, line);
-    if (!here || here->first_line != cycle.first_line) break;
-    for (const auto& written : parameters_of(text.line(line)))
-      if (written.is_cycles) numbers.insert(written.parameter.number);
-  }
-  return numbers;
 }
 
 std::string cycle_hover(const CycleDescriptor& cycle) {
   std::string text =
-      fmt::format("**{} {}**\n\n| | | |\n|---|---|---|\n", head_of(cycle, false), cycle.name);
+      fmt::format("**{} {}**\n\n| | | |\n|---|---|---|\n", head_of(cycle), cycle.name);
   for (const CycleParameter& parameter : cycle.parameters)
     text += fmt::format("| {} | {} | {} |\n", name(parameter), parameter.meaning,
                         figures_of(parameter));
   for (const auto& result : cycle.results)
     text += fmt::format("| → Q{} | {} | {} |\n", result.q, result.meaning, symbol(result.unit));
-  if (!cycle.simulated.empty()) text += fmt::format("\n{}\n", cycle.simulated);
-  return text;
+  return text + fmt::format("\n{}\n", cycle.simulated);
 }
 
-/// What a parameter is outside of a cycle's `=`: a result of the cycle above, and the lines that
-/// set it.
+/// A result of the cycle above, and the lines that set a parameter.
 std::string parameter_hover(const EditedText& text, std::size_t line, klartext::QRef parameter) {
-  constexpr std::size_t kMostShown = 5;
+  constexpr std::size_t kMostShown = 400;
   std::string shown;
   for (std::size_t above = line; above-- > 0 && shown.empty();) {
-    const auto cycle = cycle_at(text, above);
+    const auto cycle = cycle_of(text.line(above));
     if (!cycle) continue;
-    for (const auto& result : cycle->cycle->results) {
-      if (parameter != klartext::QRef{klartext::QSpace::Q, result.q}) continue;
-      shown = fmt::format("{} of {} {}", result.meaning, head_of(*cycle->cycle, false),
-                          cycle->cycle->name);
-      if (result.unit != probing::Unit::None) shown += fmt::format(", in {}", symbol(result.unit));
-      shown += "\n\n";
-    }
-    above = cycle->first_line;
+    for (const auto& result : cycle->cycle->results)
+      if (parameter == klartext::QRef{klartext::QSpace::Q, result.q})
+        shown = fmt::format("{} of {} {}, {}\n\n", result.meaning, head_of(*cycle->cycle),
+                            cycle->cycle->name, symbol(result.unit));
   }
-  std::size_t count = 0;
-  for (std::size_t at = 0; at < text.lines() && count < kMostShown; ++at) {
-    for (const auto& written : parameters_of(text.line(at))) {
-      if (!written.is_cycles || written.parameter != parameter || cycle_at(text, at)) continue;
-      shown += fmt::format("{}: `{}`\n\n", at + 1, trim(text.line(at)));
-      ++count;
-    }
+  const std::string name = interpreter::name(parameter);
+  for (std::size_t at = 0; at < text.lines() && shown.size() < kMostShown; ++at) {
+    const std::string_view code = trim(text.line(at));
+    const auto written = parameters_of(text, at);
+    const bool sets = !written.empty() && written.front().parameter == parameter &&
+                      !written.front().is_cycles && code.find('=') != code.npos;
+    if (sets) shown += fmt::format("{}: `{}`\n\n", at + 1, first_characters(code, 80));
   }
-  return shown.empty() ? shown : fmt::format("**{}**\n\n{}", interpreter::name(parameter), shown);
+  return shown.empty() ? shown : fmt::format("**{}**\n\n{}", name, shown);
 }
 
-/// The line with a comment behind its code, in front of the wrap.
-std::string with_comment(std::string_view line, std::string_view comment) {
-  const std::string_view code = without_wrap(line);
-  const bool has_comment = code.find(';') != code.npos;
-  return fmt::format("{}{}{}{}", code, has_comment ? " " : " ;", comment,
-                     trim(line).ends_with('~') ? " ~" : "");
+std::string_view without_wrap(std::string_view line) {
+  const std::size_t last = line.find_last_not_of(" \t~");
+  return line.substr(0, last + 1);
 }
 
-/// With the wrap at its end, and none before its comment.
-std::string wrapped(std::string_view line) {
-  const std::string_view code = without_wrap(line);
-  const std::size_t comment = code.find(';');
-  if (comment == code.npos) return std::string(code) + " ~";
-  return fmt::format("{} {} ~", without_wrap(code.substr(0, comment)), code.substr(comment));
-}
-
-/// What corrects the finding, or nothing.
-std::optional<Remedy> correction(const EditedText& text, const klartext::Diagnostic& found,
-                                 std::size_t line) {
+/// The new text of a line that corrects a finding there, with what it does; or nothing.
+std::pair<std::string, std::string> correction(const EditedText& text, std::size_t line,
+                                               DiagnosticCode code) {
   const std::string_view written = text.line(line);
   const auto cycle = cycle_at(text, line);
-  switch (found.code) {
-    case DiagnosticCode::ContinuationMissing: {
-      std::size_t open = line;  // of an error, the line above the block that was found
-      if (found.severity == klartext::Severity::Error && line != 0) --open;
-      return Remedy{"Add the '~' that is missing", open, wrapped(text.line(open))};
-    }
-    case DiagnosticCode::DialogContradicts: {
-      if (!cycle || cycle->first_line != line) return std::nullopt;
-      const std::size_t end = std::min(written.find_first_of(";~*", cycle->dialog), written.size());
-      return Remedy{fmt::format("Write the name of the cycle: {}", cycle->cycle->name), line,
-                    fmt::format("{} {}{}{}", written.substr(0, cycle->dialog), cycle->cycle->name,
-                                end == written.size() ? "" : " ", written.substr(end))};
-    }
-    case DiagnosticCode::CommentContradicts: {
-      const auto parameters = parameters_of(written);
-      const std::size_t comment = written.find(';');
-      if (!cycle || parameters.empty() || comment == written.npos) return std::nullopt;
-      const auto* known = interpreter::find_parameter(*cycle->cycle, parameters.front().parameter);
-      if (known == nullptr) return std::nullopt;
-      const std::string meaning = ascii_upper(known->meaning.substr(0, known->meaning.find(':')));
-      return Remedy{fmt::format("Write what it means: {}", meaning), line,
-                    fmt::format("{}{}{}", written.substr(0, comment + 1), meaning,
-                                trim(written).ends_with('~') ? " ~" : "")};
-    }
-    case DiagnosticCode::OrderContradicts: {
-      const std::size_t depth = written.find("Q201=");
-      const std::size_t value = depth + std::string_view("Q201=").size();
-      if (depth == written.npos || value >= written.size()) return std::nullopt;
-      std::string negative(written);
-      negative.replace(value, negative[value] == '+' ? 1 : 0, "-");
-      return Remedy{"Write the depth with a minus", line, negative};
-    }
-    default: return std::nullopt;
+  const std::string_view mark = trim(written).ends_with('~') ? " ~" : "";
+  const std::string_view plain = without_wrap(written);
+  const std::size_t comment = std::min(plain.find(';'), plain.size());
+  const auto parameters = parameters_of(text, line);
+  if (code == DiagnosticCode::ContinuationMissing)
+    return {"Add the '~' that is missing",
+            fmt::format("{}{}{} ~", without_wrap(plain.substr(0, comment)),
+                        comment == plain.size() ? "" : " ", plain.substr(comment))};
+  if (code == DiagnosticCode::DialogContradicts && cycle && cycle->first_line == line)
+    return {fmt::format("Write the name of the cycle: {}", cycle->cycle->name),
+            fmt::format("{} {}{}{}{}", written.substr(0, cycle->dialog), cycle->cycle->name,
+                        comment == plain.size() ? "" : " ", plain.substr(comment), mark)};
+  if (code == DiagnosticCode::CommentContradicts && cycle && !parameters.empty()) {
+    const auto* known = interpreter::find_parameter(*cycle->cycle, parameters.front().parameter);
+    if (known != nullptr)
+      return {fmt::format("Write what it means: {}", dialog_of(*known)),
+              fmt::format("{};{}{}", plain.substr(0, comment), dialog_of(*known), mark)};
   }
+  return {};
 }
 
 }  // namespace
 
-std::string hover_text(const EditedText& text, Place place) {
-  const std::size_t column =
-      text.offset(place) - text.start(std::min(place.line, text.lines() - 1));
-  const auto cycle = cycle_at(text, place.line);
-  for (const auto& written : parameters_of(text.line(place.line))) {
-    if (column < written.begin || column >= written.end) continue;
-    if (!written.is_cycles || !cycle) return parameter_hover(text, place.line, written.parameter);
-    const auto* known = interpreter::find_parameter(*cycle->cycle, written.parameter);
-    if (known == nullptr) return {};
-    return fmt::format("**{}** {}\n\n{}\n\n{} {}", name(*known), known->meaning, figures_of(*known),
-                       head_of(*cycle->cycle, false), cycle->cycle->name);
+std::vector<WrittenParameter> parameters_of(const EditedText& text, std::size_t line_number) {
+  const std::string_view line = text.line(line_number);
+  std::vector<WrittenParameter> found;
+  if (line.find_first_of("Qq") == line.npos) return found;
+  const Names names = names_of(line);
+  if (names == Names::All) return found;
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  bool quoted = false;
+  for (std::size_t at = 0; at < line.size() && (quoted || line[at] != ';'); ++at) {
+    if (line[at] == '"') quoted = !quoted;
+    if (ascii_upper(line[at]) != 'Q' || (at != 0 && klartext::is_digit(line[at - 1]))) continue;
+    std::size_t end = at + 1;
+    if (end < line.size() && !klartext::is_digit(line[end])) ++end;
+    while (end < line.size() && klartext::is_digit(line[end])) ++end;
+    const auto parameter = interpreter::parse_parameter_name(line.substr(at, end - at));
+    const char before = at == 0 ? ' ' : line[at - 1];
+    const char behind = end == line.size() ? ' ' : line[end];
+    const bool is_joined = before == '\'' && behind == '\'';
+    const bool is_alone =
+        parameter && parameter->is_string() && is_blank(before) && is_blank(behind);
+    const bool is_value = quoted ? names == Names::Paths && is_joined
+                                 : names == Names::Nothing || is_joined || is_alone;
+    if (!parameter || !is_value || is_ascii_alphanumeric(behind) || behind == '_') continue;
+    const std::size_t next = line.find_first_not_of(" \t", end);
+    const bool is_set = next != line.npos && line[next] == '=';
+    found.push_back({at, end, *parameter, is_set && cycle_at(text, line_number)});
+    at = end - 1;
   }
-  return cycle && cycle->first_line == place.line ? cycle_hover(*cycle->cycle) : std::string();
+  return found;
 }
 
-std::vector<CompletionItem> completions(const EditedText& text, std::size_t offset, bool is_iso) {
-  std::vector<CompletionItem> items;
-  const Place place = text.place(offset);
-  const std::string_view line = text.line(place.line).substr(0, offset - text.start(place.line));
+std::optional<WrittenParameter> parameter_at(const EditedText& text, Place place) {
+  const std::size_t column = text.column(place);
+  for (const WrittenParameter& written : parameters_of(text, place.line))
+    if (written.begin <= column && column <= written.end) return written;
+  return std::nullopt;
+}
+
+std::string hover_text(const EditedText& text, Place place) {
+  const auto cycle = cycle_at(text, place.line);
+  const auto written = parameter_at(text, place);
+  if (!written)
+    return cycle && cycle->first_line == place.line ? cycle_hover(*cycle->cycle) : std::string();
+  if (!written->is_cycles || !cycle) return parameter_hover(text, place.line, written->parameter);
+  const auto* known = interpreter::find_parameter(*cycle->cycle, written->parameter);
+  if (known == nullptr) return {};
+  return fmt::format("**{}** {}\n\n{}\n\n{} {}", name(*known), known->meaning, figures_of(*known),
+                     head_of(*cycle->cycle), cycle->cycle->name);
+}
+
+std::vector<Completion> completions(const EditedText& text, Place cursor, bool is_iso) {
+  std::vector<Completion> items;
+  const std::string_view line = text.line(cursor.line).substr(0, text.column(cursor));
   if (line.find(';') != line.npos) return items;
-  const std::size_t number_end = std::min(line.find_first_not_of(" \t/0123456789Nn"), line.size());
-  if (const auto cycle = cycle_at(text, place.line); cycle && cycle->first_line != place.line) {
-    const auto written = numbers_of_block(text, *cycle);
-    const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
-    for (const CycleParameter& parameter : cycle->cycle->parameters) {
-      if (written.contains(static_cast<int>(parameter.id))) continue;
-      items.push_back({name(parameter),
-                       fmt::format("{} {}", parameter.meaning, figures_of(parameter)),
-                       snippet_of(parameter, 1) + " ~", begin});
+  const auto add = [&](std::size_t begin, std::string label, std::string detail, std::string by) {
+    items.push_back({std::move(label),
+                     std::move(detail),
+                     {text.place(cursor.line, begin), cursor, std::move(by)}});
+  };
+  if (const auto cycle = cycle_at(text, cursor.line); cycle && cycle->first_line != cursor.line) {
+    std::set<int> written;
+    for (std::size_t i = cycle->first_line; i < text.lines(); ++i) {
+      const auto here = cycle_at(text, i);
+      if (!here || here->first_line != cycle->first_line) break;
+      for (const auto& each : parameters_of(text, i))
+        if (each.is_cycles) written.insert(each.parameter.number);
     }
-    if (items.size() == 1) items.front().insert.resize(items.front().insert.size() - 2);
+    const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+    for (const CycleParameter& parameter : cycle->cycle->parameters)
+      if (!written.contains(static_cast<int>(parameter.id)))
+        add(begin, name(parameter), fmt::format("{} {}", parameter.meaning, figures_of(parameter)),
+            snippet_of(parameter, 1) + " ~");
+    if (items.size() == 1) items[0].edit.by.resize(items[0].edit.by.size() - 2);  // the last
     return items;
   }
-  const std::string typed = ascii_upper(line.substr(number_end));
-  const auto add = [&](const CycleDescriptor& cycle) {
+  const std::size_t begin = std::min(line.find_first_not_of(kBeforeCode), line.size());
+  const std::string typed = ascii_upper(line.substr(begin));
+  const auto add_cycle = [&](const CycleDescriptor& cycle) {
     const std::string head = head_of(cycle, is_iso);
-    const bool fits =
-        typed.size() < head.size() ? head.starts_with(typed) : typed.starts_with(head);
-    if (cycle.dotted || !fits) return;
-    items.push_back({fmt::format("{} {}", head, cycle.name), std::string(cycle.simulated),
-                     cycle_snippet(cycle, is_iso), number_end});
+    if (!cycle.dotted && (head.starts_with(typed) || typed.starts_with(head)))
+      add(begin, fmt::format("{} {}", head, cycle.name), std::string(cycle.simulated),
+          cycle_snippet(cycle, is_iso));
   };
-  for (const auto* cycle : probing::cycles()) add(cycle->descriptor);
-  for (const auto& cycle : interpreter::machining_cycles()) add(cycle.descriptor);
-  if (typed.find(' ') != typed.npos) return items;
-  for (const std::string_view word : klartext::block_keywords()) {
-    if (word.starts_with(typed))
-      items.push_back({std::string(word), {}, std::string(word), number_end});
-  }
+  for (const auto* cycle : probing::cycles()) add_cycle(cycle->descriptor);
+  for (const auto& cycle : interpreter::machining_cycles()) add_cycle(cycle.descriptor);
+  for (const std::string_view word : klartext::block_keywords())
+    if (word.starts_with(typed)) add(begin, std::string(word), {}, std::string(word));
   return items;
-}
-
-std::string plain_text(std::string_view snippet) {
-  std::string plain;
-  for (std::size_t at = 0; at < snippet.size(); ++at) {
-    if (snippet[at] == '$') at = snippet.find(':', at) + 1;
-    if (snippet[at] != '}') plain += snippet[at];
-  }
-  return plain;
 }
 
 std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic& found) {
   std::vector<Remedy> all;
   if (found.range.begin.line == 0) return all;
-  const std::size_t line = found.range.begin.line - 1;
-  if (auto corrected = correction(text, found, line)) all.push_back(*std::move(corrected));
-  if (found.severity == klartext::Severity::Error) return all;
-  const std::string comment = fmt::format("check:ignore {}", id(found.code));
-  all.push_back({fmt::format("Silence {} in this line", id(found.code)), line,
-                 with_comment(text.line(line), comment), false});
+  std::size_t line = found.range.begin.line - 1;
+  const bool is_error = found.severity == klartext::Severity::Error;
+  const auto add = [&](std::string title, std::string by, bool corrects) {
+    all.push_back({std::move(title),
+                   {{line, 0}, text.place(line, text.line(line).size()), std::move(by)},
+                   corrects});
+  };
+  // The block behind the open line is the error.
+  if (is_error && found.code == DiagnosticCode::ContinuationMissing && line != 0) --line;
+  auto [title, by] = correction(text, line, found.code);
+  if (!title.empty()) add(std::move(title), std::move(by), true);
+  if (is_error) return all;
+  const std::string_view plain = without_wrap(text.line(line));
+  add(fmt::format("Silence {} in this line", id(found.code)),
+      fmt::format("{}{}check:ignore {}{}", plain, plain.find(';') == plain.npos ? " ;" : " ",
+                  id(found.code), trim(text.line(line)).ends_with('~') ? " ~" : ""),
+      false);
   return all;
 }
 
-std::string renumbered(const EditedText& text) {
-  constexpr std::string_view kLast = "99999999";
+Result<std::string> formatted_text(const OpenProgram& program) {
+  if (!program.is_iso()) {
+    const auto parsed = klartext::parse_program(program.text.text(), program.name.text());
+    for (const auto& found : parsed.diagnostics)
+      if (found.severity == klartext::Severity::Error)
+        return Error{ErrorCode::FieldInvalid, fmt::format("correct line {} first: {}",
+                                                          found.range.begin.line, found.message)};
+    return klartext::format_program(parsed.program);
+  }
+  constexpr std::string_view kLast = "N99999999";
   std::string formatted;
-  std::size_t number = 0;
-  for (std::size_t i = 0; i < text.lines(); ++i) {
-    std::string_view line = text.line(i);
+  for (std::size_t i = 0, number = 0; i < program.text.lines(); ++i) {
+    std::string_view line = program.text.line(i);
     line = line.substr(0, line.find_last_not_of(" \t") + 1);
-    const std::size_t begin = std::min(line.find_first_not_of(" \t/"), line.size());
-    std::size_t end = begin + 1;
-    while (end < line.size() && klartext::is_digit(line[end])) ++end;
-    const bool has_number =
-        begin < line.size() && ascii_upper(line[begin]) == 'N' && end > begin + 1;
-    if (has_number && line.substr(begin + 1, end - begin - 1) != kLast) {
-      formatted += fmt::format("{}N{}{}", line.substr(0, begin), number += 10, line.substr(end));
-    } else {
-      formatted += line;
-    }
-    if (i + 1 < text.lines()) formatted += '\n';
+    const std::size_t end = std::min(line.find_first_not_of("0123456789", 1), line.size());
+    const bool has_number = end > 1 && ascii_upper(line[0]) == 'N' && line.substr(0, end) != kLast;
+    formatted += i == 0 ? "" : "\n";
+    formatted +=
+        has_number ? fmt::format("N{}{}", number += 10, line.substr(end)) : std::string(line);
   }
   return formatted;
 }
