@@ -1,11 +1,11 @@
-/** Of which values a view is: machine, order, operator and time, in the address of Trend, Overview and Parts alike. */
+/** Of which values a view is: machine, tool, order, operator and time, and whether confirmed ones are among them, in the address of Trend, Overview and Parts alike. */
 
 import { getJson, url } from './api.js';
 import { connection } from './connection.js';
 import { field, h, refill } from './dom.js';
 import { t } from './i18n.js';
 
-const NAMES = ['machine', 'order', 'operator'];
+const NAMES = ['machine', 'tool', 'order', 'operator'];
 const DAYS = ['from', 'to'];
 const PERIODS = ['today', 'yesterday', 'shift'];
 /** Hours at which shifts begin, on the clock of the wall. */
@@ -39,8 +39,11 @@ export class FilterBar {
     this.period = PERIODS.includes(options.period) ? options.period : '';
     this.lists = NAMES.map((name) => h('datalist', { id: `filter-${name}` }));
     this.chips = PERIODS.map((period) => h('button', { type: 'button', onclick: () => this.#choose(this.period === period ? '' : period, onChange) }, t(`period.${period}`)));
-    this.names = NAMES.map((name) => field(t(`field.${name}`), this.inputs[name]));
-    this.time = h('div.period', h('div.chips', this.chips), DAYS.map((name) => field(t(`field.${name}`), this.inputs[name])));
+    this.isWithout = options.confirmed === 'false';
+    this.without = h('button', { type: 'button', title: t('confirmed.rule'), onclick: () => { this.isWithout = !this.isWithout; this.#press(); onChange(); } }, t('confirmed.without'));
+    this.rule = h('p.hint', t('confirmed.rule'));
+    this.names = h('div.names', NAMES.map((name) => field(t(`field.${name}`), this.inputs[name])));
+    this.time = h('div.period', h('div.chips', this.chips), DAYS.map((name) => field(t(`field.${name}`), this.inputs[name])), h('div.chips', this.without), this.rule);
     this.element = [this.names, this.time, this.lists];
     this.#press();
   }
@@ -54,6 +57,8 @@ export class FilterBar {
 
   #press() {
     this.chips.forEach((chip, i) => chip.setAttribute('aria-pressed', PERIODS[i] === this.period));
+    this.without.setAttribute('aria-pressed', this.isWithout);
+    this.rule.hidden = !this.isWithout;
   }
 
   /** Asks which names there are. */
@@ -68,19 +73,19 @@ export class FilterBar {
 
   /** As the address has it. */
   get options() {
-    return { ...this.#names, period: this.period, ...Object.fromEntries(DAYS.map((name) => [name, this.inputs[name].value])) };
+    return { ...this.#names, confirmed: this.isWithout ? 'false' : '', period: this.period, ...Object.fromEntries(DAYS.map((name) => [name, this.inputs[name].value])) };
   }
 
   /** As the service takes it: the last day is among those shown. */
   get query() {
     const [from, to] = this.period ? periodOf(this.period, connection.now()).map((at) => at?.toISOString() ?? '') : [dayOf(this.inputs.from.value), dayOf(this.inputs.to.value, 1)];
-    return { ...this.#names, from, to };
+    return { ...this.#names, confirmed: this.isWithout ? 'false' : '', from, to };
   }
 
   /** Whether a record that has just come is of it. */
   has(record) {
-    const { from, to, ...names } = this.query;
+    const { from, to, confirmed, ...names } = this.query;
     const at = new Date(record.measured_at);
-    return Object.entries(names).every(([name, value]) => !value || record[name] === value) && (!from || at >= new Date(from)) && (!to || at < new Date(to));
+    return Object.entries(names).every(([name, value]) => !value || record[name] === value) && !(confirmed && record.confirmed) && (!from || at >= new Date(from)) && (!to || at < new Date(to));
   }
 }

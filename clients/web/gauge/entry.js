@@ -27,7 +27,7 @@ export class Entry {
    * @param job gives {nominal_nm, limits} or a reason why nothing can be gauged: {reason}
    * @param gauged gives the same, also where no value is taken now; @param isSize whether a field is that of the size
    * @param prefixes gives what stands before a scan of each field: {part_id: 'P:', …}
-   * @param onValue takes {text, correcting}: the exact decimal, and the record it corrects
+   * @param onValue takes {text, correcting, confirmed}: the exact decimal, the record it corrects, and whether somebody confirmed it though it is far outside
    * @param onJob takes a designation and whether it was scanned, and resolves to whether there is such a one, undefined where nobody can say
    * @param onField takes (name, text, correcting); @param isName whether a field of that name is of the job
    * @param onBadge takes a key that was scanned
@@ -241,9 +241,9 @@ export class Entry {
     return this.#accept(text);
   }
 
-  #accept(text) {
+  #accept(text, confirmed = false) {
     const { correcting } = this;
-    this.#finish(() => this.onValue({ text, correcting: correcting?.record }));
+    this.#finish(() => this.onValue({ text, correcting: correcting?.record, confirmed }));
   }
 
   #finish(act) {
@@ -262,7 +262,7 @@ export class Entry {
       { label: t('entry.ask_drop'), act: () => this.#drop() },
       !isFar(nmFromMm(mm), job) && { label: t('entry.ask_inches', { mm: number(mm) }), act: () => this.#answer(text, () => this.#accept(mm)) },
       !this.correcting && { label: t('entry.ask_part', { part: typed }), act: () => this.#answer(text, () => this.#finish(() => this.onField('part_id', typed))) },
-      { label: t('entry.ask_keep', { mm: number(text) }), act: () => this.#answer(null, () => this.#accept(text)) },
+      { label: t('entry.ask_keep', { mm: number(text) }), act: () => this.#answer(null, () => this.#accept(text, true)) },
     ]);
   }
 

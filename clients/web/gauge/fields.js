@@ -6,7 +6,7 @@ import { t } from '../i18n.js';
 import { gaugeNames } from './in_use.js';
 
 const MOST_OFFERED = 200;
-const SIDE_FIELDS = ['characteristic', 'order', 'operation', 'machine', 'operator', 'gauge'];
+const SIDE_FIELDS = ['characteristic', 'order', 'operation', 'machine', 'tool', 'operator', 'gauge'];
 export const FIELDS = ['part_id', ...SIDE_FIELDS];
 
 /** The values a field had in records. */

@@ -7,7 +7,7 @@ import { boundsOf, nmFromMm, parseMeasured } from '../exact.js';
 export const BURST_GAP_MS = 30;
 
 /** The fields a prefix can name, and what stands before a scan of each unless the shop sets another. */
-export const PREFIXES = { part_id: 'P:', order: 'O:', gauge: 'G:', operator: 'U:', machine: 'M:' };
+export const PREFIXES = { part_id: 'P:', order: 'O:', gauge: 'G:', operator: 'U:', machine: 'M:', tool: 'T:' };
 
 /**
  * A line as a gauge sends it, its value in brackets: Digimatic by a multiplexer (01A+00025.015), Sylvac and Tesa by Opto-RS

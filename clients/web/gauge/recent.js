@@ -57,12 +57,12 @@ export class Recent {
     const now = this.ledger.stateOf(value);
     const isOld = now === 'corrected' || now === 'moved';
     const said = this.ledger.said(value);
-    const { part_id, characteristic, designation } = { ...shown, ...record };
+    const { part_id, characteristic, designation, confirmed } = { ...shown, ...record };
     const what = designation ? designationText(designation) : shown.limits && limitsText(shown.limits);
     return h('li', { class: isOld ? 'corrected' : state },
       record ? verdictMark(record.verdict) : waitingMark(state, shown),
       h('span.figure', record ? measuredText(record) : number(shown.measured)),
-      h('span.aside', [part_id, characteristic, what, time(new Date(shown.at)), isOld && t(`recent.${now}`)].filter(Boolean).join(' · ')),
+      h('span.aside', [part_id, characteristic, what, time(new Date(shown.at)), confirmed && t('confirmed.mark'), isOld && t(`recent.${now}`)].filter(Boolean).join(' · ')),
       h('span.aside', record ? distanceText(record) : value.reason ?? ''), said.done && h('span.aside.noted', noteText(said)),
       state === 'stored' && !isOld && h('span.fix',
         this.#fix(record, 'measured_mm', 'recent.correct'), this.#fix(record, 'part_id', 'recent.correct_part')));

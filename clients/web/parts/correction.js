@@ -36,7 +36,8 @@ export function correct(record) {
       asked = measured;
       return refuse(t('correct.far', { mm: number(measured) }));
     }
-    return { measured_mm: new Decimal(measured), ...(named && { part_id: named }), reason: reason.value.trim() };
+    const confirmed = same ? record.confirmed : isFar(nm, { limits: record });
+    return { measured_mm: new Decimal(measured), ...(confirmed && { confirmed: true }), ...(named && { part_id: named }), reason: reason.value.trim() };
   }
 
   function send(event) {

@@ -18,7 +18,8 @@ export function pointDetail({ record, members, deviation }, broken) {
   }
   return h('div.line', verdictMark(record.verdict), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)),
     record.part_id && h('a', { href: fragment({ view: 'parts', options: { part_id: record.part_id } }) }, record.part_id),
-    h('span.aside', [record.characteristic, record.machine, record.operator, record.gauge, dateTime(new Date(record.measured_at))].filter(Boolean).join(' · ')),
+    h('span.aside', [record.characteristic, record.machine, record.tool, record.operator, record.gauge, dateTime(new Date(record.measured_at))].filter(Boolean).join(' · ')),
+    record.confirmed && h('span.aside', t('confirmed.mark')),
     record.correction_of !== undefined && h('span.aside', t('trend.corrected')),
     (record.notes ?? []).map((one) => h('span', noteText(one))), marks);
 }

@@ -47,7 +47,7 @@ export function mount(main, route) {
     prefixes: () => job.prefixes.texts,
     onValue: (value) => post(value),
     onJob: (designation, scanned) => adopt(designation, scanned),
-    onField: (name, text, correcting) => (correcting ? correct(correcting, String(correcting.measured_mm), { [name]: text }) : setField(name, text)),
+    onField: (name, text, correcting) => (correcting ? correct(correcting, String(correcting.measured_mm), { [name]: text, ...(correcting.confirmed && { confirmed: true }) }) : setField(name, text)),
     onBadge: (key) => badge.take(key),
     isKnown: (text) => plan.knows(text),
     isName: (name) => FIELDS.includes(name),
@@ -163,21 +163,21 @@ export function mount(main, route) {
     };
   }
 
-  function bodyOf(text, subgroup) {
+  function bodyOf(text, subgroup, confirmed) {
     const { text: designation, own, feature } = job.current();
     const given = FIELDS.map((name) => [name, job.fields.of(name)]).filter(([, value]) => value);
     const exact = (value) => (value === undefined ? undefined : new Decimal(String(value)));
     const limits = own ? {
       nominal_mm: exact(own.nominal_mm), feature: own.feature, ...(own.quantity && { quantity: own.quantity }), upper_um: exact(own.upper_deviation_um), lower_um: exact(own.lower_deviation_um),
     } : { designation, feature };
-    return { ...limits, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...(subgroup && { subgroup }), ...job.rule.body };
+    return { ...limits, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...(subgroup && { subgroup }), ...(confirmed && { confirmed }), ...job.rule.body };
   }
 
-  function post({ text, correcting }) {
-    if (correcting) return correct(correcting, text);
+  function post({ text, correcting, confirmed }) {
+    if (correcting) return correct(correcting, text, confirmed && { confirmed });
     const subgroup = plan.sample;
     stepped = Boolean(plan.current);
-    plan.step(send(url(['measurements']), bodyOf(text, subgroup), { ...shownOf(text), subgroup, ...plan.begun() }));
+    plan.step(send(url(['measurements']), bodyOf(text, subgroup, confirmed), { ...shownOf(text), subgroup, confirmed, ...plan.begun() }));
     if (!connection.up) sayPart();
     return undefined;
   }
@@ -186,7 +186,7 @@ export function mount(main, route) {
   function correct(record, measured, fields = {}) {
     const { part_id, characteristic, designation, rule = 'simple' } = { ...record, ...fields };
     const verdict = rule === 'simple' ? judge(nmFromMm(measured), record) : null;
-    const shown = { measured, part_id, characteristic, designation, at: connection.now(), limits: record, verdict };
+    const shown = { measured, part_id, characteristic, designation, confirmed: fields.confirmed, at: connection.now(), limits: record, verdict };
     const body = { measured_mm: new Decimal(measured), ...fields, reason: t('correction.reason') };
     send(url(['measurements', record.id, 'corrections']), body, shown, record);
   }

@@ -130,9 +130,10 @@ function row(record, isReplaced, { onCorrect, onNote }) {
     h('td', record.characteristic ?? '', h('span.aside', record.designation ? designationText(record.designation) : '')),
     h('td', verdictMark(record.verdict), (isReplaced || record.correction_of)
       && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.conflict && t('parts.conflict'), record.reason].filter(Boolean).join(' · ')),
+    record.confirmed && h('span.aside', t('confirmed.mark')),
     (record.notes ?? []).map((one) => h('span.aside.noted', [noteText(one), one.operator, dateTime(new Date(one.received_at))].filter(Boolean).join(' · ')))),
     h('td.number', measuredText(record)), h('td.number', record.deviation_um === undefined ? '–' : `${signed(record.deviation_um)} µm`), h('td', limitsText(record)),
-    h('td', [record.source === 'simulation' && t('parts.simulated'), record.operator, record.machine, record.gauge].filter(Boolean).join(' · ')),
+    h('td', [record.source === 'simulation' && t('parts.simulated'), record.operator, record.machine, record.tool, record.gauge].filter(Boolean).join(' · ')),
     h('td', date(new Date(record.measured_at)), h('span.aside', time(new Date(record.measured_at)))),
     h('td', !isReplaced && act('parts.correct', onCorrect), act('note.add', onNote)));
 }
