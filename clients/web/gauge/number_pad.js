@@ -15,7 +15,8 @@ export class NumberPad {
     const key = (text, act, label) => h('button', { type: 'button', onclick: act, 'aria-label': label }, text);
     this.element = h('div.pad', { role: 'group', 'aria-label': t('pad.label') },
       // The field keeps the focus and its caret.
-      FIGURES.map((figure) => key(figure, () => this.#write(figure))), key(point, () => this.#write(point)), key('⌫', () => this.#back(), t('pad.back')));
+      FIGURES.map((figure) => key(figure, () => this.#write(figure))), key(point, () => this.#write(point)), key('⌫', () => this.#back(), t('pad.back')),
+      h('button.primary', { type: 'button', onclick: () => this.input.form.requestSubmit(), 'aria-label': t('entry.judge') }, '⏎'));
     this.element.addEventListener('pointerdown', (event) => event.preventDefault());
     const touched = matchMedia('(pointer: coarse)').matches ? 'on' : 'off';
     const on = (readStored(KEPT) ?? touched) === 'on';

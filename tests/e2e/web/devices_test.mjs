@@ -52,7 +52,7 @@ describe('a number pad', () => {
     await touch(['2', '5', ',', '0', '1', '4', 'Letztes Zeichen löschen', '3']);
     assert.equal(await page.inputValue('#value'), '25,013');
     assert.deepEqual(await page.evaluate(() => [document.activeElement.id, document.activeElement.inputMode]), ['value', 'none']);
-    await page.tap('.entry .primary');
+    await page.tap('.pad .primary');
     await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
     assert.deepEqual((await storedSince()).map((record) => record.measured_mm), [25.013]);
     const seen = () => page.$eval('.verdict', (panel) => panel.getBoundingClientRect().bottom <= innerHeight);
