@@ -48,16 +48,30 @@ std::vector<FileEntry> read_entries(Rows rows) {
   return entries;
 }
 
-Note read_note(const Rows& rows) {
-  require_sound(rows, 8, kNotes);
-  return {.id = rows.get<std::int64_t>(0),
-          .measurement = rows.get<std::int64_t>(1),
-          .cause = rows.get<std::optional<std::string>>(2),
-          .measure = rows.get<std::optional<std::string>>(3),
-          .text = rows.get<std::optional<std::string>>(4),
-          .operator_id = rows.get<std::optional<std::string>>(5),
-          .caller = rows.get<std::optional<std::string>>(6),
-          .received_at_ns = rows.get<std::int64_t>(7)};
+std::vector<Note> read_notes(Rows rows) {
+  std::vector<Note> notes;
+  while (rows.next()) {
+    require_sound(rows, 8, kNotes);
+    require_sound(rows, 9, kNoteOrigins);
+    notes.push_back({.id = rows.get<std::int64_t>(0),
+                     .measurement = rows.get<std::int64_t>(1),
+                     .cause = rows.get<std::optional<std::string>>(2),
+                     .measure = rows.get<std::optional<std::string>>(3),
+                     .text = rows.get<std::optional<std::string>>(4),
+                     .operator_id = rows.get<std::optional<std::string>>(5),
+                     .caller = rows.get<std::optional<std::string>>(6),
+                     .received_at_ns = rows.get<std::int64_t>(7),
+                     .origin = rows.get<std::int64_t>(10),
+                     .number = rows.get<std::int64_t>(11)});
+  }
+  return notes;
+}
+
+std::string select_notes(const sql::Connection& c, std::string_view where) {
+  return fmt::format(
+      "SELECT id, {}, {}, CASE WHEN o.note IS NULL THEN 1 ELSE {} END, coalesce(o.origin, 0), "
+      "coalesce(o.number, 0) FROM notes n LEFT JOIN note_origins o ON o.note = n.id WHERE {}",
+      kNotes.columns, kNotes.is_sound(c, "n"), kNoteOrigins.is_sound(c, "o"), where);
 }
 
 }  // namespace
@@ -185,11 +199,20 @@ std::vector<FileEntry> FilesStore::list(std::string_view prefix) const {
 struct NotesStore::Statements {
   explicit Statements(sql::Connection& c)
       : insert(c, kNotes.insert(c) + " RETURNING id"),
-        list(c, fmt::format("SELECT id, {}, {} FROM notes WHERE measurement = ? ORDER BY id",
-                            kNotes.columns, kNotes.is_sound(c))) {}
+        insert_origin(c, kNoteOrigins.insert(c)),
+        list(c, select_notes(c, "measurement = ? ORDER BY id")),
+        own_after(c, select_notes(c,
+                                  "id > ? AND o.note IS NULL AND EXISTS (SELECT 1 FROM "
+                                  "measurements m WHERE m.id = n.measurement AND "
+                                  "(coalesce(m.origin, 0) = 0 OR m.origin IN (SELECT number FROM "
+                                  "origins WHERE checkpoint = ''))) ORDER BY id LIMIT ?")),
+        newest_of(c, "SELECT coalesce(max(number), 0) FROM note_origins WHERE origin = ?") {}
 
   sql::Statement insert;
+  sql::Statement insert_origin;
   sql::Statement list;
+  sql::Statement own_after;
+  sql::Statement newest_of;
 };
 
 NotesStore::NotesStore(sql::Connection& connection)
@@ -197,17 +220,23 @@ NotesStore::NotesStore(sql::Connection& connection)
 NotesStore::~NotesStore() = default;
 
 std::int64_t NotesStore::append(const Note& note) {
-  return statements_->insert.returning<std::int64_t>(note.measurement, note.cause, note.measure,
-                                                     note.text, note.operator_id, note.caller,
-                                                     note.received_at_ns);
+  const auto id = statements_->insert.returning<std::int64_t>(
+      note.measurement, note.cause, note.measure, note.text, note.operator_id, note.caller,
+      note.received_at_ns);
+  if (note.origin > 0) statements_->insert_origin.run(id, note.origin, note.number);
+  return id;
 }
 
 std::vector<Note> NotesStore::list(std::int64_t measurement) const {
-  std::vector<Note> notes;
-  for (Rows rows = statements_->list.query(measurement); rows.next();) {
-    notes.push_back(read_note(rows));
-  }
-  return notes;
+  return read_notes(statements_->list.query(measurement));
+}
+
+std::vector<Note> NotesStore::own_after(std::int64_t after, std::int64_t limit) const {
+  return read_notes(statements_->own_after.query(after, limit));
+}
+
+std::int64_t NotesStore::newest_of(std::int64_t origin) const {
+  return statements_->newest_of.returning<std::int64_t>(origin);
 }
 
 struct EventsStore::Statements {

@@ -51,7 +51,8 @@ constexpr std::array kTables = {
     kRunTraces,     kRunFiles,       kEvents,           kLog,
     kLogKeys,       kLogBranches,    kLogMarks,         kOrigins,
     kOriginKeys,    kOriginBases,    kOriginForks,      kOriginRevisions,
-    kForwarding,    kReceived,       kTableRevisionIds, kNotes};
+    kForwarding,    kReceived,       kTableRevisionIds, kNotes,
+    kNoteOrigins};
 
 std::vector<std::string_view> names_of(std::string_view columns) {
   std::vector<std::string_view> names;

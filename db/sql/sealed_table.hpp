@@ -96,6 +96,7 @@ inline constexpr SealedTable kReceived{"received", "name", "kind, name, number, 
 inline constexpr SealedTable kTableRevisionIds{"table_revision_ids", "revision", "revision, id"};
 inline constexpr SealedTable kNotes{
     "notes", "id", "measurement, cause, measure, text, operator, caller, received_at"};
+inline constexpr SealedTable kNoteOrigins{"note_origins", "note", "note, origin, number"};
 inline constexpr SealedTable kEvents{"events", "id", "type, payload, created_at"};
 
 std::span<const SealedTable> sealed_tables();

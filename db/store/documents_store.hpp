@@ -109,6 +109,9 @@ struct Note {
   std::optional<std::string> operator_id{};
   std::optional<std::string> caller{};
   std::int64_t received_at_ns = 0;
+  // Of a note that a station has forwarded:
+  std::int64_t origin = 0;  ///< OriginsStore::Origin::number; 0 is this folder
+  std::int64_t number = 0;  ///< in the id it got there
 };
 
 /// Notes beside measurements, kept for ever: the database refuses UPDATE and DELETE.
@@ -119,6 +122,12 @@ class NotesStore {
 
   std::int64_t append(const Note& note);                   ///< @returns its id
   std::vector<Note> list(std::int64_t measurement) const;  ///< oldest first
+
+  /// Up to `limit` notes of this folder behind the id `after`, beside its own records and what its
+  /// centre has corrected of them.
+  std::vector<Note> own_after(std::int64_t after, std::int64_t limit) const;
+  /// The greatest number of the notes that this origin has forwarded; 0 before the first.
+  std::int64_t newest_of(std::int64_t origin) const;
 
  private:
   struct Statements;

@@ -58,7 +58,7 @@ Result<int> run_forward_all(const Config& config) {
       fewest = state.rows;
       went_on = now;
     }
-    if (state.rows == 0 && state.failure.empty()) break;
+    if (state.rows == 0 && state.failure.empty() && !state.sends) break;
     if (state.is_refused || now > went_on + kCentrePatience) {
       std::cout << fmt::format("{} measurements are not at {}: {}\n", state.rows, config.forward_to,
                                state.failure);

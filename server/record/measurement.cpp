@@ -14,6 +14,7 @@ namespace {
 
 constexpr char kMeasurementPrefix = 'm';
 constexpr char kRunPrefix = 'r';
+constexpr char kNotePrefix = 'n';
 
 std::string id_text(char prefix, std::int64_t id, std::string_view origin) {
   const fmt::format_int digits(id);  // each record has one: a format string to read costs more
@@ -38,8 +39,11 @@ std::optional<RecordName> parse_id(char prefix, std::string_view text, const Ori
   const std::size_t dash = std::min(text.find('-', 2), text.size());
   const auto number = parse_number(prefix, text.substr(0, dash));
   if (!number || dash + 1 == text.size()) return std::nullopt;
-  const auto origin = origins.number(text.substr(std::min(dash + 1, text.size())), *number,
-                                     prefix == kRunPrefix ? Counted::Run : Counted::Measurement);
+  const Counted what = prefix == kRunPrefix    ? Counted::Run
+                       : prefix == kNotePrefix ? Counted::Note
+                                               : Counted::Measurement;
+  const auto origin =
+      origins.number(text.substr(std::min(dash + 1, text.size())), *number, what);
   if (!origin) return std::nullopt;
   return RecordName{.origin = *origin, .number = *number};
 }
@@ -180,6 +184,14 @@ std::string measurement_id_text(std::int64_t id, std::string_view origin) {
 
 std::string run_id_text(std::int64_t id, std::string_view origin) {
   return id_text(kRunPrefix, id, origin);
+}
+
+std::string note_id_text(std::int64_t id, std::string_view origin) {
+  return id_text(kNotePrefix, id, origin);
+}
+
+std::optional<RecordName> parse_note_id(std::string_view text, const Origins& origins) {
+  return parse_id(kNotePrefix, text, origins);
 }
 
 std::string corrected_id_text(const Measurement& m) {

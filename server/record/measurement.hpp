@@ -28,6 +28,8 @@ struct Note {
   std::optional<std::string> operator_id{};
   std::optional<std::string> caller{};
   Timestamp received_at{};
+
+  bool says_something() const { return cause || measure || text; }
 };
 
 class Origins;
@@ -195,5 +197,8 @@ struct RecordName {
 ///   those of a history of this folder that ended before they were given out.
 Result<RecordName> parse_measurement_id(std::string_view text, const Origins& origins);
 Result<RecordName> parse_run_id(std::string_view text, const Origins& origins);
+std::string note_id_text(std::int64_t id, std::string_view origin);
+/// None of an origin that is not known.
+std::optional<RecordName> parse_note_id(std::string_view text, const Origins& origins);
 
 }  // namespace fitgauge::app

@@ -81,7 +81,8 @@ void add_intake_routes(std::vector<http::Route>& routes, const Services& service
       .description =
           "NDJSON: a line with `checkpoint`, `key`, `hand_overs` and, of a branch, its `base`; up "
           "to 10,000 records as they "
-          "were first answered; a line for each answer kept under an idempotency key. Taken whole "
+          "were first answered; a line for each answer kept under an idempotency key; a line for "
+          "each note that is new. Taken whole "
           "where the first record continues the log of the origin and the root fits the signed "
           "checkpoint; else 409 with the head that is here.",
       .parameters = {{.name = "origin",

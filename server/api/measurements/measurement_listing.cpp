@@ -11,6 +11,7 @@
 #include "api/measurements/measurement_codec.hpp"
 #include "api/wire/request_facts.hpp"
 #include "http/response.hpp"
+#include "record/note.hpp"
 #include "record/record.hpp"
 #include "service/log/log_service.hpp"
 #include "service/runs/run_service.hpp"
@@ -51,14 +52,12 @@ std::string media_type(Form form) {
 /// Shows the notes behind the members of a record that was written.
 void append_notes(std::string& out, std::span<const app::Note> notes) {
   out.pop_back();
-  char separator = '[';
   out += ",\"notes\":";
-  for (const app::Note& note : notes) {
-    out += separator;
-    append_note_json(out, note);
-    separator = ',';
-  }
-  out += "]}";
+  JsonWriter json(out);
+  json.begin_array();
+  for (const app::Note& note : notes) write_body(json, note);
+  json.end_array();
+  out += '}';
 }
 
 void append_row(std::string& out, Form form, const app::Measurement& measurement) {

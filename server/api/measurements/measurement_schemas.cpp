@@ -185,6 +185,8 @@ void add_measurement_schemas(Schemas& schemas) {
        schema::object(
            {{"origin", schema::text(), "Of the centre: what its ids end with"},
             {"size", schema::count(), "Records of the station's log that are here"},
+            {"notes", schema::count(),
+             "The number in the id of the newest of the station's notes that are here; 0: none is"},
             {"position", schema::text(), "The next request names it in `after`"},
             {"more", schema::boolean(), "There is a next page"},
             {"revisions",

@@ -10,61 +10,18 @@
 #include "api/resources.hpp"
 #include "api/service/document_routes.hpp"
 #include "api/wire/request_facts.hpp"
-#include "base/json/body_forms.hpp"
+#include "record/note.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {
 
-constexpr std::size_t kLongestEntry = 200;  // bytes of a cause, a measure, a name
 constexpr std::size_t kMostEntries = 500;
-
-/// The form of a text that is not blank.
-struct NoteText {
-  std::size_t longest = kLongestEntry;
-
-  std::string schema(Side) const { return schema::text(longest); }
-  void check(FieldErrors& errors, const std::string& at, std::string_view text) const {
-    if (text.size() > longest) {
-      errors.add(ErrorCode::FieldTooLong, at, fmt::format("at most {} bytes", longest));
-    } else if (text.find_first_not_of(" \t\r\n") == std::string_view::npos ||
-               text.find('\0') != std::string_view::npos) {
-      errors.add(ErrorCode::FieldInvalid, at, "a text that is given is not blank");
-    }
-  }
-  bool read(FieldReader& fields, std::string_view name, std::string& to) const {
-    auto given = fields.text(name);
-    if (!given) return false;
-    check(fields.errors(), fields.at(name), *given);
-    to = *std::move(given);
-    return true;
-  }
-  void write(JsonWriter& json, std::string_view from) const { json.value(from); }
-};
-
-void given_members(auto& v, auto& note) {
-  v.optional("cause", note.cause, NoteText{}, "Why the value is what it is");
-  v.optional("measure", note.measure, NoteText{}, "What was done about it");
-  v.optional("text", note.text, NoteText{2000}, "Whatever else; one of the three is there");
-  v.optional("operator", note.operator_id, NoteText{}, "Who says so");
-}
 
 struct NoteOrder {
   app::Note note{};
 };
 void members(auto& v, NoteOrder& order) { given_members(v, order.note); }
-
-}  // namespace
-
-void members(auto& v, const app::Note& note) {
-  v.member("id", note.id, "Opaque; sorts nowhere");
-  v.member("measurement_id", note.measurement, "The record it stands beside");
-  given_members(v, note);
-  v.optional("caller", note.caller, "The name of the key that stored it");
-  v.member("received_at", note.received_at, Time{}, "In UTC");
-}
-
-namespace {
 
 struct NotesAnswer {
   std::vector<app::Note> notes{};
@@ -79,12 +36,11 @@ Result<app::Note> read_note(std::string_view text) {
   FieldErrors errors;
   NoteOrder order;
   read_body(*body, "", errors, order);
-  app::Note& note = order.note;
-  if (errors.empty() && !note.cause && !note.measure && !note.text) {
+  if (errors.empty() && !order.note.says_something()) {
     errors.add(ErrorCode::FieldMissing, "/cause", "a note has a cause, a measure or a text");
   }
   if (auto error = errors.take()) return *std::move(error);
-  return std::move(note);
+  return std::move(order.note);
 }
 
 void add_note(const SharedPosting& posting, const app::RecordName& measurement) {
@@ -93,16 +49,7 @@ void add_note(const SharedPosting& posting, const app::RecordName& measurement) 
   note->received_at = posting->services.clock.now();
   note->caller = caller_text(posting->request);
   posting->services.measurements.add_note(
-      measurement, *std::move(note), posting->scope,
-      {.answer =
-           [](const app::Note& stored) {
-             return app::Answer{.status = 201,
-                                .content_type = "application/json",
-                                .location = {},
-                                .body = body_json(stored)};
-           },
-       .event = body_json<app::Note>},
-      [posting](Result<app::Answer> answer) {
+      measurement, *std::move(note), posting->scope, [posting](Result<app::Answer> answer) {
         if (!answer) return posting->responder.fail(answer.error());
         posting->responder.answer(api::response_of(*std::move(answer)));
       });
@@ -194,11 +141,6 @@ http::Parameter measurement_parameter() {
 }
 
 }  // namespace
-
-void append_note_json(std::string& out, const app::Note& note) {
-  JsonWriter json(out);
-  write_body(json, note);
-}
 
 void add_note_schemas(Schemas& schemas) {
   schemas.push_back(order_schema<NoteOrder>(

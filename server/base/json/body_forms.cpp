@@ -17,6 +17,15 @@ bool Text::read(FieldReader& fields, std::string_view name, std::string& to) con
   return fits;
 }
 
+bool Time::read(FieldReader& fields, std::string_view name, Timestamp& to) const {
+  const auto given = fields.text(name);
+  if (!given) return false;
+  const auto time = parse_rfc3339(*given);
+  if (time) to = *time;
+  if (!time) fields.report(time.error().code, name, time.error().message);
+  return time.has_value();
+}
+
 bool Word::read(FieldReader& fields, std::string_view name, std::string& to) const {
   auto given = fields.text(name);
   if (!given) return false;

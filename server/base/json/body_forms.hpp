@@ -109,9 +109,10 @@ struct FormOf<std::string_view> {
   using Type = Text;
 };
 
-/// A time of an answer, in UTC.
+/// A time, in UTC.
 struct Time {
   std::string schema(Side) const { return schema::time(); }
+  bool read(FieldReader& fields, std::string_view name, Timestamp& to) const;
   void write(JsonWriter& json, Timestamp from) const { json.value(format_rfc3339(from)); }
 };
 

@@ -62,10 +62,10 @@ CentreLink::HttpAnswer CentreLink::get(const std::string& path, const GoesOn& go
   return call({.method = "GET", .longest_answer = kLongestPage}, path, goes_on);
 }
 
-std::optional<std::int64_t> Follower::look(CentreLink& link, const CentreLink::GoesOn& goes_on) {
+std::optional<Follower::Heard> Follower::look(CentreLink& link, const CentreLink::GoesOn& goes_on) {
   const auto now = Steady::now();
   if (now < due_) return std::nullopt;
-  size_at_centre_.reset();
+  heard_.reset();
   due_ = now + kBetweenQuestions;
   if (refused_ && now > begun_ + kBetweenBeginnings) position_.clear();
   if (position_.empty()) {
@@ -74,13 +74,14 @@ std::optional<std::int64_t> Follower::look(CentreLink& link, const CentreLink::G
   }
   while (take_page(link, goes_on)) {
   }
-  return size_at_centre_;
+  return heard_;
 }
 
 /// @returns whether there is more.
 bool Follower::take_page(CentreLink& link, const CentreLink::GoesOn& goes_on) {
+  const std::string_view station = station_();
   const http_client::HttpAnswer answer = link.get(
-      fmt::format("/v1/log/revisions?station={}&after={}", station_(), position_), goes_on);
+      fmt::format("/v1/log/revisions?station={}&after={}", station, position_), goes_on);
   if (answer.status == 0) return failed(answer.failure);
   if (answer.status != kAnswered) return failed(fmt::format("it answers {}", answer.status));
   const auto read = api::read_revisions(answer.body);
@@ -90,7 +91,7 @@ bool Follower::take_page(CentreLink& link, const CentreLink::GoesOn& goes_on) {
   failure_.clear();
   refused_ = refused_ || taken->refused > 0;
   position_ = (*read)->page.position;
-  size_at_centre_ = (*read)->page.size;
+  heard_ = {.history = station, .size = (*read)->page.size, .notes = (*read)->page.notes};
   if (taken->taken > 0) {
     tell_("revisions_taken", fmt::format("{} up to {}", taken->taken, position_));
   }

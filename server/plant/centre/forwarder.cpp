@@ -92,8 +92,12 @@ void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
   if (!there) return;
   // It was set back to an older copy: it gets the records it has lost. Of a branch that it does not
   // know it may still have the records below.
-  const std::int64_t has = std::max(*there, outbox_.history_of(seen_).begin);
+  const std::int64_t has = std::max(there->size, outbox_.history_of(seen_).begin);
   if (has < confirmed_) confirmed_ = has;
+  if (!there->notes) return noted_.reset();
+  const std::int64_t noted = noted_.value_or(0);
+  const bool is_told = outbox_.is_note_of(there->history, std::max(noted, *there->notes));
+  noted_ = is_told ? *there->notes : noted;  // what it has already is left out there
 }
 
 /// Counts what is waiting while a call does.
@@ -124,7 +128,7 @@ void Forwarder::run(const std::stop_token& stop) {
 }
 
 Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
-  const auto batch = outbox_.next(confirmed_, most_rows_);
+  const auto batch = outbox_.next(confirmed_, most_rows_, noted_);
   if (!batch) return failed(Sent::Failed, batch.error().message);
   if (batch->unsigned_to && lacks_records_) {
     return failed(Sent::Refused,
@@ -135,14 +139,21 @@ Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
     confirmed_ = *batch->unsigned_to;
     return Sent::Taken;
   }
-  if (batch->records.empty()) return Sent::Nothing;
+  const bool sends = !batch->records.empty() || !batch->notes.empty();
+  {
+    const std::lock_guard lock(mutex_);
+    state_.sends = sends;
+  }
+  if (!sends) return Sent::Nothing;
   const std::string path = fmt::format("/v1/log/{}/{}", batch->origin, batch->from);
   const http_client::HttpAnswer answer = link_.put(path, api::batch_text(*batch), goes_on(stop));
   if (stop.stop_requested() && answer.status == 0) return Sent::Nothing;
-  return answered(answer, confirmed_ + static_cast<std::int64_t>(batch->records.size()));
+  return answered(answer, confirmed_ + static_cast<std::int64_t>(batch->records.size()),
+                  batch->last_note);
 }
 
-Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::int64_t end) {
+Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::int64_t end,
+                                    std::int64_t last_note) {
   if (answer.status == 0) return failed(Sent::Failed, answer.failure);
   const auto json = parse_json(answer.body);
   if (answer.status == kOk) {
@@ -151,6 +162,7 @@ Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::
     }
     most_rows_ = app::LogOutbox::kMostRows;
     took(end);
+    if (last_note > 0) noted_ = last_note;
     return Sent::Taken;
   }
   if (answer.status == kTooLarge && most_rows_ > 1) {

@@ -56,9 +56,13 @@ class Follower {
            std::function<void(std::string_view event, const std::string& detail)> tell)
       : intake_(std::move(intake)), station_(std::move(station)), tell_(std::move(tell)) {}
 
-  /// Does what is due, if anything. Blocks as CentreLink.
-  /// @returns how many records of that history the centre has; none where it was not asked now.
-  std::optional<std::int64_t> look(CentreLink& link, const CentreLink::GoesOn& goes_on);
+  struct Heard {
+    std::string_view history{};           ///< of this folder
+    std::int64_t size = 0;                ///< its records that the centre has
+    std::optional<std::int64_t> notes{};  ///< as RevisionPage
+  };
+  /// Does what is due, if anything. Blocks as CentreLink. @returns none where it was not asked now.
+  std::optional<Heard> look(CentreLink& link, const CentreLink::GoesOn& goes_on);
 
  private:
   using Steady = std::chrono::steady_clock;
@@ -70,7 +74,7 @@ class Follower {
   const std::function<std::string_view()> station_;
   const std::function<void(std::string_view event, const std::string& detail)> tell_;
   std::string position_{};
-  std::optional<std::int64_t> size_at_centre_{};
+  std::optional<Heard> heard_{};
   bool refused_ = false;  ///< something since the beginning
   std::string failure_{};
   Steady::time_point due_{};
@@ -99,6 +103,7 @@ class Forwarder {
     std::optional<Timestamp> oldest;  ///< when the first of them was received
     std::string failure;              ///< why the last batch did not get there; empty: it did
     bool is_refused = false;          ///< by the centre, as things are
+    bool sends = true;                ///< records or notes, as far as is known
   };
   State state() const;
 
@@ -111,7 +116,7 @@ class Forwarder {
   void follow(const CentreLink::GoesOn& goes_on);
   CentreLink::GoesOn goes_on(const std::stop_token& stop);
   Sent send(const std::stop_token& stop);
-  Sent answered(const http_client::HttpAnswer& answer, std::int64_t end);
+  Sent answered(const http_client::HttpAnswer& answer, std::int64_t end, std::int64_t last_note);
   Sent elsewhere(std::int64_t size, const std::string& root);
   Sent failed(Sent how, const std::string& why);
   Sent forked(const std::string& why);
@@ -126,6 +131,7 @@ class Forwarder {
   bool lacks_records_ = false;  ///< the centre said so of records that were taken as its own
   std::atomic<std::int64_t> confirmed_{0};
   std::atomic<std::int64_t> seen_{0};  ///< records there were at the last look
+  std::optional<std::int64_t> noted_{};  ///< the last note there; none: the centre accepts none
   std::int64_t most_rows_ = app::LogOutbox::kMostRows;
   std::chrono::milliseconds pause_{0};
   Steady::time_point looked_{};

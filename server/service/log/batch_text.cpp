@@ -9,6 +9,7 @@
 
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
+#include "record/note.hpp"
 #include "record/record.hpp"
 
 namespace fitgauge::api {
@@ -126,11 +127,21 @@ Result<void> read_line(std::string_view line, bool is_first, ReadBatch& read) {
     read.batch.answers.push_back(*std::move(answer));
     return {};
   }
+  if (const JsonValue* noted = json->find("note"); noted != nullptr && json->members.size() == 1) {
+    auto note = read_whole<app::Note>(*noted);
+    if (!note) return note.error();
+    if (!note->says_something()) {
+      return Error{ErrorCode::LogRecordInvalid, "a note of the batch says nothing"};
+    }
+    read.batch.notes.push_back(*std::move(note));
+    return {};
+  }
   auto measurement = read_record(*json, read.texts);
   if (!measurement) return measurement.error();
-  if (read.batch.rows.size() == app::LogIntake::kMostRows || !read.batch.answers.empty()) {
+  if (read.batch.rows.size() == app::LogIntake::kMostRows || !read.batch.answers.empty() ||
+      !read.batch.notes.empty()) {
     return Error{ErrorCode::RequestInvalid,
-                 fmt::format("a batch has at most {} records, and answers behind them",
+                 fmt::format("a batch has at most {} records, and answers and notes behind them",
                              app::LogIntake::kMostRows)};
   }
   read.batch.rows.push_back({.measurement = *std::move(measurement), .record = line});
@@ -148,6 +159,7 @@ std::string batch_text(const app::LogOutbox::Batch& batch) {
     text += '\n';
   }
   for (const auto& kept : batch.answers) write_answer(text, kept);
+  for (const std::string& note : batch.notes) text.append("{\"note\":").append(note).append("}\n");
   return text;
 }
 

@@ -13,6 +13,7 @@
 #include "service/log/log_reader.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/measurements/measurement_storage.hpp"
+#include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
@@ -77,8 +78,8 @@ Result<LogIntake::Answer> LogIntake::take(const ForwardedBatch& batch) {
   auto known = read(batch);
   if (!known) return known.error();
   if (const auto trusted = trust(batch, *known); !trusted) return trusted.error();
-  if (batch.rows.empty()) {
-    return Error{ErrorCode::RequestInvalid, "the batch has no record"};
+  if (batch.rows.empty() && batch.notes.empty()) {
+    return Error{ErrorCode::RequestInvalid, "the batch has no record and no note"};
   }
   if (batch.from > static_cast<std::int64_t>(known->head.size) + 1) {
     return Answer{.outcome = Outcome::Elsewhere, .head = known->head};
@@ -236,7 +237,9 @@ Result<LogIntake::Judged> LogIntake::judge_tree(const ForwardedBatch& batch,
   }
   judged.root = grown.root();
   if (known.root_at_end) {  // all of it is here already, or contradicts what is
-    if (judged.outcome == Outcome::Taken) judged.outcome = Outcome::Elsewhere;
+    if (judged.outcome == Outcome::Taken && !batch.rows.empty()) {
+      judged.outcome = Outcome::Elsewhere;
+    }
     return judged;
   }
   if (judged.root != checkpoint->root) {
@@ -309,7 +312,7 @@ Result<void> LogIntake::prepare(const ForwardedBatch& batch, Known& known) {
 Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& batch,
                                    const Known& known, const Judged& judged) const {
   auto origin = stores.origins.find(known.number);
-  if (!origin || origin->size != batch.from - 1) return false;
+  if (!origin || (!batch.rows.empty() && origin->size != batch.from - 1)) return false;
   const std::int64_t first = stores.measurements.last_id() + 1;
   std::vector<store::MeasurementRow> rows;
   for (std::size_t i = 0; i < batch.rows.size(); ++i) {
@@ -345,15 +348,41 @@ Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& 
     stores.origins.add_key(known.number, key.text(), now);
   }
   stores.origins.keep_nodes(known.number, judged.nodes);
-  if (!origin->first_row && !batch.rows.empty()) origin->first_row = first;
-  origin->size += static_cast<std::int64_t>(batch.rows.size());
-  origin->checkpoint = batch.checkpoint;
-  stores.origins.set_head(*origin);
+  if (!batch.rows.empty()) {
+    origin->first_row = origin->first_row.value_or(first);
+    origin->size += static_cast<std::int64_t>(batch.rows.size());
+    origin->checkpoint = batch.checkpoint;
+    stores.origins.set_head(*origin);
+  }
+  if (const auto noted = store_notes(stores, batch, known.number); !noted) return noted.error();
   return true;
 }
 
+/// Those that are new here, of the station's history or one below it, beside records that are here.
+Result<void> LogIntake::store_notes(store::Stores& stores, const ForwardedBatch& batch,
+                                    std::int64_t station) const {
+  std::set<std::int64_t> histories;
+  for (std::int64_t at = station; histories.insert(at).second;) {
+    if (const auto base = stores.origins.base(at)) at = base->origin;
+  }
+  for (Note note : batch.notes) {
+    const auto there = parse_note_id(note.id, origins_);
+    if (!there || !histories.contains(there->origin)) continue;
+    if (there->number <= stores.notes.newest_of(there->origin)) continue;
+    const auto name = parse_measurement_id(note.measurement, origins_);
+    const auto row = name ? existing_row_of(stores, *name, origins_) : name.error();
+    if (row) {
+      append_note(stores, *row, origins_, note, clock_.now().nanoseconds, *there);
+    } else if (name && histories.contains(name->origin)) {
+      return row.error();
+    }
+  }
+  return {};
+}
+
 void LogIntake::tell_branch(const ForwardedBatch& batch, const Known& known) const {
-  if (!known.base || known.before.size() != static_cast<std::uint64_t>(known.base->size)) return;
+  if (batch.rows.empty() || !known.base ||
+      known.before.size() != static_cast<std::uint64_t>(known.base->size)) return;
   tell_("log_branched",
         fmt::format("{} goes on behind {} measurements of {}: an older copy of that folder was put "
                     "back, or may have been. What {} has here beyond them stays",

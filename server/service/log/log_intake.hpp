@@ -49,6 +49,7 @@ struct ForwardedBatch {
   std::vector<Row> rows;
   /// Kept for idempotency keys when the rows were stored.
   std::vector<store::IdempotencyStore::Forwarded> answers;
+  std::vector<Note> notes;  ///< with the ids that they got there, in their order
 };
 
 /// Takes what stations forward: each batch that continues exactly where its log ends here, whole or
@@ -101,6 +102,8 @@ class LogIntake {
   void tell_branch(const ForwardedBatch& batch, const Known& known) const;
   Result<bool> store_rows(store::Stores& stores, const ForwardedBatch& batch, const Known& known,
                           const Judged& judged) const;
+  Result<void> store_notes(store::Stores& stores, const ForwardedBatch& batch,
+                           std::int64_t station) const;
   void fork(const ForwardedBatch& batch, const Known& known);
 
   store::Database& database_;

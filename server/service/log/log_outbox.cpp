@@ -4,19 +4,23 @@
 #include <limits>
 
 #include "db/store/database.hpp"
+#include "record/note.hpp"
 #include "record/record.hpp"
 #include "service/log/log_reader.hpp"
 #include "service/measurements/mapping.hpp"
+#include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
 namespace {
 
 constexpr std::int64_t kRowsAPage = 500;
+constexpr std::int64_t kNotesABatch = 500;
 
 }  // namespace
 
-Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most) const {
+Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most,
+                                         std::optional<std::int64_t> noted) const {
   return database_.readers().wait([&](const store::Stores& stores) -> Result<Batch> {
     Batch batch{.from = after + 1};
     const RowNames names = row_names(tables_, log_.origins());
@@ -46,15 +50,38 @@ Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most) 
             last_row = row.id;
           });
     }
-    if (!first_row) return batch;
-    batch.checkpoint =
-        log_.sign_at(stores, history, static_cast<std::uint64_t>(after) + batch.records.size());
+    const std::int64_t place = after + static_cast<std::int64_t>(batch.records.size());
+    if (noted && history.signer && place > 0) add_notes(stores, place, *noted, batch);
+    if (!first_row && batch.notes.empty()) return batch;
+    batch.checkpoint = log_.sign_at(stores, history, static_cast<std::uint64_t>(place));
     batch.key = history.signer->verifier().text();
     batch.hand_overs = log_.hand_overs();
+    if (!first_row) return batch;
     stores.idempotency.visit_forwarded(*first_row, last_row,
                                        [&](const auto& kept) { batch.answers.push_back(kept); });
     return batch;
   });
+}
+
+/// @param place how many records of this folder the centre has with the batch
+void LogOutbox::add_notes(const store::Stores& stores, std::int64_t place, std::int64_t behind,
+                          Batch& batch) const {
+  const Origins& origins = log_.origins();
+  for (store::Note& note : stores.notes.own_after(behind, kNotesABatch)) {
+    std::string record;
+    stores.measurements.find(note.measurement, [&](const store::MeasurementRow& row) {
+      if (!row.is_forwarded() && row.place_in_log() > place) return;
+      const std::int64_t number = row.public_number();
+      record = measurement_id_text(number, origins.digits(row.origin.value_or(0), number));
+    });
+    if (record.empty()) return;
+    batch.last_note = note.id;
+    batch.notes.push_back(api::body_json(from_store(std::move(note), record, origins)));
+  }
+}
+
+bool LogOutbox::is_note_of(std::string_view history, std::int64_t number) const {
+  return log_.origins().own(Counted::Note, number) == history;
 }
 
 Result<std::optional<bool>> LogOutbox::begins_with(std::int64_t size,

@@ -40,11 +40,16 @@ class LogOutbox {
     std::vector<std::string> hand_overs{};
     std::vector<std::string> records{};
     std::vector<store::IdempotencyStore::Forwarded> answers{};
+    std::vector<std::string> notes{};  ///< as JSON
+    std::int64_t last_note = 0;        ///< the number in the id of the last of them
   };
   /// The rows behind the first `after` records, at most `most`, of one history; no record where
   /// nothing does.
+  /// @param noted the notes behind this number come too, as far as their records are at the centre
+  ///   then; none: it accepts no notes.
   /// @errors those of storage.
-  Result<Batch> next(std::int64_t after, std::int64_t most) const;
+  Result<Batch> next(std::int64_t after, std::int64_t most,
+                     std::optional<std::int64_t> noted) const;
 
   /// Whether the first `size` records of this folder have that root; none while it has fewer.
   Result<std::optional<bool>> begins_with(std::int64_t size, const tlog::Hash& root) const;
@@ -57,6 +62,8 @@ class LogOutbox {
   const LogService::History& history_of(std::int64_t place) const { return log_.history_of(place); }
   /// The newest history that has records.
   std::string_view newest_history() const;
+  /// Whether the note with this number is of that history.
+  bool is_note_of(std::string_view history, std::int64_t number) const;
   /// As LogService.
   void set_forked(const std::optional<std::string>& why) const;
 
@@ -71,6 +78,9 @@ class LogOutbox {
   std::int64_t committed() const;
 
  private:
+  void add_notes(const store::Stores& stores, std::int64_t place, std::int64_t behind,
+                 Batch& batch) const;
+
   store::Database& database_;
   const TableCatalog& tables_;
   LogService& log_;

@@ -158,6 +158,7 @@ std::string revisions_text(const app::RevisionPage& page) {
   json.begin_object()
       .member("origin", page.origin)
       .member("size", page.size)
+      .member("notes", page.notes.value_or(0))
       .member("position", page.position)
       .member("more", page.more)
       .key("revisions")
@@ -173,6 +174,7 @@ Result<std::unique_ptr<ReadRevisions>> read_revisions(std::string_view body) {
   auto read = std::make_unique<ReadRevisions>();
   read->page.origin = text_of(*json, "origin");
   read->page.size = number_of(*json, "size");
+  if (json->find("notes") != nullptr) read->page.notes = number_of(*json, "notes");
   read->page.position = text_of(*json, "position");
   read->page.more = is_true(*json, "more");
   const JsonValue* revisions = json->find("revisions");

@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "db/store/database.hpp"
+#include "record/note.hpp"
 #include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/measurements/measurement_queue.hpp"
@@ -13,8 +14,6 @@
 
 namespace fitgauge::app {
 namespace {
-
-constexpr std::string_view kNoteEvent = "note.added";
 
 /// Stores the pieces of a long request, from the thread that reads it.
 Result<Answer> append_pieces(store::Stores& stores, MeasurementFeed& feed) {
@@ -80,16 +79,18 @@ void MeasurementService::record(std::vector<Measurement> measurements,
 }
 
 void MeasurementService::add_note(const RecordName& name, Note note,
-                                  const std::optional<IdempotencyScope>& scope, NoteForm form,
+                                  const std::optional<IdempotencyScope>& scope,
                                   Done<Answer> done) {
-  auto work = [this, name, note = std::move(note),
-               form = std::move(form)](store::Stores& stores) mutable -> Result<Answer> {
+  auto work = [this, name,
+               note = std::move(note)](store::Stores& stores) mutable -> Result<Answer> {
     const auto row = existing_row_of(stores, name, origins_);
     if (!row) return row.error();
     note.measurement = measurement_id_text(name.number, origins_.digits(name.origin, name.number));
-    append_note(stores, *row, origins_, note);
-    stores.events.append(kNoteEvent, form.event(note), note.received_at.nanoseconds);
-    return form.answer(note);
+    append_note(stores, *row, origins_, note, note.received_at.nanoseconds);
+    return Answer{.status = 201,
+                  .content_type = "application/json",
+                  .location = {},
+                  .body = api::body_json(note)};
   };
   submit(scope, std::move(work), std::move(done));
 }

@@ -182,16 +182,10 @@ class MeasurementService {
   /// folder. @errors MeasurementUnknown.
   void find(const RecordName& name, Visitor visit, Done<std::int64_t> done);
 
-  /// Makes the answer to a note that is stored, and what the event `note.added` says of it; called
-  /// on the writer thread.
-  struct NoteForm {
-    std::function<Answer(const Note&)> answer;
-    std::function<std::string(const Note&)> event;
-  };
   /// Keeps a note beside a measurement. @param note has its time
   /// @errors MeasurementUnknown, and those of record().
   void add_note(const RecordName& name, Note note, const std::optional<IdempotencyScope>& scope,
-                NoteForm form, Done<Answer> done);
+                Done<Answer> done);
 
   /// The notes beside a measurement, oldest first. @errors MeasurementUnknown.
   void list_notes(const RecordName& name, Done<std::vector<Note>> done);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "record/note.hpp"
 #include "record/origins.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/measurements/measurement_service.hpp"
@@ -24,10 +25,6 @@ Error corrected_before(const store::Stores& stores, const Measurement& correctio
   return {ErrorCode::MeasurementCorrected,
           fmt::format("measurement {} was corrected by {}: correct that one",
                       corrected_id_text(correction), newer)};
-}
-
-std::string note_id_text(std::int64_t id, const Origins& origins) {
-  return fmt::format("n{}-{}", id, origins.own(Counted::Note, id));
 }
 
 }  // namespace
@@ -106,29 +103,38 @@ Error too_much_work() {
   return {ErrorCode::StorageBusy, "the storage has all the work it takes; try again soon"};
 }
 
-void append_note(store::Stores& stores, std::int64_t row, const Origins& origins, Note& note) {
+void append_note(store::Stores& stores, std::int64_t row, const Origins& origins, Note& note,
+                 std::int64_t now_ns, const RecordName& there) {
   const std::int64_t id = stores.notes.append({.measurement = row,
                                                .cause = note.cause,
                                                .measure = note.measure,
                                                .text = note.text,
                                                .operator_id = note.operator_id,
                                                .caller = note.caller,
-                                               .received_at_ns = note.received_at.nanoseconds});
-  note.id = note_id_text(id, origins);
+                                               .received_at_ns = note.received_at.nanoseconds,
+                                               .origin = there.origin,
+                                               .number = there.number});
+  if (there.origin == 0) note.id = note_id_text(id, origins.own(Counted::Note, id));
+  stores.events.append("note.added", api::body_json(note), now_ns);
+}
+
+Note from_store(store::Note&& note, const std::string& measurement, const Origins& origins) {
+  const std::int64_t number = note.origin == 0 ? note.id : note.number;
+  return {.id = note_id_text(number, origins.digits(note.origin, number, Counted::Note)),
+          .measurement = measurement,
+          .cause = std::move(note.cause),
+          .measure = std::move(note.measure),
+          .text = std::move(note.text),
+          .operator_id = std::move(note.operator_id),
+          .caller = std::move(note.caller),
+          .received_at = {note.received_at_ns}};
 }
 
 std::vector<Note> notes_of(const store::Stores& stores, std::int64_t row,
                            const std::string& measurement, const Origins& origins) {
   std::vector<Note> notes;
   for (store::Note& note : stores.notes.list(row)) {
-    notes.push_back({.id = note_id_text(note.id, origins),
-                     .measurement = measurement,
-                     .cause = std::move(note.cause),
-                     .measure = std::move(note.measure),
-                     .text = std::move(note.text),
-                     .operator_id = std::move(note.operator_id),
-                     .caller = std::move(note.caller),
-                     .received_at = {note.received_at_ns}});
+    notes.push_back(from_store(std::move(note), measurement, origins));
   }
   return notes;
 }

@@ -52,10 +52,15 @@ Error too_much_work();
 
 // Notes as rows of this folder; the service calls these in its jobs.
 
-/// Keeps a note beside a row and gives it its id.
-void append_note(store::Stores& stores, std::int64_t row, const Origins& origins, Note& note);
+/// Keeps a note beside a row, gives it its id, and stores the event.
+/// @param there the name of a note that a station has forwarded, with its id in it
+void append_note(store::Stores& stores, std::int64_t row, const Origins& origins, Note& note,
+                 std::int64_t now_ns, const RecordName& there = {});
 
-/// The notes of a row, oldest first. @param measurement the id of its record
+/// @param measurement the id of its record
+Note from_store(store::Note&& note, const std::string& measurement, const Origins& origins);
+
+/// The notes of a row, oldest first. @param measurement as from_store() has it
 std::vector<Note> notes_of(const store::Stores& stores, std::int64_t row,
                            const std::string& measurement, const Origins& origins);
 

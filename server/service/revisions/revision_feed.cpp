@@ -81,7 +81,8 @@ Result<RevisionPage> RevisionFeed::page(const store::Stores& stores, std::string
   RevisionPage page{.position = stores.revisions.newest_position(),
                     .more = false,
                     .origin = std::string(origins_.own()),
-                    .size = origin ? origin->size : 0};
+                    .size = origin ? origin->size : 0,
+                    .notes = origin ? stores.notes.newest_of(origin->number) : 0};
   std::size_t bytes = 0;
   for (const auto& [number, kind, name] : listed) {
     if (bytes > kMostBytes) {

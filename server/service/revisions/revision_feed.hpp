@@ -62,6 +62,8 @@ struct RevisionPage {
   bool more = false;
   std::string origin{};   ///< of the centre: 16 hexadecimal digits
   std::int64_t size = 0;  ///< records of the station's log that are at the centre
+  /// The number in the id of the newest of the station's notes that are there; none: it accepts none
+  std::optional<std::int64_t> notes{};
   std::vector<Revision> revisions{};
 };
 

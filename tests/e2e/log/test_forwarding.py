@@ -16,6 +16,7 @@ from durability.test_storage import PART
 from support.cutting_proxy import CuttingProxy
 from support.daemon import FITGAUGED, SANITIZED, Daemon, command
 from support.ports import lasting_address
+from support.postgres import Cluster
 from support.waiting import PATIENCE, wait_for
 
 SEED = int(os.environ.get("SEED", time.time_ns() % 1_000_000))
@@ -31,6 +32,16 @@ def metric(daemon, name):
 
 def head_of(daemon, size):
     return wait_for_size(daemon, size).split("\n")[1:3]
+
+
+def notes_of(daemon, record):
+    return daemon.get(f"/v1/measurements/{record['id']}/notes").json.get("notes")
+
+
+def note(daemon, record, text):
+    answer = daemon.post(f"/v1/measurements/{record['id']}/notes", {"cause": text, "operator": "Kim"})
+    assert answer.status == 201, answer
+    return answer.json
 
 
 class Forwarding(unittest.TestCase):
@@ -77,6 +88,41 @@ class Forwarding(unittest.TestCase):
         self.assertEqual(metric(station, "fitgauge_outbox_oldest_seconds"), 0)
         self.assert_same(station)
 
+    def test_notes_of_a_station_are_at_the_centre_once_and_in_their_order(self):
+        cluster = Cluster().start()
+        self.addCleanup(cluster.cleanup)
+        for engine in ("sqlite", "postgres"):
+            with self.subTest(engine=engine):
+                flags = ["--database", cluster.address()] if engine == "postgres" else []
+                self.centre = self.made("--origin-name", "centre", *flags, listen=lasting_address()).start()
+                station = self.station(self.centre.port).start()
+                record = station.measure(PART).json
+                made = [note(station, record, "worn")]
+                wait_for(lambda: notes_of(self.centre, record) == made, "the note at the centre")  # noqa: B023
+                own = note(self.centre, record, "seen at the centre")
+                correction = self.centre.post(f"/v1/measurements/{record['id']}/corrections",
+                                              {"measured_mm": 25.001, "reason": "misread"}).json
+                wait_for(lambda: station.get(f"/v1/measurements/{correction['id']}").status == 200, "it")  # noqa: B023
+                self.centre.kill()
+                made.append(note(station, record, "while the centre is away"))
+                later = station.measure(PART).json
+                others = [(later, note(station, later, "on a record that waits too")),
+                          (correction, note(station, correction, "on what the centre has corrected"))]
+                station.kill()
+                station.start()
+                made.append(note(station, record, "after a restart"))
+                self.centre.start()
+                wait_for(lambda: notes_of(self.centre, record) == [made[0], own, *made[1:]], "all of them")  # noqa: B023
+                for noted, said in others:
+                    self.assertEqual(notes_of(self.centre, noted), [said])
+                self.assertEqual(notes_of(station, record), made, "the centre's own stays there")
+                stored = re.findall('"cause":"([^"]*)"', self.centre.get("/v1/measurements?notes=only&history=all").text)
+                self.assertEqual(len(stored), 6, stored)
+                for daemon, at in ((self.centre, flags), (station, [])):
+                    daemon.stop()
+                    verified = daemon.command("verify", *at)
+                    self.assertEqual(verified.returncode, 0, verified.stdout)
+
     def test_nothing_is_lost_or_doubled_however_the_link_and_both_ends_fail(self):
         print(f"seed {SEED}")
         chance = random.Random(SEED)
@@ -91,12 +137,15 @@ class Forwarding(unittest.TestCase):
             stored += PIECE
         self.assertEqual(wait_for(lambda: metric(station, "fitgauge_outbox_rows"), "a full outbox"), stored)
         wait_for(lambda: metric(station, "fitgauge_outbox_oldest_seconds"), "an age")
+        noted = [station.measure(PART).json]
+        stored += 1
         for kill in range(KILLS):
             if kill % 2:
                 station.kill()
                 station.start()
-                self.assertEqual(station.measure(PART).status, 201)
+                noted.append(station.measure(PART).json)
                 stored += 1
+            note(station, noted[-1], f"kill {kill}")
             if kill % 3 == 0:
                 if self.centre.process.poll() is None:
                     self.centre.kill()
@@ -110,6 +159,9 @@ class Forwarding(unittest.TestCase):
         self.wait_until_drained(station)
         print(f"{stored} rows; {proxy.cut} connections cut; drained after {time.monotonic() - begun:.1f} s")
         self.assertEqual(len(self.assert_same(station)), stored)
+        for record in noted:
+            wait_for(lambda one=record: notes_of(self.centre, one) == notes_of(station, one), "the notes")
+        self.assertEqual(sum(len(notes_of(self.centre, record)) for record in noted), KILLS)
 
     def test_a_station_that_was_away_sends_what_the_centre_lacks_and_no_more(self):
         station = self.station(self.centre.port).start()
@@ -161,6 +213,7 @@ class Forwarding(unittest.TestCase):
         kept = folder.folder / "kept"
         first = folder.measure([PART] * 1200, {"Prefer": "return=representation"}).json["measurements"][0]
         folder.post(f"/v1/measurements/{first['id']}/corrections", {"measured_mm": 25.5, "reason": "misread"})
+        said = note(folder, first, "worn")
         records = records_of(folder)
         kept.write_text(wait_for_size(folder, 1201))
         keys = folder.get("/v1/log/key").text.split()
@@ -186,6 +239,7 @@ class Forwarding(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertIn("1201 measurements, root", done.stdout)
             self.assertEqual(records_of(self.centre), records)
+            self.assertEqual(notes_of(self.centre, first), [said])
         for line in (records[0], records[700], records[-1]):
             proof = self.centre.get(f"/v1/measurements/{json.loads(line)['id']}/proof").json
             self.assertIsNone(check_proof.check(line, proof, keys))

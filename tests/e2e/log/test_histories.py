@@ -7,7 +7,7 @@ import shutil
 import unittest
 
 from durability.test_storage import PART
-from log.test_forwarding import metric
+from log.test_forwarding import metric, note, notes_of
 from log.test_log import wait_for_size
 from measurements.test_events import Reader
 from support.daemon import Daemon
@@ -208,14 +208,19 @@ class Stations(Restored):
 
     def put_back(self, kind, centre_is_there):
         kept = self.store(self.station, "s1 s2 s3")
+        record = {"id": kept[0]}
+        said = [note(self.station, record, "kept")]
         put_back = self.copied(kind)
         lost = self.store(self.station, "s4 s5")
+        said += [note(self.station, record, "lost"), note(self.station, record, "lost too")]
         self.drained()
+        wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
         self.station.stop()
         if not centre_is_there:
             self.centre.stop()
         put_back()
         self.station.start()
+        said.append(note(self.station, record, "new"))
         new = self.store(self.station, "x1 x2 x3")
         if not centre_is_there:
             self.centre.start()
@@ -224,6 +229,8 @@ class Stations(Restored):
         self.drained()
         names = dict(zip(kept + lost + new, "s1 s2 s3 s4 s5 x1 x2 x3 x4".split()))
         self.assertEqual(self.there(), names)
+        wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
+        self.assertEqual(notes_of(self.station, record), [said[0], said[3]])
         self.assertEqual(self.station.get("/readyz").status, 200)
         self.centre.wait_for_log('"event":"log_branched"')
         self.assertNotIn('"event":"log_forked"', self.centre.log)
@@ -273,6 +280,7 @@ class Stations(Restored):
         own = self.store(self.centre, "c1")
         copy = self.backup(self.centre)
         second = self.store(self.station, "s2")
+        said = note(self.station, {"id": first[0]}, "worn")
         lost = self.store(self.centre, "c2")
         self.drained()
         self.centre.stop()
@@ -281,6 +289,7 @@ class Stations(Restored):
         new = self.store(self.centre, "c3")
         self.assert_unique(first, own, second, lost, new)
         wait_for(lambda: "s2" in self.there().values(), lambda: self.station.log)
+        wait_for(lambda: notes_of(self.centre, {"id": first[0]}) == [said], lambda: self.station.log)
         self.assert_clean(self.centre)
         made = self.centre.post(f"/v1/measurements/{first[0]}/corrections", {"measured_mm": 25.02, "reason": "x"})
         wait_for(lambda: "corrected_by" in self.station.get(f"/v1/measurements/{first[0]}").json,

@@ -43,6 +43,8 @@ struct Everything : Fixture {
                                        .first_row = 2000,
                                        .size = 1,
                                        .checkpoint = "fitgauge/b/5f0c9a3e"});
+              stores.notes.append(
+                  {.measurement = 1, .cause = "worn", .origin = other, .number = 3});
               stores.origins.add_key(other, "key", 1);
               stores.origins.keep_nodes(other, std::span(&node, 1));
               CHECK(stores.origins.add_fork(other, "fitgauge/b/5f0c9a3e", 1));
@@ -168,7 +170,7 @@ std::vector<Column> columns_of(sqlite::Connection& connection) {
 std::string flip(const Column& column) {
   return fmt::format(
       "DROP TRIGGER measurements_are_not_updated; DROP TRIGGER notes_are_not_updated; "
-      "DROP TRIGGER changes_are_not_updated; PRAGMA "
+      "DROP TRIGGER changes_are_not_updated; DROP TRIGGER note_origins_are_not_updated; PRAGMA "
       "foreign_keys = OFF; "
       "PRAGMA ignore_check_constraints = ON; UPDATE {0} SET {1} = CASE typeof({1}) "
       "WHEN 'integer' THEN {1} + 1 WHEN 'null' THEN 1 "
@@ -179,6 +181,8 @@ std::string flip(const Column& column) {
       "CREATE TRIGGER measurements_are_not_updated BEFORE UPDATE ON measurements\nBEGIN "
       "SELECT RAISE(ABORT, 'a measurement is never changed: store a correction'); END; "
       "CREATE TRIGGER notes_are_not_updated BEFORE UPDATE ON notes\nBEGIN "
+      "SELECT RAISE(ABORT, 'a note is never changed: add another'); END; "
+      "CREATE TRIGGER note_origins_are_not_updated BEFORE UPDATE ON note_origins\nBEGIN "
       "SELECT RAISE(ABORT, 'a note is never changed: add another'); END; "
       "CREATE TRIGGER changes_are_not_updated BEFORE UPDATE ON changes\nBEGIN "
       "SELECT RAISE(ABORT, 'a change is never altered'); END",

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <concepts>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "base/json/body_forms.hpp"
+#include "record/measurement.hpp"
+
+// A note as it is answered, in events and on its way to the centre.
+
+namespace fitgauge::api {
+
+/// The form of a text that is not blank.
+struct NoteText {
+  std::size_t longest = 200;  ///< bytes of a cause, a measure, a name
+
+  std::string schema(Side) const { return schema::text(longest); }
+  void check(FieldErrors& errors, const std::string& at, std::string_view text) const {
+    if (text.size() > longest) {
+      errors.add(ErrorCode::FieldTooLong, at, fmt::format("at most {} bytes", longest));
+    } else if (text.find_first_not_of(" \t\r\n") == std::string_view::npos ||
+               text.find('\0') != std::string_view::npos) {
+      errors.add(ErrorCode::FieldInvalid, at, "a text that is given is not blank");
+    }
+  }
+  bool read(FieldReader& fields, std::string_view name, std::string& to) const {
+    auto given = fields.text(name);
+    if (!given) return false;
+    check(fields.errors(), fields.at(name), *given);
+    to = *std::move(given);
+    return true;
+  }
+  void write(JsonWriter& json, std::string_view from) const { json.value(from); }
+};
+
+/// What a caller says in a note.
+void given_members(auto& v, auto& note) {
+  v.optional("cause", note.cause, NoteText{}, "Why the value is what it is");
+  v.optional("measure", note.measure, NoteText{}, "What was done about it");
+  v.optional("text", note.text, NoteText{2000}, "Whatever else; one of the three is there");
+  v.optional("operator", note.operator_id, NoteText{}, "Who says so");
+}
+
+template <class N>
+requires std::same_as<std::remove_const_t<N>, app::Note>
+void members(auto& v, N& note) {
+  v.member("id", note.id, "Opaque; sorts nowhere");
+  v.member("measurement_id", note.measurement, "The record it stands beside");
+  given_members(v, note);
+  v.optional("caller", note.caller, "The name of the key that stored it");
+  v.member("received_at", note.received_at, Time{}, "In UTC");
+}
+
+}  // namespace fitgauge::api
