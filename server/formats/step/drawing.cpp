@@ -50,6 +50,7 @@ constexpr std::array kEntities = {
     Entity{"DIMENSIONAL_CHARACTERISTIC_REPRESENTATION", Group::Value},
     Entity{"PLUS_MINUS_TOLERANCE", Group::Tolerance},
     Entity{"GEOMETRIC_ITEM_SPECIFIC_USAGE", Group::Face},
+    Entity{"ITEM_IDENTIFIED_REPRESENTATION_USAGE", Group::Face},
     Entity{"SHAPE_ASPECT_RELATIONSHIP", Group::Part},
     Entity{"SHAPE_ASPECT_DERIVING_RELATIONSHIP", Group::Part},
     Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION", Group::Callout},
@@ -278,6 +279,9 @@ class Walker {
     if (read.name == "upper limit" || read.qualifier == "maximum") upper = read.length;
     if (read.name == "lower limit" || read.qualifier == "minimum") lower = read.length;
     if (!is_limit) found.nominal = read.length;
+    if (read.length != read.exact)
+      size.remarks.push_back(fmt::format("the model has {} mm, its callout shows {} mm",
+                                         format_mm(*read.exact), format_mm(*read.length)));
   }
 
   /// Class or deviations of the tolerances. @returns why they cannot be used
@@ -341,24 +345,31 @@ class Walker {
     return {};
   }
 
+  /// What a size is of, by its name and its faces.
+  void take_aspect(std::uint32_t aspect, std::string_view name, DrawnSize& size) {
+    for (const auto& [part, quantity] : kQuantities) {
+      if (name.find(part) == std::string_view::npos) continue;
+      size.quantity = quantity;
+      break;
+    }
+    const Shape shape = shape_of(file_, faces_of(aspect));
+    size.count = size.quantity == Quantity::Radius && shape.faces > 0 ? shape.faces : shape.count;
+    // The length of a round face is a depth.
+    if (size.quantity == Quantity::Width && shape.is_round) size.quantity = Quantity::Distance;
+    if (gauging::has_feature(size.quantity)) size.feature = shape.feature;
+  }
+
   std::string take_size(std::uint32_t id, const Entity& entity, DrawnSize& size) {
     if (entity.group == Group::Angle) return "an angle is not gauged here";
     size.quantity = Quantity::Distance;
     if (entity.group == Group::Size) {
-      const auto own =
-          record_of(file_, id,
-                    entity.name == "DIMENSIONAL_SIZE_WITH_PATH" ? entity.name : "DIMENSIONAL_SIZE");
-      const std::string name = own.size() > 1 ? ascii_lower(text_of(own[1])) : std::string();
-      for (const auto& [part, quantity] : kQuantities) {
-        if (name.find(part) == std::string::npos) continue;
-        size.quantity = quantity;
-        break;
-      }
-      if (!own.empty() && own[0].is(Kind::Reference)) {
-        const Shape shape = shape_of(file_, faces_of(own[0].id));
-        size.count = shape.count;
-        if (gauging::has_feature(size.quantity)) size.feature = shape.feature;
-      }
+      auto own = record_of(file_, id, "DIMENSIONAL_SIZE");
+      if (own.empty()) own = record_of(file_, id, entity.name);
+      // The aspect and the name stand side by side, in a subtype not at its beginning.
+      const auto aspect = std::adjacent_find(
+          own.begin(), own.end(),
+          [](const auto& a, const auto& b) { return a.is(Kind::Reference) && b.is(Kind::Text); });
+      if (aspect != own.end()) take_aspect(aspect->id, ascii_lower(text_of(aspect[1])), size);
     }
     Found found;
     if (std::string why = take_values(id, found, size); !why.empty()) return why;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "formats/step/values.hpp"
+
 namespace fitgauge::step {
 namespace {
 
@@ -33,12 +35,9 @@ std::uint32_t reference(const std::vector<Parameter>& from, std::size_t at) {
   return at < from.size() && from[at].is(Parameter::Kind::Reference) ? from[at].id : 0;
 }
 
-/// The parameters of an instance with one record of that name, else none.
 std::vector<Parameter> parameters_of(const Part21& file, std::uint32_t id, std::uint32_t from,
                                      std::string_view name) {
-  const auto records = id != 0 ? file.records(id, from) : std::vector<Record>{};
-  if (records.size() != 1 || records[0].name != name) return {};
-  return file.parameters(records[0].list);
+  return id != 0 ? record_of(file, id, name, from) : std::vector<Parameter>{};
 }
 
 std::optional<Vector> numbers(const Part21& file, std::uint32_t id, std::uint32_t from,
@@ -108,14 +107,17 @@ Shape shape_of(const Part21& file, std::span<const std::uint32_t> faces) {
     const auto face = read_face(file, id);
     if (face && read.size() < kMostFaces) read.push_back(*face);
   }
-  Shape shape;
+  Shape shape{.faces = std::ssize(read), .is_round = !read.empty() && read[0].is_round};
   std::vector<Face> axes;
   for (std::size_t i = 0; i < read.size(); ++i) {
     const Face& face = read[i];
     const auto feature = !face.is_round
                              ? across(face, read)
                              : std::optional(face.is_same_sense ? Feature::Shaft : Feature::Hole);
-    if (i > 0 && feature != shape.feature) return {.count = shape.count};
+    if (i > 0 && feature != shape.feature) {
+      shape.feature.reset();
+      return shape;
+    }
     shape.feature = feature;
     const bool is_known = std::any_of(axes.begin(), axes.end(),
                                       [&](const Face& axis) { return is_coaxial(axis, face); });

@@ -13,6 +13,8 @@ namespace fitgauge::step {
 struct Shape {
   std::optional<iso286::Feature> feature{};  ///< none unless all faces agree
   std::int64_t count = 1;                    ///< of axes: `4X` is four bores
+  std::int64_t faces = 0;                    ///< that were read: `4X R2` are four
+  bool is_round = false;                     ///< the first of them is
 };
 
 /// Round faces: material outside of them is a hole, inside a shaft. Of planes each with the nearest

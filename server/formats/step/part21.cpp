@@ -6,9 +6,12 @@
 #include <unordered_map>
 
 #include "base/allowance.hpp"
+#include "formats/sheet/text_encoding.hpp"
 #include "formats/step/part21_lexer.hpp"
 
 namespace fitgauge::step {
+using sheet::append_utf8;
+
 namespace {
 
 /// Bytes that may be read again for the sizes of a file.
@@ -18,23 +21,6 @@ constexpr std::string_view kEnd = "END-ISO-10303-21";
 constexpr std::array<std::string_view, 6> kSchemas = {
     "AP242_",           "AP203_", "AP214_", "AUTOMOTIVE_DESIGN", "CONFIG_CONTROL_DESIGN",
     "CONFIG_CONTROL_3D"};
-
-void append_utf8(std::string& to, std::uint32_t code) {
-  if (code < 0x80) {
-    to += static_cast<char>(code);
-  } else if (code < 0x800) {
-    to += {static_cast<char>(0xC0 | code >> 6), static_cast<char>(0x80 | (code & 0x3F))};
-  } else if (code < 0x10000) {
-    if (code >= 0xD800 && code < 0xE000) code = 0xFFFD;
-    to += {static_cast<char>(0xE0 | code >> 12), static_cast<char>(0x80 | (code >> 6 & 0x3F)),
-           static_cast<char>(0x80 | (code & 0x3F))};
-  } else if (code < 0x110000) {
-    to += {static_cast<char>(0xF0 | code >> 18), static_cast<char>(0x80 | (code >> 12 & 0x3F)),
-           static_cast<char>(0x80 | (code >> 6 & 0x3F)), static_cast<char>(0x80 | (code & 0x3F))};
-  } else {
-    append_utf8(to, 0xFFFD);
-  }
-}
 
 /// The number of some hexadecimal digits, none where others stand.
 std::optional<std::uint32_t> hexadecimal(std::string_view digits, std::size_t count) {
@@ -55,7 +41,8 @@ void append_wide(std::string& to, std::string_view& text, std::size_t width) {
       append_utf8(to, 0x10000 + ((high - 0xD800) << 10) + (*code - 0xDC00));
       high = 0;
     } else {
-      append_utf8(to, *code);
+      const bool is_character = *code < 0x110000 && (*code < 0xD800 || *code >= 0xE000);
+      append_utf8(to, is_character ? *code : 0xFFFD);
     }
   }
   if (text.starts_with("\\X0\\")) text.remove_prefix(4);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 #include "base/text.hpp"
@@ -62,7 +63,8 @@ double Values::millimetres(std::uint32_t id, std::uint32_t from, int deep) {
       if (found != kMetres.end()) factor = found->second;
     } else if (each.name == "CONVERSION_BASED_UNIT" && !all.empty() &&
                all.back().is(Kind::Reference) && deep > 0) {
-      factor = read(all.back().id, id, deep - 1).number;
+      const Value found = read(all.back().id, id, deep - 1);
+      factor = found.number * found.unit;
     }
   }
   if (!(factor > 0) || !std::isfinite(factor)) {
@@ -81,17 +83,43 @@ Value Values::read(std::uint32_t id, std::uint32_t from, int deep) {
     if (each.name.ends_with("REPRESENTATION_ITEM") && !all.empty() && all[0].is(Kind::Text))
       found.name = trim(text_of(all[0]));
     if (each.name == "QUALIFIED_REPRESENTATION_ITEM" && !all.empty()) {
-      for (const std::uint32_t qualifier : references_in(file_, all[0])) {
-        if (auto word = text_in(file_, qualifier, "TYPE_QUALIFIER", 0, id); !word.empty())
-          found.qualifier = std::move(word);
-      }
+      for (const std::uint32_t qualifier : references_in(file_, all[0]))
+        qualify(qualifier, id, found);
     }
     for (std::size_t i = 0; i + 1 < all.size(); ++i) {
       if (all[i].is(Kind::Typed) && all[i + 1].is(Kind::Reference))
         measure(all[i], all[i + 1].id, id, deep, found);
     }
   }
+  if (found.unit == 0) return found;
+  const auto length = [&](double number) -> std::optional<Length> {
+    const auto read = Length::nearest_mm(number * found.unit);
+    if (read && *read <= kLongest && *read >= -kLongest) return *read;
+    file_.fail(id, fmt::format("#{} is a length beyond 1000 km: export the file again", id));
+    return std::nullopt;
+  };
+  found.exact = found.length = length(found.number);
+  if (found.decimals) {
+    // What lies half between goes to the even digit in inches (ASME Y14.5), up in millimetres.
+    constexpr double kNoise = 1e6;
+    const double tens = std::pow(10, *found.decimals);
+    const double scaled = std::round(found.number * tens * kNoise) / kNoise;
+    found.length = length((found.unit == 1 ? std::round(scaled) : std::nearbyint(scaled)) / tens);
+  }
   return found;
+}
+
+/// `maximum`, or a format: `NR2 1.3` has three decimals.
+void Values::qualify(std::uint32_t id, std::uint32_t from, Value& to) {
+  constexpr int kMostDecimals = 6;
+  if (auto word = text_in(file_, id, "TYPE_QUALIFIER", 0, from); !word.empty())
+    to.qualifier = std::move(word);
+  const std::string format = text_in(file_, id, "VALUE_FORMAT_TYPE_QUALIFIER", 0, from);
+  int decimals = -1;
+  if (const auto point = format.rfind('.');
+      format.starts_with("NR2 ") && point != std::string::npos)
+    std::from_chars(format.data() + point + 1, format.data() + format.size(), decimals);
+  if (decimals >= 0 && decimals <= kMostDecimals) to.decimals = decimals;
 }
 
 void Values::measure(const Parameter& typed, std::uint32_t unit, std::uint32_t id, int deep,
@@ -99,12 +127,8 @@ void Values::measure(const Parameter& typed, std::uint32_t unit, std::uint32_t i
   const std::string_view type = typed.text.substr(0, typed.text.find_first_of("( "));
   const auto number = file_.parameters(typed.text);
   if (!type.ends_with("LENGTH_MEASURE") || number.size() != 1) return;
-  to.number = number_of(number[0]) * millimetres(unit, id, deep);
-  const auto length = Length::nearest_mm(to.number);
-  if (!length || *length > kLongest || *length < -kLongest) {
-    return file_.fail(id, fmt::format("#{} is a length beyond 1000 km: export the file again", id));
-  }
-  to.length = *length;
+  to.number = number_of(number[0]);
+  to.unit = millimetres(unit, id, deep);
 }
 
 }  // namespace fitgauge::step

@@ -28,8 +28,11 @@ std::vector<std::uint32_t> references_in(const Part21& file, const Parameter& pa
 struct Value {
   std::string name{};
   std::string qualifier{};
-  std::optional<Length> length{};
-  double number = 0;  ///< in mm
+  std::optional<Length> length{};  ///< as its format shows it
+  std::optional<Length> exact{};   ///< as it stands
+  std::optional<int> decimals{};   ///< of its format, in its own unit
+  double number = 0;               ///< in its own unit
+  double unit = 0;                 ///< mm; 0: no length
 };
 
 /// Reads values, each by its own unit. Not thread-safe.
@@ -48,6 +51,7 @@ class Values {
   /// Millimetres of a unit of length; fails if it is another, or refers to itself.
   double millimetres(std::uint32_t id, std::uint32_t from, int deep);
   void measure(const Parameter& typed, std::uint32_t unit, std::uint32_t id, int deep, Value& to);
+  void qualify(std::uint32_t id, std::uint32_t from, Value& to);
 
   const Part21& file_;
   std::map<std::uint32_t, double> units_;

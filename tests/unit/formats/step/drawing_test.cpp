@@ -80,6 +80,50 @@ TEST_CASE("sizes of a drawing are read in every form that writers have") {
   CHECK(sizes[4].name == "distance 40");
 }
 
+TEST_CASE("sizes are read as their callouts show them, in the forms of other writers") {
+  const auto read = [](std::string_view entity, const std::string& text) {
+    const auto drawing = read_drawing(text, tables());
+    REQUIRE(drawing.has_value());
+    for (const DrawnSize& size : drawing->sizes) {
+      if (size.entity == entity)
+        return fmt::format("{} {}X {}", limits_of(size), size.count, fmt::join(size.remarks, ", "));
+    }
+    return std::string("not read");
+  };
+  const auto shown = [&](std::string_view number, std::string_view unit, std::string_view format) {
+    return read(
+               "#130",
+               replaced(
+                   housing(),
+                   "#136=MEASURE_REPRESENTATION_ITEM('nominal value',LENGTH_MEASURE(8.),#5);",
+                   fmt::format(
+                       "#136=(MEASURE_REPRESENTATION_ITEM()MEASURE_WITH_UNIT(LENGTH_MEASURE({}),{})"
+                       "QUALIFIED_REPRESENTATION_ITEM((#98))REPRESENTATION_ITEM(''));"
+                       "#98=VALUE_FORMAT_TYPE_QUALIFIER('{}');",
+                       number, unit, format)))
+        .substr(0, 22);
+  };
+  CHECK(shown("0.562500000002249", "#6", "NR2 1.3") == "14.2748 0 -36 width ho");
+  CHECK(shown("0.4375", "#6", "NR2 1.3") == "11.1252 0 -36 width ho");
+  CHECK(shown("1.925", "#5", "NR2 1.2") == "1.93 0 -36 width hole ");
+  CHECK(shown("1.925", "#5", "NR2 1.") == "1.925 0 -36 width hole");
+  const std::string slot = "#133=GEOMETRIC_ITEM_SPECIFIC_USAGE('','',#131,#4,";
+  CHECK(read("#130", replaced(housing(), slot + "#27)",
+                              "#133=ITEM_IDENTIFIED_REPRESENTATION_USAGE('','',#131,#4,"
+                              "SET_REPRESENTATION_ITEM((#27)))"))
+            .starts_with("8 0 -36 width hole 1X"));
+  CHECK(read("#120", replaced(housing(), "#120=DIMENSIONAL_SIZE(",
+                              "#120=DIMENSIONAL_SIZE_WITH_DATUM_FEATURE('','',#4,.T.,")) ==
+        "25 g6 diameter shaft 1X ");
+  // A depth hangs on the round faces of its hole, and 4X R2 on as many faces.
+  std::string depth = replaced(housing(), "#132=GEOMETRIC_ITEM_SPECIFIC_USAGE('','',#131,#4,#25)",
+                               "#132=GEOMETRIC_ITEM_SPECIFIC_USAGE('','',#131,#4,#20)");
+  depth = replaced(std::move(depth), slot + "#27)", slot + "#24)");
+  CHECK(read("#130", depth).starts_with("8 0 -36 distance - 1X"));
+  CHECK(read("#130", replaced(depth, "#131,'width'", "#131,'radius'"))
+            .starts_with("8 0 -36 radius - 2X"));
+}
+
 TEST_CASE("what is not gauged is listed with its name and why") {
   const auto drawing = read_drawing(housing(), tables());
   REQUIRE(drawing.has_value());
