@@ -125,8 +125,7 @@ void add_plans_routes(std::vector<http::Route>& routes, const Services& services
       .handler = with(services, read_drawing),
       .summary = "Read the sizes of a STEP drawing",
       .description = "AP242, AP203 or AP214 with product manufacturing information. Nothing is "
-                     "stored: PUT the file to "
-                     "/v1/plans/{part} to make a plan of it.",
+                     "stored: PUT the file to /v1/plans/{part} to make a plan of it.",
       .parameters = {{.name = "part",
                       .description = "Part number of a plan to compare its characteristics with"}},
       .body = {.use = http::BodyUse::Required,

@@ -10,9 +10,8 @@
 
 namespace fitgauge::api {
 
-/// What is new after each commit, for one reader, until it goes: reads when the piece before has
-/// left, and waits for a commit where there is none. Owns no more than one piece, so a slow reader
-/// costs nothing and falls behind; the connection drops one that takes nothing.
+/// What is new after each commit, for one reader, until it goes. Owns no more than one piece, so a
+/// slow reader costs nothing and falls behind; the connection drops one that takes nothing.
 class CommitStream : public http::BodyStream,
                      public app::CommitListener,
                      public std::enable_shared_from_this<CommitStream> {

@@ -122,10 +122,9 @@ Result<Proposal> proposal_of(CorrectedParts& read, double cost) {
   }
   std::reverse(read.parts.begin(), read.parts.end());
   Proposal proposal{metrology::propose_offset(read.parts, half, cost), read.parts.size()};
-  if (read.is_unfit) {
+  if (read.is_unfit)
     proposal.found = {.reason =
                           "the gauge of the last value is overdue for calibration or blocked"};
-  }
   return proposal;
 }
 

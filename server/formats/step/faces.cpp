@@ -35,14 +35,9 @@ std::uint32_t reference(const std::vector<Parameter>& from, std::size_t at) {
   return at < from.size() && from[at].is(Parameter::Kind::Reference) ? from[at].id : 0;
 }
 
-std::vector<Parameter> parameters_of(const Part21& file, std::uint32_t id, std::uint32_t from,
-                                     std::string_view name) {
-  return id != 0 ? record_of(file, id, name, from) : std::vector<Parameter>{};
-}
-
 std::optional<Vector> numbers(const Part21& file, std::uint32_t id, std::uint32_t from,
                               std::string_view name) {
-  const auto found = parameters_of(file, id, from, name);
+  const auto found = record_of(file, id, name, from);
   if (found.size() != 2) return std::nullopt;
   const auto items = file.parameters(found[1].text);
   if (items.size() != 3) return std::nullopt;
@@ -66,7 +61,7 @@ std::optional<Face> read_face(const Part21& file, std::uint32_t id) {
             .is_same_sense = face[3].text == ".T."};
   if (!read.is_round && surface[0].name != "PLANE") return std::nullopt;
   const std::uint32_t place_id = reference(file.parameters(surface[0].list), 1);
-  const auto place = parameters_of(file, place_id, surface_id, "AXIS2_PLACEMENT_3D");
+  const auto place = record_of(file, place_id, "AXIS2_PLACEMENT_3D", surface_id);
   const auto point = numbers(file, reference(place, 1), place_id, "CARTESIAN_POINT");
   if (!point) return std::nullopt;
   read.point = *point;

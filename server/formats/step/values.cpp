@@ -27,6 +27,7 @@ constexpr std::array<std::pair<std::string_view, double>, 7> kMetres = {{
 
 std::vector<Parameter> record_of(const Part21& file, std::uint32_t id, std::string_view name,
                                  std::uint32_t from) {
+  if (id == 0) return {};
   for (const Record& each : file.records(id, from != 0 ? from : id)) {
     if (each.name == name) return file.parameters(each.list);
   }

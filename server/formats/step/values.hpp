@@ -14,7 +14,7 @@
 
 namespace fitgauge::step {
 
-/// The parameters of the record with that name; none where the instance has no such record.
+/// The parameters of the record with that name; none if the instance has no such, or is 0.
 /// @param from the instance that refers to it, which an error names; 0: itself
 std::vector<Parameter> record_of(const Part21& file, std::uint32_t id, std::string_view name,
                                  std::uint32_t from = 0);
