@@ -1,9 +1,10 @@
 """Drawings: the sizes of a STEP file, and the plan that is made of it."""
 
 import hashlib
+import unittest
 
 from support.cli import ClientTest
-from support.daemon import ROOT
+from support.daemon import ROOT, SANITIZED
 
 HOUSING = (ROOT / "tests/fuzz/corpus/step/housing.stp").read_bytes()
 STEP = {"Content-Type": "model/step"}
@@ -48,6 +49,17 @@ class Drawings(ClientTest):
             answer = connection.getresponse()
             self.assertEqual(answer.status, 413)
             self.assertIn(b"67108864 bytes", answer.read())
+
+    @unittest.skipIf(SANITIZED, "a sanitizer keeps what was freed")
+    def test_the_largest_drawing_is_held_once_and_eight_bytes_an_instance(self):
+        head, tail = b"ISO-10303-21;HEADER;FILE_SCHEMA(('AP242_'));ENDSEC;DATA;\n", b"ENDSEC;END-ISO-10303-21;"
+        rows = b"".join(b"#%07d=A('%045d');\n" % (i, i) for i in range(1, 1_048_576))
+        drawing = head + rows + b" " * ((64 << 20) - len(head) - len(rows) - len(tail)) + tail
+        self.assertEqual(len(drawing), 64 << 20)
+        idle = self.daemon.memory("VmRSS")
+        read = self.daemon.request("POST", "/v1/drawings", drawing, STEP)
+        self.assertEqual((read.status, read.json["sizes"]), (200, []))
+        self.assertLess(self.daemon.memory("VmHWM") - idle, 80 << 20)
 
     def test_a_revision_says_what_it_changed_and_keeps_what_people_gave(self):
         first = self.put("4711-A", HOUSING)
