@@ -18,20 +18,30 @@ std::string relative_of(std::string_view path) {
   return relative;
 }
 
+bool is_made(const interpreter::ControlPath& path) {
+  const std::string_view name = path.file_name();
+  return ascii_iequals(name, "82553_hole.tab") || ascii_iequals(name, "82553_shaft.tab");
+}
+
+/// Made when a program reads one: that takes longer than to check a program.
+const interpreter::ControlDisk& made_tables() {
+  static const interpreter::MemoryDisk kNothing;
+  static const interpreter::ProjectingDisk kTables(
+      kNothing,
+      app::project(iso286::ToleranceTables::make(iso286::compiled_in_tables(), {}).value()));
+  return kTables;
+}
+
 }  // namespace
 
-FolderDisk::FolderDisk(const std::string& file)
-    : folder_(fs::path(file).parent_path()),
-      tables_(
-          nothing_,
-          app::project(iso286::ToleranceTables::make(iso286::compiled_in_tables(), {}).value())) {
+FolderDisk::FolderDisk(const std::string& file) : folder_(fs::path(file).parent_path()) {
   if (folder_.empty()) folder_ = ".";
 }
 
 std::optional<interpreter::ControlFile> FolderDisk::find(
     const interpreter::ControlPath& path) const {
   const auto found = local(path.text());
-  if (!found) return tables_.find(path);
+  if (!found) return is_made(path) ? made_tables().find(path) : std::nullopt;
   auto bytes = read_file(found->string());
   if (!bytes) return std::nullopt;
   return interpreter::ControlFile{path, std::make_shared<const std::string>(*std::move(bytes)),
@@ -39,7 +49,7 @@ std::optional<interpreter::ControlFile> FolderDisk::find(
 }
 
 std::optional<std::string> FolderDisk::revision(const interpreter::ControlPath& path) const {
-  return local(path.text()) ? "local" : tables_.revision(path);
+  return local(path.text()) || is_made(path) ? std::optional<std::string>("local") : std::nullopt;
 }
 
 bool FolderDisk::has_directory(std::string_view directory) const {

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "cli/outcome.hpp"
 #include "nc/program/control_disk.hpp"
@@ -28,8 +27,6 @@ class FolderDisk final : public interpreter::ControlDisk {
   std::optional<std::filesystem::path> local(std::string_view path) const;
 
   std::filesystem::path folder_;
-  interpreter::MemoryDisk nothing_;
-  interpreter::ProjectingDisk tables_;
 };
 
 /// A file as its FolderDisk names it. @errors LocalFile: it cannot be read, or no control has such
