@@ -67,7 +67,7 @@ unsigned senses_of(std::string_view text) {
     if (at != 0 && is_ascii_letter(upper[at - 1])) continue;
     const std::string_view rest = std::string_view(upper).substr(at);
     for (const Term& term : kTerms) {
-      if (rest.starts_with(term.word)) senses |= term.senses;
+      if (rest.front() == term.word.front() && rest.starts_with(term.word)) senses |= term.senses;
     }
   }
   return senses;
