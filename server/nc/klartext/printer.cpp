@@ -31,30 +31,25 @@ void print_block(BlockWriter& out, const Program& program, const Block& block,
   out.write(comment);
 }
 
+std::string print_blocks(const Program& program, bool renumbers) {
+  std::string text;
+  text.reserve(program.source().size() + (renumbers ? program.blocks().size() * 4 : 0));
+  BlockWriter out(program, text);
+  std::uint32_t count = 0;
+  for (const Block& block : program.blocks()) {
+    const bool has_number = renumbers || block.has_number;
+    const std::uint32_t number = renumbers ? count++ : block.number;
+    print_block(out, program, block, has_number ? std::optional(number) : std::nullopt);
+    out.write("\n");
+  }
+  return text;
+}
+
 }  // namespace
 
-std::string print_program(const Program& program) {
-  std::string text;
-  text.reserve(program.source().size());
-  BlockWriter out(program, text);
-  for (const Block& block : program.blocks()) {
-    print_block(out, program, block, block.has_number ? std::optional(block.number) : std::nullopt);
-    out.write("\n");
-  }
-  return text;
-}
+std::string print_program(const Program& program) { return print_blocks(program, false); }
 
-std::string format_program(const Program& program) {
-  std::string text;
-  text.reserve(program.source().size() + program.blocks().size() * 4);
-  BlockWriter out(program, text);
-  std::uint32_t number = 0;
-  for (const Block& block : program.blocks()) {
-    print_block(out, program, block, number++);
-    out.write("\n");
-  }
-  return text;
-}
+std::string format_program(const Program& program) { return print_blocks(program, true); }
 
 std::string print_statement(const Program& program, const Block& block) {
   Block bare = block;
