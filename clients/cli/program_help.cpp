@@ -9,6 +9,8 @@
 
 #include "base/text.hpp"
 #include "nc/iso/codes.hpp"
+#include "nc/iso/parser.hpp"
+#include "nc/iso/printer.hpp"
 #include "nc/klartext/lexer.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/klartext/parser_rules.hpp"
@@ -320,26 +322,15 @@ std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic&
 }
 
 Result<std::string> formatted_text(const OpenProgram& program) {
-  if (!program.is_iso()) {
-    const auto parsed = klartext::parse_program(program.text.text(), program.name.text());
-    for (const auto& found : parsed.diagnostics)
-      if (found.severity == klartext::Severity::Error)
-        return Error{ErrorCode::FieldInvalid, fmt::format("correct line {} first: {}",
-                                                          found.range.begin.line, found.message)};
-    return klartext::format_program(parsed.program);
-  }
-  constexpr std::string_view kLast = "N99999999";
-  std::string formatted;
-  for (std::size_t i = 0, number = 0; i < program.text.lines(); ++i) {
-    std::string_view line = program.text.line(i);
-    line = line.substr(0, line.find_last_not_of(" \t") + 1);
-    const std::size_t end = std::min(line.find_first_not_of("0123456789", 1), line.size());
-    const bool has_number = end > 1 && ascii_upper(line[0]) == 'N' && line.substr(0, end) != kLast;
-    formatted += i == 0 ? "" : "\n";
-    formatted +=
-        has_number ? fmt::format("N{}{}", number += 10, line.substr(end)) : std::string(line);
-  }
-  return formatted;
+  auto parsed = iso::parse_program(program.text.text(), program.name.text());
+  auto formatted = parsed.has_errors() ? iso::Conversion{{}, std::move(parsed.diagnostics)}
+                   : program.is_iso()  ? iso::to_iso(parsed.program, {})
+                                       : iso::Conversion{klartext::format_program(parsed.program)};
+  for (const klartext::Diagnostic& found : formatted.findings)
+    if (found.severity == klartext::Severity::Error)
+      return Error{ErrorCode::FieldInvalid,
+                   fmt::format("correct line {} first: {}", found.range.begin.line, found.message)};
+  return std::move(formatted.text);
 }
 
 }  // namespace fitgauge::cli

@@ -35,8 +35,7 @@ struct Remedy {
 };
 std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic& found);
 
-/// Klartext as a control lists it; DIN/ISO with its blocks numbered in tens.
-/// @errors FieldInvalid for a program with errors.
+/// As `nc format` does. @errors FieldInvalid for a program with errors.
 Result<std::string> formatted_text(const OpenProgram& program);
 
 }  // namespace fitgauge::cli

@@ -252,15 +252,14 @@ class Editing(ServerTest):
         self.assertEqual(self.at("rename", "a.h", "Q262=", newName="Q5")["error"]["code"], -32803)
         self.assertEqual(self.at("rename", "a.h", "TOOL", newName="Q5")["error"]["code"], -32803)
 
-    def test_formatting_numbers_the_blocks(self):
+    def test_formatting_is_that_of_nc_format(self):
         def formatted(name):
             edits = self.client.ask("textDocument/formatting", textDocument={"uri": self.client.uri(name)}, options={})["result"]
             return self.client.applied(name, edits)
         self.client.open("a.h", "BEGIN PGM A MM\nL   X+1   F100\nEND PGM A MM\n")
         self.assertEqual(formatted("a.h"), "0 BEGIN PGM A MM\n1 L X+1 F100\n2 END PGM A MM\n")
-        self.client.open("demo.i", ISO)
-        self.assertEqual(re.findall(r"^N\d+", formatted("demo.i"), re.MULTILINE),
-                         ["N10", "N20", "N30", "N40", "N50", "N60", "N70", "N99999999"])
+        self.client.open("a.i", "%A G71 *\nN10   T30   G17 *\nN20 G01  G90   X+1  F100  *\nN99999999 %A G71 *\n")
+        self.assertEqual(formatted("a.i"), "%A G71 *\nN10 T30 G17 *\nN20 G01 G90 X+1 F100 *\nN99999999 %A G71 *\n")
         self.client.open("bad.h", "BEGIN PGM A MM\nRUBBISH\nEND PGM A MM\n")
         answer = self.client.ask("textDocument/formatting", textDocument={"uri": self.client.uri("bad.h")}, options={})
         self.assertIn("correct line 2 first", answer["error"]["message"])
