@@ -4,7 +4,7 @@
 
 #include "base/text.hpp"
 #include "cli/input_file.hpp"
-#include "service/tables/live_tables.hpp"
+#include "service/runs/control_files.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/nc_commands.hpp"
 #include "cli/output_file.hpp"
 #include "nc/program/check.hpp"
-#include "service/runs/mesh_files.hpp"
+#include "service/runs/control_files.hpp"
 #include "service/runs/run_executor.hpp"
 
 namespace fitgauge::cli {
