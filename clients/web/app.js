@@ -18,6 +18,7 @@ const VIEWS = { gauge, fit, parts };
 const LATER = {
   trend: () => import('./views/trend.js'), programs: () => import('./views/programs.js'), overview: () => import('./views/overview.js'),
   tables: () => import('./views/tables.js'), connections: () => import('./views/connections.js'),
+  gauges: () => import('./views/gauges.js'),
 };
 const BAR = ['gauge', 'fit', 'trend', 'overview', 'parts', 'programs', 'tables'];
 const main = document.getElementById('main');

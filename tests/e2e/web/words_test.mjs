@@ -14,7 +14,7 @@ const textsOf = async (file) => (await import(path.join(LANG, `${file}.js`))).de
 const codesOf = (file) => [...fs.readFileSync(file, 'utf8').matchAll(/^\w+\(\w+,\s*"([^"]+)"/gm)].map((match) => match[1]);
 
 /** Words that are the same in every language, or come from the test's own data. */
-const KNOWN = /FITGAUGE-TEST:\S+|fitgauge|DIN 6885-1:1968|127\.0\.0\.1:\d+|PRESS9|bore-1|SN-\d+|WO-17|M3\b|IT\d+|Cpk|Ppk|nc_prog|826?\.?\w*\.[hHaA]|Q\w?\d+|\bm[\w-]*\d\b|\d+\.? \p{L}+\.? \d{4}|gibberish|Letter|TNC:|\b[a-z_]+\.[a-z_]+\b/gu;
+const KNOWN = /FITGAUGE-TEST:\S+|fitgauge|DIN 6885-1:1968|127\.0\.0\.1:\d+|PRESS9|bore-1|G-07|SN-\d+|WO-17|M3\b|IT\d+|Cpk|Ppk|nc_prog|826?\.?\w*\.[hHaA]|Q\w?\d+|\bm[\w-]*\d\b|\d+\.? \p{L}+\.? \d{4}|gibberish|Letter|TNC:|\b[a-z_]+\.[a-z_]+\b/gu;
 
 describe('the words', () => {
   let browser;
@@ -25,6 +25,7 @@ describe('the words', () => {
     daemon = await new Daemon().start();
     await daemon.send('PUT', '/v1/files/nc_prog/82.h', '0 BEGIN PGM 82 MM\n1 CALL LBL 5\n2 END PGM 82 MM\n', 'text/plain');
     await daemon.send('PUT', '/v1/tables/hole/classes/PRESS9', { rows: [{ over_mm: 18, up_to_mm: 30, upper_um: 9, lower_um: 1 }] });
+    await daemon.send('PUT', '/v1/gauges-in-use/G-07', { calibration_due: '2099-03-31' });
     await daemon.send('PUT', '/v1/plans/WO-17', { characteristics: [{ name: 'bore-1', designation: '25 H7' }] });
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 30 }, (_, i) => ({
       designation: '25 H7', measured_mm: i === 7 ? '25.03' : `25.00${i % 10}`, part_id: `SN-${i}`, order: 'WO-17', characteristic: 'bore-1', machine: 'M3' })));
@@ -98,6 +99,7 @@ describe('the words', () => {
       await page.waitForSelector('.finding');
     }],
     'the connections': ['#/connections', (page) => page.waitForSelector('.schema-fields')],
+    'the gauges': ['#/gauges/G-07', (page) => page.waitForSelector('.of-gauge form')],
     'the examples': ['#/programs', (page) => page.waitForSelector('.empty button')],
     'the numbers of a standard': ['#/tables/din6885-1?find=25', (page) => page.waitForSelector('.standard td')],
     'the tables': ['#/tables/hole?find=25+H+PRESS9', (page) => page.waitForSelector('.grid td')],

@@ -1,0 +1,93 @@
+/** The gauges in use with their calibrations: what each period says, a form for the next, and one for a gauge. */
+
+import { getJson, request, url } from '../api.js';
+import { connection } from '../connection.js';
+import { field, h, refill } from '../dom.js';
+import { gaugeInUse } from '../gauge/in_use.js';
+import { date, explain, number, t } from '../i18n.js';
+
+const CALIBRATION = ['from', 'due', 'certificate', 'laboratory', 'status', 'uncertainty', 'comment'];
+const COLUMNS = ['from', 'due', 'status', 'certificate', 'laboratory', 'uncertainty', 'comment'];
+const STATES = ['in_use', 'blocked'];
+
+const day = (text) => date(new Date(text));
+const control = (name, attributes = {}) => h('input', { type: name, autocomplete: 'off', spellcheck: 'false', maxlength: 200, ...attributes });
+const valuesOf = (inputs) => Object.fromEntries(Object.entries(inputs).map(([name, { value }]) => [name, value.trim()]).filter(([, value]) => value));
+
+export class Calibrations {
+  /** @param gauge whose calibrations are shown first; @param onGauge is told of another; @param leaving ends it */
+  constructor({ gauge, onGauge, leaving }) {
+    Object.assign(this, { gauge, onGauge, leaving });
+    this.budgets = h('datalist', { id: 'budgets' });
+    this.rows = h('tbody');
+    this.empty = h('p.empty', { hidden: true }, t('gauges.none'));
+    this.table = h('div.scroll.listed', { tabindex: 0, role: 'region', 'aria-label': t('view.gauges'), hidden: true },
+      h('table', h('thead', h('tr', ['field.gauge', 'calibration.due', 'calibration.status', 'gauges.uncertainty'].map((name) => h('th', { scope: 'col' }, t(name))))), this.rows));
+    this.own = { name: control('text', { name: 'gauge' }), calibration_due: control('date', { name: 'calibration_due' }), uncertainty: control('text', { name: 'budget', list: 'budgets' }) };
+    this.note = h('p.note', { role: 'status' });
+    this.ofOne = h('section.of-gauge');
+    this.inputs = Object.fromEntries(CALIBRATION.map((name) => [name, name === 'status' ? h('select', { name }, STATES.map((state) => h('option', { value: state }, t(`calibration.${state}`))))
+      : control(['from', 'due'].includes(name) ? 'date' : 'text', { name, list: name === 'uncertainty' && 'budgets' })]));
+    this.element = h('section.gauges-in-use', this.note, this.empty, this.table, this.ofOne,
+      h('details.add-gauge', h('summary', t('gauges.add')), h('form.line', { novalidate: true, onsubmit: (event) => this.#send(event, () => this.#storeGauge()) },
+        field(t('field.gauge'), this.own.name), field(t('calibration.due'), this.own.calibration_due), field(t('calibration.uncertainty'), this.own.uncertainty),
+        h('button.primary', { type: 'submit' }, t('gauges.store')))), this.budgets);
+    this.#send(null, () => this.read());
+    getJson(url(['uncertainties']), { signal: leaving, asks: false }).then(({ uncertainties }) => refill(this.budgets, uncertainties.map(({ name }) => h('option', { value: name }))), () => {});
+  }
+
+  async #send(event, act) {
+    event?.preventDefault();
+    this.note.textContent = '';
+    try {
+      await act();
+    } catch (problem) {
+      if (!this.leaving.aborted) this.note.textContent = explain(problem);
+    }
+  }
+
+  async read() {
+    const { gauges } = await getJson(url(['gauges-in-use']), { signal: this.leaving });
+    const all = await Promise.all(gauges.map(({ name }) => gaugeInUse(name, this.leaving)));
+    this.empty.hidden = gauges.length > 0;
+    this.table.hidden = !gauges.length;
+    refill(this.rows, all.filter(Boolean).map((one) => h('tr', h('th', { scope: 'row' },
+      h('button.quiet', { type: 'button', 'aria-current': one.name === this.gauge && 'true', onclick: () => this.#choose(one.name) }, one.name)),
+    h('td', one.blocked ? '–' : date(one.due)), h('td', { class: one.overdue && 'overdue' }, t(`calibration.${one.blocked ? 'blocked' : one.overdue ? 'overdue' : 'in_use'}`)),
+    h('td', one.uncertainty_um ? `u = ${number(one.uncertainty_um)} µm` : '–'))));
+    if (this.gauge) await this.#open();
+    else this.ofOne.replaceChildren();
+  }
+
+  #choose(name) {
+    this.gauge = name;
+    this.onGauge(name);
+    this.#send(null, () => this.read());
+  }
+
+  async #open() {
+    const { gauge } = this;
+    const { calibrations } = await getJson(url(['gauges-in-use', gauge, 'calibrations']), { signal: this.leaving });
+    const cell = { from: day, due: day, status: (state) => t(`calibration.${state}`) };
+    this.inputs.from.value ||= connection.now().toISOString().slice(0, 10);
+    refill(this.ofOne, h('h2', t('calibration.title', { gauge })), calibrations.length ? h('div.scroll.listed', { tabindex: 0, role: 'region', 'aria-label': t('calibration.title', { gauge }) },
+      h('table', h('thead', h('tr', COLUMNS.map((name) => h('th', { scope: 'col' }, t(`calibration.${name}`))))), h('tbody', [...calibrations].reverse().map((one) => h('tr', COLUMNS.map((name) =>
+        h('td', { class: name === 'status' && one.status === 'blocked' && 'overdue' }, one[name] ? (cell[name] ?? String)(one[name]) : '–'))))))) : h('p.aside', t('calibration.none')),
+    h('form.sheet', { novalidate: true, onsubmit: (event) => this.#send(event, () => this.#record()) },
+      h('div.study-fields', CALIBRATION.map((name) => field(t(`calibration.${name}`), this.inputs[name]))), h('p.actions', h('button.primary', { type: 'submit' }, t('calibration.record')))));
+  }
+
+  async #record() {
+    await request('POST', url(['gauges-in-use', this.gauge, 'calibrations']), { body: valuesOf(this.inputs), signal: this.leaving });
+    for (const name of ['due', 'certificate', 'comment']) this.inputs[name].value = '';
+    await this.read();
+    this.note.textContent = t('calibration.recorded', { gauge: this.gauge });
+  }
+
+  async #storeGauge() {
+    const { name = '', ...body } = valuesOf(this.own);
+    await request('PUT', url(['gauges-in-use', name || ' ']), { body, signal: this.leaving });
+    this.#choose(name);
+    for (const input of Object.values(this.own)) input.value = '';
+  }
+}

@@ -1,0 +1,185 @@
+/** A gauge study: its readings in a grid that a gauge fills with Enter, or the records of a characteristic; the service computes it. */
+
+import { getJson, request, url } from '../api.js';
+import { parseDesignation } from '../designation.js';
+import { field, h, refill } from '../dom.js';
+import { Decimal, mmText, nmFromUm } from '../exact.js';
+import { limitsOf } from '../gauge/held.js';
+import { gaugeValue } from '../gauge/reading.js';
+import { explain, t } from '../i18n.js';
+import { readJson, store } from '../stored.js';
+import { masterResult, variationResult } from './study_result.js';
+
+const KEPT = 'study';
+const BEGUN = { kind: 'grr', tolerance: '', parts: '10', operators: 'A, B, C', trials: '3', reference: '', values: '', cells: {} };
+const FIELDS = ['tolerance', 'parts', 'operators', 'trials', 'reference', 'values'];
+const KINDS = { grr: ['tolerance', 'parts', 'operators', 'trials'], type1: ['tolerance', 'reference', 'values'] };
+const MOST = { parts: 100, operators: 20, trials: 20 };
+/** So many records make a study at the most. */
+const MOST_RECORDS = 1000;
+
+const listOf = (text) => [...new Set(text.split(/[,;\n]/).map((one) => one.trim()).filter(Boolean))];
+/** "10" are parts 1 to 10; "A, B" are named. */
+const namesOf = (text, most) => (/^\d+$/.test(text.trim()) ? Array.from({ length: Math.min(Number(text), most) }, (_, i) => String(i + 1)) : listOf(text).slice(0, most));
+
+export class StudyForm {
+  constructor(leaving) {
+    this.leaving = leaving;
+    this.state = { ...BEGUN, ...readJson(KEPT, {}) };
+    const text = (name) => h(name === 'values' ? 'textarea' : 'input', { name, type: name !== 'values' && 'text', rows: name === 'values' && 6, autocomplete: 'off', spellcheck: 'false', oninput: () => this.#typed() });
+    this.inputs = Object.fromEntries(FIELDS.map((name) => [name, text(name)]));
+    this.kind = h('select', { name: 'kind', onchange: () => this.#typed() }, Object.keys(KINDS).map((kind) => h('option', { value: kind }, t(`study.kind.${kind}`))));
+    this.fields = Object.fromEntries(FIELDS.map((name) => [name, field(t(`study.${name}`), this.inputs[name])]));
+    this.taken = h('select', { name: 'characteristic', onchange: () => this.#take() }, h('option', { value: '' }, t('study.take')));
+    this.grid = h('div.scroll.study-grid', { tabindex: 0, role: 'region', 'aria-label': t('study.readings') });
+    this.note = h('p.note', { role: 'alert' });
+    this.result = h('section.study-result', { 'aria-live': 'polite' });
+    this.element = h('section.study', h('h2', t('study.title')), h('form.sheet', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#compute(); } },
+      h('div.study-fields', field(t('study.kind'), this.kind), Object.values(this.fields)), field(t('study.from'), this.taken), this.grid, this.note,
+      h('p.actions', h('button.primary', { type: 'submit' }, t('study.compute')), h('button', { type: 'button', onclick: () => this.#clear() }, t('study.clear')))), this.result);
+    this.taking = this.taken.closest('.field');
+    this.#show();
+    this.#offer();
+  }
+
+  #show() {
+    for (const name of FIELDS) this.inputs[name].value = this.state[name];
+    this.kind.value = this.state.kind;
+    this.#draw();
+  }
+
+  /** The characteristics that were recorded. */
+  async #offer() {
+    const { groups } = await getJson(url(['measurements', 'summary'], { group_by: 'characteristic' }), { signal: this.leaving, asks: false }).catch(() => ({ groups: [] }));
+    this.taken.append(...groups.map(({ characteristic }) => characteristic).filter(Boolean).map((name) => h('option', { value: name }, name)));
+  }
+
+  #keep() {
+    store(KEPT, JSON.stringify(this.state));
+  }
+
+  #typed() {
+    Object.assign(this.state, { kind: this.kind.value }, Object.fromEntries(FIELDS.map((name) => [name, this.inputs[name].value])));
+    this.#keep();
+    this.#draw();
+  }
+
+  #clear() {
+    this.state = { ...this.state, cells: {}, values: '' };
+    this.#keep();
+    this.note.textContent = '';
+    this.result.replaceChildren();
+    this.#show();
+  }
+
+  get #names() {
+    const { parts, operators, trials } = this.state;
+    return { parts: namesOf(parts, MOST.parts), operators: listOf(operators).slice(0, MOST.operators), trials: namesOf(trials, MOST.trials) };
+  }
+
+  /** The grid: a part a row, a trial of an operator a column. */
+  #draw() {
+    const { kind } = this.state;
+    for (const name of FIELDS) this.fields[name].hidden = !KINDS[kind].includes(name);
+    this.grid.hidden = kind !== 'grr';
+    this.taking.hidden = kind !== 'grr';
+    const { parts, operators, trials } = this.#names;
+    const columns = operators.flatMap((operator) => trials.map((trial) => ({ operator, trial })));
+    const drawn = JSON.stringify([parts, columns]);
+    if (drawn === this.drawn) return;
+    this.drawn = drawn;
+    const cells = columns.map(({ operator, trial }) => parts.map((part) => this.#cell(JSON.stringify([part, operator, trial]), `${t('field.part_id')} ${part}, ${operator}, ${trial}`)));
+    // Down the parts, then the next trial: in the order in which a study is measured.
+    const order = cells.flat();
+    order.forEach((cell, i) => cell.addEventListener('keydown', (event) => {
+      if (event.key !== 'Enter') return;
+      event.preventDefault();
+      (order[i + 1] ?? this.element.querySelector('.primary')).focus();
+    }));
+    refill(this.grid, h('table', h('thead', h('tr', h('th', { rowspan: 2, scope: 'col' }, t('field.part_id')), operators.map((operator) => h('th', { colspan: trials.length, scope: 'colgroup' }, operator))),
+      h('tr', columns.map(({ trial }) => h('th', { scope: 'col' }, trial)))), h('tbody', parts.map((part, row) => h('tr', h('th', { scope: 'row' }, part), cells.map((column) => h('td', column[row])))))));
+  }
+
+  #cell(key, label) {
+    const cell = h('input', { type: 'text', inputmode: 'decimal', autocomplete: 'off', 'aria-label': label, onfocus: () => cell.select(), oninput: () => { this.state.cells[key] = cell.value; this.#keep(); } });
+    cell.value = this.state.cells[key] ?? '';
+    return cell;
+  }
+
+  /** Takes the records of a characteristic: their parts, their operators, and as trials the values of both in order. */
+  async #take() {
+    const characteristic = this.taken.value;
+    this.taken.value = '';
+    if (!characteristic) return;
+    try {
+      const { measurements } = await getJson(url(['measurements'], { characteristic, limit: MOST_RECORDS }), { signal: this.leaving });
+      const records = measurements.filter(({ part_id: part, operator }) => part && operator);
+      if (!records.length) throw Object.assign(new Error(t('study.no_records')));
+      const counts = new Map();
+      const cells = {};
+      for (const { part_id: part, operator, measured_mm } of records) {
+        const of = JSON.stringify([part, operator]);
+        counts.set(of, (counts.get(of) ?? 0) + 1);
+        cells[JSON.stringify([part, operator, String(counts.get(of))])] = String(measured_mm);
+      }
+      const all = (name) => [...new Set(records.map((record) => record[name]))].join(', ');
+      const { tolerance_um: um } = records.at(-1);
+      Object.assign(this.state, { cells, parts: all('part_id'), operators: all('operator'), trials: String(Math.max(...counts.values())), tolerance: um === undefined ? '' : mmText(nmFromUm(um), 0) });
+      this.#keep();
+      this.drawn = '';
+      this.note.textContent = '';
+      this.#show();
+    } catch (problem) {
+      this.note.textContent = explain(problem);
+    }
+  }
+
+  async #compute() {
+    this.note.textContent = '';
+    try {
+      refill(this.result, this.state.kind === 'grr' ? await this.#variation() : await this.#master());
+      this.result.scrollIntoView({ block: 'nearest' });
+    } catch (problem) {
+      this.result.replaceChildren();
+      this.note.textContent = explain(problem);
+    }
+  }
+
+  #post(what, body) {
+    return request('POST', url(['statistics', what]), { body, signal: this.leaving }).then((answer) => answer.json());
+  }
+
+  /** In mm as text, of a number or of a size and class; undefined without one. */
+  async #tolerance() {
+    const typed = this.state.tolerance.trim();
+    if (!typed) return undefined;
+    const designation = parseDesignation(typed);
+    return designation ? mmText(nmFromUm((await limitsOf(designation.text)).tolerance_um), 0) : valueOf(typed);
+  }
+
+  async #variation() {
+    const { parts, operators, trials } = this.#names;
+    const tolerance = await this.#tolerance();
+    const all = parts.flatMap((part) => operators.flatMap((operator) => trials.map((trial) => ({ part, operator, trial, typed: (this.state.cells[JSON.stringify([part, operator, trial])] ?? '').trim() }))));
+    const missing = all.filter(({ typed }) => !typed).length;
+    if (missing) throw new Error(t('study.missing', { count: missing }));
+    const read = all.map(({ typed, ...of }) => ({ ...of, text: valueOf(typed) }));
+    const study = await this.#post('grr', { ...(tolerance && { tolerance: new Decimal(tolerance) }), measurements: read.map(({ text, ...of }) => ({ ...of, value: new Decimal(text) })) });
+    return variationResult(study, { readings: read.map(({ text, ...of }) => ({ ...of, value: Number(text) })), parts, operators });
+  }
+
+  async #master() {
+    const values = this.state.values.split(/[\s;]+/).filter(Boolean).map(valueOf);
+    const reference = valueOf(this.state.reference.trim());
+    const tolerance = await this.#tolerance() ?? valueOf('');
+    const study = await this.#post('type1', { values: values.map((text) => new Decimal(text)), reference: new Decimal(reference), tolerance: new Decimal(tolerance) });
+    return masterResult(study, { values: values.map(Number), reference: Number(reference), tolerance: Number(tolerance) });
+  }
+}
+
+/** The decimal of what was typed or sent by a gauge. @throws Error that says what is no value */
+function valueOf(typed) {
+  const value = gaugeValue(typed);
+  if (value === null) throw new Error(typed ? t('study.wrong', { typed }) : t('study.incomplete'));
+  return value;
+}

@@ -1,0 +1,47 @@
+/** What a gauge study comes to: whether the gauge is suitable and why, its components as a table and as pictures. */
+
+import { h } from '../dom.js';
+import { number, t } from '../i18n.js';
+import { verdictShape } from '../verdict.js';
+import { byOne, components, interaction, masterRun } from './study_figures.js';
+
+/** AIAG, MSA 4: a gauge that takes up to a tenth is suitable, beyond three tenths it is not; five categories are told apart. */
+const GOOD_PERCENT = 10;
+const MOST_PERCENT = 30;
+const FEWEST_CATEGORIES = 5;
+/** Of Cg and Cgk. */
+const LEAST_INDEX = 1.33;
+const COMPONENTS = ['grr', 'ev', 'av', 'interaction', 'pv', 'tv'];
+const SHARES = ['contribution_percent', 'study_variation_percent', 'tolerance_percent'];
+const MARKS = { good: 'good', marginal: 'rework', bad: 'reject' };
+
+const percent = (value) => (value === null ? '–' : `${number(value.toFixed(1))} %`);
+const head = (verdict, ...said) => h('div.study-verdict', verdictShape(MARKS[verdict]), h('div', h('p.headline', t(`study.verdict.${verdict}`)), said.map((text) => h('p', text))));
+
+/** @param study what the service computed; @param readings [{part, operator, value}] in mm; @param parts and @param operators in order */
+export function variationResult(study, { readings, parts, operators }) {
+  const of = study.tolerance_percent.grr === null ? 'study_variation_percent' : 'tolerance_percent';
+  const share = study[of].grr;
+  const few = study.ndc !== null && study.ndc < FEWEST_CATEGORIES;
+  const verdict = share > MOST_PERCENT ? 'bad' : share > GOOD_PERCENT || few ? 'marginal' : 'good';
+  const there = COMPONENTS.filter((name) => study[name] !== null);
+  const shares = SHARES.filter((name) => study[name].grr !== null);
+  return [
+    head(verdict, t(`study.takes.${of}`, { percent: percent(share) }), t(few ? 'study.ndc_few' : 'study.ndc', { count: study.ndc ?? '–', fewest: FEWEST_CATEGORIES }), t('study.rule')),
+    h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('study.title') }, h('table', h('caption', t('study.figure.components')),
+      h('thead', h('tr', h('th', { scope: 'col' }, t('study.component')), h('th', { scope: 'col' }, t('study.sigma')), shares.map((name) => h('th', { scope: 'col' }, t(`study.${name}`))))),
+      h('tbody', there.map((name) => h('tr', { class: name }, h('th', { scope: 'row' }, t(`study.component.${name}`)), h('td.number', number((study[name] * 1000).toFixed(2))),
+        shares.map((each) => h('td.number', percent(study[each][name])))))))),
+    h('div.study-figures', components(study, there.filter((name) => name !== 'tv'), shares), byOne(readings, 'part', parts), byOne(readings, 'operator', operators), interaction(readings, parts, operators)),
+  ];
+}
+
+/** @param study what the service computed of one master; @param of {values, reference, tolerance} in mm */
+export function masterResult({ cg, cgk, bias, standard_deviation: sigma }, { values, reference, tolerance }) {
+  const um = (mm) => `${number((mm * 1000).toFixed(2))} µm`;
+  const index = (value) => (value === null ? '–' : number(value.toFixed(2)));
+  return [
+    head(cg >= LEAST_INDEX && cgk >= LEAST_INDEX ? 'good' : 'bad', t('study.indices', { cg: index(cg), cgk: index(cgk), least: number(LEAST_INDEX) }), t('study.bias', { bias: um(bias), sigma: um(sigma) })),
+    h('div.study-figures', masterRun(values, reference, tolerance)),
+  ];
+}

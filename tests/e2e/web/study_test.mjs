@@ -1,0 +1,107 @@
+/** Gauges with their calibrations, and the study of one: from a form, from records, on one master. */
+
+import assert from 'node:assert/strict';
+import { before, describe, it } from 'node:test';
+
+import { close, findings, hashOf, open, picture } from './support/browser.mjs';
+import { browser, daemon } from './support/stage.mjs';
+
+/** Ten parts, three operators, three trials: parts 2 µm apart, an operator half a micrometre off, trials 0.3 µm apart. */
+const PARTS = 10;
+const OPERATORS = ['Kim', 'Jo', 'Li'];
+const readingOf = (part, operator, trial) => (25 + part * 0.002 + operator * 0.0005 + [-0.0003, 0.0001, 0.0002][(part + trial + operator) % 3]).toFixed(4);
+const ROUNDS = OPERATORS.flatMap((_, operator) => [0, 1, 2].map((trial) => [operator, trial]));
+
+describe('a gauge', () => {
+  before(async () => {
+    await daemon.send('PUT', '/v1/uncertainties/bore-gauge', { contributions: [{ name: 'ring', standard_uncertainty: 0.3 }] });
+    await daemon.send('PUT', '/v1/gauges-in-use/G-07', { uncertainty: 'bore-gauge', calibration_due: '2020-03-31' });
+    await daemon.send('POST', '/v1/measurements', ROUNDS.flatMap(([operator, trial]) => Array.from({ length: PARTS }, (_, part) => (
+      { designation: '25 H7', measured_mm: readingOf(part, operator, trial), part_id: `P${part + 1}`, operator: OPERATORS[operator], characteristic: 'study-G-07' }))));
+  });
+
+  it('is overdue until its calibration is recorded, in a table with a form; another is added', async () => {
+    const page = await open(browser, daemon, '#/overview', { viewport: { width: 1366, height: 768 } });
+    await page.click('text=Gauges and gauge studies');
+    await page.waitForFunction(() => /G-07.*overdue.*u = 0\.3 µm/.test(document.querySelector('.gauges .listed tbody')?.textContent));
+    await page.click('.listed .quiet >> text=G-07');
+    await page.waitForSelector('.of-gauge form');
+    assert.match(hashOf(page), /gauges\/G-07/);
+    await page.fill('[name="due"]', '2099-03-31');
+    await page.fill('[name="certificate"]', 'K-1234');
+    await page.fill('[name="laboratory"]', 'Lab');
+    await page.click('.of-gauge .primary');
+    await page.waitForFunction(() => /recorded/.test(document.querySelector('.gauges .note').textContent));
+    assert.match(await page.textContent('.of-gauge tbody'), /31 Mar 2099in useK-1234Lab/);
+    assert.match(await page.textContent('.gauges > section .listed tbody'), /in use/);
+    const { calibrations } = await daemon.json('/v1/gauges-in-use/G-07/calibrations');
+    assert.deepEqual(calibrations.map(({ due, certificate }) => [due, certificate]), [['2099-03-31', 'K-1234']]);
+    await page.click('.of-gauge .primary'); // without a due date
+    await page.waitForFunction(() => document.querySelector('.gauges .note').textContent !== '' && !/recorded/.test(document.querySelector('.gauges .note').textContent));
+    await page.click('.add-gauge summary');
+    await page.fill('[name="gauge"]', 'G-08');
+    await page.fill('[name="calibration_due"]', '2098-01-31');
+    await page.click('.add-gauge .primary');
+    await page.waitForFunction(() => /G-08/.test(document.querySelector('.of-gauge h2')?.textContent));
+    assert.equal((await daemon.json('/v1/gauges-in-use/G-08')).calibration_due, '2098-01-31');
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'gauges');
+    await close(page);
+  });
+
+  it('is studied with what the station has recorded, and a reload keeps the readings', async () => {
+    const page = await open(browser, daemon, '#/gauges', { viewport: { width: 1366, height: 768 } });
+    await page.waitForFunction(() => document.querySelector('.study [name="characteristic"]').options.length > 1);
+    await page.selectOption('.study [name="characteristic"]', 'study-G-07');
+    await page.waitForFunction(() => document.querySelectorAll('.study-grid tbody input').length === 90);
+    assert.equal(await page.inputValue('[name="tolerance"]'), '0.021');
+    await page.reload();
+    await page.waitForFunction(() => document.querySelectorAll('.study-grid tbody input').length === 90);
+    await page.click('.study .primary');
+    await page.waitForSelector('.study-verdict');
+    const study = await (await daemon.send('POST', '/v1/statistics/grr', { tolerance: 0.021, measurements: ROUNDS.flatMap(([operator, trial]) => Array.from({ length: PARTS }, (_, part) => (
+      { part: `P${part + 1}`, operator: OPERATORS[operator], trial, value: readingOf(part, operator, trial) }))) })).json();
+    assert.match(await page.textContent('.study-verdict'), new RegExp(`takes ${study.tolerance_percent.grr.toFixed(1)} % of the tolerance.*${study.ndc} categories`));
+    assert.match(await page.textContent('.study-result tbody'), new RegExp(`Repeatability${(study.ev * 1000).toFixed(2)}`));
+    const pictures = await page.$$eval('.study-figures figure', (all) => all.map((figure) => [figure.querySelector('figcaption').textContent, figure.querySelectorAll('.reading').length, figure.querySelectorAll('svg.study-figure .mark').length]));
+    assert.deepEqual(pictures, [['Components of variation', 0, 0], ['Readings by part, mm', 90, PARTS], ['Readings by operator, mm', 90, 3], ['Means by part and operator, mm', 0, 3 * PARTS]]);
+    assert.deepEqual(await findings(page), []);
+    await page.$eval('.study-verdict', (verdict) => verdict.scrollIntoView());
+    await picture(page, 'study');
+    for (const width of [390, 3840]) {
+      await page.setViewportSize({ width, height: 844 });
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width}`);
+      const least = await page.$$eval('.study-figure text', (texts) => Math.min(...texts.map((text) => parseFloat(getComputedStyle(text).fontSize) * text.ownerSVGElement.getScreenCTM().a)));
+      assert.ok(least >= 12, `${width}: ${least}`);
+    }
+    await page.emulateMedia({ forcedColors: 'active', colorScheme: 'dark' });
+    await picture(page, 'study-forced-colours');
+    await close(page);
+  });
+
+  it('is studied in a grid that Enter goes down, which says what is missing or no value', async () => {
+    const page = await open(browser, daemon, '#/gauges');
+    await page.fill('[name="parts"]', '2');
+    await page.fill('[name="operators"]', 'Kim, Jo');
+    await page.fill('[name="trials"]', '2');
+    await page.fill('[name="tolerance"]', '25 H7');
+    await page.focus('.study-grid tbody input');
+    for (const value of ['25.0101', '25.0151', '25,0102', '01A+00025.0150', '25.0102', '25.0151', 'x']) await page.keyboard.type(`${value}\n`);
+    await page.click('.study .primary');
+    await page.waitForFunction(() => document.querySelector('.study .note').textContent === 'Readings missing: 1.');
+    await page.fill('.study-grid tbody tr:last-child td:last-child input', '25.0151');
+    await page.click('.study .primary');
+    await page.waitForFunction(() => /“x” is not a value/.test(document.querySelector('.study .note').textContent));
+    await page.fill('.study-grid tbody tr:first-child td:last-child input', '25.0102');
+    await page.click('.study .primary');
+    await page.waitForSelector('.study-verdict');
+    await page.selectOption('.study [name="kind"]', 'type1');
+    await page.fill('[name="reference"]', '25,0104');
+    await page.fill('[name="values"]', ['25.0104', '25.0106', '25.0102', '25.0104', '25.0106', '25.0102', '25.0104'].join('\n'));
+    await page.click('.study .primary');
+    await page.waitForFunction(() => /Cg \d+\.\d\d, Cgk/.test(document.querySelector('.study-verdict')?.textContent));
+    assert.equal(await page.$$eval('.study-figure .mark', (all) => all.length), 7);
+    await picture(page, 'study-master', { fullPage: true });
+    await close(page);
+  });
+});
