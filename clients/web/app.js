@@ -3,7 +3,7 @@
 import { onKeyNeeded } from './api.js';
 import { connection } from './connection.js';
 import { h, refill } from './dom.js';
-import { chooseLanguage, dateTime, has, language, LANGUAGES, loadLanguage, t } from './i18n.js';
+import { chooseLanguage, dateTime, has, language, LANGUAGES, loadLanguage, t, textsOf } from './i18n.js';
 import { keepPage } from './kept_page.js';
 import { enterKey } from './key_dialog.js';
 import { queue } from './queue.js';
@@ -18,9 +18,9 @@ const VIEWS = { gauge, fit, parts };
 const LATER = {
   trend: () => import('./views/trend.js'), programs: () => import('./views/programs.js'), overview: () => import('./views/overview.js'),
   tables: () => import('./views/tables.js'), connections: () => import('./views/connections.js'),
-  gauges: () => import('./views/gauges.js'),
+  plans: () => import('./views/plans.js'), gauges: () => import('./views/gauges.js'),
 };
-const BAR = ['gauge', 'fit', 'trend', 'overview', 'parts', 'programs', 'tables'];
+const BAR = ['gauge', 'fit', 'trend', 'overview', 'parts', 'plans', 'programs', 'tables'];
 const main = document.getElementById('main');
 const printed = document.getElementById('printed');
 const viewOf = ({ view }) => (Object.hasOwn(VIEWS, view) || Object.hasOwn(LATER, view) ? view : BAR[0]);
@@ -48,7 +48,7 @@ async function show() {
  */
 async function later(view) {
   try {
-    const { mount } = await LATER[view]();
+    const [{ mount }] = await Promise.all([LATER[view](), textsOf(view)]);
     forget('reloaded', 'session');
     return mount;
   } catch (problem) {

@@ -12,6 +12,12 @@ const TEXTS = {
   it: () => [import('./lang/it_codes.js'), import('./lang/it.js')],
 };
 
+/** Of a view that comes when it is opened: its own texts. */
+const LATER = {
+  plans: { en: () => import('./lang/plans_en.js'), de: () => import('./lang/plans_de.js'), nl: () => import('./lang/plans_nl.js'), it: () => import('./lang/plans_it.js') },
+};
+const opened = new Set();
+
 let words = en;
 export let language = 'en';
 
@@ -26,10 +32,17 @@ function preferred() {
 const locale = () => (language === 'en' ? 'en-GB' : language);
 
 export async function loadLanguage(wanted = preferred()) {
-  const texts = await Promise.all(TEXTS[wanted]());
+  const texts = await Promise.all([...TEXTS[wanted](), ...[...opened].map((view) => LATER[view][wanted]())]);
   words = Object.assign({}, en, ...texts.map((text) => text.default));
   language = wanted;
   document.documentElement.lang = wanted;
+}
+
+/** The texts of a view that has some of its own. */
+export async function textsOf(view) {
+  if (!LATER[view] || opened.has(view)) return;
+  opened.add(view);
+  await loadLanguage(language);
 }
 
 export async function chooseLanguage(wanted) {

@@ -15,7 +15,7 @@ const { build } = createRequire(path.join(modules, 'esbuild/package.json'))('esb
 
 const ENTRY = 'app.js';
 /** What the page imports when it wants it, under names that stay. */
-const later = ['figures/path_scene.js', 'views/connections.js', 'views/overview.js', 'views/programs.js', 'views/tables.js', 'views/trend.js'];
+const later = ['figures/path_scene.js', 'views/connections.js', 'views/overview.js', 'views/plans.js', 'views/programs.js', 'views/tables.js', 'views/trend.js'];
 const languages = fs.readdirSync(path.join(page, 'lang')).map((name) => `lang/${name}`).filter((name) => name !== 'lang/en.js');
 /** What runs beside the page has no module in common with it. */
 const workers = ['service_worker.js', 'stream_worker.js'];

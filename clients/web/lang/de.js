@@ -7,6 +7,7 @@ export default {
   'view.trend': 'Verlauf',
   'view.overview': 'Übersicht',
   'view.parts': 'Teile',
+  'view.plans': 'Pläne',
   'view.programs': 'Programme',
   'view.tables': 'Tabellen',
   'language': 'Sprache',

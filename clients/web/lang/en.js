@@ -7,6 +7,7 @@ export default {
   'view.trend': 'Trend',
   'view.overview': 'Overview',
   'view.parts': 'Parts',
+  'view.plans': 'Plans',
   'view.programs': 'Programs',
   'view.tables': 'Tables',
   'language': 'Language',

@@ -7,6 +7,7 @@ export default {
   'view.trend': 'Andamento',
   'view.overview': 'Panoramica',
   'view.parts': 'Pezzi',
+  'view.plans': 'Piani',
   'view.programs': 'Programmi',
   'view.tables': 'Tabelle',
   'language': 'Lingua',

@@ -7,6 +7,7 @@ export default {
   'view.trend': 'Verloop',
   'view.overview': 'Overzicht',
   'view.parts': 'Onderdelen',
+  'view.plans': 'Plannen',
   'view.programs': 'Programma’s',
   'view.tables': 'Tabellen',
   'language': 'Taal',

@@ -16,7 +16,7 @@ const SMALLEST_TARGET = 44;
 const WIDTHS = [390, 1024, 1366, 3840];
 const VIEWS = {
   gauge: '#/gauge/25H7', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', overview: '#/overview', parts: '#/parts', programs: '#/programs/nc_prog/8255.h?setup=bore',
-  tables: '#/tables/hole?find=25+H', connections: '#/connections',
+  tables: '#/tables/hole?find=25+H', connections: '#/connections', plans: '#/plans/WO-17',
 };
 
 /** How the page is seen; the driver of Firefox knows no forced colours. */
@@ -31,7 +31,7 @@ const looksAt = (view, width, mode) => Boolean(process.env.TESTS_DEEP)
   || (Object.keys(VIEWS).indexOf(view) + Object.keys(MODES).indexOf(mode)) % WIDTHS.length === WIDTHS.indexOf(width);
 
 /** What comes when somebody wants it, with a name of each library in it. */
-const LATER = { 'views/programs.js': /cm-editor/, 'views/trend.js': /uPlot/i, 'figures/path_scene.js': /WebGLRenderer/ };
+const LATER = { 'views/plans.js': null, 'views/programs.js': /cm-editor/, 'views/trend.js': /uPlot/i, 'figures/path_scene.js': /WebGLRenderer/ };
 /** The connections that a browser opens: no more files are asked for before the page can be used, so they come in one round trip. */
 const AT_ONCE = 6;
 const SCRIPTS = ['app.js', 'service_worker.js', 'stream_worker.js'];
@@ -60,6 +60,7 @@ describe('the page', () => {
     for (const name of ['8255.h', '82551.h', '82552.a']) {
       await daemon.send('PUT', `/v1/files/nc_prog/${name}`, fs.readFileSync(`clients/nc/8255/${name}`, 'utf8'), 'text/plain');
     }
+    await daemon.send('PUT', '/v1/plans/WO-17', { name: 'Flange', characteristics: [{ name: 'bore-A', designation: '25 H7', gauge: 'G-07' }, { name: 'slot', nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: -4, frequency: 'each hour' }] });
     await daemon.send('PUT', '/v1/setups/bore', fs.readFileSync('clients/nc/8255/setups/hole-good.json', 'utf8'));
     await daemon.send('POST', '/v1/measurements', ['24.999', '25.0131', '25.02', '25.0215'].map((text) => ({ designation: '25 H7', measured_mm: text, characteristic: 'bore-A' })));
   });
@@ -78,6 +79,10 @@ describe('the page', () => {
     if (view === 'overview') await page.waitForSelector('.overview [data-settled]');
     if (view === 'parts') await page.waitForSelector('.records tbody tr');
     if (view === 'tables') await page.waitForSelector('.grid');
+    if (view === 'plans') {
+      await page.waitForSelector('.editor:not([hidden]) .characteristic');
+      await page.click('.characteristics li:last-child .icon.more');
+    }
     if (view === 'connections') await page.waitForSelector('.schema-fields');
     if (view === 'programs') {
       await page.waitForFunction(() => document.querySelector('.run select')?.value === 'bore');
@@ -176,7 +181,10 @@ describe('the page', () => {
 
   it('has every text in every language, with the same places', async () => {
     const texts = {};
-    for (const code of ['en', 'de', 'nl', 'it']) texts[code] = (await import(path.resolve(FOLDER, `lang/${code}.js`))).default;
+    for (const code of ['en', 'de', 'nl', 'it']) {
+      const own = await Promise.all([code, `plans_${code}`].map((name) => import(path.resolve(FOLDER, `lang/${name}.js`))));
+      texts[code] = Object.assign({}, ...own.map((each) => each.default));
+    }
     const places = (text) => (text.match(/\{\w+\}/g) ?? []).sort();
     for (const [code, own] of Object.entries(texts)) {
       assert.deepEqual(Object.keys(own), Object.keys(texts.en), code);

@@ -14,9 +14,9 @@ const PHONE = { width: 390, height: 844 };
 const LANGUAGES = ['en', 'de', 'nl', 'it'];
 const VIEWS = {
   gauge: '#/gauge/25H7?part_id=SN-1&order=WO-17&operator=42', fit: '#/fit/25H7/k6?hole=25.013', trend: '#/trend', overview: '#/overview', parts: '#/parts?order=WO-17',
-  programs: '#/programs/nc_prog/8255.h?setup=bore', tables: '#/tables/hole?find=25+H',
+  programs: '#/programs/nc_prog/8255.h?setup=bore', tables: '#/tables/hole?find=25+H', plans: '#/plans/WO-17',
 };
-const READY = { gauge: '.echo .figures', fit: '.class-zones :checked', trend: '.control-chart', overview: '.overview [data-settled]', parts: '.records tbody tr', programs: '.cm-line', tables: '.grid' };
+const READY = { gauge: '.echo .figures', fit: '.class-zones :checked', trend: '.control-chart', overview: '.overview [data-settled]', parts: '.records tbody tr', programs: '.cm-line', tables: '.grid', plans: '.editor:not([hidden]) .characteristic' };
 
 describe('the reach of the page', () => {
   let browser;
@@ -28,6 +28,7 @@ describe('the reach of the page', () => {
     for (const name of ['8255.h', '82551.h']) {
       await daemon.send('PUT', `/v1/files/nc_prog/${name}`, fs.readFileSync(`clients/nc/8255/${name}`, 'utf8'), 'text/plain');
     }
+    await daemon.send('PUT', '/v1/plans/WO-17', { characteristics: [{ name: 'bore-A', designation: '25 H7', reaction: 'Stop, tell the setter' }, { name: 'slot', nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: -4 }] });
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 40 }, (_, i) => (
       { designation: '25 H7', measured_mm: `25.00${i % 10}`, part_id: `SN-${i}`, characteristic: 'bore-A', order: 'WO-17', operator: '42' })));
   });

@@ -7,6 +7,7 @@ import { before, describe, it } from 'node:test';
 
 import { close, launch, open } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
+import { drawingOf, dropFile, housing } from './support/drawing.mjs';
 import { known } from './support/scanner.mjs';
 
 const LANG = path.resolve('clients/web/lang');
@@ -45,7 +46,7 @@ describe('the words', () => {
   /** A page whose German is ⟦marked⟧, so that whatever is not marked did not come from the tables of texts. */
   async function openMarked(fragment) {
     const page = await open(browser, daemon, '', { locale: 'en-GB' });
-    for (const file of ['de', 'de_codes']) {
+    for (const file of ['de', 'de_codes', 'plans_de']) {
       const marked = Object.fromEntries(Object.entries(await textsOf(file)).map(([name, text]) => [name, `⟦${text}⟧`]));
       await page.route(`**/lang/${file}.js`, (route) => route.fulfill({ contentType: 'text/javascript', body: `export default ${JSON.stringify(marked)}` }));
     }
@@ -100,6 +101,17 @@ describe('the words', () => {
     }],
     'the connections': ['#/connections', (page) => page.waitForSelector('.schema-fields')],
     'the gauges': ['#/gauges/G-07', (page) => page.waitForSelector('.of-gauge form')],
+    'the plans': ['#/plans', (page) => page.waitForSelector('.plans-there tbody tr')],
+    'a plan': ['#/plans/WO-17', async (page) => {
+      await page.waitForSelector('.editor:not([hidden]) .characteristic');
+      await page.click('.characteristics .icon.more');
+      await page.click('.characteristics .icon.remove');
+    }],
+    'a drawing': ['#/plans', async (page) => {
+      await page.waitForSelector('.plans-there tbody tr');
+      await dropFile(page, 'bore.stp', drawingOf('WO-17', [{ ...housing(1)[0], name: 'bore-1', of: 'H8' }]));
+      await page.waitForSelector('.review .read tbody tr');
+    }],
     'the examples': ['#/programs', (page) => page.waitForSelector('.empty button')],
     'the numbers of a standard': ['#/tables/din6885-1?find=25', (page) => page.waitForSelector('.standard td')],
     'the tables': ['#/tables/hole?find=25+H+PRESS9', (page) => page.waitForSelector('.grid td')],

@@ -1,0 +1,84 @@
+/** A table of characteristics, as CSV or from a workbook: the first row names the columns, in words of the page or of the service. */
+
+import { Decimal, parseSigned, toJson } from '../exact.js';
+import { t } from '../i18n.js';
+import { KINDS, limitsTyped, umOfMm } from './sizes.js';
+
+/** What the service calls a member of a characteristic, in the order in which a table is written. */
+const MEMBERS = ['name', 'designation', 'nominal_mm', 'tolerance_class', 'upper_um', 'lower_um', 'feature', 'quantity', 'count', 'gauge', 'rule',
+  'uncertainty_um', 'coverage_factor', 'subgroup_size', 'frequency', 'reaction', 'catalogue', 'picture'];
+const NUMBERS = new Set(['nominal_mm', 'upper_um', 'lower_um', 'count', 'uncertainty_um', 'coverage_factor', 'subgroup_size']);
+/** Columns that are no members: of the part, and what people have in their place. */
+const OTHERS = ['part', 'size', 'kind', 'upper_mm', 'lower_mm'];
+
+const plain = (text) => text.toLowerCase().replace(/[^\p{L}\p{N}]/gu, '');
+
+/** The column that a heading names: that of the service, or the word of the page for it. */
+function columnOf(heading) {
+  const named = plain(heading);
+  return [...MEMBERS, ...OTHERS].find((each) => plain(each) === named)
+    ?? ['name', 'size', 'kind', 'gauge', ...MEMBERS.slice(8)].find((each) => plain(t(`plans.member.${each}`)) === named);
+}
+
+/** The rows of a text: separated by `;`, tabs or commas, whichever its first line has most of; quotes as RFC 4180. */
+export function rowsOfText(text) {
+  const [first] = text.split('\n', 1);
+  const [separator] = [';', '\t', ','].sort((one, other) => first.split(other).length - first.split(one).length);
+  const rows = [['']];
+  let quoted = false;
+  for (let i = text.charCodeAt(0) === 0xfeff ? 1 : 0; i < text.length; ++i) {
+    const row = rows.at(-1);
+    const sign = text[i];
+    if (quoted && sign === '"' && text[i + 1] === '"') row[row.length - 1] += text[++i];
+    else if (sign === '"' && (quoted || !row.at(-1))) quoted = !quoted;
+    else if (quoted || ![separator, '\n', '\r'].includes(sign)) row[row.length - 1] += sign;
+    else if (sign === separator) row.push('');
+    else if (sign === '\n') rows.push(['']);
+  }
+  return rows.map((row) => row.map((cell) => cell.trim())).filter((row) => row.some(Boolean));
+}
+
+const decimal = (text) => {
+  const number = parseSigned(text);
+  return number === null ? text : new Decimal(number);
+};
+const deviation = (mm) => {
+  const number = parseSigned(mm);
+  return number === null ? mm : new Decimal(umOfMm(number));
+};
+
+/** A row as a plan has it: limits as one text, or in columns of their own, with deviations in µm or mm. */
+function characteristicOf(cells) {
+  const given = (name) => cells[name] || undefined;
+  const kind = Object.keys(KINDS).find((each) => each && plain(t(`plans.kind.${each}`)) === plain(given('kind') ?? '')) ?? '';
+  const deviations = { upper_um: given('upper_mm') && deviation(cells.upper_mm), lower_um: given('lower_mm') && deviation(cells.lower_mm) };
+  // Beside deviations of their own a size is the nominal one.
+  const isNominal = Object.values(deviations).some(Boolean) || given('upper_um') || given('lower_um') || given('tolerance_class');
+  const size = given('size') && (isNominal ? { nominal_mm: decimal(cells.size.replace(/^[Øø⌀∅\s]+/, '')) } : limitsTyped(cells.size, kind));
+  const own = MEMBERS.filter(given).map((name) => [name, NUMBERS.has(name) ? decimal(cells[name]) : cells[name]]);
+  const { feature, ...quantity } = KINDS[kind];
+  const isClass = size?.designation ?? given('designation') ?? given('tolerance_class');
+  return JSON.parse(toJson({ ...size, ...(isNominal && deviations), ...(!isClass && feature && { feature }), ...quantity, ...Object.fromEntries(own) }));
+}
+
+/** @returns {part, characteristics, unused}; `problem` says why there are none, with what to say of it */
+export function planOfRows(rows) {
+  const columns = (row) => row.map(columnOf);
+  const at = rows.findIndex((row) => columns(row).includes('name'));
+  if (at < 0) return { problem: 'file.no_names', values: { names: MEMBERS.slice(0, 7).join(', ') } };
+  const names = columns(rows[at]);
+  const found = rows.slice(at + 1).map((row) => Object.fromEntries(row.map((cell, i) => [names[i], cell]))).filter(({ name }) => name);
+  if (!found.length) return { problem: 'file.empty', values: {} };
+  const parts = [...new Set(found.map(({ part }) => part).filter(Boolean))];
+  if (parts.length > 1) return { problem: 'file.several', values: { parts: parts.join(', ') } };
+  return { part: parts[0] ?? '', characteristics: found.map(characteristicOf), unused: rows[at].filter((heading, i) => heading && !names[i]) };
+}
+
+const cell = (value = '') => (/[",;\n]/.test(String(value)) ? `"${String(value).replaceAll('"', '""')}"` : String(value));
+
+/** A plan as CSV, which planOfRows reads again: numbers with a point, deviations in µm. */
+export function csvOf(plan) {
+  const { characteristics } = JSON.parse(toJson(plan));
+  const used = MEMBERS.filter((name) => characteristics.some((one) => one[name] !== undefined));
+  return [used, ...characteristics.map((one) => used.map((name) => one[name]))].map((row) => `${row.map(cell).join(',')}\r\n`).join('');
+}

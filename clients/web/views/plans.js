@@ -1,0 +1,252 @@
+/** Plans: what there are, a form for each, and new ones from drawings and tables. */
+
+import { confirm } from '../confirm.js';
+import { h, refill } from '../dom.js';
+import { dateTime, explain, t } from '../i18n.js';
+import { DropZone } from '../plans/drop_zone.js';
+import { csvOf } from '../plans/plan_table.js';
+import { PlanForm } from '../plans/plan_form.js';
+import { listPlans, readPlan, removePlan, writePlan } from '../plans/plan_store.js';
+import { fragment, go } from '../route.js';
+import { forget, readJson, store as keep } from '../stored.js';
+
+const KEPT_DRAFT = 'plan-draft';
+const toStation = (part) => fragment({ view: 'gauge', options: { plan: part } });
+const addressOf = (part) => fragment({ view: 'plans', path: part.split('/') });
+
+export function mount(main, route) {
+  const leaving = new AbortController();
+  const { signal } = leaving;
+  let current = null; // {part, tag} of the plan in the form; its part is '' and its tag null while it is new
+  let before = '';
+  const form = new PlanForm({ onChange: () => showState(), leaving: signal });
+  const note = h('p.note', { role: 'alert' });
+  const done = h('p.done', { role: 'status' });
+  const title = h('span');
+  const state = h('span.aside', { role: 'status' });
+  const button = (name, onclick, selector = 'button') => h(selector, { type: 'button', onclick }, t(name));
+  const storing = h('button.primary', { type: 'submit' }, t('plans.store'));
+  const dropping = button('plans.drop', () => attempt(drop));
+  const ofStored = [button('plans.copy', () => attempt(copyOpen)), button('plans.save_csv', () => saveCsv()), button('plans.delete', () => attempt(() => remove(current.part, current.tag)))];
+  const rows = h('tbody');
+  const table = h('div.scroll.records.plans-there', { tabindex: 0, role: 'region', 'aria-label': t('view.plans') }, h('table',
+    h('thead', h('tr', ['plans.part', 'plans.name', 'plans.count', 'plans.modified'].map((name) => h('th', { scope: 'col' }, t(name))), h('td'))), rows));
+  const none = h('p.empty', { hidden: true }, t('plans.none'));
+  const list = h('section.plan-list', h('p.actions', button('plans.begin', () => attempt(() => begin()), 'button.primary')), none, table);
+  const editor = h('form.sheet.editor', { novalidate: true, onsubmit: (event) => { event.preventDefault(); attempt(store); } },
+    h('div.line', h('h2.title', title, state), h('p.actions', storing, dropping, ofStored, button('plans.all', () => attempt(close)))), note, form.element);
+  const drop_zone = new DropZone({
+    onDrawing: (draft, tag) => attempt(() => editDraft(draft, tag)), onStored: (part, count) => attempt(() => open(part, t('drawing.stored', { part, count }))),
+    onRows: (found) => attempt(() => addRows(found)), onShow: (isOpen) => (isOpen ? hideBoth() : show()),
+  });
+  const desk = h('div.desk.plans', h('h1.unseen', { tabindex: -1 }, t('view.plans')), drop_zone.element, done, list, editor);
+  drop_zone.listen(desk, signal);
+  main.replaceChildren(desk);
+
+  const isDirty = () => current !== null && form.text !== before;
+
+  function showState() {
+    const dirty = isDirty();
+    state.textContent = dirty ? t('plans.not_stored') : '';
+    dropping.hidden = !dirty;
+    storing.disabled = !dirty && current?.tag !== null;
+    for (const each of ofStored) each.hidden = current?.tag === null;
+  }
+
+  function say(text) {
+    note.textContent = '';
+    refill(done, text);
+  }
+
+  /** What was stored can be measured by: the next thing somebody wants. */
+  function sayStored(text, part) {
+    const measure = h('a.button', { href: toStation(part) }, t('plans.measure'));
+    note.textContent = '';
+    refill(done, text, ' ', measure);
+    measure.focus();
+  }
+
+  async function attempt(action) {
+    note.textContent = '';
+    try {
+      await action();
+    } catch (problem) {
+      (current ? note : done).textContent = explain(problem);
+    }
+  }
+
+  /** The list, or the form of the plan that is open. */
+  function show() {
+    list.hidden = current !== null;
+    editor.hidden = current === null;
+    drop_zone.small = current !== null;
+    if (!current) return;
+    title.textContent = current.part || t('plans.begin');
+    showState();
+  }
+
+  function hideBoth() {
+    say('');
+    list.hidden = true;
+    editor.hidden = true;
+  }
+
+  async function refresh() {
+    const plans = await listPlans(signal);
+    none.hidden = plans.length > 0;
+    table.hidden = !plans.length;
+    refill(rows, plans.map(row));
+  }
+
+  function row({ part, name, characteristics, modified_at: at }) {
+    const act = (word, onclick) => h('button.quiet', { type: 'button', 'aria-label': t(`${word}_this`, { part }), onclick: () => attempt(onclick) }, t(word));
+    return h('tr', h('td', h('a', { href: addressOf(part), onclick: (event) => { event.preventDefault(); attempt(() => open(part)); } }, part)), h('td', name ?? ''),
+      h('td.number', String(characteristics)), h('td', dateTime(new Date(at))),
+      h('td', h('a', { href: toStation(part), 'aria-label': t('plans.measure_this', { part }) }, t('plans.measure')),
+        act('plans.copy', () => copy(part)), act('plans.delete', () => remove(part))));
+  }
+
+  function edit(plan, tag = null, part = '') {
+    current = { part, tag };
+    form.fill(plan);
+    before = form.text;
+    go({ view: 'plans', path: part ? part.split('/') : [], options: { new: part ? '' : 'yes' } }, { refine: true });
+    show();
+    if (tag === null) form.part.focus();
+  }
+
+  /** A drawing that goes on in the form: of a plan that is there it is a change of that. */
+  async function editDraft(plan, tag) {
+    if (!await leaveForm()) return;
+    edit(plan, tag, tag === null ? '' : plan.part);
+    before = '';
+    showState();
+    form.firstEmpty()?.focus();
+  }
+
+  async function open(part, text = '') {
+    if (!await leaveForm()) return;
+    const { plan, tag } = await readPlan(part);
+    edit(plan, tag, part);
+    if (text) sayStored(text, part);
+    else say('');
+  }
+
+  async function begin() {
+    if (await leaveForm()) edit();
+    say('');
+  }
+
+  async function copy(part) {
+    if (!await leaveForm()) return;
+    const { plan } = await readPlan(part);
+    edit({ ...plan, part: '' });
+    say(t('plans.copy_of', { part }));
+  }
+  const copyOpen = () => copy(current.part);
+
+  async function close() {
+    if (!await leaveForm()) return;
+    current = null;
+    go({ view: 'plans' }, { refine: true });
+    say('');
+    show();
+    await refresh();
+  }
+
+  const leaveForm = async () => !isDirty() || confirm(t('plans.drop_sure'), t('plans.drop'));
+
+  async function drop() {
+    const { part, tag } = current;
+    if (!await leaveForm()) return;
+    current = null;
+    if (tag === null) await close();
+    else await open(part);
+  }
+
+  /** @param replacing whether what stands there now is replaced, whoever has written it */
+  async function store({ replacing = false } = {}) {
+    const part = form.part.value.trim();
+    if (!part) {
+      form.notes.part.textContent = t('plans.part_missing');
+      form.part.focus();
+      return;
+    }
+    // Under another number it is another plan.
+    const isOther = current.tag !== null && part !== current.part;
+    const plan = form.value;
+    try {
+      const stored = await writePlan(part, plan, replacing ? undefined : isOther ? null : current.tag);
+      current = { part, tag: stored };
+      form.clear();
+      before = form.text;
+      go({ view: 'plans', path: part.split('/') }, { refine: true });
+      show();
+      sayStored(t('plans.stored', { part, count: plan.characteristics.length }), part);
+    } catch (problem) {
+      if (problem.status === 412) return sayChanged(part, isOther || current.tag === null);
+      if (problem.errors?.length) note.textContent = form.mark(problem).join(' ') || t('plans.wrong');
+      else throw problem;
+    }
+  }
+
+  /** Another has been there first: nothing is replaced before somebody has said so. */
+  function sayChanged(part, isNew) {
+    refill(note, t(isNew ? 'plans.exists' : 'plans.changed', { part }), ' ',
+      button(isNew ? 'plans.open_it' : 'plans.theirs', () => attempt(() => open(part))), ' ', button('plans.mine', () => attempt(() => store({ replacing: true }))));
+  }
+
+  async function remove(part, tag) {
+    if (!await confirm(t('plans.delete_sure', { part }), t('plans.delete'))) return;
+    await removePlan(part, tag);
+    current = null;
+    await close();
+    say(t('plans.deleted', { part }));
+  }
+
+  function addRows({ file, part, characteristics, unused }) {
+    if (!current) edit({ part, characteristics: [] });
+    const first = form.addAll(characteristics);
+    if (part && !form.part.value) form.part.value = part;
+    showState();
+    say([t('file.added', { count: characteristics.length, name: file }), unused.length && t('file.unused', { names: unused.join(', ') })].filter(Boolean).join(' '));
+    (form.part.value ? first : form.part).focus();
+  }
+
+  function saveCsv() {
+    const bytes = URL.createObjectURL(new Blob([csvOf(form.value)], { type: 'text/csv' }));
+    h('a', { href: bytes, download: `${current.part.replace(/[\\/:*?"<>|]/g, '_')}.csv` }).click();
+    setTimeout(() => URL.revokeObjectURL(bytes), 60_000);
+  }
+
+  /** What was changed and not stored is kept while the window lives. */
+  function keepDraft() {
+    if (!isDirty()) return forget(KEPT_DRAFT, 'session');
+    return keep(KEPT_DRAFT, JSON.stringify({ ...current, text: form.text }), 'session');
+  }
+
+  function restore() {
+    const draft = readJson(KEPT_DRAFT, null, 'session');
+    const part = route.path.join('/');
+    if (!draft || draft.part !== part || (!part && !route.options.new)) return false;
+    edit(JSON.parse(draft.text), draft.tag, draft.part);
+    before = '';
+    showState();
+    say(t('plans.restored'));
+    return true;
+  }
+
+  addEventListener('pagehide', keepDraft, { signal });
+  show();
+  attempt(async () => {
+    if (restore()) return;
+    const part = route.path.join('/');
+    if (part) await open(part);
+    else if (route.options.new) edit();
+    else await refresh();
+  });
+  return () => {
+    keepDraft();
+    leaving.abort();
+  };
+}
