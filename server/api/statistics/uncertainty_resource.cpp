@@ -3,12 +3,13 @@
 #include "api/resources.hpp"
 #include "api/statistics/computation.hpp"
 #include "api/wire/formulas.hpp"
+#include "metrology/statistics/model.hpp"
 #include "service/measurements/uncertainty_budget.hpp"
 
 namespace fitgauge::api {
 
 struct SimulationAnswer {
-  UncertaintySimulation order{};
+  std::uint64_t seed = 0;
   metrology::MonteCarloResult made{};
 };
 struct SimulatedInterval {
@@ -21,16 +22,30 @@ void members(auto& v, const SimulatedInterval& interval) {
 }
 void members(auto& v, const SimulationAnswer& simulated) {
   const metrology::MonteCarloResult& made = simulated.made;
-  v.member("trials", simulated.order.trials);
-  v.member("seed", simulated.order.seed);
-  v.member("mean", made.mean, "Of the deviation from the estimate");
+  v.member("trials", made.trials);
+  v.member("seed", simulated.seed);
+  v.member("mean", made.mean, "Of the model, else of the deviation from the estimate");
   v.member("standard_deviation", made.standard_deviation);
   v.member("interval", SimulatedInterval{made.lower, made.upper}, "Equal probability outside");
+}
+
+struct SensitivityAnswer {
+  std::string name{};
+  double sensitivity = 0;
+  double contribution = 0;
+};
+void members(auto& v, const SensitivityAnswer& answer) {
+  v.member("name", answer.name);
+  v.member("sensitivity", answer.sensitivity, "Derivative of the model at the values");
+  v.member("contribution", answer.contribution, "Sensitivity times standard uncertainty");
 }
 
 struct UncertaintyAnswer {
   metrology::CombinedUncertainty combined{};
   double probability = 0;
+  std::optional<double> value{};
+  std::optional<std::vector<SensitivityAnswer>> sensitivities{};
+  std::optional<double> second_order{};
   std::optional<SimulationAnswer> simulated{};
 };
 void members(auto& v, const UncertaintyAnswer& answer) {
@@ -41,17 +56,36 @@ void members(auto& v, const UncertaintyAnswer& answer) {
   v.member("probability", answer.probability);
   v.member("coverage_factor", answer.combined.coverage_factor);
   v.member("expanded_uncertainty", answer.combined.expanded);
-  v.optional("monte_carlo", answer.simulated, "Where it was asked for");
+  v.optional("value", answer.value, "Of the model");
+  v.optional("sensitivities", answer.sensitivities, "Of the model");
+  v.optional("second_order_standard_uncertainty", answer.second_order,
+             "With the terms of JCGM 100, note to 5.1.2, of a model without correlations");
+  v.optional("monte_carlo", answer.simulated, "When it was asked for");
 }
 
 Result<std::string> compute_uncertainty(const JsonValue& body) {
   const auto read = read_uncertainty_budget(body);
   if (!read) return read.error();
-  UncertaintyAnswer answer{read->combined, read->budget.probability};
+  const metrology::Budget& budget = read->budget;
+  UncertaintyAnswer answer{read->combined, budget.probability, read->value};
+  if (budget.model) {
+    std::vector<SensitivityAnswer>& to = answer.sensitivities.emplace();
+    for (std::size_t i = 0; i < read->names.size(); ++i) {
+      const metrology::Contribution& c = budget.contributions[i];
+      to.push_back({read->names[i], c.sensitivity, c.sensitivity * c.standard_uncertainty});
+    }
+    const auto second = metrology::second_order_uncertainty(budget);
+    if (!second) return second.error();
+    answer.second_order = *second;
+  }
   if (const auto& simulation = read->simulation) {
-    const auto made = metrology::simulate(read->budget, simulation->trials, simulation->seed);
-    if (!made) return at_member("correlations", made.error());
-    answer.simulated = SimulationAnswer{*simulation, *made};
+    const auto made = metrology::simulate(budget, *simulation);
+    if (!made && made.error().code == ErrorCode::FiguresLimit) return made.error();
+    if (!made) {
+      const bool is_of_matrix = made.error().code == ErrorCode::FieldInvalid;
+      return at_member(is_of_matrix ? "correlations" : "model", made.error());
+    }
+    answer.simulated = SimulationAnswer{simulation->seed, *made};
   }
   return body_json(answer);
 }
@@ -62,14 +96,15 @@ void add_uncertainty_schemas(Schemas& schemas) {
 }
 
 void add_uncertainty_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back(route_of(
-      services, {.pattern = "/v1/uncertainty",
-                 .compute = compute_uncertainty,
-                 .summary = "Uncertainty budget: u_c, degrees of freedom, k, U",
-                 .description = "By propagation, and by Monte Carlo where it is asked for.",
-                 .operation = "combineUncertainties",
-                 .reads = "UncertaintyBudget",
-                 .answers = "Uncertainty"}));
+  routes.push_back(
+      route_of(services, {.pattern = "/v1/uncertainty",
+                          .compute = compute_uncertainty,
+                          .summary = "Uncertainty budget: u_c, degrees of freedom, k, U",
+                          .description = "By propagation, of a `model` with its derivatives, and "
+                                         "by Monte Carlo where it is asked for.",
+                          .operation = "combineUncertainties",
+                          .reads = "UncertaintyBudget",
+                          .answers = "Uncertainty"}));
 }
 
 }  // namespace fitgauge::api

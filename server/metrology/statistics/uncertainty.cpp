@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "base/allowance.hpp"
@@ -100,8 +101,13 @@ class Random {
 /// A deviation with the contribution's standard uncertainty.
 double draw(Random& random, const Contribution& c) {
   switch (c.distribution) {
-    case Distribution::Rectangular:
-      return c.standard_uncertainty * std::sqrt(3.0) * (2 * random.uniform() - 1);
+    case Distribution::Rectangular: {
+      double width = c.standard_uncertainty * std::sqrt(3.0);
+      if (const double r = c.inexactness; r > 0) {
+        width *= (1 + r * (2 * random.uniform() - 1)) / std::sqrt(1 + r * r / 3);
+      }
+      return width * (2 * random.uniform() - 1);
+    }
     case Distribution::Triangular:
       return c.standard_uncertainty * std::sqrt(6.0) * (random.uniform() + random.uniform() - 1);
     case Distribution::UShaped:
@@ -110,6 +116,45 @@ double draw(Random& random, const Contribution& c) {
     case Distribution::T: break;
   }
   return c.standard_uncertainty * random.t(c.degrees_of_freedom);
+}
+
+/// What values come to, which it sorts.
+MonteCarloResult result_of(std::span<double> values, double probability) {
+  std::sort(values.begin(), values.end());
+  MonteCarloResult made{.trials = values.size()};
+  const auto count = static_cast<double>(values.size());
+  for (const double x : values) made.mean += x / count;
+  double squares = 0;
+  for (const double x : values) squares += (x - made.mean) * (x - made.mean);
+  made.standard_deviation = std::sqrt(squares / (count - 1));
+  // JCGM 101, 7.7: the interval holds q = p M of the trials, as many outside on either side.
+  const auto inside = static_cast<std::size_t>(std::round(probability * count));
+  const std::size_t first = (values.size() - std::min(inside, values.size() - 1)) / 2;
+  made.lower = values[first];
+  made.upper = values[std::min(first + inside, values.size() - 1)];
+  return made;
+}
+
+/// Whether sequences agree to the digits that are asked for (JCGM 101, 7.9.4, g to k): twice the
+/// standard deviation of the mean of each figure is at most what the digits of u leave open.
+bool are_settled(std::span<const MonteCarloResult> sequences, int digits) {
+  const auto count = static_cast<double>(sequences.size());
+  const auto mean_of = [&](double MonteCarloResult::*figure) {
+    double sum = 0;
+    for (const MonteCarloResult& each : sequences) sum += each.*figure;
+    return sum / count;
+  };
+  const double u = mean_of(&MonteCarloResult::standard_deviation);
+  const double open = u > 0 ? std::pow(10, std::floor(std::log10(u)) - digits + 1) / 2 : 0;
+  for (const auto figure : {&MonteCarloResult::mean, &MonteCarloResult::standard_deviation,
+                            &MonteCarloResult::lower, &MonteCarloResult::upper}) {
+    const double mean = mean_of(figure);
+    double squares = 0;
+    for (const MonteCarloResult& each : sequences)
+      squares += (each.*figure - mean) * (each.*figure - mean);
+    if (2 * std::sqrt(squares / (count * (count - 1))) > open) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -166,7 +211,7 @@ Result<CombinedUncertainty> combine(const Budget& budget) {
   return result;
 }
 
-Result<MonteCarloResult> simulate(const Budget& budget, std::uint64_t trials, std::uint64_t seed) {
+Result<MonteCarloResult> simulate(const Budget& budget, const Simulation& simulation) {
   for (const Correlation& c : budget.correlations) {
     for (const std::size_t i : {c.a, c.b}) {
       if (budget.contributions[i].distribution != Distribution::Normal) {
@@ -179,13 +224,11 @@ Result<MonteCarloResult> simulate(const Budget& budget, std::uint64_t trials, st
   const std::size_t n = budget.contributions.size();
   std::vector<bool> is_correlated(n, false);
   for (const Correlation& c : budget.correlations) is_correlated[c.a] = is_correlated[c.b] = true;
-  Random random(seed);
-  std::vector<double> results(trials);
-  std::vector<double> standard(n);             // normal deviates, before they are correlated
-  constexpr std::size_t kBetweenLooks = 1024;  // trials
-  for (std::size_t trial = 0; trial < trials; ++trial) {
-    if (trial % kBetweenLooks == 0 && Allowance::of_thread().is_spent()) return beyond_bound();
-    double& result = results[trial];
+  Random random(simulation.seed);
+  std::vector<double> standard(n);  // normal deviates, before they are correlated
+  std::vector<double> arguments(n);
+  const auto draw_value = [&] {
+    double sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const Contribution& c = budget.contributions[i];
       double deviation = 0;
@@ -196,22 +239,36 @@ Result<MonteCarloResult> simulate(const Budget& budget, std::uint64_t trials, st
       } else {
         deviation = draw(random, c);
       }
-      result += c.sensitivity * deviation;
+      arguments[i] = c.estimate + deviation;
+      sum += c.sensitivity * deviation;
     }
-  }
-  std::sort(results.begin(), results.end());
-  MonteCarloResult made;
-  const auto count = static_cast<double>(trials);
-  for (const double x : results) made.mean += x / count;
-  double squares = 0;
-  for (const double x : results) squares += (x - made.mean) * (x - made.mean);
-  made.standard_deviation = std::sqrt(squares / (count - 1));
-  // JCGM 101, 7.7: the interval holds q = p M of the trials, as many outside on either side.
-  const auto inside = static_cast<std::size_t>(std::round(budget.probability * count));
-  const std::size_t first = (trials - std::min<std::size_t>(inside, trials - 1)) / 2;
-  made.lower = results[first];
-  made.upper = results[std::min<std::size_t>(first + inside, trials - 1)];
-  return made;
+    return budget.model ? budget.model(arguments) : sum;
+  };
+  const double least = simulation.digits ? std::max(1e4, std::ceil(100 / (1 - budget.probability)))
+                                         : static_cast<double>(simulation.trials);
+  std::vector<double> values;
+  std::vector<MonteCarloResult> sequences;
+  do {
+    const std::size_t begin = values.size();
+    if (static_cast<double>(begin) + least > static_cast<double>(simulation.trials)) {
+      return Error{ErrorCode::FiguresLimit,
+                   "the digits are not reached with the trials that a simulation may have: ask for "
+                   "1 digit, for trials, or for a lower probability"};
+    }
+    values.resize(begin + static_cast<std::size_t>(least));
+    constexpr std::size_t kBetweenLooks = 256;  // trials
+    for (std::size_t i = begin; i < values.size(); ++i) {
+      if (i % kBetweenLooks == 0 && Allowance::of_thread().is_spent()) return beyond_bound();
+      values[i] = draw_value();
+      if (std::isfinite(values[i])) continue;
+      return Error{ErrorCode::NumberOutOfRange,
+                   "the model has no value for quantities that were drawn: choose distributions "
+                   "within its domain"};
+    }
+    if (!simulation.digits) break;
+    sequences.push_back(result_of(std::span(values).subspan(begin), budget.probability));
+  } while (sequences.size() < 2 || !are_settled(sequences, *simulation.digits));
+  return result_of(values, budget.probability);
 }
 
 }  // namespace fitgauge::metrology

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -22,7 +23,14 @@ struct Contribution {
   double sensitivity = 1;
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
   Distribution distribution = Distribution::Normal;
+  double estimate = 0;  ///< of the quantity, for a model
+  /// Of rectangular limits that are not known exactly (JCGM 101, 6.4.3): their half width over that
+  /// of the quantity.
+  double inexactness = 0;
 };
+
+/// y = f(x1, ..., xn), not finite where f has no value. For one thread at a time.
+using Model = std::function<double(const std::vector<double>&)>;
 
 struct Correlation {
   std::size_t a = 0;  ///< indices of contributions
@@ -34,6 +42,7 @@ struct Budget {
   std::vector<Contribution> contributions{};
   std::vector<Correlation> correlations{};
   double probability = 0.95;
+  Model model{};  ///< empty: the sum of the deviations with their sensitivities
 };
 
 struct CombinedUncertainty {
@@ -55,14 +64,24 @@ struct MonteCarloResult {
   double standard_deviation = 0;
   double lower = 0;  ///< the interval with equal probability below and above it
   double upper = 0;
+  std::uint64_t trials = 0;
 };
 inline constexpr std::uint64_t kMostDraws = 50'000'000;  ///< trials times contributions
 
-/// The propagation of distributions (JCGM 101), of deviations from the estimate. A normal
-/// contribution with degrees of freedom is drawn from their t distribution (6.4.9), a correlated
-/// one from a normal one. The same seed gives the same answer everywhere.
+struct Simulation {
+  std::uint64_t trials = 1'000'000;  ///< of an adaptive one at most
+  std::uint64_t seed = 1;
+  /// Significant digits of the standard uncertainty that the mean, it and the interval are to be
+  /// known to: as many trials as JCGM 101, 7.9.4 wants. None: `trials`.
+  std::optional<int> digits{};
+};
+
+/// The propagation of distributions (JCGM 101), of deviations from the estimate, or of the values
+/// of the model. A normal contribution with degrees of freedom is drawn from their t distribution
+/// (6.4.9), a correlated one from a normal one. The same seed gives the same answer everywhere.
 /// @errors FieldInvalid: correlated contributions that are not normal, or correlations as above;
-///   FiguresLimit where the thread's allowance is spent.
-Result<MonteCarloResult> simulate(const Budget& budget, std::uint64_t trials, std::uint64_t seed);
+///   NumberOutOfRange: values at which the model has none; FiguresLimit where the thread's allowance
+///   is spent, or the digits are not reached with `trials`.
+Result<MonteCarloResult> simulate(const Budget& budget, const Simulation& simulation);
 
 }  // namespace fitgauge::metrology

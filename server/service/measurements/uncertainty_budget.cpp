@@ -8,12 +8,23 @@
 #include <set>
 #include <utility>
 
+#include "metrology/statistics/model.hpp"
+
 namespace fitgauge::api {
 
 void members(auto& v, UncertaintySimulation& simulation) {
   v.optional("trials", simulation.trials, Integer{1000, simulation.most},
              "Trials times contributions have a limit");
   v.optional("seed", simulation.seed, Integer{});
+  v.optional("digits", simulation.digits, Integer{1, 2},
+             "Instead of trials: as many as these digits of u need (JCGM 101, 7.9)");
+  v.check([&simulation](FieldReader& fields) {
+    if (!simulation.digits) return;
+    if (fields.has("trials")) {
+      fields.report(ErrorCode::FieldConflict, "digits", "give trials or digits, not both");
+    }
+    simulation.trials = static_cast<std::uint64_t>(simulation.most);
+  });
 }
 
 namespace {
@@ -46,18 +57,25 @@ struct ContributionOrder {
   std::string name{};
   std::optional<double> standard_uncertainty{};
   std::optional<double> half_width{};
+  std::optional<double> limits_half_width{};
   std::optional<Distribution> distribution{};
-  double sensitivity = 1;
+  std::optional<double> value{};
+  std::optional<double> sensitivity{};
   std::optional<double> degrees_of_freedom{};
 
   Distribution shape() const {
     return distribution.value_or(half_width ? Distribution::Rectangular : Distribution::Normal);
   }
   metrology::Contribution contribution() const {
-    metrology::Contribution c{.sensitivity = sensitivity, .distribution = shape()};
+    metrology::Contribution c{.sensitivity = sensitivity.value_or(1), .distribution = shape()};
+    c.estimate = value.value_or(0);
     c.standard_uncertainty = standard_uncertainty.value_or(0);
     if (half_width) {
       c.standard_uncertainty = metrology::standard_uncertainty_of(shape(), *half_width).value_or(0);
+    }
+    if (limits_half_width) {
+      c.inexactness = *limits_half_width / *half_width;
+      c.standard_uncertainty *= std::sqrt(1 + c.inexactness * c.inexactness / 3);
     }
     c.degrees_of_freedom = degrees_of_freedom.value_or(c.degrees_of_freedom);
     return c;
@@ -78,16 +96,25 @@ void check_width(const ContributionOrder& c, FieldReader& fields) {
                   "half_width belongs to rectangular, triangular and u_shaped; for the others give "
                   "standard_uncertainty");
   }
+  if (c.limits_half_width &&
+      !(c.half_width > c.limits_half_width && c.shape() == Distribution::Rectangular)) {
+    fields.report(ErrorCode::FieldInvalid, "limits_half_width",
+                  "limits_half_width belongs to rectangular and is less than half_width");
+  }
 }
 
 void members(auto& v, ContributionOrder& c) {
   v.member("name", c.name, "No other has it");
   v.optional("standard_uncertainty", c.standard_uncertainty, Magnitude{}, "This or half_width");
   v.optional("half_width", c.half_width, Magnitude{});
+  v.optional("limits_half_width", c.limits_half_width, Magnitude{},
+             "Of limits that are themselves not known exactly (JCGM 101, 6.4.3)");
   v.optional("distribution", c.distribution, Words{Distribution::T},
              "rectangular with a half width, else normal");
   v.check([&c](FieldReader& fields) { check_width(c, fields); });
-  v.optional("sensitivity", c.sensitivity, Magnitude{-Magnitude::kMost});
+  v.optional("value", c.value, Magnitude{-Magnitude::kMost}, "The estimate, with a model");
+  v.optional("sensitivity", c.sensitivity, Magnitude{-Magnitude::kMost},
+             "1 when absent; with a model its derivative");
   v.optional("degrees_of_freedom", c.degrees_of_freedom, kPositive, "Without end when absent");
   v.check([&c](FieldReader& fields) {
     if (c.shape() == Distribution::T && !fields.has("degrees_of_freedom")) {
@@ -148,17 +175,50 @@ struct SimulationForm : Object<UncertaintySimulation> {
 };
 
 struct BudgetOrder {
+  std::optional<std::string> model{};
   std::vector<ContributionOrder> contributions{};
   std::vector<CorrelationOrder> correlations{};
   UncertaintyBudget made{};
 };
 
+void report_item(FieldReader& fields, ErrorCode code, std::string_view list, std::size_t i,
+                 std::string_view member, std::string message) {
+  fields.errors().add(code, pointer_to(pointer_to(fields.at(list), i), member), std::move(message));
+}
+
+/// Reads the model over the contributions, whose sensitivities it gives.
+void apply_model(BudgetOrder& order, FieldReader& fields) {
+  for (std::size_t i = 0; i < order.contributions.size(); ++i) {
+    const ContributionOrder& c = order.contributions[i];
+    const auto report = [&](bool is_wrong, ErrorCode code, std::string_view member,
+                            const char* message) {
+      if (is_wrong) report_item(fields, code, "contributions", i, member, message);
+    };
+    report(!order.model && c.value, ErrorCode::FieldConflict, "value",
+           "value belongs to a budget with a model");
+    if (!order.model) continue;
+    report(!c.value, ErrorCode::FieldMissing, "value", "value is required with a model");
+    report(c.sensitivity.has_value(), ErrorCode::FieldConflict, "sensitivity",
+           "the sensitivity follows from the model: leave it out");
+    report(!metrology::can_be_quantity(c.name), ErrorCode::FieldInvalid, "name",
+           "a name in a model has letters a to z, digits and _, begins with no digit, and is no "
+           "function and not pi");
+  }
+  if (!order.model || !fields.errors().empty()) return;
+  UncertaintyBudget& made = order.made;
+  auto model = metrology::read_model(*order.model, made.names);
+  if (!model) return fields.report(model.error().code, "model", model.error().message);
+  made.budget.model = std::move(*model);
+  const auto value = metrology::linearise(made.budget);
+  if (!value) return fields.report(value.error().code, "model", value.error().message);
+  made.value = *value;
+}
+
 /// Finds the contributions that correlations name.
 void correlate(BudgetOrder& order, FieldReader& fields) {
   const auto report = [&fields](ErrorCode code, std::string_view list, std::size_t i,
                                 std::string_view member, std::string message) {
-    fields.errors().add(code, pointer_to(pointer_to(fields.at(list), i), member),
-                        std::move(message));
+    report_item(fields, code, list, i, member, std::move(message));
   };
   std::map<std::string, std::size_t> names;
   for (std::size_t i = 0; i < order.contributions.size(); ++i) {
@@ -167,6 +227,7 @@ void correlate(BudgetOrder& order, FieldReader& fields) {
       report(ErrorCode::FieldConflict, "contributions", i, "name",
              fmt::format("another contribution is called '{}'", name));
     }
+    order.made.names.push_back(name);
     order.made.budget.contributions.push_back(order.contributions[i].contribution());
   }
   std::set<std::pair<std::size_t, std::size_t>> seen;
@@ -189,9 +250,14 @@ void correlate(BudgetOrder& order, FieldReader& fields) {
 }
 
 void members(auto& v, BudgetOrder& order) {
+  v.optional("model", order.model, Text{metrology::kLongestModel},
+             "`P*V/(R*(1+a*(T-T0)))`, of the names of all contributions");
   v.member("contributions", order.contributions, Contributions{}, "1 to 100");
   v.optional("correlations", order.correlations);
-  v.check([&order](FieldReader& fields) { correlate(order, fields); });
+  v.check([&order](FieldReader& fields) {
+    correlate(order, fields);
+    apply_model(order, fields);
+  });
   v.optional("probability", order.made.budget.probability,
              Number{.least = 0, .most = 1, .ends = Number::Ends::Open});
   v.optional("monte_carlo", order.made.simulation, SimulationForm{{}, order.contributions.size()});

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "base/json/body_forms.hpp"
 #include "base/result.hpp"
@@ -10,15 +12,15 @@
 namespace fitgauge::api {
 
 /// A Monte Carlo simulation that a budget asks for.
-struct UncertaintySimulation {
-  std::uint64_t trials = 1'000'000;
-  std::uint64_t seed = 1;
+struct UncertaintySimulation : metrology::Simulation {
   std::int64_t most = metrology::kMostDraws / 5;  ///< trials, with so many contributions
 };
 
 /// A budget with its combined uncertainty.
 struct UncertaintyBudget {
   metrology::Budget budget{};
+  std::vector<std::string> names{};  ///< of the contributions
+  std::optional<double> value{};     ///< of the model at the estimates
   std::optional<UncertaintySimulation> simulation{};
   metrology::CombinedUncertainty combined{};
 };

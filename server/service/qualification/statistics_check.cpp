@@ -6,6 +6,7 @@
 #include "metrology/gauging/gauge.hpp"
 #include "metrology/statistics/capability.hpp"
 #include "metrology/statistics/gauge_study.hpp"
+#include "metrology/statistics/model.hpp"
 #include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/uncertainty.hpp"
 #include "metrology/statistics/zone_rules.hpp"
@@ -106,33 +107,28 @@ void add_end_gauge(const References& references, Figures& to) {
           u.expanded});
 }
 
-/// R = V / I cos(phi), X = V / I sin(phi) and Z = V / I of one series, with their sensitivities.
-void add_impedance(const References& references, Figures& to) {
-  double mean[3] = {};
-  Budget budget{.contributions = std::vector<Contribution>(3)};
-  const auto series = references.set("gum.h2");
-  for (std::size_t i = 0; i < 3; ++i) {
-    Decimals values;
-    for (const std::string& word : series.at(i)) values.add(word).value();
-    const Moments found = moments(values);
-    mean[i] = nearest_double(found.mean);
-    budget.contributions[i].standard_uncertainty =
-        static_cast<double>(found.standard_deviation()) / std::sqrt(values.size());
+/// Models of printed examples: a row has the id, the model, each quantity with its value and
+/// standard uncertainty, then `r` and correlations by the places of two quantities.
+void add_models(const References& references, Figures& to) {
+  for (const Words& row : references.set("models")) {
+    Budget budget;
+    std::vector<std::string> names;
+    std::size_t i = 2;
+    for (; i + 2 < row.size() && row[i] != "r"; i += 3) {
+      names.push_back(row[i]);
+      budget.contributions.push_back(
+          {.standard_uncertainty = std::stod(row[i + 2]), .estimate = std::stod(row[i + 1])});
+    }
+    for (++i; i + 2 < row.size(); i += 3) {
+      budget.correlations.push_back(
+          {std::stoul(row[i]), std::stoul(row[i + 1]), std::stod(row[i + 2])});
+    }
+    budget.model = read_model(row[1], names).value();
+    const double value = linearise(budget).value();
+    const auto second = second_order_uncertainty(budget).value();
+    to.add(row[0] + ".", "value u second",
+           {value, combine(budget).value().combined, second.value_or(0)});
   }
-  const Words r = references.set("gum.h2.correlations").at(0);
-  budget.correlations = {{0, 1, std::stod(r[0])}, {0, 2, std::stod(r[1])}, {1, 2, std::stod(r[2])}};
-  const double per_volt = 1000 / mean[1];  // the current is in mA
-  const double z = mean[0] * per_volt;
-  const auto u = [&](double part, double change) {
-    const double sensitivities[] = {per_volt * part, -z * part / mean[1], z * change};
-    for (std::size_t i = 0; i < 3; ++i) budget.contributions[i].sensitivity = sensitivities[i];
-    return combine(budget).value().combined;
-  };
-  const double real = std::cos(mean[2]);
-  const double imaginary = std::sin(mean[2]);
-  const double resistance = u(real, -imaginary);
-  to.add("gum.h2.", "resistance exact reactance impedance",
-         {resistance, resistance, u(imaginary, real), u(1, 0)});
 }
 
 /// The corrections of a thermometer over t - 20, as a gauge's bias over its range.
@@ -153,7 +149,7 @@ void add_thermometer(const References& references, Figures& to) {
 
 void add_monte_carlo(Figures& to) {
   Budget budget{.contributions = std::vector<Contribution>(4, {.standard_uncertainty = 1})};
-  const auto upper = [&] { return simulate(budget, 400'000, 1).value().upper; };
+  const auto upper = [&] { return simulate(budget, {.trials = 400'000}).value().upper; };
   to.add("jcgm101.", "normal", {upper()});
   for (Contribution& c : budget.contributions) c.distribution = Distribution::Rectangular;
   to.add("jcgm101.", "rectangular", {upper()});
@@ -217,7 +213,7 @@ void add_statistics(const References& references, Figures& to) {
 
 void add_uncertainties(const References& references, Figures& to) {
   add_end_gauge(references, to);
-  add_impedance(references, to);
+  add_models(references, to);
   add_thermometer(references, to);
   add_monte_carlo(to);
   add_decisions(to);

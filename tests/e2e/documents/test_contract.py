@@ -276,6 +276,8 @@ class Answers(ContractTest):
             {"name": "a", "standard_uncertainty": 2, "degrees_of_freedom": 9, "sensitivity": 1},
             {"name": "b", "half_width": 3, "distribution": "triangular"}], "probability": 0.99,
             "correlations": [], "monte_carlo": {"trials": 1000, "seed": 3}})
+        self.expect("combineUncertainties", 200, {"model": "a^2", "contributions": [
+            {"name": "a", "value": 1, "half_width": 0.1, "limits_half_width": 0.01}], "monte_carlo": {"digits": 1}})
         row = {"designation": "25H7", "characteristic": "figures"}
         for i, values in enumerate([*groups, [25.1] * 5]):
             self.expect("postMeasurements", 201, [{**row, "measured_mm": value, "subgroup": str(i)} for value in values])
