@@ -72,6 +72,8 @@ void members(auto& v, machine::ProbeSetup& probe) {
   v.optional("fmax_mm_min", row.rapid, Number{}, "FMAX: feed for positioning");
   v.optional("cal_of1_mm", row.cal_of1, Mm{}, "CAL_OF1: calibrated offset in the main axis");
   v.optional("cal_of2_mm", row.cal_of2, Mm{}, "CAL_OF2: calibrated offset in the secondary axis");
+  v.optional("uncertainty_um", row.uncertainty_um, Um{},
+             "Standard uncertainty of a touch; with it diameters are judged with a guard band");
   v.optional("repeatability_um", probe.repeatability_um, Um{},
              "Standard deviation of a contact along the probing direction");
   v.optional("pretravel_um", probe.pretravel_um, Um{}, "Travel from touching to the trigger");

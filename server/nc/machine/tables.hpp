@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -110,6 +111,7 @@ struct ProbeRow {
   PrePositioning prepositioning = PrePositioning::ProbeRapid;  ///< F_PREPOS
   bool track = false;                                          ///< TRACK
   CollisionReaction reaction = CollisionReaction::NcStop;      ///< REACTION
+  std::optional<double> uncertainty_um{};  ///< standard uncertainty of a touch; beside the table
 
   friend bool operator==(const ProbeRow&, const ProbeRow&) = default;
 };

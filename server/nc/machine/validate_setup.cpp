@@ -142,6 +142,7 @@ void check_probes(Findings& findings, const MachineSetup& setup) {
     findings.feed(at + "/fmax_mm_min", row.rapid);
     findings.within(at + "/cal_of1_mm", row.cal_of1, -10, 10);
     findings.within(at + "/cal_of2_mm", row.cal_of2, -10, 10);
+    if (row.uncertainty_um) findings.within(at + "/uncertainty_um", *row.uncertainty_um, 1e-3, 1e4);
     findings.within(at + "/repeatability_um", repeatability, 0, 1e4);
     findings.within(at + "/pretravel_um", pretravel, 0, 1e4);
     findings.within(at + "/center_offset_mm/0", offset[0], -10, 10);

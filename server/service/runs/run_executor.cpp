@@ -8,6 +8,7 @@
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/run/q_parameters.hpp"
 #include "nc/run/run_files.hpp"
+#include "record/gauge_book.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -160,6 +161,13 @@ Measurement record_of(const RunReport& report, const interpreter::Measurement& m
     record.start_angle = std::llround(form->start_angle_deg * 1e6);
     record.diameter_factor = std::llround(form->diameter_factor * 1e6);
     if (form->deviation) record.form = form->deviation->count();
+    if (form->touch_uncertainty_um && limits) {
+      record.standard_uncertainty =
+          api::rounded_up(form->diameter_factor * *form->touch_uncertainty_um)
+              .value_or(Length::nanometres(1'000'000'000));
+      record.rule = gauging::DecisionRule::guard_band(*record.standard_uncertainty).value();
+      record.coverage_factor = record.rule.coverage_factor();
+    }
   }
   judge_size(record, {.quantity = quantity,
                       .feature = size.feature,

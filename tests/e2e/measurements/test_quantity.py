@@ -17,9 +17,9 @@ class Quantity(DaemonTest):
         self.assertEqual(self.daemon.get(answer.headers["location"]).json, answer.json)
         return answer.json
 
-    def run_program(self, program):
+    def run_program(self, program, **machine):
         self.daemon.request("PUT", "/v1/files/nc_prog/hole.h", program, {"Content-Type": "application/octet-stream"})
-        run = self.daemon.post("/v1/runs", {"program": "nc_prog/hole.h", "setup": SETUP}).json
+        run = self.daemon.post("/v1/runs", {"program": "nc_prog/hole.h", "setup": {**SETUP, **machine}}).json
         self.assertEqual(run["status"], "completed", run)
         stored = self.daemon.get(f"/v1/measurements?run_id={run['id']}").json["measurements"]
         return run, stored
@@ -112,6 +112,29 @@ class Quantity(DaemonTest):
         three, stored = self.run_program(PROGRAM.replace("Q423=+4", "Q423=+3").replace("Q247=+90", "Q247=+120")
                                          .replace("Q325=+0", "Q325=+22.5"))
         self.assertEqual((stored[0]["points"], stored[0]["form_um"], stored[0]["start_angle_deg"]), (3, None, 22.5))
+
+    def test_the_uncertainty_of_a_touch_decides_on_the_diameter(self):
+        probe = {"machine": {"probes": [{"number": 1, "uncertainty_um": 2}]}}
+        # 25.01 lies 11 um below the limit: twice 2 um is within it, twice 6 um is not.
+        _, stored = self.run_program(PROGRAM, **probe)
+        bore, centre = stored[:2]
+        self.assertEqual((bore["rule"], bore["uncertainty_um"], bore["coverage_factor"], bore["verdict"]),
+                         ("guard_band", 2, 2, "good"))
+        self.assertEqual((centre["rule"], "uncertainty_um" in centre), ("simple", False))
+        probe["machine"]["probes"][0]["uncertainty_um"] = 6
+        run, stored = self.run_program(PROGRAM, **probe)
+        self.assertEqual((stored[0]["uncertainty_um"], stored[0]["verdict"], run["verdict"]),
+                         (6, "indeterminate", "good"))
+        # Three points on 120 degrees: 2 / sqrt 3 times 2 um, rounded up to the nanometre.
+        probe["machine"]["probes"][0]["uncertainty_um"] = 2
+        _, stored = self.run_program(PROGRAM.replace("Q423=+4", "Q423=+3").replace("Q247=+90", "Q247=+120"), **probe)
+        self.assertEqual((stored[0]["diameter_factor"], stored[0]["uncertainty_um"]), (1.154701, 2.31))
+        _, free = self.run_program(FREE, **probe)
+        self.assertNotIn("uncertainty_um", free[0])
+        self.assertEqual(self.daemon.command("verify").returncode, 0)
+        refused = self.daemon.post("/v1/runs", {"program": "nc_prog/hole.h", "setup": {
+            **SETUP, "machine": {"probes": [{"number": 1, "uncertainty_um": 0}]}}})
+        self.assertIn("/setup/machine/probes/0/uncertainty_um", [each["pointer"] for each in refused.json["errors"]])
 
     def test_a_cycle_without_a_tolerance_has_no_verdict(self):
         run, stored = self.run_program(FREE)

@@ -88,8 +88,10 @@ CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotio
   if (!contacts) return contacts.error();
   const auto circle = circle_through(*contacts, side, motion.ball_radius());
   if (!circle) return circle.error();
-  return ProbedCircle{*circle,
+  ProbedCircle probed{*circle,
                       circle_form(ball_centres(*contacts), *circle, arguments.number(325))};
+  probed.form.touch_uncertainty_um = motion.touch_uncertainty_um();
+  return probed;
 }
 
 CycleResult<std::vector<Point2>> probe_hole_centres(ProbingMotion& motion,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -48,6 +49,7 @@ class ProbingMotion {
   const WorkingPlane& plane() const { return plane_; }
   /// The effective ball radius in the input system.
   double ball_radius() const { return probe_.radius / scale_; }
+  std::optional<double> touch_uncertainty_um() const { return probe_.data.uncertainty_um; }
   /// Ball centre to nominal contact before a touch: radius + SET_UP + Q320.
   double start_distance(double q320) const {
     return (probe_.radius + probe_.data.set_up) / scale_ + q320;
