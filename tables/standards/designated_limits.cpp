@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "base/text.hpp"
@@ -16,6 +17,10 @@ inline constexpr std::string_view kGeneralTolerance = "ISO 2768";
 constexpr std::array<std::string_view, 12> kClasses = {
     "ISO 2768-f",   "ISO 2768-m",   "ISO 2768-c",   "ISO 2768-v",   "R ISO 2768-f", "R ISO 2768-m",
     "R ISO 2768-c", "R ISO 2768-v", "C ISO 2768-f", "C ISO 2768-m", "C ISO 2768-c", "C ISO 2768-v"};
+
+constexpr std::string_view kBearing = "ISO 492-";
+constexpr std::array<std::string_view, 3> kBearingClasses = {"ISO 492-normal", "ISO 492-P6",
+                                                             "ISO 492-P5"};
 
 Error not_a_general_tolerance(std::string_view text) {
   return {ErrorCode::DesignationMalformed,
@@ -107,6 +112,37 @@ Result<DesignatedLimits> limits_of(std::string_view designation) {
 
 Result<DesignatedLimits> limits_of(Length nominal, std::string_view tolerance_class) {
   return general_tolerance(nominal, tolerance_class);
+}
+
+bool is_bearing_class(std::string_view text) { return text.starts_with(kBearing); }
+
+Result<DesignatedLimits> bearing_limits(Length nominal, std::string_view tolerance_class,
+                                        iso286::Feature feature) {
+  static const Standard& standard = *find("iso492");
+  const auto* const known =
+      std::find(kBearingClasses.begin(), kBearingClasses.end(), tolerance_class);
+  if (known == kBearingClasses.end()) {
+    return Error{ErrorCode::ClassUnknown,
+                 fmt::format("'{}' is no class of ISO 492 here: use ISO 492-normal, ISO 492-P6 or "
+                             "ISO 492-P5",
+                             first_characters(tolerance_class, 40))};
+  }
+  const bool is_bore = feature == iso286::Feature::Hole;
+  for (const Row& row : standard.table(is_bore ? "bores" : "outer_rings").rows) {
+    if (!row.holds(nominal)) continue;
+    const std::string_view item = known->substr(kBearing.size());
+    return DesignatedLimits{.standard = &standard,
+                            .tolerance_class = *known,
+                            .feature = feature,
+                            .nominal = nominal,
+                            .deviations = {.upper = row.length(item, Member::Upper).value(),
+                                           .lower = row.length(item, Member::Lower).value()},
+                            .size_range = iso286::NominalSizeRange{*row.over, *row.up_to}};
+  }
+  return Error{ErrorCode::ClassUndefinedForSize,
+               fmt::format("ISO 492 has no {} of {} mm here: bores are from 0.6 and outer rings "
+                           "from 2.5 to 630 mm",
+                           is_bore ? "bore" : "outer ring", format_mm(nominal))};
 }
 
 void append_designation(std::string& out, Length nominal, std::string_view tolerance_class) {

@@ -51,6 +51,14 @@ Result<DesignatedLimits> limits_of(Length nominal, std::string_view tolerance_cl
 /// nominal size is D2 = d2 = d - 3 sqrt(3) P / 8 to the micrometre, as ISO 724 has it.
 Result<DesignatedLimits> thread_limits(std::string_view designation);
 
+/// Whether a class names one of bearings: `ISO 492-P6`.
+bool is_bearing_class(std::string_view text);
+/// The mean diameter of a radial bearing but a tapered roller bearing (ISO 492): its bore as a hole,
+/// its outer ring as a shaft. @param tolerance_class `ISO 492-normal`, `ISO 492-P6` or `ISO 492-P5`
+/// @errors ClassUnknown; ClassUndefinedForSize.
+Result<DesignatedLimits> bearing_limits(Length nominal, std::string_view tolerance_class,
+                                        iso286::Feature feature);
+
 /// `25 H7`, `M10-6H`, `R2 ISO 2768-m`: a nominal size and a class, of whatever standard.
 void append_designation(std::string& out, Length nominal, std::string_view tolerance_class);
 

@@ -168,7 +168,7 @@ std::vector<Standard> make_all() {
             .title = "Radial bearings but tapered roller bearings: mean diameters",
             .designation = {},
             .sources = {"JIS B 1514-1:2017", "catalogues of three manufacturers"},
-            .left_out = "diameters over 630 mm: no second source that is public was found",
+            .left_out = "diameters over 630 mm, and class 4: no second source that is public was found",
             .tables = {},
             .revision = {}},
            {{"bores", "iso492_bores"}, {"outer_rings", "iso492_outer_rings"}}));

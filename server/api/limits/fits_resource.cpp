@@ -1,11 +1,14 @@
 #include "api/resources.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "api/handlers.hpp"
 #include "api/limits/fit_of_values.hpp"
 #include "api/limits/limits_codec.hpp"
 #include "api/wire/formulas.hpp"
+#include "base/text.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
 #include "service/tables/table_catalog.hpp"
 #include "tables/iso286/tolerance_class.hpp"
@@ -28,18 +31,26 @@ void write_statistical(JsonWriter& json, const iso286::Fit& fit, const WriteStor
   json.end_object();
 }
 
-std::string fit_designation(Length nominal_size, std::string_view hole, std::string_view shaft) {
-  std::string text = designation_text(nominal_size, hole);
-  text += '/';
-  return text += shaft;
+void write_side(JsonWriter& json, std::string_view name, const iso286::LimitsOfSize& limits,
+                std::string_view class_name, const ToleranceTables& tables) {
+  json.key(name).begin_object();
+  if (standards::is_bearing_class(class_name)) {
+    const Length nominal = limits.nominal_size.length();
+    write_limits_members(json,
+                         standards::bearing_limits(nominal, class_name, limits.feature).value());
+  } else {
+    write_limits_members(json, limits, tables);
+  }
+  json.end_object();
 }
 
-void write_fit_members(JsonWriter& json, const iso286::Fit& fit, std::string_view designation,
-                       const ToleranceTables& tables, const WriteStored& stored = {}) {
-  json.member("designation", designation).key("hole");
-  write_limits(json, fit.hole, tables);
-  json.key("shaft");
-  write_limits(json, fit.shaft, tables);
+void write_fit_members(JsonWriter& json, const iso286::Fit& fit,
+                       const iso286::FitDesignation& designation, const ToleranceTables& tables,
+                       const WriteStored& stored = {}) {
+  const auto& [size, hole_class, shaft_class] = designation;
+  json.member("designation", designation_text(size.length(), hole_class) + "/" + shaft_class);
+  write_side(json, "hole", fit.hole, hole_class, tables);
+  write_side(json, "shaft", fit.shaft, shaft_class, tables);
   json.member("type", word(fit.kind()))
       .member_um("max_clearance_um", fit.max_clearance())
       .member_um("min_clearance_um", fit.min_clearance())
@@ -48,13 +59,46 @@ void write_fit_members(JsonWriter& json, const iso286::Fit& fit, std::string_vie
   write_statistical(json, fit, stored);
 }
 
+/// The limits of a class of the tables, or of a bearing.
+Result<iso286::LimitsOfSize> find_side(iso286::NominalSize size, std::string_view class_name,
+                                       iso286::Feature feature, const ToleranceTables& tables) {
+  if (!standards::is_bearing_class(class_name)) return tables.limits_of_size(size, class_name);
+  const auto limits = standards::bearing_limits(size.length(), class_name, feature);
+  if (!limits) return limits.error();
+  return iso286::LimitsOfSize{size, {}, feature, {}, limits->deviations, *limits->size_range};
+}
+
 Result<iso286::Fit> find_fit(const iso286::FitDesignation& designation,
                              const ToleranceTables& tables) {
-  const auto hole = tables.find_class(designation.hole_class);
+  const auto& [size, hole_class, shaft_class] = designation;
+  const auto hole = find_side(size, hole_class, iso286::Feature::Hole, tables);
   if (!hole) return hole.error();
-  const auto shaft = tables.find_class(designation.shaft_class);
+  const auto shaft = find_side(size, shaft_class, iso286::Feature::Shaft, tables);
   if (!shaft) return shaft.error();
-  return tables.fit(designation.nominal_size, *hole, *shaft);
+  return iso286::Fit{*hole, *shaft};
+}
+
+/// Reads `25 H7/g6`, and with a bearing `25 ISO 492-P6/k6` (its bore) or `52 H7/ISO 492-P6` (its
+/// outer ring).
+Result<iso286::FitDesignation> read_fit(std::string_view hole, std::string_view shaft) {
+  const std::size_t at = hole.find("ISO 492-");
+  const bool is_bore = at != std::string_view::npos;
+  const bool is_ring = standards::is_bearing_class(shaft);
+  if (is_bore && is_ring) {
+    return Error{ErrorCode::FitMalformed,
+                 "a bearing fits a shaft or a housing: write 25 ISO 492-P6/k6 or 52 H7/ISO 492-P6"};
+  }
+  // The bearing's side is read with a class of ISO 286 in its place.
+  auto fit = iso286::parse_fit_designation(
+      is_bore ? std::string(hole.substr(0, at)) + "H7" : std::string(hole), is_ring ? "h6" : shaft);
+  if (!fit && is_bore && fit.error().code == ErrorCode::DesignationMalformed) {
+    return Error{ErrorCode::DesignationMalformed,
+                 fmt::format("'{}' is not a bore of a bearing such as 25 ISO 492-P6",
+                             first_characters(hole, 40))};
+  }
+  if (fit && is_bore) fit->hole_class = hole.substr(at);
+  if (fit && is_ring) fit->shaft_class = shaft;
+  return fit;
 }
 
 http::Response fit_response(const iso286::FitDesignation& designation, const iso286::Fit& fit,
@@ -62,20 +106,20 @@ http::Response fit_response(const iso286::FitDesignation& designation, const iso
   std::string body;
   JsonWriter json(body);
   json.begin_object();
-  write_fit_members(json, fit,
-                    fit_designation(designation.nominal_size.length(), designation.hole_class,
-                                    designation.shaft_class),
-                    tables, stored);
+  write_fit_members(json, fit, designation, tables, stored);
   json.end_object();
   return {200, "application/json", std::move(body)};
 }
 
 Result<iso286::FitDesignation> of_two_segments(const http::Request& request) {
-  return iso286::parse_fit_designation(*request.text("hole"), *request.text("shaft"));
+  return read_fit(*request.text("hole"), *request.text("shaft"));
 }
 
 Result<iso286::FitDesignation> of_one_segment(const http::Request& request) {
-  return iso286::parse_fit_designation(*request.text("fit"));
+  const std::string_view text = *request.text("fit");
+  const std::size_t stroke = text.find('/');
+  if (stroke == std::string_view::npos) return iso286::parse_fit_designation(text);
+  return read_fit(trim(text.substr(0, stroke)), trim(text.substr(stroke + 1)));
 }
 
 /// The fit of a designation: from the tables and cached, and with stored values where a query
@@ -133,10 +177,10 @@ Result<void> write_found(JsonWriter& json, const metrology::FoundFit& found,
                          iso286::NominalSize size, const ToleranceTables& tables) {
   const auto fit = tables.fit(size, found.hole, found.shaft);
   if (!fit) return fit.error();
-  const std::string_view hole = tables.class_name(found.hole);
-  const std::string_view shaft = tables.class_name(found.shaft);
+  const std::string hole(tables.class_name(found.hole));
+  const std::string shaft(tables.class_name(found.shaft));
   json.begin_object();
-  write_fit_members(json, *fit, fit_designation(size.length(), hole, shaft), tables);
+  write_fit_members(json, *fit, {size, hole, shaft}, tables);
   json.member("hole_class", hole)
       .member("shaft_class", shaft)
       .member("preferred", found.preferred)

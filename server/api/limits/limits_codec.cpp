@@ -63,13 +63,6 @@ void write_limits_members(JsonWriter& json, const standards::DesignatedLimits& l
       .member("table_revision", std::string_view(limits.standard->revision));
 }
 
-void write_limits(JsonWriter& json, const iso286::LimitsOfSize& limits,
-                  const iso286::ToleranceTables& tables) {
-  json.begin_object();
-  write_limits_members(json, limits, tables);
-  json.end_object();
-}
-
 std::string designation_text(Length nominal_size, std::string_view class_name) {
   std::string text = format_mm(nominal_size);
   text += ' ';

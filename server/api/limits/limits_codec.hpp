@@ -20,10 +20,6 @@ void write_limits_members(JsonWriter& json, const iso286::LimitsOfSize& limits,
 
 void write_limits_members(JsonWriter& json, const standards::DesignatedLimits& limits);
 
-/// The limits object.
-void write_limits(JsonWriter& json, const iso286::LimitsOfSize& limits,
-                  const iso286::ToleranceTables& tables);
-
 /// `25 H7`
 std::string designation_text(Length nominal_size, std::string_view class_name);
 

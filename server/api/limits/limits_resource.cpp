@@ -8,28 +8,28 @@ namespace {
 
 using iso286::ToleranceTables;
 
+/// @param limits with the tables they are of, if they are of ISO 286
+http::Response limits_object(std::string etag, const auto&... limits) {
+  std::string body;
+  JsonWriter json(body);
+  json.begin_object();
+  write_limits_members(json, limits...);
+  json.end_object();
+  http::Response response(200, "application/json", std::move(body));
+  response.etag = std::move(etag);
+  return response;
+}
+
 Result<http::Response> limits_response(iso286::NominalSize size, std::string_view class_name,
                                        const ToleranceTables& tables) {
   const auto limits = tables.limits_of_size(size, class_name);
   if (!limits) return limits.error();
-  std::string body;
-  JsonWriter json(body);
-  write_limits(json, *limits, tables);
-  http::Response response(200, "application/json", std::move(body));
-  response.etag = etag_of(tables);
-  return response;
+  return limits_object(etag_of(tables), *limits, tables);
 }
 
 Result<http::Response> limits_response(const Result<standards::DesignatedLimits>& limits) {
   if (!limits) return limits.error();
-  std::string body;
-  JsonWriter json(body);
-  json.begin_object();
-  write_limits_members(json, *limits);
-  json.end_object();
-  http::Response response(200, "application/json", std::move(body));
-  response.etag = etag_of(*limits->standard);
-  return response;
+  return limits_object(etag_of(*limits->standard), *limits);
 }
 
 Result<http::Response> limits_of_designation(const http::Request& request,

@@ -81,6 +81,31 @@ class Standards(DaemonTest):
         answer = self.daemon.get("/v1/verdicts/25H7?measured_mm=25&probability=0.9")
         self.assertEqual((answer.status, answer.json["code"]), (422, "rule.invalid"))
 
+    def test_a_bearing_fits_a_shaft_or_a_housing(self):
+        # Bore 25 in P6: 0 to -8 um; k6: +2 to +15 um. Outer ring 52 in normal: 0 to -13 um; H7: 0 to +30 um.
+        bore = self.limits("/v1/fits/25%20ISO%20492-P6/k6")
+        self.assertEqual((bore["designation"], bore["type"], bore["max_clearance_um"], bore["min_clearance_um"]),
+                         ("25 ISO 492-P6/k6", "interference", -2, -23))
+        hole = bore["hole"]
+        self.assertEqual((hole["designation"], hole["feature"], hole["basis"], hole["size_range_mm"]),
+                         ("25 ISO 492-P6", "hole", "standard", {"over": 18, "up_to": 30}))
+        self.assertRegex(hole["table_revision"], r"^ISO 492:2014-[0-9a-f]{8}$")
+        self.assertEqual((hole["upper_limit_mm"], hole["lower_limit_mm"]), (25, 24.992))
+        ring = self.limits("/v1/fits/52H7/ISO%20492-normal")
+        self.assertEqual((ring["designation"], ring["type"], ring["max_clearance_um"], ring["min_clearance_um"]),
+                         ("52 H7/ISO 492-normal", "clearance", 43, 0))
+        self.assertEqual(ring["shaft"]["feature"], "shaft")
+        self.assertEqual(ring, self.limits("/v1/fits/52%20H7%20%2F%20ISO%20492-normal"))
+        self.assertEqual(bore["designation"], self.limits("/v1/fits/25%20ISO%20492-P6%2Fk6")["designation"])
+        for path, status, code in (("25%20ISO%20492-P6/ISO%20492-P6", 400, "fit.malformed"),
+                                   ("25%20ISO%20492-P6/K6", 400, "fit.malformed"),
+                                   ("25x%20ISO%20492-P6/k6", 400, "designation.malformed"),
+                                   ("25%20ISO%20492-P4/k6", 404, "class.unknown"),
+                                   ("700%20ISO%20492-P6/k6", 422, "class.undefined_for_size"),
+                                   ("2H7/ISO%20492-P6", 422, "class.undefined_for_size"),
+                                   ("25%20ISO%20492-P6/k99", 404, "class.unknown")):
+            self.assert_problem(self.daemon.get(f"/v1/fits/{path}"), status, code)
+
     def test_tables_answer_by_size(self):
         names = {s["name"]: s for s in self.limits("/v1/standards")["standards"]}
         self.assertEqual(set(names), {"iso2768-1", "iso965-1", "din6885-1", "iso492"})
