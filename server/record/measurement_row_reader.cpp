@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "base/length.hpp"
 #include "base/text.hpp"
 #include "record/measurement_row_fields.hpp"
-#include "record/verdict_codec.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -65,6 +63,10 @@ void MeasurementRowReader::report(ErrorCode code, std::string_view field, std::s
   errors_.add(code, std::move(pointer), std::move(message), line_);
 }
 
+void MeasurementRowReader::report(std::size_t field, const Error& error) {
+  report(error.code, kRowFields[field].name, error.message);
+}
+
 void MeasurementRowReader::report_unknown(std::string_view name) {
   report(ErrorCode::FieldUnknown, name, fmt::format("there is no field {}", name));
 }
@@ -92,17 +94,15 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
     case RowField::Feature:
       if (const auto given_word = text(field, value)) {
         draft_.feature = iso286::feature_from_word(*given_word);
-        if (!draft_.feature) {
-          report(ErrorCode::FieldInvalid, kRowFields[field].name, "feature is hole or shaft");
-        }
+        if (!draft_.feature) report(field, {ErrorCode::FieldInvalid, "feature is hole or shaft"});
       }
       break;
     case RowField::Quantity:
       if (const auto given_word = text(field, value)) {
         draft_.quantity = gauging::quantity_from_word(*given_word);
         if (!draft_.quantity) {
-          report(ErrorCode::FieldInvalid, kRowFields[field].name,
-                 fmt::format("quantity is {}", fmt::join(gauging::kQuantityWords, ", ")));
+          report(field, {ErrorCode::FieldInvalid,
+                         fmt::format("quantity is {}", fmt::join(gauging::kQuantityWords, ", "))});
         }
       }
       break;
@@ -111,18 +111,14 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
     case RowField::MeasuredAt:
       if (const auto time = text(field, value)) {
         const auto parsed = parse_rfc3339(*time);
-        if (parsed) {
-          m.measured_at = *parsed;
-        } else {
-          report(parsed.error().code, kRowFields[field].name, parsed.error().message);
-        }
+        parsed ? void(m.measured_at = *parsed) : report(field, parsed.error());
       }
       break;
     case RowField::Uncertainty:
       m.standard_uncertainty = length(field, value, true);
       if (!m.standard_uncertainty) break;
       if (const auto checked = check_uncertainty(*m.standard_uncertainty); !checked) {
-        report(checked.error().code, kRowFields[field].name, checked.error().message);
+        report(field, checked.error());
       }
       break;
     case RowField::Coverage:
@@ -134,8 +130,7 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
         const auto kind = gauging::rule_from_word(*rule);
         draft_.rule.kind = kind.value_or(draft_.rule.kind);
         if (!kind) {
-          report(ErrorCode::FieldInvalid, kRowFields[field].name,
-                 "rule is simple, guard_band or conformance");
+          report(field, {ErrorCode::FieldInvalid, "rule is simple, guard_band or conformance"});
         }
       }
       break;
@@ -157,30 +152,31 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
   }
 }
 
+bool MeasurementRowReader::check_number(std::size_t field, const RawValue& value) {
+  const bool fits = value.kind == RawValue::Kind::Number || value.kind == RawValue::Kind::String;
+  if (!fits) {
+    report(field, {ErrorCode::FieldType, fmt::format("{} takes a number, not {}",
+                                                     kRowFields[field].name, name_of(value.kind))});
+  }
+  return fits;
+}
+
 std::optional<Length> MeasurementRowReader::length(std::size_t field, const RawValue& value,
                                                    bool micrometres, bool round) {
-  if (value.kind != RawValue::Kind::Number && value.kind != RawValue::Kind::String) {
-    report(ErrorCode::FieldType, kRowFields[field].name,
-           fmt::format("{} takes a number, not {}", kRowFields[field].name, name_of(value.kind)));
-    return std::nullopt;
-  }
+  if (!check_number(field, value)) return std::nullopt;
   const LengthSyntax syntax{.decimal_comma = value.decimal_comma,
                             .exponent = value.kind == RawValue::Kind::Number,
                             .round_to_nearest = round};
   const auto parsed =
       micrometres ? parse_length_um(value.text, syntax) : parse_length_mm(value.text, syntax);
   if (parsed) return *parsed;
-  report(parsed.error().code, kRowFields[field].name, parsed.error().message);
+  report(field, parsed.error());
   return std::nullopt;
 }
 
 std::optional<std::int64_t> MeasurementRowReader::decimal(std::size_t field,
                                                           const RawValue& value) {
-  if (value.kind != RawValue::Kind::Number && value.kind != RawValue::Kind::String) {
-    report(ErrorCode::FieldType, kRowFields[field].name,
-           fmt::format("{} takes a number, not {}", kRowFields[field].name, name_of(value.kind)));
-    return std::nullopt;
-  }
+  if (!check_number(field, value)) return std::nullopt;
   const app::MeasurementField* const plain = kRowFields[field].plain;
   const auto parsed = parse_decimal(value.text, {.scale = plain == nullptr ? 6 : plain->scale,
                                                  .decimal_comma = value.decimal_comma,
@@ -198,8 +194,8 @@ std::optional<std::int64_t> MeasurementRowReader::decimal_in(std::size_t field,
                                                              std::string_view range) {
   const auto number = decimal(field, value);
   if (number && (*number < least || *number > most)) {
-    report(ErrorCode::NumberOutOfRange, kRowFields[field].name,
-           fmt::format("{} {}", kRowFields[field].name, range));
+    report(field,
+           {ErrorCode::NumberOutOfRange, fmt::format("{} {}", kRowFields[field].name, range)});
   }
   return number;
 }
@@ -289,8 +285,7 @@ void MeasurementRowReader::apply_rule() {
   const auto checked =
       check_acceptance(*rule, {.upper = m.upper_limit(), .lower = m.lower_limit()});
   if (!checked) {
-    return report(checked.error().code, kRowFields[RowField::Uncertainty].name,
-                  checked.error().message);
+    return report(RowField::Uncertainty, checked.error());
   }
   m.rule = *rule;
   if (rule->kind() == gauging::DecisionRule::Kind::GuardBand) {
@@ -350,7 +345,7 @@ void MeasurementRowReader::apply_size() {
 const app::Measurement* MeasurementRowReader::end() {
   app::Measurement& m = draft_.measurement;
   if (!given(RowField::Measured)) {
-    report(ErrorCode::FieldMissing, kRowFields[RowField::Measured].name, "measured_mm is required");
+    report(RowField::Measured, {ErrorCode::FieldMissing, "measured_mm is required"});
   }
   if (draft_.quantity) m.quantity = draft_.quantity;
   if (!draft_.has_limits) resolve_limits();
@@ -358,9 +353,7 @@ const app::Measurement* MeasurementRowReader::end() {
     m.measured = *draft_.measured;
     const auto checked =
         check_measured(m.measured, m.quantity.value_or(gauging::Quantity::Diameter));
-    if (!checked) {
-      report(checked.error().code, kRowFields[RowField::Measured].name, checked.error().message);
-    }
+    if (!checked) report(RowField::Measured, checked.error());
   }
   if (!m.is_judged()) refuse_rule_without_limits();
   apply_size();

@@ -79,6 +79,7 @@ class MeasurementRowReader {
 
   std::size_t find_field(std::string_view name);
   void assign(std::size_t field, const RawValue& value);
+  bool check_number(std::size_t field, const RawValue& value);
   std::optional<Length> length(std::size_t field, const RawValue& value, bool micrometres,
                                bool round = false);
   /// In millionths, or as the field has it.
@@ -111,6 +112,7 @@ class MeasurementRowReader {
   bool is_open_class() const;
   Result<iso286::ClassId> find_class(std::string_view name);
   void report(ErrorCode code, std::string_view field, std::string message);
+  void report(std::size_t field, const Error& error);
 
   const iso286::ToleranceTables& tables_;
   const BatchContext& context_;
