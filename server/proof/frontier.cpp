@@ -1,7 +1,5 @@
 #include "proof/frontier.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -86,8 +84,6 @@ Hash TreeHasher::node(const Hash& left, const Hash& right) {
 
 Hash leaf_hash(std::string_view data) { return TreeHasher().leaf(data); }
 
-Hash node_hash(const Hash& left, const Hash& right) { return TreeHasher().node(left, right); }
-
 Hash empty_root() { return sha256(""); }
 
 std::vector<Node> subtrees(std::uint64_t begin, std::uint64_t end) {
@@ -169,17 +165,6 @@ std::optional<Tile> parse_tile(std::string_view path) {
   if (!index) return {};
   tile.index = *index;
   return tile;
-}
-
-std::string tile_path(const Tile& tile) {
-  std::string index = fmt::format("{:03}", tile.index % 1000);
-  for (std::uint64_t rest = tile.index / 1000; rest != 0; rest /= 1000) {
-    index = fmt::format("x{:03}/{}", rest % 1000, index);
-  }
-  const std::string partial =
-      tile.width == kTileWidth ? std::string() : fmt::format(".p/{}", tile.width);
-  if (tile.kind == Tile::Kind::Entries) return fmt::format("entries/{}{}", index, partial);
-  return fmt::format("{}/{}{}", tile.level, index, partial);
 }
 
 bool has_tile(std::uint64_t size, const Tile& tile) {

@@ -18,9 +18,6 @@ using Hash = Digest;
 /// SHA-256(0x00 || data): what a leaf's data counts for in the tree.
 Hash leaf_hash(std::string_view data);
 
-/// SHA-256(0x01 || left || right).
-Hash node_hash(const Hash& left, const Hash& right);
-
 /// The root of the tree without leaves: SHA-256 of nothing.
 Hash empty_root();
 
@@ -110,9 +107,6 @@ struct Tile {
 /// Reads what stands behind `tile/`: `0/x001/067`, `1/000.p/3`, `entries/x012/000`.
 /// @returns none for any other spelling.
 std::optional<Tile> parse_tile(std::string_view path);
-
-/// `0/x001/067`: the inverse of parse_tile.
-std::string tile_path(const Tile& tile);
 
 /// Whether a tree of `size` leaves has all that the tile holds.
 bool has_tile(std::uint64_t size, const Tile& tile);

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "proof/frontier.hpp"
+#include "../support/tile_path.hpp"
 #include "proof/note.hpp"
 
 using namespace fitgauge::tlog;

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "proof/frontier.hpp"
+#include "support/tile_path.hpp"
 
 using namespace fitgauge::tlog;
 

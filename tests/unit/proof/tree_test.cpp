@@ -66,7 +66,8 @@ Hash definition(const std::vector<Hash>& leaves) {
   std::size_t k = 1;
   while (2 * k < leaves.size()) k *= 2;
   const auto middle = leaves.begin() + static_cast<std::ptrdiff_t>(k);
-  return node_hash(definition({leaves.begin(), middle}), definition({middle, leaves.end()}));
+  return TreeHasher().node(definition({leaves.begin(), middle}),
+                           definition({middle, leaves.end()}));
 }
 
 /// Whether the path leads from the leaf to the root (RFC 9162, 2.1.3.2).
