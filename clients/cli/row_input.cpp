@@ -13,7 +13,7 @@
 #include "cli/input_file.hpp"
 #include "cli/problem.hpp"
 #include "formats/dfq/measurement_csv.hpp"
-#include "formats/qif/qif_csv.hpp"
+#include "formats/qif/qif.hpp"
 #include "formats/sheet/record_reader.hpp"
 #include "formats/sheet/shop_csv.hpp"
 

@@ -11,8 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/qif/qif_csv.hpp"
-#include "formats/qif/qif_writer.hpp"
+#include "../support/qif_text.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::qif;

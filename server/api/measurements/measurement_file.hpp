@@ -6,7 +6,7 @@
 
 #include "base/result.hpp"
 #include "formats/dfq/dfq_writer.hpp"
-#include "formats/qif/qif_writer.hpp"
+#include "formats/qif/qif.hpp"
 #include "record/measurement.hpp"
 
 namespace fitgauge::api {

@@ -109,7 +109,6 @@ Result<FieldLine> parse_field_line(std::string_view line) {
                                field.number, field.number)};
     }
     field.index = *index;
-    field.has_index = true;
   } else if (!line.empty() && line[0] != ' ') {
     return Error{kMalformed, fmt::format("has no blank behind K{:04}", field.number)};
   }

@@ -19,8 +19,7 @@ inline constexpr char kValueSeparator = '\x0F';
 /// A line `K2101/3 25.0`.
 struct FieldLine {
   int number = 0;
-  std::uint32_t index = 1;  ///< of the part, characteristic or entry; 0: all of them
-  bool has_index = false;
+  std::uint32_t index = 1;        ///< of the part, characteristic or entry; 0: all of them
   std::uint32_t value_index = 0;  ///< `K0014/3/7`: of that value; 0: of the last
   std::string_view text;          ///< without blanks around it
 };

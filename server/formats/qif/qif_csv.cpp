@@ -1,4 +1,4 @@
-#include "formats/qif/qif_csv.hpp"
+#include "formats/qif/qif.hpp"
 
 #include <fmt/format.h>
 
@@ -284,18 +284,5 @@ Result<void> QifRows::check() const {
 }
 
 bool is_qif(std::string_view file_name) { return ascii_lower(file_name).ends_with(".qif"); }
-
-Result<QifText> read_qif(std::string_view text, const QifOptions& options) {
-  auto opened = QifRows::open(read_text(text), read_text(text), options);
-  if (!opened) return opened.error();
-  QifText read{.csv = opened->header()};
-  for (;;) {
-    const auto more = opened->append(read.csv, read.lines);
-    if (!more) return more.error();
-    if (!*more) break;
-  }
-  if (const auto checked = opened->check(); !checked) return checked.error();
-  return read;
-}
 
 }  // namespace fitgauge::qif

@@ -1,4 +1,4 @@
-#include "formats/qif/qif_writer.hpp"
+#include "formats/qif/qif.hpp"
 
 #include <fmt/format.h>
 

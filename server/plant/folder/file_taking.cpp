@@ -9,7 +9,7 @@
 #include "base/digest.hpp"
 #include "base/text.hpp"
 #include "formats/dfq/measurement_csv.hpp"
-#include "formats/qif/qif_csv.hpp"
+#include "formats/qif/qif.hpp"
 #include "formats/sheet/record_reader.hpp"
 #include "formats/sheet/shop_csv.hpp"
 #include "http/request.hpp"

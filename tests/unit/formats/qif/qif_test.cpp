@@ -5,9 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "formats/qif/qif_csv.hpp"
-#include "formats/qif/qif_writer.hpp"
 #include "formats/qif/xml_reader.hpp"
+#include "support/qif_text.hpp"
 
 namespace fitgauge::qif {
 namespace {
