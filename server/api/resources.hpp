@@ -13,6 +13,20 @@ namespace fitgauge::api {
 
 // One function adds the routes of each resource. Services outlive the routes.
 
+/// A text in the path.
+inline http::Parameter path_parameter(std::string name, std::string description) {
+  return {.name = std::move(name),
+          .place = http::ParameterPlace::Path,
+          .description = std::move(description)};
+}
+
+/// A body that must be JSON. @param schema its name
+inline http::BodyRules json_body(std::string schema) {
+  return {.use = http::BodyUse::Required,
+          .media_types = {"application/json"},
+          .schema = std::move(schema)};
+}
+
 /// /v1/limits: the limits of size of one designation.
 void add_limits_routes(std::vector<http::Route>& routes,
                        const std::shared_ptr<ResponseCache>& cache);
@@ -35,9 +49,10 @@ void add_tables_routes(std::vector<http::Route>& routes, const Services& service
 void add_verdicts_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/measurements: judges and stores, reads one, lists, sums up.
 void add_measurements_routes(std::vector<http::Route>& routes, const Services& services);
-/// /v1/measurements/{id}/notes: what was found and done about a measurement, beside its record; and
-/// /v1/catalogues: which causes and measures there are to choose from.
+/// /v1/measurements/{id}/notes: what was found and done about a measurement, beside its record.
 void add_notes_routes(std::vector<http::Route>& routes, const Services& services);
+/// /v1/catalogues: which causes and measures there are to choose from.
+void add_catalogues_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/log and the proof of a measurement.
 void add_log_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/changes: what was changed of all that decides.
@@ -118,9 +133,6 @@ schema::Fields warnings_field();
 
 /// What an answer was computed by.
 schema::Fields formula_fields();
-
-/// Which stored measurements a figure is of.
-schema::Fields selection_field();
 
 inline std::string verdict_words() {
   return schema::words({"good", "rework", "reject", "indeterminate"});

@@ -2,7 +2,6 @@
 
 #include <pthread.h>
 
-#include <chrono>
 #include <condition_variable>
 #include <cstdio>
 #include <string>
@@ -19,13 +18,6 @@ std::atomic<BugReport> report_in_use{to_stderr};
 
 /// So that a bug that comes again at once fills neither the log nor a processor.
 constexpr std::chrono::milliseconds kRest{100};
-
-void rest(const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any over;
-  std::unique_lock lock(mutex);
-  over.wait_for(lock, stop, kRest, [] { return false; });
-}
 
 /// Gives a thread a name that `top -H` shows.
 void show_as(pthread_t thread, std::string_view place) {
@@ -48,9 +40,18 @@ void report_bug(std::string_view place, std::string_view what) noexcept {
 
 Thread::Thread(std::string_view place, Body body)
     : thread_([place, body = std::move(body)](const std::stop_token& stop) {
-        while (!guarded(place, [&] { body(stop); }) && !stop.stop_requested()) rest(stop);
+        while (!guarded(place, [&] { body(stop); }) && wait_unless_stopped(stop, kRest)) {
+        }
       }) {
   show_as(thread_.native_handle(), place);
+}
+
+bool wait_unless_stopped(const std::stop_token& stop, std::chrono::milliseconds time) {
+  std::mutex mutex;
+  std::condition_variable_any over;
+  std::unique_lock lock(mutex);
+  over.wait_for(lock, stop, time, [] { return false; });
+  return !stop.stop_requested();
 }
 
 void Thread::stop() {

@@ -1,14 +1,18 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <stop_token>
 #include <string_view>
 #include <thread>
 #include <utility>
+
+#include "base/result.hpp"
 
 namespace fitgauge {
 
@@ -37,6 +41,9 @@ bool guarded(std::string_view place, Function&& function) noexcept {
   return false;
 }
 
+/// Waits so long, or until a stop is asked for. @returns whether none is.
+bool wait_unless_stopped(const std::stop_token& stop, std::chrono::milliseconds time);
+
 /// A thread whose work no exception ends: what the body throws is a bug, reported as of `place`,
 /// and after a short rest the body begins again, until it returns or a stop was asked for. No other
 /// thread is started anywhere (tests/layering). Its destructor asks it to stop and waits. `top -H`
@@ -61,6 +68,15 @@ class Thread {
  private:
   std::jthread thread_;
 };
+
+/// Waits for the result that `begin(done)` gives to `done`, on this thread or another.
+template <class T, class Begin>
+Result<T> wait_for_result(const Begin& begin) {
+  std::promise<Result<T>> promise;
+  auto future = promise.get_future();
+  begin([&promise](Result<T> result) { promise.set_value(std::move(result)); });
+  return future.get();
+}
 
 /// An immutable value that every thread reads and one replaces: readers keep what they took.
 /// Thread-safe. A mutex and not std::atomic<std::shared_ptr>, which libstdc++ 12 implements with a

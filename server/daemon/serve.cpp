@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <csignal>
-#include <mutex>
 #include <thread>
 
 #include "api/resources.hpp"
@@ -123,11 +121,7 @@ void wait_for_end(http::Server& server, bool tls, const Clock& clock) {
 /// Ends the process if something outside holds up its end; all that is acknowledged is on disk.
 void end_in_time(const std::stop_token& stop) {
   constexpr std::chrono::seconds kLongestEnd{9};
-  std::mutex mutex;
-  std::condition_variable_any stopped;
-  std::unique_lock lock(mutex);
-  stopped.wait_for(lock, stop, kLongestEnd, [] { return false; });
-  if (stop.stop_requested()) return;
+  if (!wait_unless_stopped(stop, kLongestEnd)) return;
   log_error("stop_forced", "a thread had not ended after 9 s");
   std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the log's own thread writes it
   _exit(1);

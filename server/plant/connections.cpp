@@ -42,13 +42,6 @@ bool is_same(const JsonValue& a, const JsonValue& b, std::string_view name) {
   return in_a->text == in_b->text;
 }
 
-std::string text_of(const JsonValue& body) {
-  std::string text;
-  api::JsonWriter json(text);
-  write_json(json, body);
-  return text;
-}
-
 constexpr std::size_t kMostWaiting = 64;
 
 Error unknown(std::string_view name) {
@@ -112,8 +105,8 @@ Result<Definition> read_definition(std::string name, const JsonValue& body,
     read.end();
   }
   if (auto error = errors.take()) return *std::move(error);
-  definition.text = text_of(body);
-  definition.shown = text_of(app::without_secrets(body));
+  definition.text = api::json_text(body);
+  definition.shown = api::json_text(app::without_secrets(body));
   return definition;
 }
 

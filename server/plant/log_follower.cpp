@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <future>
 #include <iterator>
 
 #include "base/thread.hpp"
@@ -23,17 +22,13 @@ struct Page {
 
 Result<Page> read_page(app::MeasurementService& service, const LogFilter& filter,
                        std::int64_t after, std::size_t limit) {
-  std::promise<Result<app::ListPage>> promise;
-  auto read = promise.get_future();
   Page page;
-  service.list(
-      filter.query, after, limit,
-      [&](const app::Measurement& measurement) {
-        if (filter.takes(measurement))
-          page.measurements.push_back(std::make_unique<app::KeptMeasurement>(measurement));
-      },
-      [&promise](Result<app::ListPage> end) { promise.set_value(std::move(end)); });
-  auto end = read.get();
+  const auto add = [&](const app::Measurement& measurement) {
+    if (filter.takes(measurement))
+      page.measurements.push_back(std::make_unique<app::KeptMeasurement>(measurement));
+  };
+  auto end = wait_for_result<app::ListPage>(
+      [&](auto done) { service.list(filter.query, after, limit, add, done); });
   if (!end) return end.error();
   page.end = *end;
   return page;
@@ -41,12 +36,8 @@ Result<Page> read_page(app::MeasurementService& service, const LogFilter& filter
 
 Result<app::EventService::StoredPage> read_event_page(app::EventService& service,
                                                       std::int64_t after, std::size_t limit) {
-  std::promise<Result<app::EventService::StoredPage>> promise;
-  auto read = promise.get_future();
-  service.read_stored(after, limit, [&promise](Result<app::EventService::StoredPage> page) {
-    promise.set_value(std::move(page));
-  });
-  return read.get();
+  return wait_for_result<app::EventService::StoredPage>(
+      [&](auto done) { service.read_stored(after, limit, done); });
 }
 
 /// How many measurements the log has.

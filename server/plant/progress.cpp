@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <future>
 
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
+#include "base/thread.hpp"
 #include "service/events/event_service.hpp"
 #include "service/measurements/measurement_service.hpp"
 
@@ -72,15 +72,6 @@ Error invalid_from(std::string message) {
   return *errors.take();
 }
 
-/// Waits for what a service gives to `done`.
-template <class T, class Start>
-Result<T> given_by(const Start& start) {
-  std::promise<Result<T>> promise;
-  auto result = promise.get_future();
-  start([&promise](Result<T> given) { promise.set_value(std::move(given)); });
-  return result.get();
-}
-
 /// The number of an event of this folder.
 std::optional<std::int64_t> event_number(std::string_view id, std::string_view origin) {
   std::int64_t number = 0;
@@ -98,7 +89,7 @@ Result<std::optional<std::int64_t>> first_row_from(Timestamp time, const Plant& 
   query.history = true;
   query.received_from = time;
   std::optional<std::int64_t> first;
-  const auto listed = given_by<app::ListPage>([&](auto done) {
+  const auto listed = wait_for_result<app::ListPage>([&](auto done) {
     plant.measurements.list(
         query, 0, 1, [&](const app::Measurement& found) { first = found.row; }, std::move(done));
   });
@@ -110,7 +101,7 @@ Result<std::optional<std::int64_t>> first_row_from(Timestamp time, const Plant& 
 Result<std::int64_t> last_event_before(Timestamp time, const Plant& plant) {
   std::int64_t last = 0;
   for (;;) {
-    const auto page = given_by<app::EventService::StoredPage>(
+    const auto page = wait_for_result<app::EventService::StoredPage>(
         [&](auto done) { plant.events.read_stored(last, kEventsAtATime, std::move(done)); });
     if (!page) return page.error();
     for (const auto& event : page->events) {
@@ -196,7 +187,7 @@ Result<void> move_back(Progress& progress, const ReplayOrder& order, const Plant
           "from must be the id of a measurement or an event, or an RFC 3339 time; got '{}'",
           order.from));
     }
-    const auto row = given_by<std::int64_t>([&](auto done) {
+    const auto row = wait_for_result<std::int64_t>([&](auto done) {
       plant.measurements.find(
           *name, [](const auto&) {}, std::move(done));
     });

@@ -144,7 +144,6 @@ class Application {
   bool take_names(const store::Stores& stores);
   std::optional<std::string> check_leaf(const store::MeasurementRow& row) const;
   std::optional<tlog::Hash> kept_node(std::int64_t origin, const tlog::Node& node) const;
-  struct LogChecks;
 
   // Declared in the order of construction: each member uses only those above it.
   std::filesystem::path directory_;

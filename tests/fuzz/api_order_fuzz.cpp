@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "api/runs/run_order_codec.hpp"
+#include "api/runs/run_codec.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

@@ -10,7 +10,6 @@
 
 #include "api/runs/run_codec.hpp"
 #include "api/runs/setup_codec.hpp"
-#include "api/runs/trace_codec.hpp"
 #include "base/json/field_reader.hpp"
 #include "base/json/json_value.hpp"
 #include "service/runs/run_executor.hpp"

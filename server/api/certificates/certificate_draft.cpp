@@ -130,26 +130,24 @@ void CertificateDraft::add(const app::Measurement& m) {
 }
 
 std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpoint) const {
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object();
-  for (const auto& [name, value] : order_.of) json.member(name, value);
-  json.member("title", order_.title);
-  if (!order_.company.empty()) json.member("company", order_.company);
-  if (!order_.customer.empty()) json.member("customer", order_.customer);
-  json.member("made_at", format_rfc3339(made_at)).member("count", std::uint64_t{count_});
-  write_verdict_counts(json, verdicts_);
-  json.key("gauges").begin_array();
-  for (const UsedGauge& gauge : gauges_) {
-    json.begin_object().member("name", gauge.name);
-    if (!gauge.overdue_since.empty()) json.member("calibration_due", gauge.overdue_since);
-    if (!gauge.budget.empty()) json.member("uncertainty", gauge.budget);
-    if (gauge.standard_uncertainty) json.member_um("uncertainty_um", *gauge.standard_uncertainty);
-    json.end_object();
-  }
-  json.end_array().member("checkpoint", checkpoint);
-  json.key("measurements").raw("[" + records_ + "]").end_object();
-  return out;
+  return json_object([&](JsonWriter& json) {
+    for (const auto& [name, value] : order_.of) json.member(name, value);
+    json.member("title", order_.title);
+    if (!order_.company.empty()) json.member("company", order_.company);
+    if (!order_.customer.empty()) json.member("customer", order_.customer);
+    json.member("made_at", format_rfc3339(made_at)).member("count", std::uint64_t{count_});
+    write_verdict_counts(json, verdicts_);
+    json.key("gauges").begin_array();
+    for (const UsedGauge& gauge : gauges_) {
+      json.begin_object().member("name", gauge.name);
+      if (!gauge.overdue_since.empty()) json.member("calibration_due", gauge.overdue_since);
+      if (!gauge.budget.empty()) json.member("uncertainty", gauge.budget);
+      if (gauge.standard_uncertainty) json.member_um("uncertainty_um", *gauge.standard_uncertainty);
+      json.end_object();
+    }
+    json.end_array().member("checkpoint", checkpoint);
+    json.key("measurements").raw("[" + records_ + "]");
+  });
 }
 
 std::string CertificateDraft::summary() const {

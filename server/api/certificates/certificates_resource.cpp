@@ -124,7 +124,6 @@ void add_certificates_routes(std::vector<http::Route>& routes, const Services& s
       .response_types = {std::string(kPdf), std::string(kJson)},
       .access = "viewer",
       .operation = "getCertificate",
-      .tag = "measurements",
       .outcomes = {{.meaning = "The certificate",
                     .schema = "Certificate",
                     .media_types = {std::string(kPdf), std::string(kJson)}}},

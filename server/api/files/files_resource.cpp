@@ -155,9 +155,8 @@ void act_on_file(const Services& services, const http::Request& request,
       answer_by(share(std::move(responder))));
 }
 
-const http::Parameter kPath{.name = "path",
-                            .place = http::ParameterPlace::Path,
-                            .description = "nc_prog/8255/8255.h is TNC:\\nc_prog\\8255\\8255.h"};
+const http::Parameter kPath =
+    path_parameter("path", "nc_prog/8255/8255.h is TNC:\\nc_prog\\8255\\8255.h");
 
 }  // namespace
 
@@ -176,7 +175,6 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .parameters = {{.name = "prefix", .description = "Only paths that begin so: nc_prog/8255/"}},
       .access = "viewer",
       .operation = "listFiles",
-      .tag = "files",
       .outcomes = {{.meaning = "The files", .schema = "Files"}},
   });
   routes.push_back({
@@ -187,7 +185,6 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .response_types = {},
       .access = "viewer",
       .operation = "getFile",
-      .tag = "files",
       .outcomes = {{.meaning = "Its bytes", .media_types = {"application/octet-stream"}}},
       .refusals = {404, 412},
   });
@@ -201,7 +198,6 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .body = {.use = http::BodyUse::Required, .limit = kBodyLimit},
       .access = "admin",
       .operation = "putFile",
-      .tag = "files",
       .outcomes = {{.meaning = "It is replaced"}, {.status = 201, .meaning = "It is new"}},
       .refusals = {412, 422},
   });
@@ -214,7 +210,6 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .parameters = {kPath},
       .access = "admin",
       .operation = "deleteFile",
-      .tag = "files",
       .outcomes = {{.status = 204, .meaning = "It is gone"}},
       .refusals = {404, 412},
   });
@@ -237,7 +232,6 @@ void add_files_routes(std::vector<http::Route>& routes, const Services& services
       .body = {.use = http::BodyUse::Optional, .limit = kBodyLimit},
       .access = "viewer",
       .operation = "checkFile",
-      .tag = "files",
       .outcomes = {{.meaning = "What was found, or the program",
                     .schema = "Diagnostics",
                     .media_types = {"application/json", "text/plain"}}},

@@ -15,12 +15,38 @@ constexpr std::string_view kShaft = "shaft";
 
 /// The values of one side of a fit, with what they come to.
 struct MeasuredSide {
-  SelectedValues selected;
-  std::string as_of;
-  metrology::Capability capability;
+  SelectedValues selected{};
+  std::string as_of{};
+  metrology::Capability capability{};
 
   metrology::MeasuredSizes sizes() const { return {capability.mean, capability.overall}; }
 };
+
+void members(auto& v, const MeasuredSide& side) {
+  v.member("selection", selection_of(side.selected, side.as_of), "Which measurements it is of");
+  v.member("mean", side.capability.mean, Finite{}, "In mm");
+  v.member("standard_deviation_overall", side.capability.overall, Finite{}, "In mm");
+  v.member("stable", side.capability.stable, "No rule is broken");
+}
+
+struct StoredClearance {
+  MeasuredSide hole{};
+  MeasuredSide shaft{};
+  metrology::MeasuredClearance clearance{};
+};
+void members(auto& v, const StoredClearance& stored) {
+  constexpr long double kMicrometres = 1000;
+  const metrology::MeasuredClearance& clearance = stored.clearance;
+  v.member("probability_of_interference", clearance.probability_of_interference, Finite{},
+           "Independent and normal, as measured");
+  v.member("mean_clearance_um", kMicrometres * clearance.mean, Finite{});
+  v.member("standard_deviation_um", kMicrometres * clearance.standard_deviation, Finite{},
+           "Of the clearance");
+  v.member("stable", stored.hole.capability.stable && stored.shaft.capability.stable,
+           "Both are: else the next parts may be others");
+  v.member("hole", stored.hole);
+  v.member("shaft", stored.shaft);
+}
 
 Error of_side(std::string_view side, Error error) {
   error.message = fmt::format("the stored values of the {}: {}", side, error.message);
@@ -67,28 +93,9 @@ Result<MeasuredSide> read_side(const Services& services, const app::MeasurementQ
   return MeasuredSide{*std::move(selected), *std::move(as_of), *std::move(capability)};
 }
 
-void write_side(JsonWriter& json, std::string_view name, const MeasuredSide& side) {
-  json.key(name).begin_object();
-  write_body(json.key("selection"), selection_of(side.selected, side.as_of));
-  json.key("mean").figure(side.capability.mean);
-  json.key("standard_deviation_overall").figure(side.capability.overall);
-  json.member("stable", side.capability.stable).end_object();
-}
-
-void write_stored(JsonWriter& json, const MeasuredSide& hole, const MeasuredSide& shaft) {
-  constexpr long double kMicrometres = 1000;
-  const auto clearance = metrology::clearance_of(hole.sizes(), shaft.sizes());
-  json.key("stored").begin_object();
-  json.member("probability_of_interference", clearance.probability_of_interference);
-  json.key("mean_clearance_um").figure(kMicrometres * clearance.mean);
-  json.key("standard_deviation_um").figure(kMicrometres * clearance.standard_deviation);
-  json.member("stable", hole.capability.stable && shaft.capability.stable);
-  write_side(json, kHole, hole);
-  write_side(json, kShaft, shaft);
-  json.end_object();
-}
-
 }  // namespace
+
+std::string stored_clearance_schema() { return schema_of<StoredClearance>(Side::Answer); }
 
 std::vector<http::Parameter> fit_filter_parameters() {
   std::vector<http::Parameter> parameters;
@@ -116,9 +123,10 @@ void read_fit_of_values(const Services& services, const http::Request& request,
         if (!hole) return of_side(kHole, hole.error());
         auto shaft = read_side(services, shafts, fit.shaft, ignores);
         if (!shaft) return of_side(kShaft, shaft.error());
-        return WriteStored([hole = *std::move(hole), shaft = *std::move(shaft)](JsonWriter& json) {
-          write_stored(json, hole, shaft);
-        });
+        const auto clearance = metrology::clearance_of(hole->sizes(), shaft->sizes());
+        return WriteStored(
+            [stored = StoredClearance{*std::move(hole), *std::move(shaft), clearance}](
+                JsonWriter& json) { write_body(json.key("stored"), stored); });
       },
       done);
 }

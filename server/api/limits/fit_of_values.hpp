@@ -1,7 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "api/services.hpp"
@@ -18,6 +18,7 @@ std::vector<http::Parameter> fit_filter_parameters();
 
 /// Writes the member `stored` of a fit.
 using WriteStored = std::function<void(JsonWriter&)>;
+std::string stored_clearance_schema();
 
 /// Reads the values that the filters of a request choose, for the probability of interference from
 /// their location and spread.

@@ -101,14 +101,10 @@ Result<iso286::FitDesignation> read_fit(std::string_view hole, std::string_view 
   return fit;
 }
 
-http::Response fit_response(const iso286::FitDesignation& designation, const iso286::Fit& fit,
-                            const ToleranceTables& tables, const WriteStored& stored = {}) {
-  std::string body;
-  JsonWriter json(body);
-  json.begin_object();
-  write_fit_members(json, fit, designation, tables, stored);
-  json.end_object();
-  return {200, "application/json", std::move(body)};
+std::string fit_json(const iso286::FitDesignation& designation, const iso286::Fit& fit,
+                     const ToleranceTables& tables, const WriteStored& stored = {}) {
+  return json_object(
+      [&](JsonWriter& json) { write_fit_members(json, fit, designation, tables, stored); });
 }
 
 Result<iso286::FitDesignation> of_two_segments(const http::Request& request) {
@@ -135,9 +131,7 @@ http::AsyncHandler answer_fit(const Services& services, const std::shared_ptr<Re
         if (!designation) return designation.error();
         const auto fit = find_fit(*designation, tables);
         if (!fit) return fit.error();
-        http::Response response = fit_response(*designation, *fit, tables);
-        response.etag = etag_of(tables);
-        return response;
+        return tagged_json(fit_json(*designation, *fit, tables), etag_of(tables));
       });
   return [&services, designation_of, from_tables = std::move(from_tables)](
              const http::Request& request, http::Responder responder) {
@@ -153,13 +147,13 @@ http::AsyncHandler answer_fit(const Services& services, const std::shared_ptr<Re
                 if (!designation) return shared->fail(designation.error());
                 const auto fit = find_fit(*designation, **tables);
                 if (!fit) return shared->fail(fit.error());
-                read_fit_of_values(
-                    services, request, *fit,
-                    [shared, tables = *tables, designation = *designation,
-                     fit = *fit](Result<WriteStored> stored) {
-                      if (!stored) return shared->fail(stored.error());
-                      shared->answer(fit_response(designation, fit, *tables, *stored));
-                    });
+                read_fit_of_values(services, request, *fit,
+                                   [shared, tables = *tables, designation = *designation,
+                                    fit = *fit](Result<WriteStored> stored) {
+                                     if (!stored) return shared->fail(stored.error());
+                                     shared->answer({200, "application/json",
+                                                     fit_json(designation, fit, *tables, *stored)});
+                                   });
               });
   };
 }
@@ -208,9 +202,7 @@ Result<http::Response> search_fits(const http::Request& request, const Tolerance
     }
   }
   json.end_array().member("total", std::uint64_t{found.size()}).end_object();
-  http::Response response(200, "application/json", std::move(body));
-  response.etag = etag_of(tables);
-  return response;
+  return tagged_json(std::move(body), etag_of(tables));
 }
 
 }  // namespace
@@ -225,16 +217,11 @@ void add_fits_routes(std::vector<http::Route>& routes, const Services& services,
           "Limits of both and the clearances; interference is negative clearance. Filters "
           "for holes and for shafts add `statistical.stored`, from what was measured; "
           "with these it is for viewers.",
-      .parameters = with_filters({{.name = "hole",
-                                   .place = http::ParameterPlace::Path,
-                                   .description = "Size and class of the hole: 25H7"},
-                                  {.name = "shaft",
-                                   .place = http::ParameterPlace::Path,
-                                   .description = "Class of the shaft: g6"}}),
+      .parameters = with_filters({path_parameter("hole", "Size and class of the hole: 25H7"),
+                                  path_parameter("shaft", "Class of the shaft: g6")}),
       .access = "open",
       .query_access = "viewer",
       .operation = "getFit",
-      .tag = "limits",
       .outcomes = {{.meaning = "The fit", .schema = "Fit"}},
       .refusals = {404, 422},
   });
@@ -243,13 +230,10 @@ void add_fits_routes(std::vector<http::Route>& routes, const Services& services,
       .handler = answer_fit(services, cache, of_one_segment),
       .summary = "Fit of a hole and a shaft, written as one",
       .description = "The same with an encoded stroke: 25H7%2Fg6.",
-      .parameters = with_filters({{.name = "fit",
-                                   .place = http::ParameterPlace::Path,
-                                   .description = "25H7/g6, the stroke percent-encoded"}}),
+      .parameters = with_filters({path_parameter("fit", "25H7/g6, the stroke percent-encoded")}),
       .access = "open",
       .query_access = "viewer",
       .operation = "getFitAsOne",
-      .tag = "limits",
       .outcomes = {{.meaning = "The fit", .schema = "Fit"}},
       .refusals = {404, 422},
   });
@@ -276,7 +260,6 @@ void add_fits_routes(std::vector<http::Route>& routes, const Services& services,
                      revision_parameter()},
       .access = "open",
       .operation = "findFits",
-      .tag = "limits",
       .outcomes = {{.meaning = "The fits found", .schema = "FoundFits"}},
       .refusals = {422},
   });

@@ -67,9 +67,7 @@ Result<http::Response> gauge(const http::Request& request, const iso286::Toleran
       .lower_limit = limits->lower_limit(),
       .go = {{made->go.upper, made->go.lower}, made->go_wear_limit},
       .no_go = {made->no_go.upper, made->no_go.lower}};
-  http::Response response(200, "application/json", body_json(answer));
-  response.etag = etag_of(tables);
-  return response;
+  return tagged_json(body_json(answer), etag_of(tables));
 }
 
 // The forms of sizes, moduli and roughness.
@@ -169,12 +167,9 @@ void add_gauges_routes(std::vector<http::Route>& routes,
       .summary = "GO and NO-GO sizes of the limit gauges of a designation",
       .description = "New and worn, by ISO/R 1938:1971: holes of IT6 to IT16, shafts of IT5 to "
                      "IT16, up to 500 mm.",
-      .parameters = {{.name = "designation",
-                      .place = http::ParameterPlace::Path,
-                      .description = "Size and class: 25H7"}},
+      .parameters = {path_parameter("designation", "Size and class: 25H7")},
       .access = "open",
       .operation = "getLimitGauge",
-      .tag = "limits",
       .outcomes = {{.meaning = "The gauges", .schema = "LimitGauge"}},
       .refusals = {404, 422},
   });
@@ -185,7 +180,6 @@ void add_press_fits_routes(std::vector<http::Route>& routes, const Services& ser
                                        .compute = press_fit,
                                        .summary = "Pressure, stress and slip of a press fit",
                                        .operation = "computePressFit",
-                                       .tag = "limits",
                                        .reads = "PressFitOrder",
                                        .answers = "PressFit"}));
 }

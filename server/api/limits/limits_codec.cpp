@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "api/limits/fit_of_values.hpp"
 #include "api/resources.hpp"
 #include "metrology/gauging/gauge.hpp"
 #include "tables/iso286/tolerance_class.hpp"
@@ -67,6 +68,12 @@ std::string designation_text(Length nominal_size, std::string_view class_name) {
   std::string text = format_mm(nominal_size);
   text += ' ';
   return text += class_name;
+}
+
+http::Response tagged_json(std::string body, std::string etag) {
+  http::Response response(200, "application/json", std::move(body));
+  response.etag = std::move(etag);
+  return response;
 }
 
 std::string etag_of(const iso286::ToleranceTables& tables) {
@@ -191,21 +198,10 @@ void add_limits_schemas(Schemas& schemas) {
   schemas.push_back({"Limits", schema::object(limits_fields(), Others::Allowed, kLimits)});
   const std::string likely =
       schema::object({{"probability_of_interference", schema::number(), ""}});
-  const std::string side = schema::object(
-      selection_field() + schema::Fields{{"mean", schema::number(), "In mm"},
-                                         {"standard_deviation_overall", schema::number(), "In mm"},
-                                         {"stable", schema::boolean(), "No rule is broken"}});
-  const std::string stored = schema::object(
-      {{"probability_of_interference", schema::number(), "Independent and normal, as measured"},
-       {"mean_clearance_um", schema::number(), ""},
-       {"standard_deviation_um", schema::number(), "Of the clearance"},
-       {"stable", schema::boolean(), "Both are: else the next parts may be others"},
-       {"hole", side, ""},
-       {"shaft", side, ""}});
-  const std::string statistical =
-      schema::object({{"normal", likely, "Six standard deviations wide"},
-                      {"uniform", likely, ""},
-                      {"stored", stored, "Of the values that filters choose", false}});
+  const std::string statistical = schema::object(
+      {{"normal", likely, "Six standard deviations wide"},
+       {"uniform", likely, ""},
+       {"stored", stored_clearance_schema(), "Of the values that filters choose", false}});
   const schema::Fields fit_members = {
       {"designation", schema::text(), "25 H7/g6"},
       {"hole", schema::ref("Limits"), ""},

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "base/json/json_writer.hpp"
+#include "http/response.hpp"
 #include "service/measurements/measurement_service.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 #include "tables/standards/designated_limits.hpp"
@@ -22,6 +23,9 @@ void write_limits_members(JsonWriter& json, const standards::DesignatedLimits& l
 
 /// `25 H7`
 std::string designation_text(Length nominal_size, std::string_view class_name);
+
+/// 200 with a JSON text and its entity tag.
+http::Response tagged_json(std::string body, std::string etag);
 
 /// The entity tag of what is derived from the tables: it changes with their revision.
 std::string etag_of(const iso286::ToleranceTables& tables);

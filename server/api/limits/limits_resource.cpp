@@ -8,28 +8,19 @@ namespace {
 
 using iso286::ToleranceTables;
 
-/// @param limits with the tables they are of, if they are of ISO 286
-http::Response limits_object(std::string etag, const auto&... limits) {
-  std::string body;
-  JsonWriter json(body);
-  json.begin_object();
-  write_limits_members(json, limits...);
-  json.end_object();
-  http::Response response(200, "application/json", std::move(body));
-  response.etag = std::move(etag);
-  return response;
-}
-
 Result<http::Response> limits_response(iso286::NominalSize size, std::string_view class_name,
                                        const ToleranceTables& tables) {
   const auto limits = tables.limits_of_size(size, class_name);
   if (!limits) return limits.error();
-  return limits_object(etag_of(tables), *limits, tables);
+  return tagged_json(
+      json_object([&](JsonWriter& json) { write_limits_members(json, *limits, tables); }),
+      etag_of(tables));
 }
 
 Result<http::Response> limits_response(const Result<standards::DesignatedLimits>& limits) {
   if (!limits) return limits.error();
-  return limits_object(etag_of(*limits->standard), *limits);
+  return tagged_json(json_object([&](JsonWriter& json) { write_limits_members(json, *limits); }),
+                     etag_of(*limits->standard));
 }
 
 Result<http::Response> limits_of_designation(const http::Request& request,
@@ -62,14 +53,12 @@ void add_limits_routes(std::vector<http::Route>& routes,
       .description = "Deviations and limits of a nominal size and tolerance class (ISO 286-1), of "
                      "the pitch diameter of a thread (ISO 965-1), of a general tolerance "
                      "(ISO 2768-1).",
-      .parameters = {{.name = "designation",
-                      .place = http::ParameterPlace::Path,
-                      .description = "25H7, 25 H7, Ø25H7; M10-6H, M10x1.25-6g; 25 ISO 2768-m, "
-                                     "R2 ISO 2768-m; a comma may mark decimals"},
+      .parameters = {path_parameter("designation",
+                                    "25H7, 25 H7, Ø25H7; M10-6H, M10x1.25-6g; 25 ISO 2768-m, "
+                                    "R2 ISO 2768-m; a comma may mark decimals"),
                      revision_parameter()},
       .access = "open",
       .operation = "getLimits",
-      .tag = "limits",
       .outcomes = {{.meaning = "The limits", .schema = "Limits"}},
       .refusals = {404, 422},
   });
@@ -87,7 +76,6 @@ void add_limits_routes(std::vector<http::Route>& routes,
                      revision_parameter()},
       .access = "open",
       .operation = "findLimits",
-      .tag = "limits",
       .outcomes = {{.meaning = "The limits", .schema = "Limits"}},
       .refusals = {404, 422},
   });

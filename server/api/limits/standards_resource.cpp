@@ -24,12 +24,6 @@ void write_identity(JsonWriter& json, const Standard& standard) {
   if (!standard.left_out.empty()) json.member("left_out", standard.left_out);
 }
 
-http::Response response_of(std::string body, std::string etag) {
-  http::Response response(200, "application/json", std::move(body));
-  response.etag = std::move(etag);
-  return response;
-}
-
 Result<http::Response> list(const http::Request& /*request*/,
                             const iso286::ToleranceTables& /*tables*/) {
   std::string body;
@@ -47,7 +41,7 @@ Result<http::Response> list(const http::Request& /*request*/,
     etag += standard.revision.substr(standard.revision.size() - 8);
   }
   json.end_array().end_object();
-  return response_of(std::move(body), etag + '"');
+  return tagged_json(std::move(body), etag + '"');
 }
 
 void write_cell(JsonWriter& json, const Cell& cell) {
@@ -142,7 +136,7 @@ Result<http::Response> rows(const http::Request& request, const iso286::Toleranc
   }
   // A shop's own columns may stand for the widths of a keyway.
   const std::string own = etag_of(tables);
-  return response_of(std::move(body),
+  return tagged_json(std::move(body),
                      etag_of(*standard).insert(1, own.substr(1, own.size() - 2) + '.'));
 }
 
@@ -157,7 +151,6 @@ void add_standards_routes(std::vector<http::Route>& routes,
       .description = "Their editions, tables and what the numbers were compared with.",
       .access = "open",
       .operation = "listStandards",
-      .tag = "limits",
       .outcomes = {{.meaning = "The standards", .schema = "Standards"}},
   });
   routes.push_back({
@@ -166,9 +159,7 @@ void add_standards_routes(std::vector<http::Route>& routes,
       .summary = "The numbers of a standard: general tolerances, threads, keyways, bearings",
       .description = "Deviations in µm, nominal sizes in mm, angles in minutes; what the standard "
                      "has no number for is absent.",
-      .parameters = {{.name = "name",
-                      .place = http::ParameterPlace::Path,
-                      .description = "iso2768-1, iso965-1, din6885-1 or iso492"},
+      .parameters = {path_parameter("name", "iso2768-1, iso965-1, din6885-1 or iso492"),
                      {.name = "size_mm",
                       .type = http::LengthIn{},
                       .description =
@@ -177,7 +168,6 @@ void add_standards_routes(std::vector<http::Route>& routes,
                      {.name = "table", .description = "Only this table"}},
       .access = "open",
       .operation = "getStandard",
-      .tag = "limits",
       .outcomes = {{.meaning = "Its rows", .schema = "Standard"}},
       .refusals = {404},
   });

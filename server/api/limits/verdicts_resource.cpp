@@ -139,20 +139,16 @@ Result<http::Response> verdict(const http::Request& request,
 
   const auto result = gauging::gauge({limits->quantity, limits->feature}, limits->of.upper,
                                      limits->of.lower, measured.decisive(), *rule);
-  std::string body;
-  JsonWriter json(body);
-  json.begin_object();
-  limits->write_members(json);
-  write_verdict_members(json, limits->nominal, measured, result);
-  write_rule_members(json, *rule, words, limits->of, measured.decisive());
   std::vector<Warning> warnings =
       unused_parameters(request, rule->kind() == gauging::DecisionRule::Kind::Simple);
   warn_of_no_acceptance(*rule, limits->of.upper - limits->of.lower, warnings);
-  write_warnings(json, warnings);
-  json.end_object();
-  http::Response response(200, "application/json", std::move(body));
-  response.etag = limits->etag;
-  return response;
+  return tagged_json(json_object([&](JsonWriter& json) {
+                       limits->write_members(json);
+                       write_verdict_members(json, limits->nominal, measured, result);
+                       write_rule_members(json, *rule, words, limits->of, measured.decisive());
+                       write_warnings(json, warnings);
+                     }),
+                     limits->etag);
 }
 
 /// A field of a measurement as a parameter.
@@ -187,9 +183,7 @@ void add_verdicts_routes(std::vector<http::Route>& routes, const Services& servi
       .description =
           "good, rework (hole too small, shaft too large) or reject (hole too large, shaft too "
           "small); limits are inclusive. Nothing is stored.",
-      .parameters = {{.name = "designation",
-                      .place = http::ParameterPlace::Path,
-                      .description = "25H7, M10-6H, 25 ISO 2768-m"},
+      .parameters = {path_parameter("designation", "25H7, M10-6H, 25 ISO 2768-m"),
                      {.name = "feature",
                       .type = http::Words{{"hole", "shaft"}},
                       .description = "Of a general tolerance, which does not say it: a distance, "
@@ -219,7 +213,6 @@ void add_verdicts_routes(std::vector<http::Route>& routes, const Services& servi
                      revision_parameter()},
       .access = "open",
       .operation = "getVerdict",
-      .tag = "limits",
       .outcomes = {{.meaning = "The verdict", .schema = "Verdict"}},
       .refusals = {404, 422},
   });

@@ -51,17 +51,12 @@ void tile(const Services& services, const http::Request& request, http::Responde
 }
 
 std::string proof_json(const app::LogService::Proof& proof) {
-  std::string body;
-  JsonWriter json(body);
-  json.begin_object()
-      .member("index", proof.index)
-      .member("size", proof.head->checkpoint.size)
-      .member("leaf", tlog::to_base64(proof.leaf))
-      .key("hashes")
-      .begin_array();
-  for (const tlog::Hash& hash : proof.path) json.value(tlog::to_base64(hash));
-  json.end_array().member("checkpoint", proof.head->note).end_object();
-  return body;
+  return json_object([&](JsonWriter& json) {
+    json.member("index", proof.index).member("size", proof.head->checkpoint.size);
+    json.member("leaf", tlog::to_base64(proof.leaf)).key("hashes").begin_array();
+    for (const tlog::Hash& hash : proof.path) json.value(tlog::to_base64(hash));
+    json.end_array().member("checkpoint", proof.head->note);
+  });
 }
 
 void prove(const Services& services, const http::Request& request, http::Responder responder) {
@@ -92,7 +87,6 @@ void add_tree_routes(std::vector<http::Route>& routes, const Services& services)
       .response_types = {},
       .access = "viewer",
       .operation = "get" + of + "Checkpoint",
-      .tag = "log",
       .outcomes = {{.meaning = "A signed note", .media_types = {"text/plain"}}},
   });
   routes.push_back({
@@ -105,7 +99,6 @@ void add_tree_routes(std::vector<http::Route>& routes, const Services& services)
       .response_types = {},
       .access = "viewer",
       .operation = of_changes ? "getChangesKeys" : "getLogKeys",
-      .tag = "log",
       .outcomes = {{.meaning = "Verifier keys", .media_types = {"text/plain"}}},
   });
   routes.push_back({
@@ -117,14 +110,12 @@ void add_tree_routes(std::vector<http::Route>& routes, const Services& services)
                                   "and `after_sha256`, of the texts, in their place."
                                 : "As C2SP tlog-tiles name them: `0/000`, `1/x001/067.p/3`, and "
                                   "`entries/000` for the records themselves.",
-      .parameters = {{.name = "path",
-                      .place = http::ParameterPlace::Path,
-                      .description = "Level or `entries`, index, and `.p/` with its width where it "
-                                     "is not full"}},
+      .parameters = {path_parameter("path",
+                                    "Level or `entries`, index, and `.p/` with its width where it "
+                                    "is not full")},
       .response_types = {},
       .access = "viewer",
       .operation = "get" + of + "Tile",
-      .tag = "log",
       .outcomes = {{.meaning = "Hashes, or entries with their lengths",
                     .media_types = {"application/octet-stream"}}},
       .refusals = {404},
@@ -153,14 +144,14 @@ void list_changes(const Services& services, const http::Request& request,
       request.integer("after").value_or(0), request.integer("limit").value_or(100),
       [shared = share(std::move(responder))](const Result<store::ChangesStore::Page>& page) {
         if (!page) return shared->fail(page.error());
-        std::string body;
-        JsonWriter json(body);
-        json.begin_object().key("changes").begin_array();
-        for (const store::Change& change : page->changes) json.raw(app::change_json(change));
-        json.end_array().key("next");
-        page->has_more ? json.value(std::to_string(page->changes.back().id)) : json.null();
-        json.end_object();
-        shared->answer({200, "application/json", std::move(body)});
+        shared->answer({200, "application/json", json_object([&page](JsonWriter& json) {
+                          json.key("changes").begin_array();
+                          for (const store::Change& change : page->changes)
+                            json.raw(app::change_json(change));
+                          json.end_array().key("next");
+                          page->has_more ? json.value(std::to_string(page->changes.back().id))
+                                         : json.null();
+                        })});
       });
 }
 
@@ -174,12 +165,9 @@ void add_log_routes(std::vector<http::Route>& routes, const Services& services) 
       .handler = with(services, prove),
       .summary = "The proof that a measurement stands in the log",
       .description = "Waits up to 1.1 s for a checkpoint that covers the measurement.",
-      .parameters = {{.name = "id",
-                      .place = http::ParameterPlace::Path,
-                      .description = "As the record names it"}},
+      .parameters = {path_parameter("id", "As the record names it")},
       .access = "viewer",
       .operation = "getProof",
-      .tag = "log",
       .outcomes = {{.meaning = "The path from its leaf to the root of a signed checkpoint",
                     .schema = "Proof"}},
       .refusals = {404},
@@ -227,7 +215,6 @@ void add_changes_routes(std::vector<http::Route>& routes, const Services& servic
                       .description = "`next` of the page before"}},
       .access = "viewer",
       .operation = "listChanges",
-      .tag = "log",
       .outcomes = {{.meaning = "A page, oldest first", .schema = "Changes"}},
   });
 }

@@ -85,9 +85,8 @@ void add_intake_routes(std::vector<http::Route>& routes, const Services& service
           "each note that is new. Taken whole "
           "where the first record continues the log of the origin and the root fits the signed "
           "checkpoint; else 409 with the head that is here.",
-      .parameters = {{.name = "origin",
-                      .place = http::ParameterPlace::Path,
-                      .description = "What the ids of the station end with: 16 hexadecimal digits"},
+      .parameters = {path_parameter("origin",
+                                    "What the ids of the station end with: 16 hexadecimal digits"),
                      {.name = "from",
                       .place = http::ParameterPlace::Path,
                       .type = http::Integer{.min = 1},
@@ -97,7 +96,6 @@ void add_intake_routes(std::vector<http::Route>& routes, const Services& service
                .limit = kBatchLimit},
       .access = "station",
       .operation = "putLogBatch",
-      .tag = "log",
       .outcomes = {{.meaning = "All of it is durable: the log's head here", .schema = "LogHead"}},
       .refusals = {403, 409, 422},
   });
@@ -139,7 +137,6 @@ void add_revisions_routes(std::vector<http::Route>& routes, const Services& serv
                      {.name = "after", .description = "The `position` of the last answer"}},
       .access = "station",
       .operation = "getRevisions",
-      .tag = "log",
       .outcomes = {{.meaning = "What has changed", .schema = "Revisions"}},
       .refusals = {403},
   });

@@ -64,26 +64,18 @@ void write_verdict_counts(JsonWriter& json, const app::VerdictTally& verdicts) {
 }
 
 std::string summary_json(std::string_view group_by, std::span<const app::MeasurementGroup> groups) {
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object();
-  write_formula(json, "stored_summary");
-  json.key("groups").begin_array();
-  for (const app::MeasurementGroup& group : groups) {
-    json.begin_object().key(group_by);
-    if (group.value) {
-      json.value(*group.value);
-    } else {
-      json.null();
+  return json_object([&](JsonWriter& json) {
+    write_formula(json, "stored_summary");
+    json.key("groups").begin_array();
+    for (const app::MeasurementGroup& group : groups) {
+      json.begin_object().member(group_by, group.value).member("count", group.count);
+      write_verdict_counts(json, group.verdicts);
+      json.key("mean_mm").raw(group.mean_mm);
+      json.key("standard_deviation_mm").raw(group.standard_deviation_mm.value_or("null"));
+      json.member_mm("min_mm", group.min).member_mm("max_mm", group.max).end_object();
     }
-    json.member("count", group.count);
-    write_verdict_counts(json, group.verdicts);
-    json.key("mean_mm").raw(group.mean_mm);
-    json.key("standard_deviation_mm").raw(group.standard_deviation_mm.value_or("null"));
-    json.member_mm("min_mm", group.min).member_mm("max_mm", group.max).end_object();
-  }
-  json.end_array().end_object();
-  return out;
+    json.end_array();
+  });
 }
 
 }  // namespace fitgauge::api

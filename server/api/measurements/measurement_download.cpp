@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <future>
-
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_file.hpp"
+#include "base/thread.hpp"
 #include "formats/sheet/time_zone.hpp"
 #include "record/record.hpp"
 #include "service/jobs.hpp"
@@ -68,20 +67,17 @@ Error too_many(const std::string& matching, const std::string& most) {
 
 /// Adds a page, whose rows a reader visits while this thread waits.
 Result<app::ListPage> add_page(Download& download, MeasurementFile& file, std::size_t limit) {
-  std::promise<Result<app::ListPage>> promise;
-  auto page = promise.get_future();
   Result<void> added;
   std::string record;
-  download.services.measurements.list(
-      download.query, download.after, limit,
-      [&](const app::Measurement& measurement) {
-        record.clear();
-        app::append_record(record, measurement);
-        download.bytes += record.size();
-        if (added && download.bytes <= MeasurementFile::kMostBytes) added = file.add(measurement);
-      },
-      [&promise](Result<app::ListPage> read) { promise.set_value(std::move(read)); });
-  auto read = page.get();
+  const auto add = [&](const app::Measurement& measurement) {
+    record.clear();
+    app::append_record(record, measurement);
+    download.bytes += record.size();
+    if (added && download.bytes <= MeasurementFile::kMostBytes) added = file.add(measurement);
+  };
+  auto read = wait_for_result<app::ListPage>([&](auto done) {
+    download.services.measurements.list(download.query, download.after, limit, add, done);
+  });
   if (read && !added) return added.error();
   if (read && download.bytes > MeasurementFile::kMostBytes) {
     return too_many(fmt::format("more than {} MiB of records", MeasurementFile::kMostBytes >> 20),
@@ -92,14 +88,9 @@ Result<app::ListPage> add_page(Download& download, MeasurementFile& file, std::s
 
 /// How many match. @errors those of MeasurementService::summary
 Result<std::size_t> count(const Download& download) {
-  std::promise<Result<std::vector<app::MeasurementGroup>>> promise;
-  auto groups = promise.get_future();
-  download.services.measurements.summary(
-      download.query, "tolerance_class",
-      [&promise](Result<std::vector<app::MeasurementGroup>> read) {
-        promise.set_value(std::move(read));
-      });
-  const auto read = groups.get();
+  const auto read = wait_for_result<std::vector<app::MeasurementGroup>>([&](auto done) {
+    download.services.measurements.summary(download.query, "tolerance_class", done);
+  });
   if (!read) return read.error();
   std::size_t rows = 0;
   for (const app::MeasurementGroup& group : *read) rows += static_cast<std::size_t>(group.count);

@@ -141,14 +141,10 @@ void answer_page(const Services& services, const http::Request& request, http::R
   std::string body;
   const std::string cursor = page.next ? cursor_text(page, services.log.origin()) : "";
   if (form == Form::Json) {
-    JsonWriter json(body);
-    json.begin_object().key("measurements").raw("[" + rows + "]").key("next");
-    if (page.next) {
-      json.value(cursor);
-    } else {
-      json.null();
-    }
-    json.end_object();
+    body = json_object([&](JsonWriter& json) {
+      json.key("measurements").raw("[" + rows + "]").key("next");
+      page.next ? json.value(cursor) : json.null();
+    });
   } else {
     body = (form == Form::Csv ? measurement_csv_header() : std::string()) + rows;
   }

@@ -98,7 +98,6 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
                .schema = "NewMeasurements"},
       .access = "operator",
       .operation = "postMeasurements",
-      .tag = "measurements",
       .outcomes = {{.status = 201,
                     .meaning = "Stored for good: the record of one, a count of several, or all "
                                "records with return=representation; no body with return=minimal",
@@ -112,15 +111,10 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
       .summary = "Correct a measurement by a new one that names it",
       .description = "The body has measured_mm and reason; fields it leaves out are taken over. "
                      "The old record stays.",
-      .parameters = posting_parameters({{.name = "id",
-                                         .place = http::ParameterPlace::Path,
-                                         .description = "The measurement to correct"}}),
-      .body = {.use = http::BodyUse::Required,
-               .media_types = {"application/json"},
-               .schema = "Correction"},
+      .parameters = posting_parameters({path_parameter("id", "The measurement to correct")}),
+      .body = json_body("Correction"),
       .access = "operator",
       .operation = "correctMeasurement",
-      .tag = "measurements",
       .outcomes = {{.status = 201, .meaning = "The new record", .schema = "Recorded"}},
       .refusals = {404, 409},
   });
@@ -136,7 +130,6 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
                          std::string(kDfqType), std::string(kQifType), std::string(kXlsxType)},
       .access = "viewer",
       .operation = "listMeasurements",
-      .tag = "measurements",
       .outcomes = {{.meaning = "A page, or a stream of all", .schema = "MeasurementList"}},
   });
   routes.push_back({
@@ -146,19 +139,15 @@ void add_measurements_routes(std::vector<http::Route>& routes, const Services& s
       .parameters = summary_parameters(),
       .access = "viewer",
       .operation = "summariseMeasurements",
-      .tag = "measurements",
       .outcomes = {{.meaning = "The groups", .schema = "Summary"}},
   });
   routes.push_back({
       .pattern = "/v1/measurements/{id}",
       .handler = with(services, find_measurement),
       .summary = "One measurement",
-      .parameters = {{.name = "id",
-                      .place = http::ParameterPlace::Path,
-                      .description = "As the record names it"}},
+      .parameters = {path_parameter("id", "As the record names it")},
       .access = "viewer",
       .operation = "getMeasurement",
-      .tag = "measurements",
       .outcomes = {{.meaning = "The record", .schema = "Measurement"}},
       .refusals = {404},
   });

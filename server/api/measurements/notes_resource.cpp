@@ -121,23 +121,16 @@ Result<CheckedDocument> check_catalogue(const Services&, const std::string&,
 
 constexpr KindOfDocument kCatalogues{.kind = app::DocumentKind::Catalogue,
                                      .path = "/v1/catalogues",
-                                     .parameter = "name",
                                      .one = "a catalogue",
                                      .contents = "causes and measures to choose from",
                                      .many = "catalogues of causes and measures",
                                      .member = "catalogues",
-                                     .tag = "plans",
                                      .operation = "Catalogue",
                                      .operations = "Catalogues",
-                                     .schema = "Catalogue",
-                                     .body_schema = "Catalogue",
-                                     .list_schema = "Catalogues",
                                      .check = check_catalogue};
 
 http::Parameter measurement_parameter() {
-  return {.name = "id",
-          .place = http::ParameterPlace::Path,
-          .description = "The measurement it is about"};
+  return path_parameter("id", "The measurement it is about");
 }
 
 }  // namespace
@@ -165,12 +158,9 @@ void add_notes_routes(std::vector<http::Route>& routes, const Services& services
       .description = "Notes are never changed, and are no part of the record. An Idempotency-Key "
                      "makes repeats safe.",
       .parameters = {measurement_parameter(), idempotency_parameter()},
-      .body = {.use = http::BodyUse::Required,
-               .media_types = {"application/json"},
-               .schema = "NewNote"},
+      .body = json_body("NewNote"),
       .access = "operator",
       .operation = "addNote",
-      .tag = "measurements",
       .outcomes = {{.status = 201, .meaning = "Stored for good", .schema = "Note"}},
       .refusals = {404, 409},
   });
@@ -181,10 +171,12 @@ void add_notes_routes(std::vector<http::Route>& routes, const Services& services
       .parameters = {measurement_parameter()},
       .access = "viewer",
       .operation = "listNotes",
-      .tag = "measurements",
       .outcomes = {{.meaning = "Oldest first", .schema = "Notes"}},
       .refusals = {404},
   });
+}
+
+void add_catalogues_routes(std::vector<http::Route>& routes, const Services& services) {
   add_document_routes(routes, services, kCatalogues);
 }
 

@@ -184,13 +184,10 @@ void add_parts_routes(std::vector<http::Route>& routes, const Services& services
                      "Without `plan` the part is held against the plan of its own name, or the "
                      "only one that has every "
                      "characteristic measured at it; if there is none, nothing is missing.",
-      .parameters = {{.name = "part",
-                      .place = http::ParameterPlace::Path,
-                      .description = "part_id of its measurements"},
+      .parameters = {path_parameter("part", "part_id of its measurements"),
                      {.name = "plan", .description = "Part number of the plan to hold it against"}},
       .access = "viewer",
       .operation = "getPart",
-      .tag = "measurements",
       .outcomes = {{.meaning = "The part", .schema = "Part"}},
       .refusals = {404},
   });

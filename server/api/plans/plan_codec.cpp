@@ -96,14 +96,12 @@ void read_characteristics(const JsonValue& list, const BatchContext& context, Fi
 }
 
 std::string stored_text(const JsonValue& body, std::string_view part) {
-  std::string text;
-  JsonWriter json(text);
-  json.begin_object().member("part", part);
-  for (const auto& [name, value] : body.members) {
-    if (name != "part") write_json(json.key(name), value);
-  }
-  json.end_object();
-  return text;
+  return json_object([&](JsonWriter& json) {
+    json.member("part", part);
+    for (const auto& [name, value] : body.members) {
+      if (name != "part") write_json(json.key(name), value);
+    }
+  });
 }
 
 using schema::Fields;
@@ -173,10 +171,8 @@ Result<std::string> read_plan(const JsonValue& body, std::string_view part,
 Result<PlanHead> read_plan_head(std::string_view text) {
   const auto plan = parse_stored_json(text, "plan");
   if (!plan) return plan.error();
-  const JsonValue* name = plan->find("name");
-  const JsonValue* list = plan->find("characteristics");
-  return PlanHead{.name = name != nullptr ? name->text : std::string(),
-                  .characteristics = list != nullptr ? list->items.size() : 0};
+  return PlanHead{.name = std::string(plan->text_of("name")),
+                  .characteristics = plan->member("characteristics").items.size()};
 }
 
 void add_plan_schemas(Schemas& schemas) {

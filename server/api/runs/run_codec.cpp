@@ -5,8 +5,6 @@
 #include <charconv>
 
 #include "api/resources.hpp"
-#include "api/runs/run_order_codec.hpp"
-#include "api/runs/trace_codec.hpp"
 #include "base/json/body_forms.hpp"
 #include "record/measurement.hpp"
 

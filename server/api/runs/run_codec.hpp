@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,8 +9,12 @@
 
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
+#include "base/json/schema.hpp"
 #include "nc/klartext/diagnostic.hpp"
+#include "service/documents/document_service.hpp"
+#include "service/runs/control_tables.hpp"
 #include "service/runs/run_service.hpp"
+#include "service/runs/stored_run.hpp"
 
 namespace fitgauge::api {
 
@@ -24,7 +29,6 @@ std::string unfinished_run_json(const app::ActiveRun& run);
 /// The same of a run that is known to the store alone.
 std::string unfinished_run_json(const app::StoredRun& run);
 
-/// `next` of a page that ends before run `id`.
 /// `{"runs":[{"id","status","program","created_at","finished_at"},...],"next"}`
 /// @param next the cursor; empty on the last page
 std::string run_page_json(const app::RunService::Page& page, std::string_view next);
@@ -32,5 +36,51 @@ std::string run_page_json(const app::RunService::Page& page, std::string_view ne
 /// `{"diagnostics":[...]}`
 std::string diagnostics_json(const std::vector<klartext::Diagnostic>& diagnostics);
 void write_diagnostics(JsonWriter& json, const std::vector<klartext::Diagnostic>& diagnostics);
+
+inline constexpr std::int64_t kMostBlocks = 100'000'000;
+inline constexpr double kMostSeconds = 60;
+/// Bytes of a part and of an order, as a record takes them.
+inline constexpr std::size_t kLongestSubject = 200;
+
+/// Finds a named setup; may wait.
+using FindSetup = std::function<Result<app::NamedDocument>(const std::string& name)>;
+
+/// Reads the body of POST /v1/runs. The order's request is the body with a named setup put in
+/// place, so that it can be sent again.
+/// @param tables of the control: their rows are added to those of the setup
+/// @errors RequestInvalid with every bad field; those of `find_setup` but SetupUnknown.
+Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup,
+                                       const app::ControlTables& tables);
+
+/// The schema of such a body.
+NamedSchema run_order_schema();
+
+/// `{"moves":[...],"dropped":0}`, one move a line; lengths in mm to the tenth of a nanometre.
+app::TraceFormat trace_json();
+
+/// Turns the JSON of a trace into CSV, whatever the pieces it comes in.
+class TraceCsv {
+ public:
+  /// The rows that end in this piece. @errors StorageCorrupt when a line is no move.
+  Result<std::string> rows(std::string_view piece);
+
+ private:
+  /// A column: a member of a move, or one axis of a position.
+  struct Column {
+    std::string member;
+    std::string axis{};
+
+    std::string title() const;
+  };
+
+  static std::vector<Column> columns_of(const JsonValue& move);
+  Result<void> append_line(std::string& out, std::string_view line);
+
+  std::string rest_;  ///< of a line that has not ended
+  std::vector<Column> columns_;
+};
+
+/// The schema of a trace.
+void add_trace_schema(Schemas& schemas);
 
 }  // namespace fitgauge::api

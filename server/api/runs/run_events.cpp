@@ -1,4 +1,4 @@
-#include "api/runs/run_events.hpp"
+#include "api/runs/run_posting.hpp"
 
 #include <charconv>
 #include <mutex>
@@ -13,18 +13,15 @@ namespace {
 constexpr std::string_view kEnd = "end";
 
 void append_line(std::string& out, std::string_view line, std::size_t number) {
-  std::string data;
-  JsonWriter json(data);
-  json.begin_object().member("line", line).end_object();
-  append_event(out, "output", std::to_string(number), data);
+  append_event(out, "output", std::to_string(number),
+               json_object([&](JsonWriter& json) { json.member("line", line); }));
 }
 
 void append_progress(std::string& out, app::RunState state, std::uint64_t blocks,
                      std::size_t lines) {
-  std::string data;
-  JsonWriter json(data);
-  json.begin_object().member("status", word(state)).member("blocks_executed", blocks).end_object();
-  append_event(out, "progress", std::to_string(lines), data);
+  append_event(out, "progress", std::to_string(lines), json_object([&](JsonWriter& json) {
+                 json.member("status", word(state)).member("blocks_executed", blocks);
+               }));
 }
 
 /// How many lines the reader has received; an id of another form begins at the first line.

@@ -1,4 +1,4 @@
-#include "api/runs/run_order_codec.hpp"
+#include "api/runs/run_codec.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,6 @@
 #include <chrono>
 
 #include "api/files/file_path.hpp"
-#include "api/runs/run_codec.hpp"
-#include "api/runs/setup_builder.hpp"
 #include "api/runs/setup_codec.hpp"
 
 namespace fitgauge::api {
@@ -268,13 +266,10 @@ Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_set
       decode_setup(given != nullptr ? *given : nothing, "/setup", tables, errors);
   if (given != nullptr) decode_builder(*given, "/setup", order.options, errors);
   if (auto error = errors.take()) return std::move(*error);
-  std::string request;
-  JsonWriter json(request);
-  write_json(json, body);
   return app::RunOrder{.program = *parse_file_path(order.program),
                        .setup = std::move(setup),
                        .options = std::move(order.options),
-                       .request = std::move(request),
+                       .request = json_text(body),
                        .contacts = std::move(order.contacts),
                        .subject = std::move(order.subject),
                        .watch = std::move(order.watch)};

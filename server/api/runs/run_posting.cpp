@@ -3,7 +3,6 @@
 #include <future>
 
 #include "api/runs/run_codec.hpp"
-#include "api/runs/run_order_codec.hpp"
 #include "api/wire/problem.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/json_value.hpp"

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "api/services.hpp"
+#include "base/result.hpp"
 #include "http/request.hpp"
 #include "http/response.hpp"
 #include "nc/machine/machine_setup.hpp"
+#include "service/runs/active_run.hpp"
 #include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
@@ -28,5 +32,17 @@ Result<std::shared_ptr<app::ActiveRun>> start_program(const Services& services,
 /// POST /v1/runs: checks the order, starts the run and answers with its end, or at once where
 /// `Prefer: respond-async` asks for it.
 void post_run(const Services& services, const http::Request& request, http::Responder responder);
+
+/// Server-Sent Events of a run that is queued or under way: `progress` (status and blocks so far),
+/// `output` (a line of the screen), `end` (the run object). The id of an event is the number of
+/// lines told so far, or `end`.
+/// @param last the id of the last event the reader had: it gets the lines that follow, and 204
+///   after `end`, upon which a browser asks no more.
+http::Response run_events(std::shared_ptr<app::ActiveRun> run,
+                          std::optional<std::string_view> last);
+
+/// The same of a run that is over. @errors StorageCorrupt when the report cannot be read.
+Result<http::Response> finished_run_events(const std::string& report,
+                                           std::optional<std::string_view> last);
 
 }  // namespace fitgauge::api

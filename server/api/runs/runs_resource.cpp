@@ -3,9 +3,7 @@
 #include "api/files/file_path.hpp"
 #include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
-#include "api/runs/run_events.hpp"
 #include "api/runs/run_posting.hpp"
-#include "api/runs/trace_codec.hpp"
 #include "api/wire/event_text.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/json_value.hpp"
@@ -183,8 +181,7 @@ void list_runs(const Services& services, const http::Request& request, http::Res
                      });
 }
 
-const http::Parameter kId{
-    .name = "id", .place = http::ParameterPlace::Path, .description = "As the run names it"};
+const http::Parameter kId = path_parameter("id", "As the run names it");
 
 void add_reading_routes(std::vector<http::Route>& routes, const Services& services) {
   routes.push_back({
@@ -203,7 +200,6 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
                      {.name = "after", .description = "The cursor `next` of the page before"}},
       .access = "viewer",
       .operation = "listRuns",
-      .tag = "runs",
       .outcomes = {{.meaning = "A page", .schema = "RunList"}},
   });
   routes.push_back({
@@ -213,7 +209,6 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .parameters = {kId},
       .access = "viewer",
       .operation = "getRun",
-      .tag = "runs",
       .outcomes = {{.meaning = "The run", .schema = "Run"}},
       .refusals = {404},
   });
@@ -224,7 +219,6 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .parameters = {kId},
       .access = "viewer",
       .operation = "getRunParameters",
-      .tag = "runs",
       .outcomes = {{.meaning = "By name", .schema = "RunParameters"}},
       .refusals = {404},
   });
@@ -235,7 +229,6 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .parameters = {kId},
       .access = "viewer",
       .operation = "getRunRequest",
-      .tag = "runs",
       .outcomes = {{.meaning = "The order", .schema = "RunOrder"}},
       .refusals = {404},
   });
@@ -247,7 +240,6 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .response_types = {"application/json", "text/csv"},
       .access = "viewer",
       .operation = "getRunTrace",
-      .tag = "runs",
       .outcomes = {{.meaning = "The moves", .schema = "Trace"}},
       .refusals = {404, 409},
   });
@@ -255,14 +247,10 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .pattern = "/v1/runs/{id}/files/{name}",
       .handler = with(services, get_run_file),
       .summary = "A file the run has written, by its name",
-      .parameters = {kId,
-                     {.name = "name",
-                      .place = http::ParameterPlace::Path,
-                      .description = "TCHPR421.TXT, without regard to case"}},
+      .parameters = {kId, path_parameter("name", "TCHPR421.TXT, without regard to case")},
       .response_types = {},
       .access = "viewer",
       .operation = "getRunFile",
-      .tag = "runs",
       .outcomes = {{.meaning = "Its bytes", .media_types = {"text/plain", "text/html"}}},
       .refusals = {404, 409},
   });
@@ -276,7 +264,6 @@ void add_reading_routes(std::vector<http::Route>& routes, const Services& servic
       .response_types = {std::string(kEventStreamType)},
       .access = "viewer",
       .operation = "followRun",
-      .tag = "runs",
       .outcomes = {{.meaning = "output, progress, end", .schema = "RunEvent"},
                    {.status = 204, .meaning = "It is over and all was read"}},
       .refusals = {404},
@@ -299,12 +286,9 @@ void add_runs_routes(std::vector<http::Route>& routes, const Services& services)
                      {.name = "Prefer",
                       .place = http::ParameterPlace::Header,
                       .description = "respond-async"}},
-      .body = {.use = http::BodyUse::Required,
-               .media_types = {"application/json"},
-               .schema = "RunOrder"},
+      .body = json_body("RunOrder"),
       .access = "operator",
       .operation = "postRun",
-      .tag = "runs",
       .outcomes = {{.status = 201, .meaning = "It is over", .schema = "Run"},
                    {.status = 202, .meaning = "It is queued", .schema = "Run"}},
       .refusals = {409},
@@ -317,7 +301,6 @@ void add_runs_routes(std::vector<http::Route>& routes, const Services& services)
       .parameters = {kId},
       .access = "operator",
       .operation = "cancelRun",
-      .tag = "runs",
       .outcomes = {{.status = 204, .meaning = "It is cancelled"}},
       .refusals = {404, 409},
   });

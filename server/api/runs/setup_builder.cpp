@@ -1,4 +1,4 @@
-#include "api/runs/setup_builder.hpp"
+#include "api/runs/setup_codec.hpp"
 
 #include <fmt/format.h>
 

@@ -2,11 +2,43 @@
 
 #include <fmt/format.h>
 
-#include "api/runs/setup_builder.hpp"
+#include "api/resources.hpp"
 #include "api/runs/setup_machine.hpp"
 #include "api/service/document_routes.hpp"
+#include "service/runs/run_service.hpp"
 
 namespace fitgauge::api {
+namespace {
+
+Result<CheckedDocument> check_setup(const Services& services, const std::string&,
+                                    std::string_view text) {
+  const auto body = parse_json(text);
+  if (!body) return body.error();
+  const auto tables = services.runs.control_tables();
+  if (!tables) return tables.error();
+  FieldErrors errors;
+  machine::Setup setup = decode_setup(*body, "", **tables, errors);
+  interpreter::RunOptions options;
+  decode_builder(*body, "", options, errors);
+  if (auto error = errors.take()) return *std::move(error);
+  const auto loaded = services.runs.load_meshes(setup, "", app::MissingFiles::Allowed);
+  if (!loaded) return loaded.error();
+  return CheckedDocument{.text = std::string(text)};
+}
+
+constexpr KindOfDocument kSetups{.kind = app::DocumentKind::Setup,
+                                 .path = "/v1/setups",
+                                 .one = "a setup",
+                                 .contents = "a machine, its tools and the workpiece on its table",
+                                 .many = "named setups",
+                                 .member = "setups",
+                                 .operation = "Setup",
+                                 .operations = "Setups",
+                                 .longest_name = 100,
+                                 .names_with_slashes = false,
+                                 .check = check_setup};
+
+}  // namespace
 
 // The members of a setup's workpiece.
 
@@ -191,6 +223,10 @@ machine::Setup decode_setup(const JsonValue& body, const std::string& pointer,
   app::add_rows(tables, {has("tools"), has("probes"), has("presets")}, setup.machine);
   check(setup, pointer, errors);
   return setup;
+}
+
+void add_setups_routes(std::vector<http::Route>& routes, const Services& services) {
+  add_document_routes(routes, services, kSetups);
 }
 
 }  // namespace fitgauge::api

@@ -2,7 +2,7 @@
 
 #include <tuple>
 
-#include "api/runs/setup_builder.hpp"
+#include "api/runs/setup_codec.hpp"
 
 // The members of a setup's machine.
 

@@ -1,4 +1,4 @@
-#include "api/runs/trace_codec.hpp"
+#include "api/runs/run_codec.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "api/runs/run_codec.hpp"
 #include "base/csv.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"
@@ -59,30 +58,18 @@ void write_machine_contact(JsonWriter& json, const machine::TracedContact& conta
 void write_move(std::string& out, const machine::TracedMove& move, const app::TracePlace& place,
                 std::span<const Axis> axes) {
   JsonWriter json(out);
-  json.begin_object().member("kind", name(move.kind)).key("block");
-  if (place.block) {
-    json.value(*place.block);
-  } else {
-    json.null();
-  }
+  json.begin_object().member("kind", name(move.kind)).member("block", place.block);
   json.member("line", place.line).member("program", place.program);
   write_position(json, "start", move.start, axes);
   write_position(json, "end", move.end, axes);
-  json.key("feed_mm_min")
-      .fixed(move.feed_mm_min, kDecimals)
-      .key("seconds")
-      .fixed(move.seconds, kDecimals);
+  json.key("feed_mm_min").fixed(move.feed_mm_min, kDecimals);
+  json.key("seconds").fixed(move.seconds, kDecimals);
   if (move.contact) {
     write_point(json, "contact_mm", move.contact->surface);
   } else {
     json.key("contact_mm").null();
   }
-  json.key("cycle");
-  if (place.cycle != 0) {
-    json.value(static_cast<std::uint32_t>(place.cycle));
-  } else {
-    json.null();
-  }
+  json.member("cycle", place.cycle != 0 ? std::optional(place.cycle) : std::nullopt);
   write_point(json, "machine_start_mm", move.machine_start);
   write_point(json, "machine_end_mm", move.machine_end);
   if (move.arc) write_arc(json, *move.arc);

@@ -107,7 +107,6 @@ void add_cycles_routes(std::vector<http::Route>& routes) {
       .summary = "Every cycle with its parameters and results",
       .access = "open",
       .operation = "listCycles",
-      .tag = "cycles",
       .outcomes = {{.meaning = "All of them", .schema = "Cycles"}},
   });
   routes.push_back({
@@ -120,7 +119,6 @@ void add_cycles_routes(std::vector<http::Route>& routes) {
                       .description = "421"}},
       .access = "open",
       .operation = "getCycle",
-      .tag = "cycles",
       .outcomes = {{.meaning = "The cycle", .schema = "Cycle"}},
       .refusals = {404},
   });

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "api/handlers.hpp"
+#include "api/resources.hpp"
 #include "api/statistics/computation.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/clock.hpp"
@@ -180,12 +181,9 @@ NamedSchema names_schema(std::string name, std::string_view member, std::string_
 
 void add_document_routes(std::vector<http::Route>& routes, const Services& services,
                          const KindOfDocument& kind) {
-  const http::Parameter name{
-      .name = std::string(parameter_name(kind)),
-      .place = http::ParameterPlace::Path,
-      .description = fmt::format("Of {}: {}", kind.one, names_allowed(kind))};
+  const http::Parameter name = path_parameter(
+      std::string(parameter_name(kind)), fmt::format("Of {}: {}", kind.one, names_allowed(kind)));
   const std::string pattern = fmt::format("{}/{{{}}}", kind.path, kind.parameter);
-  const std::string tag(kind.tag);
   const std::string operation(kind.operation);
   const std::string schema(kind.schema);
   const std::string answered(kind.answered);
@@ -195,7 +193,6 @@ void add_document_routes(std::vector<http::Route>& routes, const Services& servi
       .summary = fmt::format("The {}", kind.many),
       .access = "viewer",
       .operation = fmt::format("list{}", kind.operations),
-      .tag = tag,
       .outcomes = {{.meaning = "In the order of their names",
                     .schema = std::string(kind.list_schema)}},
   });
@@ -206,7 +203,6 @@ void add_document_routes(std::vector<http::Route>& routes, const Services& servi
       .parameters = {name},
       .access = "viewer",
       .operation = "get" + operation,
-      .tag = tag,
       .outcomes = {{.meaning = "As it was stored", .schema = schema}},
       .refusals = {404, 412},
   });
@@ -217,12 +213,9 @@ void add_document_routes(std::vector<http::Route>& routes, const Services& servi
       .handler = of_kind(services, kind, put),
       .summary = fmt::format("Store {}: {}", kind.one, kind.contents),
       .parameters = {name},
-      .body = {.use = http::BodyUse::Required,
-               .media_types = {"application/json"},
-               .schema = std::string(kind.body_schema)},
+      .body = json_body(std::string(kind.body_schema)),
       .access = "admin",
       .operation = "put" + operation,
-      .tag = tag,
       .outcomes = {{.meaning = "It is replaced", .schema = answered},
                    {.status = 201, .meaning = "It is new", .schema = answered}},
       .refusals = {412},
@@ -240,7 +233,6 @@ void add_document_routes(std::vector<http::Route>& routes, const Services& servi
       .parameters = {name},
       .access = "admin",
       .operation = "delete" + operation,
-      .tag = tag,
       .outcomes = {{.status = 204, .meaning = "It is gone"}},
       .refusals = {404, 409, 412},
   });

@@ -33,18 +33,17 @@ Result<void> describe_by_name(JsonWriter& json, const app::NamedDocument& docume
 /// What differs between the kinds.
 struct KindOfDocument {
   app::DocumentKind kind{};
-  std::string_view path{};       ///< of the list
-  std::string_view parameter{};  ///< of a document's path
-  std::string_view one{};        ///< as a sentence names it
-  std::string_view contents{};   ///< what stands in it
+  std::string_view path{};              ///< of the list
+  std::string_view parameter = "name";  ///< of a document's path
+  std::string_view one{};               ///< as a sentence names it
+  std::string_view contents{};          ///< what stands in it
   std::string_view many{};
-  std::string_view member{};       ///< of the list's answer
-  std::string_view tag{};          ///< group of operations
-  std::string_view operation{};    ///< after get, put, delete
-  std::string_view operations{};   ///< after list
-  std::string_view schema{};       ///< of what is stored
-  std::string_view body_schema{};  ///< of what is sent
-  std::string_view list_schema{};
+  std::string_view member{};              ///< of the list's answer
+  std::string_view operation{};           ///< after get, put, delete
+  std::string_view operations{};          ///< after list
+  std::string_view schema = operation;    ///< of what is stored
+  std::string_view body_schema = schema;  ///< of what is sent
+  std::string_view list_schema = operations;
   std::string_view answered{};  ///< schema of what a PUT answers; empty: nothing
   std::size_t longest_name = 200;
   bool names_with_slashes = true;

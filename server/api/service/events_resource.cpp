@@ -107,7 +107,6 @@ void add_events_routes(std::vector<http::Route>& routes, const Services& service
       .response_types = {std::string(kEventStreamType)},
       .access = "viewer",
       .operation = "followEvents",
-      .tag = "service",
       .outcomes = {{.meaning = "Events without an end", .schema = "Event"}},
   });
   add_last_event_id(routes.back().parameters);

@@ -332,20 +332,18 @@ Schemas make_schemas(const Schemas& of_plant) {
 std::string openapi_json(const std::vector<http::Route>& routes, const Schemas& of_plant) {
   std::map<std::string, std::vector<const http::Route*>> paths;
   for (const http::Route& route : routes) paths[openapi_path(route.pattern)].push_back(&route);
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object().member("openapi", "3.1.0");
-  write_info(json);
-  json.key("paths").begin_object();
-  for (const auto& [path, operations] : paths) {
-    json.key(path).begin_object();
-    for (const http::Route* route : operations) write_operation(json, *route);
+  return json_object([&](JsonWriter& json) {
+    json.member("openapi", "3.1.0");
+    write_info(json);
+    json.key("paths").begin_object();
+    for (const auto& [path, operations] : paths) {
+      json.key(path).begin_object();
+      for (const http::Route* route : operations) write_operation(json, *route);
+      json.end_object();
+    }
     json.end_object();
-  }
-  json.end_object();
-  write_components(json, of_plant);
-  json.end_object();
-  return out;
+    write_components(json, of_plant);
+  });
 }
 
 void add_openapi_route(std::vector<http::Route>& routes, const Schemas& of_plant) {

@@ -70,7 +70,6 @@ void add_page_routes(std::vector<http::Route>& routes) {
       .response_types = {"text/html"},
       .access = "open",
       .operation = "getPage",
-      .tag = "service",
       .outcomes = {{.meaning = "HTML"}},
   });
   routes.push_back({
@@ -78,13 +77,10 @@ void add_page_routes(std::vector<http::Route>& routes) {
       .handler = http::SyncHandler(
           [files](const http::Request& request) { return answer(*files, *request.text("path")); }),
       .summary = "A file of the page",
-      .parameters = {{.name = "path",
-                      .place = http::ParameterPlace::Path,
-                      .description = "app.js"}},
+      .parameters = {path_parameter("path", "app.js")},
       .response_types = {},
       .access = "open",
       .operation = "getPageFile",
-      .tag = "service",
       .outcomes = {{.meaning = "Its bytes",
                     .media_types = {"text/html", "text/css", "text/javascript", "image/svg+xml",
                                     "text/plain"}}},

@@ -21,20 +21,14 @@ Result<http::Response> ready(const Services& services) {
   }
   const auto tables = services.tables.state();
   const auto head = services.log.head();
-  std::string body;
-  JsonWriter json(body);
-  json.begin_object()
-      .member("status", "ready")
-      .member("version", kVersion)
-      .member("database", readiness.database)
-      .member("table_revision", std::string_view(tables->tables->revision().id))
-      .key("log")
-      .begin_object()
-      .member("name", head->checkpoint.origin)
-      .member("size", head->checkpoint.size)
-      .member("root", tlog::to_base64(head->checkpoint.root))
-      .end_object()
-      .end_object();
+  std::string body = json_object([&](JsonWriter& json) {
+    json.member("status", "ready").member("version", kVersion);
+    json.member("database", readiness.database);
+    json.member("table_revision", tables->tables->revision().id);
+    json.key("log").begin_object().member("name", head->checkpoint.origin);
+    json.member("size", head->checkpoint.size);
+    json.member("root", tlog::to_base64(head->checkpoint.root)).end_object();
+  });
   return http::Response(200, "application/json", std::move(body)).with("Cache-Control", "no-store");
 }
 
@@ -120,7 +114,6 @@ void add_service_routes(std::vector<http::Route>& routes, const Services& servic
       .summary = "The process answers",
       .access = "public",
       .operation = "live",
-      .tag = "service",
       .outcomes = {{.meaning = "It answers", .schema = "Live"}},
   });
   routes.push_back({
@@ -129,7 +122,6 @@ void add_service_routes(std::vector<http::Route>& routes, const Services& servic
       .summary = "The service may be used: database, schema and tables are in order",
       .access = "public",
       .operation = "ready",
-      .tag = "service",
       .outcomes = {{.meaning = "All is in order", .schema = "Ready"}},
   });
   routes.push_back({
@@ -139,7 +131,6 @@ void add_service_routes(std::vector<http::Route>& routes, const Services& servic
       .response_types = {},
       .access = "open",
       .operation = "getMetrics",
-      .tag = "service",
       .outcomes = {{.meaning = "Prometheus text", .media_types = {"text/plain"}}},
   });
 }

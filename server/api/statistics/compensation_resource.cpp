@@ -210,7 +210,6 @@ void add_compensation_routes(std::vector<http::Route>& routes, const Services& s
       .response_types = {"application/json", std::string(kEventStreamType)},
       .access = "viewer",
       .operation = "proposeOffset",
-      .tag = "measurements",
       .outcomes = {{.meaning = "What was found", .schema = "Compensation"}},
       .refusals = {422},
   });

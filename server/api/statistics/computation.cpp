@@ -150,7 +150,6 @@ http::Route route_of(const Services& services, Computation computation) {
                 .when_too_large = std::string(kOfManyValues),
                 .schema = std::move(computation.reads)};
   route.operation = std::move(computation.operation);
-  route.tag = std::move(computation.tag);
   route.outcomes = {{.meaning = "What was computed", .schema = std::move(computation.answers)}};
   route.access = "viewer";
   return route;

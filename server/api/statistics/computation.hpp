@@ -100,7 +100,6 @@ struct Computation {
   std::string summary;
   std::string description{};
   std::string operation;
-  std::string tag = "statistics";
   std::string reads;    ///< the schema of the body, by name
   std::string answers;  ///< the schema of the answer, by name
 };

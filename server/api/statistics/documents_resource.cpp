@@ -177,16 +177,13 @@ void list_calibrations(const Services& services, const http::Request& request,
 
 constexpr KindOfDocument kUncertainties{.kind = app::DocumentKind::Uncertainty,
                                         .path = "/v1/uncertainties",
-                                        .parameter = "name",
                                         .one = "an uncertainty budget",
                                         .contents = "what contributes to it",
                                         .many = "uncertainty budgets",
                                         .member = "uncertainties",
-                                        .tag = "statistics",
                                         .operation = "Uncertainty",
                                         .operations = "Uncertainties",
                                         .schema = "UncertaintyBudget",
-                                        .body_schema = "UncertaintyBudget",
                                         .list_schema = "UncertaintyBudgetNames",
                                         .answered = "Uncertainty",
                                         .is_figure = true,
@@ -194,16 +191,12 @@ constexpr KindOfDocument kUncertainties{.kind = app::DocumentKind::Uncertainty,
                                         .changed = reload_gauges};
 constexpr KindOfDocument kGauges{.kind = app::DocumentKind::GaugeInUse,
                                  .path = "/v1/gauges-in-use",
-                                 .parameter = "name",
                                  .one = "a gauge in use",
                                  .contents = "its uncertainty and when its calibration is due",
                                  .many = "gauges in use",
                                  .member = "gauges",
-                                 .tag = "statistics",
                                  .operation = "GaugeInUse",
                                  .operations = "GaugesInUse",
-                                 .schema = "GaugeInUse",
-                                 .body_schema = "GaugeInUse",
                                  .list_schema = "GaugeInUseNames",
                                  .check = check_gauge,
                                  .changed = reload_gauges};
@@ -224,8 +217,7 @@ void add_documents_schemas(Schemas& schemas) {
 void add_documents_routes(std::vector<http::Route>& routes, const Services& services) {
   add_document_routes(routes, services, kUncertainties);
   add_document_routes(routes, services, kGauges);
-  const http::Parameter name{
-      .name = "name", .place = http::ParameterPlace::Path, .description = "Of the gauge in use"};
+  const http::Parameter name = path_parameter("name", "Of the gauge in use");
   routes.push_back({
       .method = http::Method::Post,
       .pattern = "/v1/gauges-in-use/{name}/calibrations",
@@ -234,12 +226,9 @@ void add_documents_routes(std::vector<http::Route>& routes, const Services& serv
       .description = "It counts for what is measured from its beginning to that of the next. One "
                      "with the same beginning takes its place.",
       .parameters = {name},
-      .body = {.use = http::BodyUse::Required,
-               .media_types = {"application/json"},
-               .schema = "NewCalibration"},
+      .body = json_body("NewCalibration"),
       .access = "admin",
       .operation = "recordCalibration",
-      .tag = "statistics",
       .outcomes = {{.meaning = "It takes the place of one", .schema = "Calibration"},
                    {.status = 201, .meaning = "It is recorded", .schema = "Calibration"}},
       .refusals = {404},
@@ -251,7 +240,6 @@ void add_documents_routes(std::vector<http::Route>& routes, const Services& serv
       .parameters = {name},
       .access = "viewer",
       .operation = "listCalibrations",
-      .tag = "statistics",
       .outcomes = {{.meaning = "By their beginnings", .schema = "Calibrations"}},
       .refusals = {404},
   });

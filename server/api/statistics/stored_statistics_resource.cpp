@@ -211,7 +211,6 @@ void add_stored_statistics_routes(std::vector<http::Route>& routes, const Servic
                                 .description = "Of the intervals; 0.95 when absent"}}),
       .access = "viewer",
       .operation = "assessStoredCapability",
-      .tag = "measurements",
       .outcomes = {{.meaning = "What was computed", .schema = "StoredCapability"}},
       .refusals = {422},
   });
@@ -223,7 +222,6 @@ void add_stored_statistics_routes(std::vector<http::Route>& routes, const Servic
       .parameters = chart_parameters(),
       .access = "viewer",
       .operation = "makeStoredControlChart",
-      .tag = "measurements",
       .outcomes = {{.meaning = "What was computed", .schema = "StoredControlChart"}},
       .refusals = {422},
   });

@@ -248,10 +248,4 @@ SelectionAnswer selection_of(const SelectedValues& selected, std::string as_of) 
           .upper_limit = selected.upper_limit};
 }
 
-schema::Fields selection_field() {
-  BodySchema describe(Side::Answer);
-  describe.member("selection", SelectionAnswer{}, "Which measurements it is of");
-  return describe.fields();
-}
-
 }  // namespace fitgauge::api

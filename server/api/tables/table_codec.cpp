@@ -51,32 +51,23 @@ Result<std::vector<ClassId>> chosen_classes(std::string_view names, Feature feat
 
 std::string table_json(Feature feature, const std::vector<ClassId>& classes,
                        const ToleranceTables& tables) {
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object()
-      .member("revision", std::string_view(tables.revision().id))
-      .member("feature", word(feature))
-      .key("rows")
-      .begin_array();
-  for (const NominalSizeRange& range : tables.ranges()) {
-    json.begin_object()
-        .member_mm("over_mm", range.over)
-        .member_mm("up_to_mm", range.up_to)
-        .key("limits")
-        .begin_object();
-    for (const ClassId id : classes) {
-      const auto deviations = deviations_in_range(tables, id, range);
-      if (!deviations) continue;
-      json.key(tables.class_name(id))
-          .begin_object()
-          .member_um("upper_um", deviations->upper)
-          .member_um("lower_um", deviations->lower)
-          .end_object();
+  return json_object([&](JsonWriter& json) {
+    json.member("revision", tables.revision().id).member("feature", word(feature));
+    json.key("rows").begin_array();
+    for (const NominalSizeRange& range : tables.ranges()) {
+      json.begin_object().member_mm("over_mm", range.over).member_mm("up_to_mm", range.up_to);
+      json.key("limits").begin_object();
+      for (const ClassId id : classes) {
+        const auto deviations = deviations_in_range(tables, id, range);
+        if (!deviations) continue;
+        json.key(tables.class_name(id)).begin_object();
+        json.member_um("upper_um", deviations->upper).member_um("lower_um", deviations->lower);
+        json.end_object();
+      }
+      json.end_object().end_object();
     }
-    json.end_object().end_object();
-  }
-  json.end_array().end_object();
-  return out;
+    json.end_array();
+  });
 }
 
 std::string table_csv(const std::vector<ClassId>& classes, const ToleranceTables& tables) {
@@ -98,23 +89,19 @@ std::string table_csv(const std::vector<ClassId>& classes, const ToleranceTables
 }
 
 std::string table_index_json(const ToleranceTables& tables) {
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object()
-      .member("revision", std::string_view(tables.revision().id))
-      .key("tables")
-      .begin_array();
-  for (const Feature feature : {Feature::Hole, Feature::Shaft}) {
-    json.begin_object().member("feature", word(feature)).key("classes").begin_array();
-    for (const ClassId id : tables.classes(feature)) json.value(tables.class_name(id));
-    json.end_array().key("own").begin_array();
-    for (const ClassId id : tables.classes(feature)) {
-      if (tables.basis(id) == iso286::Basis::Custom) json.value(tables.class_name(id));
+  return json_object([&](JsonWriter& json) {
+    json.member("revision", tables.revision().id).key("tables").begin_array();
+    for (const Feature feature : {Feature::Hole, Feature::Shaft}) {
+      json.begin_object().member("feature", word(feature)).key("classes").begin_array();
+      for (const ClassId id : tables.classes(feature)) json.value(tables.class_name(id));
+      json.end_array().key("own").begin_array();
+      for (const ClassId id : tables.classes(feature)) {
+        if (tables.basis(id) == iso286::Basis::Custom) json.value(tables.class_name(id));
+      }
+      json.end_array().member("size_ranges", std::uint64_t{tables.ranges().size()}).end_object();
     }
-    json.end_array().member("size_ranges", std::uint64_t{tables.ranges().size()}).end_object();
-  }
-  json.end_array().end_object();
-  return out;
+    json.end_array();
+  });
 }
 
 using schema::Others;

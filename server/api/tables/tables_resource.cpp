@@ -38,9 +38,7 @@ Result<http::Response> table_response(const http::Request& request, Feature feat
 }
 
 Result<http::Response> index_response(const http::Request&, const ToleranceTables& tables) {
-  http::Response response(200, "application/json", table_index_json(tables));
-  response.etag = etag_of(tables);
-  return response;
+  return tagged_json(table_index_json(tables), etag_of(tables));
 }
 
 Result<http::Response> tab_response(Feature feature, const ToleranceTables& tables) {
@@ -55,10 +53,9 @@ void answer_change(const std::shared_ptr<http::Responder>& responder, int status
                    const app::TableCatalog::ColumnStored& stored) {
   http::Response response(status);
   if (status != 204) {
-    std::string body;
-    JsonWriter json(body);
-    json.begin_object().member("revision", stored.revision).end_object();
-    response = http::Response(status, "application/json", std::move(body));
+    response = http::Response(status, "application/json", json_object([&](JsonWriter& json) {
+                                json.member("revision", stored.revision);
+                              }));
   }
   responder->answer(std::move(response).with("ETag", '"' + stored.revision + '"'));
 }
@@ -135,7 +132,6 @@ void add_feature_routes(std::vector<http::Route>& routes, const Services& servic
       .response_types = {"application/json", "text/csv"},
       .access = "open",
       .operation = "get" + table,
-      .tag = "tables",
       .outcomes = {{.meaning = "The table", .schema = "Table"}},
       .refusals = {404},
   });
@@ -150,12 +146,10 @@ void add_feature_routes(std::vector<http::Route>& routes, const Services& servic
       .response_types = {"text/plain"},
       .access = "open",
       .operation = "get" + table + "Tab",
-      .tag = "tables",
       .outcomes = {{.meaning = "The file"}},
   });
-  const http::Parameter name{.name = "name",
-                             .place = http::ParameterPlace::Path,
-                             .description = "Letter, then letters, digits and _; at most 16"};
+  const http::Parameter name =
+      path_parameter("name", "Letter, then letters, digits and _; at most 16");
   const http::Parameter if_match{.name = "If-Match",
                                  .place = http::ParameterPlace::Header,
                                  .description = "Tag of the tables the change follows"};
@@ -165,12 +159,9 @@ void add_feature_routes(std::vector<http::Route>& routes, const Services& servic
       .handler = with(services, feature, put_column),
       .summary = "Store a column of the shop's own as a new revision",
       .parameters = {name, if_match},
-      .body = {.use = http::BodyUse::Required,
-               .media_types = {"application/json"},
-               .schema = "Column"},
+      .body = json_body("Column"),
       .access = "admin",
       .operation = "put" + table + "Column",
-      .tag = "tables",
       .outcomes = {{.meaning = "The column is replaced", .schema = "Revision"},
                    {.status = 201, .meaning = "The column is new", .schema = "Revision"}},
       .refusals = {404, 412},
@@ -183,7 +174,6 @@ void add_feature_routes(std::vector<http::Route>& routes, const Services& servic
       .parameters = {name, if_match},
       .access = "admin",
       .operation = "delete" + table + "Column",
-      .tag = "tables",
       .outcomes = {{.status = 204, .meaning = "It is gone"}},
       .refusals = {404, 412},
   });
@@ -199,7 +189,6 @@ void add_tables_routes(std::vector<http::Route>& routes, const Services& service
       .summary = "The tables in use and their classes",
       .access = "open",
       .operation = "listTables",
-      .tag = "tables",
       .outcomes = {{.meaning = "The tables", .schema = "TableIndex"}},
   });
   for (const Feature feature : {Feature::Hole, Feature::Shaft}) {

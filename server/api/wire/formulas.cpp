@@ -69,8 +69,6 @@ constexpr std::array kFormulas = {
 
 }  // namespace
 
-std::span<const Formula> formulas() { return kFormulas; }
-
 const Formula& formula_of(std::string_view of) {
   const auto found = std::find_if(kFormulas.begin(), kFormulas.end(),
                                   [of](const Formula& formula) { return formula.of == of; });

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <string_view>
 
 #include "base/json/body_forms.hpp"
@@ -14,9 +13,8 @@ struct Formula {
   std::string_view formula;
   std::string_view clause;
 };
-std::span<const Formula> formulas();
 
-/// @param of a name in formulas(); another is a bug
+/// @param of its name; another is a bug
 const Formula& formula_of(std::string_view of);
 
 /// Writes the members `formula` and `clause`.

@@ -111,22 +111,18 @@ int status_of(ErrorCode code) {
 
 http::Response problem(const Error& error, std::optional<int> given, const http::Request& request) {
   const int status = given.value_or(status_of(error.code));
-  std::string body;
-  JsonWriter json(body);
-  json.begin_object()
-      .member("type", "urn:fitgauge:problem:" + std::string(id(error.code)))
-      .member("title", title(error.code))
-      .member("status", status)
-      .member("detail", error.message)
-      .member("instance", "urn:fitgauge:request:" + std::string(request.id_text()))
-      .member("code", id(error.code));
-  if (!error.where.empty()) json.member("where", error.where);
-  if (!error.details.empty()) {
+  std::string body = json_object([&](JsonWriter& json) {
+    json.member("type", "urn:fitgauge:problem:" + std::string(id(error.code)));
+    json.member("title", title(error.code)).member("status", status);
+    json.member("detail", error.message);
+    json.member("instance", "urn:fitgauge:request:" + std::string(request.id_text()));
+    json.member("code", id(error.code));
+    if (!error.where.empty()) json.member("where", error.where);
+    if (error.details.empty()) return;
     json.key("errors").begin_array();
     for (const Error& detail : error.details) write_detail(json, detail);
     json.end_array();
-  }
-  json.end_object();
+  });
   http::Response response(status, "application/problem+json", std::move(body));
   add_headers(error, status, response);
   return response;

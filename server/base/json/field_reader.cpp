@@ -139,12 +139,6 @@ const JsonValue* FieldReader::object(std::string_view name) {
   return take(name, true, {Kind::Object}, "an object");
 }
 
-double FieldReader::number_or(std::string_view name, double fallback) {
-  if (has(name)) return number(name).value_or(fallback);
-  known_.push_back(name);
-  return fallback;
-}
-
 std::optional<std::int64_t> FieldReader::integer(std::string_view name, std::int64_t least,
                                                  std::int64_t most) {
   const JsonValue* value = take(name, true, {Kind::Number}, "a whole number");
@@ -187,7 +181,6 @@ void FieldReader::refuse_not_applicable(std::span<const Applicable> table, std::
 }
 
 void FieldReader::refuse_unknown() {
-  if (accepts_all_) return;
   for (const auto& [name, value] : object_.members) {
     if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
       report(ErrorCode::FieldUnknown, name, fmt::format("there is no field {}", name));

@@ -85,7 +85,6 @@ class FieldReader {
   const JsonValue* object(std::string_view name);
 
   // Members that may be absent.
-  double number_or(std::string_view name, double fallback);
   std::int64_t integer_or(std::string_view name, std::int64_t fallback, std::int64_t least,
                           std::int64_t most);
   bool boolean_or(std::string_view name, bool fallback);
@@ -97,8 +96,6 @@ class FieldReader {
                              std::string_view kind);
   /// Reports every member that was not asked for.
   void refuse_unknown();
-  /// As if every member had been asked for.
-  void accept_all() { accepts_all_ = true; }
 
   bool has(std::string_view name) const { return object_.find(name) != nullptr; }
   std::string at(std::string_view name) const { return pointer_to(pointer_, name); }
@@ -115,7 +112,6 @@ class FieldReader {
   std::string pointer_;
   FieldErrors& errors_;
   std::vector<std::string_view> known_;
-  bool accepts_all_ = false;
 };
 
 }  // namespace fitgauge::api

@@ -182,4 +182,11 @@ void write_json(JsonWriter& json, const JsonValue& value) {
   }
 }
 
+std::string json_text(const JsonValue& value) {
+  std::string out;
+  JsonWriter json(out);
+  write_json(json, value);
+  return out;
+}
+
 }  // namespace fitgauge::api

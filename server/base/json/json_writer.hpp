@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -58,6 +59,11 @@ class JsonWriter {
   JsonWriter& value(std::string_view text);
   JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
   JsonWriter& value(const char* text) { return value(std::string_view(text)); }
+  /// null where there is none.
+  template <class T>
+  JsonWriter& value(const std::optional<T>& content) {
+    return content ? value(*content) : null();
+  }
   JsonWriter& mm(Length length);
   JsonWriter& um(Length length);
   /// value / 10^scale, exactly.
@@ -82,7 +88,19 @@ class JsonWriter {
   bool after_key_ = false;
 };
 
+/// The object whose members `write(json)` writes.
+template <class Write>
+std::string json_object(const Write& write) {
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object();
+  write(json);
+  json.end_object();
+  return out;
+}
+
 /// A value as it was read: numbers keep their digits.
 void write_json(JsonWriter& json, const JsonValue& value);
+std::string json_text(const JsonValue& value);
 
 }  // namespace fitgauge::api

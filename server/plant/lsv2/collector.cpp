@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <condition_variable>
 #include <map>
-#include <mutex>
 
 #include "base/digest.hpp"
 #include "base/text.hpp"
@@ -86,9 +84,7 @@ class Collector final : public Worker {
   std::map<std::string, Seen> seen_;  ///< by path in lower case; of the thread alone
   std::size_t round_bytes_ = 0;
   bool is_away_ = false;  ///< the machine is not reached, or its connection broke
-  std::condition_variable_any woken_;
-  std::mutex waiting_;
-  Thread thread_;  // last: it uses all above
+  Thread thread_;         // last: it uses all above
 };
 
 void Collector::run(const std::stop_token& stop) {
@@ -101,8 +97,7 @@ void Collector::run(const std::stop_token& stop) {
     finish_attempt(why);
     const auto most = std::max(options_.longest_wait, options_.interval);
     wait = is_away_ ? std::min(2 * wait, most) : options_.interval;
-    std::unique_lock lock(waiting_);
-    woken_.wait_for(lock, stop, wait, [] { return false; });
+    wait_unless_stopped(stop, wait);
   }
 }
 

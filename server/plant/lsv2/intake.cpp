@@ -6,6 +6,7 @@
 #include <future>
 #include <optional>
 
+#include "base/thread.hpp"
 #include "nc/program/control_disk.hpp"
 #include "service/files/file_service.hpp"
 #include "service/measurements/measurement_service.hpp"
@@ -60,18 +61,12 @@ Result<void> keep(app::FileService& files, const MachineOptions& machine, const 
   auto kept = interpreter::ControlPath::parse(
       fmt::format("TNC:\\collected\\{}\\{}", machine.name, path.substr(kDrive)));
   if (!kept) return kept.error();
-  std::promise<Result<app::DiskFile>> read;
-  auto found = read.get_future();
-  files.read(*kept, [&read](Result<app::DiskFile> file) { read.set_value(std::move(file)); });
-  const auto there = found.get();
+  const auto there = wait_for_result<app::DiskFile>([&](auto done) { files.read(*kept, done); });
   if (there && there->bytes == bytes) return {};
   if (!there && there.error().code != ErrorCode::FileUnknown) return there.error();
-  std::promise<Result<app::FileService::Written>> write;
-  auto written = write.get_future();
-  files.write(
-      *std::move(kept), bytes, machine.name, {},
-      [&write](Result<app::FileService::Written> done) { write.set_value(std::move(done)); });
-  if (const auto done = written.get(); !done) return done.error();
+  const auto written = wait_for_result<app::FileService::Written>(
+      [&](auto done) { files.write(*std::move(kept), bytes, machine.name, {}, done); });
+  if (!written) return written.error();
   return {};
 }
 

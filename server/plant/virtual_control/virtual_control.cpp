@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <future>
-
+#include "base/thread.hpp"
 #include "plant/virtual_control/control_conversation.hpp"
 
 namespace fitgauge::virtual_control {
@@ -39,13 +38,11 @@ std::string tool_table(const machine::Setup& setup) {
 Result<void> bring(app::FileService& files, std::string_view path, const std::string& bytes) {
   auto parsed = interpreter::ControlPath::parse(path);
   if (!parsed) return parsed.error();
-  std::promise<Result<app::FileService::Written>> promise;
-  auto written = promise.get_future();
-  files.write(
-      *std::move(parsed), bytes, std::nullopt,
-      [](std::optional<std::int64_t> revision) { return !revision; },
-      [&promise](Result<app::FileService::Written> done) { promise.set_value(std::move(done)); });
-  const auto done = written.get();
+  const auto done = wait_for_result<app::FileService::Written>([&](auto written) {
+    files.write(
+        *std::move(parsed), bytes, std::nullopt,
+        [](std::optional<std::int64_t> revision) { return !revision; }, written);
+  });
   if (!done && done.error().code != ErrorCode::PreconditionFailed) return done.error();
   return {};
 }

@@ -1,9 +1,9 @@
 #include "plant/virtual_control/virtual_disk.hpp"
 
 #include <algorithm>
-#include <future>
 
 #include "base/text.hpp"
+#include "base/thread.hpp"
 
 namespace fitgauge::virtual_control {
 namespace {
@@ -41,10 +41,7 @@ ControlError refusal_of(const Error& error) {
 /// Waits for a function that calls `done` on another thread.
 template <class T, class Begin>
 control_link::ControlResult<T> wait_for(const Begin& begin) {
-  std::promise<Result<T>> promise;
-  auto future = promise.get_future();
-  begin([&promise](Result<T> done) { promise.set_value(std::move(done)); });
-  auto result = future.get();
+  auto result = wait_for_result<T>(begin);
   if (!result) return refusal_of(result.error());
   return *std::move(result);
 }

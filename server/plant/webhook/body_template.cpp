@@ -16,13 +16,6 @@ constexpr std::string_view kClose = "}}";
 
 Error invalid(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
 
-std::string json_text(const JsonValue& value) {
-  std::string text;
-  api::JsonWriter json(text);
-  write_json(json, value);
-  return text;
-}
-
 bool is_field(std::string_view name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return is_ascii_alphanumeric(c) || c == '_' || c == '.';
@@ -59,15 +52,15 @@ JsonValue field_of(const JsonValue& event, std::string_view id, std::string_view
 std::string in_string(const JsonValue& value) {
   if (value.is(JsonValue::Kind::Null)) return {};
   const bool is_text = value.is(JsonValue::Kind::String) || value.is(JsonValue::Kind::Number);
-  const std::string quoted =
-      json_text({.kind = JsonValue::Kind::String, .text = is_text ? value.text : json_text(value)});
+  const std::string quoted = api::json_text(
+      {.kind = JsonValue::Kind::String, .text = is_text ? value.text : api::json_text(value)});
   return quoted.substr(1, quoted.size() - 2);
 }
 
 }  // namespace
 
 Result<BodyTemplate> BodyTemplate::read(const JsonValue& body) {
-  std::string text = body.is(JsonValue::Kind::String) ? body.text : json_text(body);
+  std::string text = body.is(JsonValue::Kind::String) ? body.text : api::json_text(body);
   if (text.empty() || text.size() > kLongest) {
     return invalid(fmt::format("body must have 1 to {} bytes; got {}", kLongest, text.size()));
   }
@@ -123,7 +116,7 @@ std::string BodyTemplate::body_of(std::string_view id, std::string_view event) c
       continue;
     }
     const JsonValue value = field_of(parsed ? *parsed : none, id, part.text);
-    body += part.kind == Part::Kind::Text ? in_string(value) : json_text(value);
+    body += part.kind == Part::Kind::Text ? in_string(value) : api::json_text(value);
   }
   return body;
 }

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <future>
 
 #include "base/json/json_value.hpp"
+#include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "service/log/changes.hpp"
 #include "service/revisions/revision_feed.hpp"
@@ -133,15 +133,6 @@ Result<std::vector<NamedDocument>> all_of(const store::Stores& stores, DocumentK
   return documents;
 }
 
-/// Waits for what `begin` gives to its argument.
-template <class T, class Begin>
-Result<T> waited(const Begin& begin) {
-  std::promise<Result<T>> promise;
-  auto future = promise.get_future();
-  begin([&promise](Result<T> result) { promise.set_value(std::move(result)); });
-  return future.get();
-}
-
 }  // namespace
 
 std::string calibration_name(std::string_view gauge, Timestamp from) {
@@ -235,12 +226,12 @@ Result<std::vector<NamedDocument>> DocumentService::wait_for_list(DocumentKind k
 }
 
 Result<bool> DocumentService::write_and_wait(Change change) {
-  return waited<bool>([&](Done<bool> done) { write(std::move(change), std::move(done)); });
+  return wait_for_result<bool>([&](Done<bool> done) { write(std::move(change), std::move(done)); });
 }
 
 Result<bool> DocumentService::remove_and_wait(DocumentKind kind, const std::string& name,
                                               std::optional<std::string> caller) {
-  return waited<bool>(
+  return wait_for_result<bool>(
       [&](Done<bool> done) { remove(kind, name, {}, std::move(caller), std::move(done)); });
 }
 

@@ -49,13 +49,11 @@ std::optional<Role> role_from_word(std::string_view text) {
 void log_key(store::Stores& stores, const std::string& name, std::int64_t now_ns, bool is_made) {
   const auto key = stores.keys.newest(name);
   if (!key) return;
-  std::string text;
-  api::JsonWriter json(text);
-  json.begin_object().member("role", word(static_cast<Role>(key->role)));
-  if (key->expires_at_ns) json.member("expires_at", format_rfc3339({*key->expires_at_ns}));
-  json.end_object();
   store::Change change{.at_ns = now_ns, .kind = "key", .name = name};
-  (is_made ? change.after : change.before) = std::move(text);
+  (is_made ? change.after : change.before) = api::json_object([&](api::JsonWriter& json) {
+    json.member("role", word(static_cast<Role>(key->role)));
+    if (key->expires_at_ns) json.member("expires_at", format_rfc3339({*key->expires_at_ns}));
+  });
   log_change(stores, std::move(change));
 }
 
@@ -75,12 +73,8 @@ Result<std::unique_ptr<KeyService>> KeyService::open(store::Database& database, 
   std::unique_ptr<KeyService> service(new KeyService(database, clock, std::move(tell)));
   if (const auto loaded = service->reload(); !loaded) return loaded.error();
   service->loader_ = Thread("the loader of keys", [raw = service.get()](const auto& stop) {
-    std::unique_lock lock(raw->mutex_);
-    while (!raw->wake_.wait_for(lock, stop, kReloadInterval, [] { return false; }) &&
-           !stop.stop_requested()) {
-      // Storage that fails for a while leaves the keys that were loaded last in force.
-      static_cast<void>(raw->reload());
-    }
+    // Storage that fails for a while leaves the keys that were loaded last in force.
+    while (wait_unless_stopped(stop, kReloadInterval)) static_cast<void>(raw->reload());
   });
   return service;
 }

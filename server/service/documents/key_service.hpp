@@ -1,6 +1,5 @@
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -99,8 +98,6 @@ class KeyService {
   const Tell tell_;
   std::mutex loading_;
   Snapshot<store::KeyRing> ring_;
-  std::mutex mutex_;
-  std::condition_variable_any wake_;
   Thread loader_;
 };
 

@@ -30,10 +30,7 @@ std::string shown_text(store::DocumentKind kind, const std::string& text) {
   const auto settings =
       kind == store::DocumentKind::Connection ? parse_json(text) : Result<JsonValue>(JsonValue());
   if (!settings || settings->is(JsonValue::Kind::Null)) return settings ? text : "{}";
-  std::string shown;
-  api::JsonWriter json(shown);
-  write_json(json, without_secrets(*settings));
-  return shown;
+  return api::json_text(without_secrets(*settings));
 }
 
 void log_document(store::Stores& stores, store::DocumentKind kind, const std::string& name,

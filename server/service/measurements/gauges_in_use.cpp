@@ -1,7 +1,6 @@
 #include "service/measurements/gauges_in_use.hpp"
 
 #include <algorithm>
-#include <future>
 
 #include "base/json/json_value.hpp"
 #include "record/fields.hpp"
@@ -12,11 +11,6 @@ namespace fitgauge::api {
 namespace {
 
 using Documents = std::vector<app::NamedDocument>;
-
-std::string text_of(const JsonValue& body, std::string_view name) {
-  const JsonValue* value = body.find(name);
-  return value == nullptr ? std::string() : std::string(value->text);
-}
 
 // Documents were checked before they were stored; one that cannot be read was altered since, and is
 // as if it were not there.
@@ -54,10 +48,10 @@ GaugeBook book_of(const Documents& gauges, const Documents& calibrations,
     if (!body) continue;
     GaugeInUse gauge;
     GaugePeriod& own = gauge.periods.front();
-    own.calibration_due = text_of(*body, "calibration_due");
+    own.calibration_due = std::string(body->text_of("calibration_due"));
     own.due = parse_due(own.calibration_due);
     if (!own.due) continue;
-    set_budget(own, text_of(*body, "uncertainty"), combined);
+    set_budget(own, std::string(body->text_of("uncertainty")), combined);
     book.emplace(document.name, std::move(gauge));
   }
   for (const app::NamedDocument& document : calibrations) {
@@ -65,10 +59,10 @@ GaugeBook book_of(const Documents& gauges, const Documents& calibrations,
     const auto body = parse_json(document.text);
     const auto from = body ? parse_from(body->text_of("from")) : std::nullopt;
     if (gauge == book.end() || !from) continue;
-    GaugePeriod period = {.from = *from, .calibration_due = text_of(*body, "due")};
+    GaugePeriod period = {.from = *from, .calibration_due = std::string(body->text_of("due"))};
     period.due = parse_due(period.calibration_due);
     period.is_blocked = body->text_of("status") == "blocked";
-    const std::string budget = text_of(*body, "uncertainty");
+    const std::string budget = std::string(body->text_of("uncertainty"));
     set_budget(period, budget.empty() ? gauge->second.periods.front().budget : budget, combined);
     gauge->second.periods.push_back(std::move(period));
   }
@@ -99,10 +93,7 @@ void GaugesInUse::reload(std::function<void(Result<void>)> done) {
 }
 
 Result<void> GaugesInUse::load() {
-  std::promise<Result<void>> promise;
-  auto future = promise.get_future();
-  reload([&promise](Result<void> done) { promise.set_value(std::move(done)); });
-  return future.get();
+  return wait_for_result<void>([this](auto done) { reload(std::move(done)); });
 }
 
 void GaugesInUse::show(std::uint64_t number, GaugeBook book) {

@@ -37,19 +37,23 @@ void add_expected(const References& references, const Figures& figures, std::vec
 }
 
 std::string to_json(const Qualification& made) {
-  std::string out;
-  api::JsonWriter json(out);
-  json.begin_object().member("version", made.version).member("at", format_rfc3339(made.at));
-  json.member("tables_revision", made.tables_revision).member("passed", made.passed);
-  json.key("checks").begin_array();
-  for (const Check& c : made.checks) {
-    json.begin_object().member("id", c.id).member("source", c.source);
-    json.member("quantity", c.quantity).key("expected").raw(c.expected).key("got").figure(c.got);
-    json.member("digits", c.digits).key("limit").raw(c.limit).member("passed", c.passed);
-    json.end_object();
-  }
-  json.end_array().end_object();
-  return out + '\n';
+  return api::json_object([&](api::JsonWriter& json) {
+           json.member("version", made.version).member("at", format_rfc3339(made.at));
+           json.member("tables_revision", made.tables_revision).member("passed", made.passed);
+           json.key("checks").begin_array();
+           for (const Check& c : made.checks) {
+             json.begin_object().member("id", c.id).member("source", c.source);
+             json.member("quantity", c.quantity)
+                 .key("expected")
+                 .raw(c.expected)
+                 .key("got")
+                 .figure(c.got);
+             json.member("digits", c.digits).key("limit").raw(c.limit).member("passed", c.passed);
+             json.end_object();
+           }
+           json.end_array();
+         }) +
+         '\n';
 }
 
 std::string to_pdf(const Qualification& made, const std::vector<std::string>& proof) {

@@ -10,8 +10,7 @@
 
 namespace fitgauge::store {
 class Database;
-struct Stores;
-}  // namespace fitgauge::store
+}
 
 namespace fitgauge::app {
 

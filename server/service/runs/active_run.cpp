@@ -164,12 +164,7 @@ std::shared_ptr<ActiveRun> SharedRuns::follow(const StoredRun& run) {
 }
 
 void SharedRuns::run(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    {
-      std::unique_lock lock(mutex_);
-      ended_.wait_for(lock, stop, kBetweenLooks, [] { return false; });
-    }
-    if (stop.stop_requested()) return;
+  while (wait_unless_stopped(stop, kBetweenLooks)) {
     const bool runs_any = own_.has_any();
     const Followed now = followed();
     if (runs_any || !now.empty()) look(now, runs_any);

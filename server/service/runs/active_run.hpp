@@ -181,7 +181,6 @@ class SharedRuns {
   store::Database& database_;
   const Own own_;
   std::mutex mutex_;
-  std::condition_variable_any ended_;
   Followed followed_;
   bool stopped_ = false;
   Thread thread_;  // ends before what it uses

@@ -164,6 +164,8 @@ class RunService {
   ExecutedRun without_moves(interpreter::RunResult result) const;
   Result<FinishedRun> keep(const RunReport& report, std::string_view trace,
                            const std::optional<std::string>& caller);
+  /// The same of a run that another process left without an end.
+  Result<FinishedRun> keep_failed(const store::Run& run, std::string why);
   Result<void> close_interrupted();
   void look_for_abandoned(const std::stop_token& stop);
   std::string_view origin_of(std::int64_t id) const { return origins_.own(Counted::Run, id); }

@@ -1,11 +1,10 @@
 // Runs on their way to the store and back.
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <set>
 #include <thread>
 
+#include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "service/measurements/measurement_storage.hpp"
 #include "service/runs/run_executor.hpp"
@@ -41,17 +40,8 @@ Result<void> RunService::close_interrupted() {
     if (!runs) return runs.error();
     if (runs->empty()) return {};
     for (const store::Run& run : *runs) {
-      const RunReport report{.id = run.id,
-                             .origin = origin_of(run.id),
-                             .program = run.program,
-                             .result = unstarted(RunStatus::Failed, MessageKind::Error,
-                                                 "the service ended before the run did; nothing "
-                                                 "it had done was kept",
-                                                 run.program),
-                             .seed = format_.seed(run.request),
-                             .created_at = {run.created_at_ns},
-                             .finished_at = clock_.now()};
-      const auto kept = keep(report, empty_trace(format_.trace), run.caller);
+      const auto kept =
+          keep_failed(run, "the service ended before the run did; nothing it had done was kept");
       // Another daemon may have been first.
       if (!kept && kept.error().code != ErrorCode::RunFinished) return kept.error();
     }
@@ -62,15 +52,8 @@ Result<void> RunService::close_interrupted() {
 /// has looked so twice.
 void RunService::look_for_abandoned(const std::stop_token& stop) {
   constexpr std::chrono::seconds kBetween{5};
-  std::mutex mutex;
-  std::condition_variable_any ended;
   std::set<std::int64_t> seen;
-  while (!stop.stop_requested()) {
-    {
-      std::unique_lock lock(mutex);
-      ended.wait_for(lock, stop, kBetween, [] { return false; });
-    }
-    if (stop.stop_requested()) return;
+  while (wait_unless_stopped(stop, kBetween)) {
     const auto runs = database_.readers().wait(
         [](const store::Stores& stores) -> Result<std::vector<store::Run>> {
           return stores.runs.abandoned(kPage);
@@ -111,19 +94,22 @@ Result<void> RunService::take_over(const store::Run& run) {
         Timestamp{run.created_at_ns})));
     return {};
   }
-  const RunReport report{.id = run.id,
-                         .origin = origin_of(run.id),
-                         .program = run.program,
-                         .result = unstarted(RunStatus::Failed, MessageKind::Error,
-                                             "the service ended before the run did, and it cannot "
-                                             "be repeated: " +
-                                                 order.error().message,
-                                             run.program),
-                         .seed = format_.seed(run.request),
-                         .created_at = {run.created_at_ns},
-                         .finished_at = clock_.now()};
-  static_cast<void>(keep(report, empty_trace(format_.trace), run.caller));
+  static_cast<void>(keep_failed(
+      run,
+      "the service ended before the run did, and it cannot be repeated: " + order.error().message));
   return {};
+}
+
+Result<FinishedRun> RunService::keep_failed(const store::Run& run, std::string why) {
+  const RunReport report{
+      .id = run.id,
+      .origin = origin_of(run.id),
+      .program = run.program,
+      .result = unstarted(RunStatus::Failed, MessageKind::Error, std::move(why), run.program),
+      .seed = format_.seed(run.request),
+      .created_at = {run.created_at_ns},
+      .finished_at = clock_.now()};
+  return keep(report, empty_trace(format_.trace), run.caller);
 }
 
 /// One transaction for all that a run leaves.

@@ -85,12 +85,8 @@ std::optional<std::string> column_text(std::vector<iso286::CustomColumn>& column
                                        const TableCatalog::ColumnName& column) {
   const auto found = find_column(columns, column.feature, column.name);
   if (found == columns.end()) return std::nullopt;
-  std::string text;
-  api::JsonWriter json(text);
-  json.begin_object().key("rows");
-  api::write_custom_rows(json, found->rows);
-  json.end_object();
-  return text;
+  return api::json_object(
+      [&](api::JsonWriter& json) { api::write_custom_rows(json.key("rows"), found->rows); });
 }
 
 }  // namespace

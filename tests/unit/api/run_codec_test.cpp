@@ -4,8 +4,7 @@
 
 #include <limits>
 
-#include "api/runs/run_events.hpp"
-#include "api/runs/trace_codec.hpp"
+#include "api/runs/run_posting.hpp"
 #include "base/json/json_value.hpp"
 #include "service/runs/stored_run.hpp"
 

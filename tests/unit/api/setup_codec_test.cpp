@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "api/runs/run_order_codec.hpp"
+#include "api/runs/run_codec.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;
