@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "db/store/measurement_fields.hpp"
+#include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store::postgres {
 namespace {

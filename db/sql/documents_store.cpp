@@ -77,18 +77,13 @@ std::string select_notes(const sql::Connection& c, std::string_view where) {
 }  // namespace
 
 struct DocumentsStore::Statements {
-  explicit Statements(sql::Connection& c)
-      : find(c, fmt::format("SELECT {}, {} FROM documents WHERE kind = ? AND name = ?",
-                            kDocuments.columns, kDocuments.is_sound(c))),
-        list(c, fmt::format("SELECT {}, {} FROM documents WHERE kind = ? ORDER BY name",
-                            kDocuments.columns, kDocuments.is_sound(c))),
-        put(c, kDocuments.replace(c)),
-        remove(c, "DELETE FROM documents WHERE kind = ? AND name = ? RETURNING 1") {}
-
-  sql::Statement find;
-  sql::Statement list;
-  sql::Statement put;
-  sql::Statement remove;
+  sql::Connection& c;
+  sql::Statement find{c, fmt::format("SELECT {}, {} FROM documents WHERE kind = ? AND name = ?",
+                                     kDocuments.columns, kDocuments.is_sound(c))};
+  sql::Statement list{c, fmt::format("SELECT {}, {} FROM documents WHERE kind = ? ORDER BY name",
+                                     kDocuments.columns, kDocuments.is_sound(c))};
+  sql::Statement put{c, kDocuments.replace(c)};
+  sql::Statement remove{c, "DELETE FROM documents WHERE kind = ? AND name = ? RETURNING 1"};
 };
 
 DocumentsStore::DocumentsStore(sql::Connection& connection)
@@ -120,35 +115,30 @@ std::vector<Document> DocumentsStore::list(DocumentKind kind) const {
 }
 
 struct FilesStore::Statements {
-  explicit Statements(sql::Connection& c)
-      : stat(c, fmt::format("SELECT {} FROM files f JOIN file_revisions r USING (revision) "
-                            "WHERE f.path_key = ?",
-                            kEntry)),
-        find(c, fmt::format("SELECT {}, r.content, {} FROM files f JOIN file_revisions r "
-                            "USING (revision) WHERE f.path_key = ?",
-                            kEntry, kFileRevisions.is_sound(c, "r"))),
-        list(c, fmt::format("SELECT {} FROM files f JOIN file_revisions r USING (revision) "
-                            "WHERE f.path_key >= ?1 AND substr(f.path_key, 1, length(?1)) = ?1 "
-                            "ORDER BY f.path_key",
-                            kEntry)),
-        insert(c, kFileRevisions.insert(c) + " RETURNING revision"),
-        point(
-            c,
-            "INSERT INTO files (path_key, revision) VALUES (?, ?) ON CONFLICT (path_key) DO UPDATE "
-            "SET revision = excluded.revision"),
-        unpoint(c, "DELETE FROM files WHERE path_key = ?"),
-        forget(c, fmt::format("DELETE FROM file_revisions WHERE path_key = ? AND revision <= "
-                              "(SELECT revision FROM file_revisions WHERE path_key = ? "
-                              "ORDER BY revision DESC LIMIT 1 OFFSET {})",
-                              kKeptRevisions)) {}
-
-  sql::Statement stat;
-  sql::Statement find;
-  sql::Statement list;
-  sql::Statement insert;
-  sql::Statement point;
-  sql::Statement unpoint;
-  sql::Statement forget;
+  sql::Connection& c;
+  sql::Statement stat{c,
+                      fmt::format("SELECT {} FROM files f JOIN file_revisions r USING (revision) "
+                                  "WHERE f.path_key = ?",
+                                  kEntry)};
+  sql::Statement find{c, fmt::format("SELECT {}, r.content, {} FROM files f JOIN file_revisions r "
+                                     "USING (revision) WHERE f.path_key = ?",
+                                     kEntry, kFileRevisions.is_sound(c, "r"))};
+  sql::Statement list{
+      c, fmt::format("SELECT {} FROM files f JOIN file_revisions r USING (revision) "
+                     "WHERE f.path_key >= ?1 AND substr(f.path_key, 1, length(?1)) = ?1 "
+                     "ORDER BY f.path_key",
+                     kEntry)};
+  sql::Statement insert{c, kFileRevisions.insert(c) + " RETURNING revision"};
+  sql::Statement point{
+      c,
+      "INSERT INTO files (path_key, revision) VALUES (?, ?) ON CONFLICT (path_key) DO UPDATE "
+      "SET revision = excluded.revision"};
+  sql::Statement unpoint{c, "DELETE FROM files WHERE path_key = ?"};
+  sql::Statement forget{c,
+                        fmt::format("DELETE FROM file_revisions WHERE path_key = ? AND revision <= "
+                                    "(SELECT revision FROM file_revisions WHERE path_key = ? "
+                                    "ORDER BY revision DESC LIMIT 1 OFFSET {})",
+                                    kKeptRevisions)};
 };
 
 FilesStore::FilesStore(sql::Connection& connection)
@@ -197,22 +187,17 @@ std::vector<FileEntry> FilesStore::list(std::string_view prefix) const {
 }
 
 struct NotesStore::Statements {
-  explicit Statements(sql::Connection& c)
-      : insert(c, kNotes.insert(c) + " RETURNING id"),
-        insert_origin(c, kNoteOrigins.insert(c)),
-        list(c, select_notes(c, "measurement = ? ORDER BY id")),
-        own_after(c, select_notes(c,
-                                  "id > ? AND o.note IS NULL AND EXISTS (SELECT 1 FROM "
-                                  "measurements m WHERE m.id = n.measurement AND "
-                                  "(coalesce(m.origin, 0) = 0 OR m.origin IN (SELECT number FROM "
-                                  "origins WHERE checkpoint = ''))) ORDER BY id LIMIT ?")),
-        newest_of(c, "SELECT coalesce(max(number), 0) FROM note_origins WHERE origin = ?") {}
-
-  sql::Statement insert;
-  sql::Statement insert_origin;
-  sql::Statement list;
-  sql::Statement own_after;
-  sql::Statement newest_of;
+  sql::Connection& c;
+  sql::Statement insert{c, kNotes.insert(c) + " RETURNING id"};
+  sql::Statement insert_origin{c, kNoteOrigins.insert(c)};
+  sql::Statement list{c, select_notes(c, "measurement = ? ORDER BY id")};
+  sql::Statement own_after{
+      c, select_notes(c,
+                      "id > ? AND o.note IS NULL AND EXISTS (SELECT 1 FROM "
+                      "measurements m WHERE m.id = n.measurement AND "
+                      "(coalesce(m.origin, 0) = 0 OR m.origin IN (SELECT number FROM "
+                      "origins WHERE checkpoint = ''))) ORDER BY id LIMIT ?")};
+  sql::Statement newest_of{c, "SELECT coalesce(max(number), 0) FROM note_origins WHERE origin = ?"};
 };
 
 NotesStore::NotesStore(sql::Connection& connection)
@@ -240,22 +225,18 @@ std::int64_t NotesStore::newest_of(std::int64_t origin) const {
 }
 
 struct EventsStore::Statements {
-  explicit Statements(sql::Connection& c)
-      : insert(c, kEvents.insert(c) + " RETURNING id"),
-        after(c,
-              "SELECT id, type, payload, created_at FROM events WHERE id > ? ORDER BY id LIMIT ?"),
-        kept(c,
-             "SELECT coalesce((SELECT min(id) FROM events), 0), "
-             "coalesce((SELECT max(id) FROM events), 0)"),
-        // Ids have no gaps, as events are deleted from the oldest on.
-        trim(c,
-             "DELETE FROM events WHERE id IN (SELECT id FROM events "
-             "WHERE id <= (SELECT max(id) FROM events) - ?1 ORDER BY id LIMIT ?2) RETURNING 1") {}
-
-  sql::Statement insert;
-  sql::Statement after;
-  sql::Statement kept;
-  sql::Statement trim;
+  sql::Connection& c;
+  sql::Statement insert{c, kEvents.insert(c) + " RETURNING id"};
+  sql::Statement after{
+      c, "SELECT id, type, payload, created_at FROM events WHERE id > ? ORDER BY id LIMIT ?"};
+  sql::Statement kept{c,
+                      "SELECT coalesce((SELECT min(id) FROM events), 0), "
+                      "coalesce((SELECT max(id) FROM events), 0)"};
+  // Ids have no gaps, as events are deleted from the oldest on.
+  sql::Statement trim{
+      c,
+      "DELETE FROM events WHERE id IN (SELECT id FROM events "
+      "WHERE id <= (SELECT max(id) FROM events) - ?1 ORDER BY id LIMIT ?2) RETURNING 1"};
 };
 
 EventsStore::EventsStore(sql::Connection& connection)

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "db/sql/statement.hpp"
-#include "db/store/measurement_filter.hpp"
 #include "db/store/measurement_index.hpp"
 #include "db/store/tuple_statistics.hpp"
 

@@ -41,35 +41,27 @@ std::vector<ApiKey> read_keys(Rows rows) {
 using sql::Blob;
 
 struct IdempotencyStore::Statements {
-  Statements(sql::Connection& c, const Clock& time, std::chrono::hours kept_for)
-      : measurements(c.measurements()),
-        clock(time),
-        retention(kept_for),
-        find(c, fmt::format("SELECT body_digest, status, content_type, location, body, {} "
-                            "FROM idempotent_answers WHERE key = ? AND caller = ? AND method = ? "
-                            "AND path = ?",
-                            kIdempotentAnswers.is_sound(c))),
-        insert(c, kIdempotentAnswers.insert(c)),
-        forwarded(c, fmt::format("SELECT key, caller, method, path, body_digest, status, "
-                                 "content_type, location, body, expires_at, {} FROM "
-                                 "idempotent_answers WHERE measurement BETWEEN ? AND ? AND "
-                                 "path LIKE '/v1/measurements%' ORDER BY id",
-                                 kIdempotentAnswers.is_sound(c))),
-        is_kept(c,
-                "SELECT 1 FROM idempotent_answers WHERE key = ? AND caller = ? AND method = ? AND "
-                "path = ?"),
-        remove(c,
-               "DELETE FROM idempotent_answers WHERE id IN "
-               "(SELECT id FROM idempotent_answers WHERE expires_at <= ? LIMIT ?) RETURNING 1") {}
-
-  sql::MeasurementTable& measurements;
+  sql::Connection& c;
   const Clock& clock;
   std::chrono::hours retention;
-  sql::Statement find;
-  sql::Statement insert;
-  sql::Statement forwarded;
-  sql::Statement is_kept;
-  sql::Statement remove;
+  sql::MeasurementTable& measurements{c.measurements()};
+  sql::Statement find{
+      c, fmt::format("SELECT body_digest, status, content_type, location, body, {} FROM "
+                     "idempotent_answers WHERE key = ? AND caller = ? AND method = ? AND path = ?",
+                     kIdempotentAnswers.is_sound(c))};
+  sql::Statement insert{c, kIdempotentAnswers.insert(c)};
+  sql::Statement forwarded{
+      c, fmt::format("SELECT key, caller, method, path, body_digest, status, content_type, "
+                     "location, body, expires_at, {} FROM idempotent_answers WHERE measurement "
+                     "BETWEEN ? AND ? AND path LIKE '/v1/measurements%' ORDER BY id",
+                     kIdempotentAnswers.is_sound(c))};
+  sql::Statement is_kept{
+      c,
+      "SELECT 1 FROM idempotent_answers WHERE key = ? AND caller = ? AND method = ? AND path = ?"};
+  sql::Statement remove{
+      c,
+      "DELETE FROM idempotent_answers WHERE id IN (SELECT id FROM idempotent_answers WHERE "
+      "expires_at <= ? LIMIT ?) RETURNING 1"};
 };
 
 IdempotencyStore::IdempotencyStore(sql::Connection& connection, const Clock& clock,
@@ -169,26 +161,21 @@ const ApiKey* KeyRing::find(std::int64_t id) const {
 }
 
 struct KeysStore::Statements {
-  explicit Statements(sql::Connection& c)
-      : all(c, select_keys("ORDER BY id")),
-        valid(c, select_keys("WHERE revoked_at IS NULL ORDER BY id")),
-        newest(c, select_keys("WHERE name = ? ORDER BY revoked_at IS NOT NULL, id DESC LIMIT 1")),
-        clash(c,
-              "SELECT name = ?1 AND revoked_at IS NULL FROM api_keys "
-              "WHERE (name = ?1 AND revoked_at IS NULL) OR token_hash = ?2 ORDER BY 1 DESC"),
-        insert(c, kApiKeys.insert(c) + " RETURNING id"),
-        revoke(c,
-               "UPDATE api_keys SET revoked_at = ?2 WHERE name = ?1 AND revoked_at IS NULL "
-               "RETURNING id"),
-        seal(c, kApiKeys) {}
-
-  sql::Statement all;
-  sql::Statement valid;
-  sql::Statement newest;
-  sql::Statement clash;
-  sql::Statement insert;
-  sql::Statement revoke;
-  Seal seal;
+  sql::Connection& c;
+  sql::Statement all{c, select_keys("ORDER BY id")};
+  sql::Statement valid{c, select_keys("WHERE revoked_at IS NULL ORDER BY id")};
+  sql::Statement newest{
+      c, select_keys("WHERE name = ? ORDER BY revoked_at IS NOT NULL, id DESC LIMIT 1")};
+  sql::Statement clash{
+      c,
+      "SELECT name = ?1 AND revoked_at IS NULL FROM api_keys "
+      "WHERE (name = ?1 AND revoked_at IS NULL) OR token_hash = ?2 ORDER BY 1 DESC"};
+  sql::Statement insert{c, kApiKeys.insert(c) + " RETURNING id"};
+  sql::Statement revoke{
+      c,
+      "UPDATE api_keys SET revoked_at = ?2 WHERE name = ?1 AND revoked_at IS NULL "
+      "RETURNING id"};
+  Seal seal{c, kApiKeys};
 };
 
 KeysStore::KeysStore(sql::Connection& connection)

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 #include "db/sql/sealed_table.hpp"
 #include "db/sql/statement.hpp"
@@ -13,53 +15,35 @@ namespace fitgauge::store {
 using sql::Rows;
 
 struct LogStore::Statements {
-  explicit Statements(sql::Connection& c)
-      : state(c,
-              fmt::format("SELECT origin, name, size, {} FROM log WHERE id = 1", kLog.is_sound(c))),
-        set_name(c, "UPDATE log SET name = ?"),
-        branches(c, fmt::format("SELECT {}, {} FROM log_branches ORDER BY number",
-                                kLogBranches.columns, kLogBranches.is_sound(c))),
-        is_copy(c, "SELECT 1 FROM log_marks WHERE mark = 'copy'"),
-        forked(c, "SELECT reason FROM log_marks WHERE mark = 'forked'"),
-        mark(c, kLogMarks.insert(c)),
-        not_forked(c, "DELETE FROM log_marks WHERE mark = 'forked'"),
-        newest(
-            c,
-            "SELECT (SELECT coalesce(max(id), 0) FROM measurements), (SELECT "
-            "coalesce(max(id), 0) FROM runs), (SELECT coalesce(max(id), 0) FROM events), (SELECT "
-            "coalesce(max(id), 0) FROM notes)"),
-        add_branch(c, kLogBranches.insert(c)),
-        set_origin(c, "UPDATE log SET origin = ?, name = ?"),
-        unmark(c, "DELETE FROM log_marks"),
-        set_size(c, "UPDATE log SET size = ?1 WHERE size < ?1"),
-        seal(c, kLog),
-        keys(c, "SELECT vkey FROM log_keys ORDER BY number DESC"),
-        add_key(c, kLogKeys.insert(c)),
-        put_node(
-            c,
-            "INSERT INTO log_nodes (level, node, hash) VALUES (?, ?, ?) ON CONFLICT (level, node) "
-            "DO UPDATE SET hash = excluded.hash"),
-        nodes(c,
-              "SELECT hash FROM log_nodes WHERE level = ? AND node >= ? AND node < ? "
-              "ORDER BY node") {}
-
-  sql::Statement state;
-  sql::Statement set_name;
-  sql::Statement branches;
-  sql::Statement is_copy;
-  sql::Statement forked;
-  sql::Statement mark;
-  sql::Statement not_forked;
-  sql::Statement newest;
-  sql::Statement add_branch;
-  sql::Statement set_origin;
-  sql::Statement unmark;
-  sql::Statement set_size;
-  Seal seal;
-  sql::Statement keys;
-  sql::Statement add_key;
-  sql::Statement put_node;
-  sql::Statement nodes;
+  sql::Connection& c;
+  sql::Statement state{
+      c, fmt::format("SELECT origin, name, size, {} FROM log WHERE id = 1", kLog.is_sound(c))};
+  sql::Statement set_name{c, "UPDATE log SET name = ?"};
+  sql::Statement branches{c, fmt::format("SELECT {}, {} FROM log_branches ORDER BY number",
+                                         kLogBranches.columns, kLogBranches.is_sound(c))};
+  sql::Statement is_copy{c, "SELECT 1 FROM log_marks WHERE mark = 'copy'"};
+  sql::Statement forked{c, "SELECT reason FROM log_marks WHERE mark = 'forked'"};
+  sql::Statement mark{c, kLogMarks.insert(c)};
+  sql::Statement not_forked{c, "DELETE FROM log_marks WHERE mark = 'forked'"};
+  sql::Statement newest{
+      c,
+      "SELECT (SELECT coalesce(max(id), 0) FROM measurements), (SELECT "
+      "coalesce(max(id), 0) FROM runs), (SELECT coalesce(max(id), 0) FROM events), (SELECT "
+      "coalesce(max(id), 0) FROM notes)"};
+  sql::Statement add_branch{c, kLogBranches.insert(c)};
+  sql::Statement set_origin{c, "UPDATE log SET origin = ?, name = ?"};
+  sql::Statement unmark{c, "DELETE FROM log_marks"};
+  sql::Statement set_size{c, "UPDATE log SET size = ?1 WHERE size < ?1"};
+  Seal seal{c, kLog};
+  sql::Statement keys{c, "SELECT vkey FROM log_keys ORDER BY number DESC"};
+  sql::Statement add_key{c, kLogKeys.insert(c)};
+  sql::Statement put_node{
+      c,
+      "INSERT INTO log_nodes (level, node, hash) VALUES (?, ?, ?) ON CONFLICT (level, node) "
+      "DO UPDATE SET hash = excluded.hash"};
+  sql::Statement nodes{c,
+                       "SELECT hash FROM log_nodes WHERE level = ? AND node >= ? AND node < ? "
+                       "ORDER BY node"};
 };
 
 LogStore::LogStore(sql::Connection& connection)
@@ -170,6 +154,66 @@ std::int64_t LogStore::nodes(int level, std::int64_t first, std::int64_t count,
     visit(rows.get<Digest>(0));
   }
   return visited;
+}
+
+struct ChangesStore::Statements {
+  sql::Connection& c;
+  sql::Statement size{c, "SELECT coalesce(max(id), 0) FROM changes"};
+  sql::Statement append{c, kChanges.insert(c)};
+  sql::Statement list{
+      c, fmt::format("SELECT {}, {} FROM changes WHERE id > ?1 AND (?2 IS NULL OR kind = ?2) "
+                     "AND (?3 IS NULL OR name = ?3) AND at >= ?4 AND at < ?5 ORDER BY id "
+                     "LIMIT ?6",
+                     kChanges.columns, kChanges.is_sound(c))};
+  sql::Statement leaves{c, "SELECT leaf FROM changes WHERE id > ?1 AND id <= ?2 ORDER BY id"};
+};
+
+ChangesStore::ChangesStore(sql::Connection& connection)
+    : statements_(std::make_unique<Statements>(connection)) {}
+ChangesStore::~ChangesStore() = default;
+
+std::int64_t ChangesStore::size() const {
+  Rows rows = statements_->size.query();
+  return rows.next() ? rows.get<std::int64_t>(0) : 0;
+}
+
+void ChangesStore::append(const Change& change, const Digest& leaf) {
+  statements_->append.run(change.id, change.at_ns, change.caller, change.kind, change.name,
+                          change.action, change.before, change.after, leaf);
+}
+
+ChangesStore::Page ChangesStore::list(const ChangeFilter& filter, std::int64_t after,
+                                      std::int64_t limit) const {
+  using Limits = std::numeric_limits<std::int64_t>;
+  constexpr std::size_t kMostBytes = std::size_t{4} << 20;
+  Page page;
+  std::size_t bytes = 0;
+  for (Rows rows = statements_->list.query(after, filter.kind, filter.name,
+                                           filter.from_ns.value_or(Limits::min()),
+                                           filter.to_ns.value_or(Limits::max()), limit + 1);
+       rows.next();) {
+    page.has_more = page.changes.size() == static_cast<std::size_t>(limit) || bytes > kMostBytes;
+    if (page.has_more) break;
+    require_sound(rows, 9, kChanges);
+    const Change& change =
+        page.changes.emplace_back(Change{.id = rows.get<std::int64_t>(0),
+                                         .at_ns = rows.get<std::int64_t>(1),
+                                         .caller = rows.get<std::optional<std::string>>(2),
+                                         .kind = rows.get<std::string>(3),
+                                         .name = rows.get<std::string>(4),
+                                         .action = rows.get<std::string>(5),
+                                         .before = rows.get<std::optional<std::string>>(6),
+                                         .after = rows.get<std::optional<std::string>>(7)});
+    bytes += change.before.value_or("").size() + change.after.value_or("").size();
+  }
+  return page;
+}
+
+void ChangesStore::leaves(std::int64_t after, std::int64_t count,
+                          const std::function<void(const Digest&)>& visit) const {
+  for (Rows rows = statements_->leaves.query(after, after + count); rows.next();) {
+    visit(rows.get<Digest>(0));
+  }
 }
 
 }  // namespace fitgauge::store

@@ -12,7 +12,6 @@
 
 #include "db/sql/index_nodes.hpp"
 #include "db/sql/statement.hpp"
-#include "db/store/measurement_filter.hpp"
 #include "db/store/measurement_index.hpp"
 
 namespace fitgauge::store {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "db/sql/index_nodes.hpp"
-#include "db/store/pair_statistics.hpp"
+#include "db/store/tuple_statistics.hpp"
 
 namespace fitgauge::store {
 namespace {

@@ -14,7 +14,6 @@
 #include "db/sql/measurement_query.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/block_columns.hpp"
-#include "db/store/measurement_filter.hpp"
 #include "db/store/measurement_index.hpp"
 #include "db/store/measurement_row.hpp"
 #include "db/store/measurement_statistics.hpp"

@@ -11,7 +11,7 @@
 #include "db/sql/measurement_summary.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/block_columns.hpp"
-#include "db/store/measurement_fields.hpp"
+#include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store {
 namespace {
@@ -63,49 +63,51 @@ class Page {
 }  // namespace
 
 struct MeasurementsStore::Statements {
-  explicit Statements(sql::Connection& c)
-      : connection(c),
-        table(c.measurements()),
-        by_id(c, fmt::format("SELECT {} FROM measurements WHERE id = ?", measurement_columns())),
-        correction(c,
-                   "SELECT id FROM measurements WHERE correction_of = ? "
-                   "ORDER BY received_at DESC, hash DESC LIMIT 1"),
-        lost_target(c,
-                    fmt::format("SELECT correction_of FROM measurements m WHERE id = ? AND NOT {}",
-                                CurrentCondition(std::to_string(kLastId)).has_no_later_rival)),
-        corrections(c, "SELECT count(*) FROM measurements WHERE correction_of = ?"),
-        all_corrections(c,
-                        "SELECT id, correction_of FROM measurements WHERE correction_of IS NOT "
-                        "NULL AND id <= ?"),
-        hand_on(
-            c,
-            "WITH RECURSIVE back(target, origin) AS (SELECT correction_of, origin FROM "
-            "measurements WHERE id = ?1 UNION ALL SELECT m.correction_of, m.origin FROM back "
-            "JOIN measurements m ON m.id = back.target) INSERT INTO revisions (tag, kind, name, "
-            "station) SELECT randomblob(8), 5, ?1, origin FROM back WHERE target IS NULL AND "
-            "origin > 0"),
-        revision(c,
-                 "SELECT 1 FROM table_revisions WHERE number = ?1 UNION ALL "
-                 "SELECT 1 FROM origin_revisions WHERE number = -?1"),
-        first_forwarded(c, "SELECT min(first_row) FROM origins"),
-        forked(c, "SELECT reason FROM log_marks WHERE mark = 'forked'"),
-        newest_of_own(c, "SELECT max(seq) FROM measurements WHERE origin = 0"),
-        by_number(c, "SELECT id FROM measurements WHERE origin = ? AND number = ?"),
-        by_place(c, "SELECT id FROM measurements WHERE origin = ? AND seq = ? AND number IS NULL"),
-        log_rows(c, measurement_columns()),
-        log_hashes(c, "hash"),
-        indexer(c),
-        whole_rows(c, measurement_columns()),
-        values(c, fmt::format("{}{}", kValueColumns, kPlaceColumns)),
-        own_values(c, fmt::format("{}{}", kValueColumns, kOwnPlaceColumns)),
-        block_values(c, "SELECT bytes FROM measurement_values WHERE block = ?"),
-        corrected_among(c,
-                        "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of "
-                        "BETWEEN ? AND ? LIMIT 1) AS found"),
-        forwarded_rows(c,
-                       "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE origin IS NOT NULL "
-                       "LIMIT 1) AS found"),
-        ids(c, "m.id") {}
+  sql::Connection& connection;
+  sql::MeasurementTable& table{connection.measurements()};
+  Statement by_id{connection,
+                  fmt::format("SELECT {} FROM measurements WHERE id = ?", measurement_columns())};
+  Statement correction{connection,
+                       "SELECT id FROM measurements WHERE correction_of = ? "
+                       "ORDER BY received_at DESC, hash DESC LIMIT 1"};
+  Statement lost_target{
+      connection, fmt::format("SELECT correction_of FROM measurements m WHERE id = ? AND NOT {}",
+                              CurrentCondition(std::to_string(kLastId)).has_no_later_rival)};
+  Statement corrections{connection, "SELECT count(*) FROM measurements WHERE correction_of = ?"};
+  Statement all_corrections{connection,
+                            "SELECT id, correction_of FROM measurements WHERE correction_of IS NOT "
+                            "NULL AND id <= ?"};
+  Statement hand_on{
+      connection,
+      "WITH RECURSIVE back(target, origin) AS (SELECT correction_of, origin FROM "
+      "measurements WHERE id = ?1 UNION ALL SELECT m.correction_of, m.origin FROM back "
+      "JOIN measurements m ON m.id = back.target) INSERT INTO revisions (tag, kind, name, "
+      "station) SELECT randomblob(8), 5, ?1, origin FROM back WHERE target IS NULL AND "
+      "origin > 0"};
+  Statement revision{connection,
+                     "SELECT 1 FROM table_revisions WHERE number = ?1 UNION ALL "
+                     "SELECT 1 FROM origin_revisions WHERE number = -?1"};
+  Statement first_forwarded{connection, "SELECT min(first_row) FROM origins"};
+  Statement forked{connection, "SELECT reason FROM log_marks WHERE mark = 'forked'"};
+  Statement newest_of_own{connection, "SELECT max(seq) FROM measurements WHERE origin = 0"};
+  Statement by_number{connection, "SELECT id FROM measurements WHERE origin = ? AND number = ?"};
+  Statement by_place{connection,
+                     "SELECT id FROM measurements WHERE origin = ? AND seq = ? AND number IS NULL"};
+  LogQuery log_rows{connection, measurement_columns()};
+  LogQuery log_hashes{connection, "hash"};
+  MeasurementIndexer indexer{connection};
+  MeasurementQuery whole_rows{connection, measurement_columns()};
+  MeasurementQuery values{connection, fmt::format("{}{}", kValueColumns, kPlaceColumns)};
+  MeasurementQuery own_values{connection, fmt::format("{}{}", kValueColumns, kOwnPlaceColumns)};
+  Statement block_values{connection, "SELECT bytes FROM measurement_values WHERE block = ?"};
+  Statement corrected_among{connection,
+                            "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of "
+                            "BETWEEN ? AND ? LIMIT 1) AS found"};
+  Statement forwarded_rows{
+      connection,
+      "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE origin IS NOT NULL "
+      "LIMIT 1) AS found"};
+  MeasurementQuery ids{connection, "m.id"};
 
   /// @errors as append
   Result<void> require_current(std::int64_t id) {
@@ -190,30 +192,6 @@ struct MeasurementsStore::Statements {
     return summaries.try_emplace(field, connection, field).first->second;
   }
 
-  sql::Connection& connection;
-  sql::MeasurementTable& table;
-  Statement by_id;
-  Statement correction;
-  Statement lost_target;
-  Statement corrections;
-  Statement all_corrections;
-  Statement hand_on;
-  Statement revision;
-  Statement first_forwarded;
-  Statement forked;
-  Statement newest_of_own;
-  Statement by_number;
-  Statement by_place;
-  LogQuery log_rows;
-  LogQuery log_hashes;
-  MeasurementIndexer indexer;
-  MeasurementQuery whole_rows;
-  MeasurementQuery values;
-  MeasurementQuery own_values;
-  Statement block_values;
-  Statement corrected_among;
-  Statement forwarded_rows;
-  MeasurementQuery ids;
   std::map<TextField, MeasurementSummary> summaries;
   std::optional<std::int64_t> seen_revision;
   bool may_hold_others = true;  ///< of the writer's: no other connection appends

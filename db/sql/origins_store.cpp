@@ -49,50 +49,32 @@ constexpr std::string_view kPositionColumn = "number || '-' || lower(hex(tag))";
 }  // namespace
 
 struct OriginsStore::Statements {
-  explicit Statements(sql::Connection& c)
-      : list(c, select(c, kOrigins, kOriginColumns, "ORDER BY number")),
-        by_digits(c, select(c, kOrigins, kOriginColumns, "WHERE digits = ?")),
-        by_number(c, select(c, kOrigins, kOriginColumns, "WHERE number = ?")),
-        insert(c, kOrigins.insert(c) + " RETURNING number"),
-        set_head(c, "UPDATE origins SET first_row = ?, size = ?, checkpoint = ? WHERE number = ?"),
-        seal(c, kOrigins),
-        keys(c, select(c, kOriginKeys, "vkey", "WHERE origin = ? ORDER BY number")),
-        add_key(c, kOriginKeys.insert(c)),
-        base(c, select(c, kOriginBases, "base, size", "WHERE origin = ?")),
-        set_base(c, kOriginBases.insert(c)),
-        put_node(c,
-                 "INSERT INTO origin_nodes VALUES (?, ?, ?, ?) ON CONFLICT (origin, level, node) "
-                 "DO UPDATE SET hash = excluded.hash"),
-        nodes(c,
-              "SELECT hash FROM origin_nodes WHERE origin = ? AND level = ? AND node >= ? AND "
-              "node < ? ORDER BY node"),
-        forks(c, select(c, kOriginForks, "checkpoint", "WHERE origin = ? ORDER BY number")),
-        add_fork(c, kOriginForks.insert(c) + " ON CONFLICT DO NOTHING RETURNING 1"),
-        revisions(c, "SELECT number, id FROM origin_revisions ORDER BY number"),
-        revision(c, "SELECT number FROM origin_revisions WHERE id = ?"),
-        add_revision(c, kOriginRevisions.insert(c) + " RETURNING number"),
-        forwarded(c, select(c, kForwarding, "centre, size", "")),
-        set_forwarded(c, kForwarding.replace(c)) {}
-
-  Statement list;
-  Statement by_digits;
-  Statement by_number;
-  Statement insert;
-  Statement set_head;
-  Seal seal;
-  Statement keys;
-  Statement add_key;
-  Statement base;
-  Statement set_base;
-  Statement put_node;
-  Statement nodes;
-  Statement forks;
-  Statement add_fork;
-  Statement revisions;
-  Statement revision;
-  Statement add_revision;
-  Statement forwarded;
-  Statement set_forwarded;
+  sql::Connection& c;
+  Statement list{c, select(c, kOrigins, kOriginColumns, "ORDER BY number")};
+  Statement by_digits{c, select(c, kOrigins, kOriginColumns, "WHERE digits = ?")};
+  Statement by_number{c, select(c, kOrigins, kOriginColumns, "WHERE number = ?")};
+  Statement insert{c, kOrigins.insert(c) + " RETURNING number"};
+  Statement set_head{c,
+                     "UPDATE origins SET first_row = ?, size = ?, checkpoint = ? WHERE number = ?"};
+  Seal seal{c, kOrigins};
+  Statement keys{c, select(c, kOriginKeys, "vkey", "WHERE origin = ? ORDER BY number")};
+  Statement add_key{c, kOriginKeys.insert(c)};
+  Statement base{c, select(c, kOriginBases, "base, size", "WHERE origin = ?")};
+  Statement set_base{c, kOriginBases.insert(c)};
+  Statement put_node{
+      c,
+      "INSERT INTO origin_nodes VALUES (?, ?, ?, ?) ON CONFLICT (origin, level, node) "
+      "DO UPDATE SET hash = excluded.hash"};
+  Statement nodes{c,
+                  "SELECT hash FROM origin_nodes WHERE origin = ? AND level = ? AND node >= ? AND "
+                  "node < ? ORDER BY node"};
+  Statement forks{c, select(c, kOriginForks, "checkpoint", "WHERE origin = ? ORDER BY number")};
+  Statement add_fork{c, kOriginForks.insert(c) + " ON CONFLICT DO NOTHING RETURNING 1"};
+  Statement revisions{c, "SELECT number, id FROM origin_revisions ORDER BY number"};
+  Statement revision{c, "SELECT number FROM origin_revisions WHERE id = ?"};
+  Statement add_revision{c, kOriginRevisions.insert(c) + " RETURNING number"};
+  Statement forwarded{c, select(c, kForwarding, "centre, size", "")};
+  Statement set_forwarded{c, kForwarding.replace(c)};
 };
 
 OriginsStore::OriginsStore(sql::Connection& connection)
@@ -189,28 +171,22 @@ void OriginsStore::set_forwarded(const Forwarded& forwarded) {
 }
 
 struct RevisionsStore::Statements {
-  explicit Statements(sql::Connection& c)
-      : list(c,
-             "SELECT r.number, r.kind, r.name FROM revisions r WHERE r.number > ? AND "
-             "(r.station IS NULL OR r.station IN (WITH RECURSIVE below (origin) AS (SELECT "
-             "CAST(? AS BIGINT) UNION SELECT b.base FROM origin_bases b JOIN below ON b.origin = "
-             "below.origin) SELECT origin FROM below)) AND r.number = (SELECT max(n.number) FROM "
-             "revisions n WHERE n.kind = r.kind AND n.name = r.name) ORDER BY r.number LIMIT ?"),
-        newest(c, fmt::format("SELECT {} FROM revisions ORDER BY number DESC LIMIT 1",
-                              kPositionColumn)),
-        position(c, fmt::format("SELECT {} FROM revisions WHERE number = ?", kPositionColumn)),
-        received(c, fmt::format("SELECT number, digest, {} FROM received WHERE kind = ? AND "
-                                "name = ?",
-                                kReceived.is_sound(c))),
-        set_received(c, kReceived.replace(c)),
-        forget(c, "DELETE FROM received WHERE kind = ? AND name = ?") {}
-
-  Statement list;
-  Statement newest;
-  Statement position;
-  Statement received;
-  Statement set_received;
-  Statement forget;
+  sql::Connection& c;
+  Statement list{
+      c,
+      "SELECT r.number, r.kind, r.name FROM revisions r WHERE r.number > ? AND "
+      "(r.station IS NULL OR r.station IN (WITH RECURSIVE below (origin) AS (SELECT "
+      "CAST(? AS BIGINT) UNION SELECT b.base FROM origin_bases b JOIN below ON b.origin = "
+      "below.origin) SELECT origin FROM below)) AND r.number = (SELECT max(n.number) FROM "
+      "revisions n WHERE n.kind = r.kind AND n.name = r.name) ORDER BY r.number LIMIT ?"};
+  Statement newest{
+      c, fmt::format("SELECT {} FROM revisions ORDER BY number DESC LIMIT 1", kPositionColumn)};
+  Statement position{c, fmt::format("SELECT {} FROM revisions WHERE number = ?", kPositionColumn)};
+  Statement received{c, fmt::format("SELECT number, digest, {} FROM received WHERE kind = ? AND "
+                                    "name = ?",
+                                    kReceived.is_sound(c))};
+  Statement set_received{c, kReceived.replace(c)};
+  Statement forget{c, "DELETE FROM received WHERE kind = ? AND name = ?"};
 };
 
 RevisionsStore::RevisionsStore(sql::Connection& connection)

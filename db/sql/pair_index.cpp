@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "db/store/block_columns.hpp"
-#include "db/store/pair_statistics.hpp"
 #include "db/store/tuple_statistics.hpp"
 
 namespace fitgauge::store {

@@ -43,37 +43,40 @@ std::string_view of_the_dead(const sql::Connection& c) {
 }  // namespace
 
 struct RunsStore::Statements {
-  explicit Statements(sql::Connection& c)
-      : insert(c, kRuns.insert(c) + " RETURNING id"),
-        start(c, "UPDATE runs SET status = 2 WHERE id = ? AND status <> 8"),
-        finish(c, "UPDATE runs SET status = ?2, result = ?3, finished_at = ?4 WHERE id = ?1"),
-        ask_to_cancel(c, "UPDATE runs SET status = 8 WHERE id = ?"),
-        to_be_cancelled(c, "SELECT id FROM runs WHERE finished_at IS NULL AND status = 8"),
-        seal(c, kRuns),
-        insert_trace(c, kRunTraces.insert(c)),
-        insert_file(c, kRunFiles.insert(c)),
-        status(c, "SELECT status FROM runs WHERE id = ?"),
-        find(c, fmt::format("SELECT {}, {} FROM runs WHERE id = ?", kRun, kRuns.is_sound(c))),
-        trace(c, fmt::format("SELECT trace, {} FROM run_traces WHERE run = ?",
-                             kRunTraces.is_sound(c))),
-        file(c, fmt::format("SELECT path, content, {} FROM run_files WHERE run = ? AND "
-                            "name_key = ? ORDER BY path",
-                            kRunFiles.is_sound(c))),
-        page(c, fmt::format("SELECT {}, {} FROM runs WHERE (?1 IS NULL OR "
-                            "CASE status WHEN 8 THEN 2 ELSE status END = ?1) "
-                            "AND (?2 IS NULL OR program_key = ?2) AND id < ?3 "
-                            "ORDER BY id DESC LIMIT ?4",
-                            kRun, kRuns.is_sound(c))),
-        abandoned(c, fmt::format("SELECT {}, {} FROM runs WHERE finished_at IS NULL{} ORDER BY id "
-                                 "LIMIT ?",
-                                 kRun, kRuns.is_sound(c), of_the_dead(c))),
-        take_over(c,
-                  fmt::format("UPDATE runs SET status = CASE status WHEN 8 THEN 8 ELSE 1 END{} "
-                              "WHERE id = ? AND finished_at IS NULL{} RETURNING 1",
-                              c.dialect().is_shared ? ", daemon = DEFAULT" : "", of_the_dead(c))),
-        purge(c,
-              "DELETE FROM runs WHERE id IN "
-              "(SELECT id FROM runs WHERE finished_at < ? LIMIT ?) RETURNING 1") {}
+  sql::Connection& c;
+  sql::Statement insert{c, kRuns.insert(c) + " RETURNING id"};
+  sql::Statement start{c, "UPDATE runs SET status = 2 WHERE id = ? AND status <> 8"};
+  sql::Statement finish{c,
+                        "UPDATE runs SET status = ?2, result = ?3, finished_at = ?4 WHERE id = ?1"};
+  sql::Statement ask_to_cancel{c, "UPDATE runs SET status = 8 WHERE id = ?"};
+  sql::Statement to_be_cancelled{c, "SELECT id FROM runs WHERE finished_at IS NULL AND status = 8"};
+  Seal seal{c, kRuns};
+  sql::Statement insert_trace{c, kRunTraces.insert(c)};
+  sql::Statement insert_file{c, kRunFiles.insert(c)};
+  sql::Statement status{c, "SELECT status FROM runs WHERE id = ?"};
+  sql::Statement find{c,
+                      fmt::format("SELECT {}, {} FROM runs WHERE id = ?", kRun, kRuns.is_sound(c))};
+  sql::Statement trace{
+      c, fmt::format("SELECT trace, {} FROM run_traces WHERE run = ?", kRunTraces.is_sound(c))};
+  sql::Statement file{c, fmt::format("SELECT path, content, {} FROM run_files WHERE run = ? AND "
+                                     "name_key = ? ORDER BY path",
+                                     kRunFiles.is_sound(c))};
+  sql::Statement page{c, fmt::format("SELECT {}, {} FROM runs WHERE (?1 IS NULL OR "
+                                     "CASE status WHEN 8 THEN 2 ELSE status END = ?1) "
+                                     "AND (?2 IS NULL OR program_key = ?2) AND id < ?3 "
+                                     "ORDER BY id DESC LIMIT ?4",
+                                     kRun, kRuns.is_sound(c))};
+  sql::Statement abandoned{
+      c, fmt::format("SELECT {}, {} FROM runs WHERE finished_at IS NULL{} ORDER BY id "
+                     "LIMIT ?",
+                     kRun, kRuns.is_sound(c), of_the_dead(c))};
+  sql::Statement take_over{
+      c, fmt::format("UPDATE runs SET status = CASE status WHEN 8 THEN 8 ELSE 1 END{} "
+                     "WHERE id = ? AND finished_at IS NULL{} RETURNING 1",
+                     c.dialect().is_shared ? ", daemon = DEFAULT" : "", of_the_dead(c))};
+  sql::Statement purge{c,
+                       "DELETE FROM runs WHERE id IN "
+                       "(SELECT id FROM runs WHERE finished_at < ? LIMIT ?) RETURNING 1"};
 
   Result<void> require_unfinished(std::int64_t id) {
     Rows rows = status.query(id);
@@ -83,23 +86,6 @@ struct RunsStore::Statements {
     }
     return {};
   }
-
-  sql::Statement insert;
-  sql::Statement start;
-  sql::Statement finish;
-  sql::Statement ask_to_cancel;
-  sql::Statement to_be_cancelled;
-  Seal seal;
-  sql::Statement insert_trace;
-  sql::Statement insert_file;
-  sql::Statement status;
-  sql::Statement find;
-  sql::Statement trace;
-  sql::Statement file;
-  sql::Statement page;
-  sql::Statement abandoned;
-  sql::Statement take_over;
-  sql::Statement purge;
 };
 
 RunsStore::RunsStore(sql::Connection& connection)

@@ -71,25 +71,27 @@ std::string select_revision(std::string_view rest) {
 }  // namespace
 
 struct TablesStore::Statements {
-  explicit Statements(sql::Connection& c)
-      : newest(c, select_revision("ORDER BY number DESC LIMIT 1")),
-        by_number(c, select_revision("WHERE number = ?")),
-        by_given_id(c, select_revision("WHERE number = (SELECT max(revision) FROM "
-                                       "table_revision_ids WHERE id = ?)")),
-        all(c, select_revision("ORDER BY number")),
-        cells(c,
-              "SELECT table_name, column_name, over_nm, up_to_nm, value_nm FROM table_cells WHERE "
-              "table_set = (SELECT table_set FROM table_revisions WHERE number = ?) "
-              "ORDER BY table_name, column_name, over_nm"),
-        custom(c,
-               "SELECT table_name, column_name, over_nm, up_to_nm, upper_nm, lower_nm FROM "
-               "custom_cells WHERE revision = ? ORDER BY table_name, column_name, over_nm"),
-        set_by_digest(c, "SELECT id FROM table_sets WHERE digest = ?"),
-        insert_set(c, kTableSets.insert(c) + " RETURNING id"),
-        insert_cell(c, "INSERT INTO table_cells VALUES (?, ?, ?, ?, ?, ?)"),
-        insert_revision(c, kTableRevisions.insert(c) + " RETURNING number"),
-        insert_custom(c, "INSERT INTO custom_cells VALUES (?, ?, ?, ?, ?, ?, ?)"),
-        insert_id(c, kTableRevisionIds.insert(c)) {}
+  sql::Connection& c;
+  sql::Statement newest{c, select_revision("ORDER BY number DESC LIMIT 1")};
+  sql::Statement by_number{c, select_revision("WHERE number = ?")};
+  sql::Statement by_given_id{c, select_revision("WHERE number = (SELECT max(revision) FROM "
+                                                "table_revision_ids WHERE id = ?)")};
+  sql::Statement all{c, select_revision("ORDER BY number")};
+  sql::Statement cells{
+      c,
+      "SELECT table_name, column_name, over_nm, up_to_nm, value_nm FROM table_cells WHERE "
+      "table_set = (SELECT table_set FROM table_revisions WHERE number = ?) "
+      "ORDER BY table_name, column_name, over_nm"};
+  sql::Statement custom{
+      c,
+      "SELECT table_name, column_name, over_nm, up_to_nm, upper_nm, lower_nm FROM "
+      "custom_cells WHERE revision = ? ORDER BY table_name, column_name, over_nm"};
+  sql::Statement set_by_digest{c, "SELECT id FROM table_sets WHERE digest = ?"};
+  sql::Statement insert_set{c, kTableSets.insert(c) + " RETURNING id"};
+  sql::Statement insert_cell{c, "INSERT INTO table_cells VALUES (?, ?, ?, ?, ?, ?)"};
+  sql::Statement insert_revision{c, kTableRevisions.insert(c) + " RETURNING number"};
+  sql::Statement insert_custom{c, "INSERT INTO custom_cells VALUES (?, ?, ?, ?, ?, ?, ?)"};
+  sql::Statement insert_id{c, kTableRevisionIds.insert(c)};
 
   std::optional<TableRevision> one(sql::Statement& statement, auto... key) {
     Rows rows = statement.query(key...);
@@ -129,19 +131,6 @@ struct TablesStore::Statements {
     }
     return set;
   }
-
-  sql::Statement newest;
-  sql::Statement by_number;
-  sql::Statement by_given_id;
-  sql::Statement all;
-  sql::Statement cells;
-  sql::Statement custom;
-  sql::Statement set_by_digest;
-  sql::Statement insert_set;
-  sql::Statement insert_cell;
-  sql::Statement insert_revision;
-  sql::Statement insert_custom;
-  sql::Statement insert_id;
 };
 
 std::string shown_digits(const Digest& digest) { return to_hex(digest).substr(0, kShownDigits); }

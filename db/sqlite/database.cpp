@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "db/sql/read_pool_engine.hpp"
+#include "db/sql/session.hpp"
 #include "db/sql/writer_engine.hpp"
 #include "db/sqlite/connection.hpp"
 #include "db/sqlite/data_directory.hpp"

@@ -8,7 +8,7 @@
 
 #include "db/sql/statement.hpp"
 #include "db/sqlite/connection.hpp"
-#include "db/store/measurement_fields.hpp"
+#include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store::sqlite {
 namespace {

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "db/store/measurement_filter.hpp"
 #include "db/store/measurement_index.hpp"
 #include "db/store/measurement_row.hpp"
 #include "db/store/measurement_statistics.hpp"

@@ -12,7 +12,7 @@
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
-#include "db/store/measurement_filter.hpp"
+#include "db/store/measurement_index.hpp"
 #include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store {

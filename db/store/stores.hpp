@@ -6,7 +6,6 @@
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
-#include "db/store/changes_store.hpp"
 #include "db/store/documents_store.hpp"
 #include "db/store/keys_store.hpp"
 #include "db/store/log_store.hpp"

@@ -16,7 +16,6 @@
 #include "base/clock.hpp"
 #include "base/result.hpp"
 #include "base/thread.hpp"
-#include "db/store/changes_store.hpp"
 #include "db/store/log_store.hpp"
 #include "proof/frontier.hpp"
 #include "proof/note.hpp"

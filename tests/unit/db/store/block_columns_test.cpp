@@ -6,7 +6,7 @@
 #include <random>
 
 #include "damaged_bytes.hpp"
-#include "db/store/pair_statistics.hpp"
+#include "db/store/tuple_statistics.hpp"
 
 using namespace fitgauge::store;
 

@@ -14,7 +14,7 @@
 
 #include "db/store/canonical_digest.hpp"
 #include "db/store/database.hpp"
-#include "db/store/measurement_fields.hpp"
+#include "db/store/measurement_row.hpp"
 #include "engine.hpp"
 
 namespace fitgauge::store::test {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "db/store/measurement_fields.hpp"
+#include "db/store/measurement_row.hpp"
 #include "fixture.hpp"
 
 using namespace fitgauge;
