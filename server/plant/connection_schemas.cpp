@@ -2,8 +2,8 @@
 
 #include "plant/connections.hpp"
 #include "plant/kind.hpp"
+#include "plant/log_follower.hpp"
 #include "plant/plant.hpp"
-#include "plant/progress.hpp"
 
 namespace fitgauge::connections {
 namespace {

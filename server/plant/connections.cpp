@@ -7,7 +7,7 @@
 #include "base/json/field_reader.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/text.hpp"
-#include "plant/progress.hpp"
+#include "plant/log_follower.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/log/changes.hpp"
 

@@ -1,4 +1,4 @@
-#include "plant/progress.hpp"
+#include "plant/log_follower.hpp"
 
 #include <fmt/format.h>
 

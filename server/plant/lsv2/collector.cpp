@@ -1,4 +1,5 @@
-#include "plant/lsv2/collector.hpp"
+#include "plant/lsv2/collected_log.hpp"
+
 
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@
 #include "base/text.hpp"
 #include "base/thread.hpp"
 #include "plant/kind.hpp"
-#include "plant/lsv2/collected_log.hpp"
 #include "plant/lsv2/link/link_client.hpp"
 
 namespace fitgauge::connections {

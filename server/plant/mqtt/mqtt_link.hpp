@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "plant/settings.hpp"
 #include "plant/mqtt/mqtt_client.hpp"
 #include "plant/plant.hpp"
-#include "plant/settings.hpp"
 #include "record/measurement.hpp"
 
 namespace fitgauge::connections {

@@ -15,7 +15,6 @@
 #include "plant/lsv2/link/answers.hpp"
 #include "plant/lsv2/link/link_server.hpp"
 #include "plant/lsv2/link/requests.hpp"
-#include "plant/virtual_control/machine_view.hpp"
 #include "plant/virtual_control/virtual_control.hpp"
 #include "plant/virtual_control/virtual_disk.hpp"
 

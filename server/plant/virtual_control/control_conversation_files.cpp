@@ -4,7 +4,6 @@
 
 #include "base/text.hpp"
 #include "plant/virtual_control/control_conversation.hpp"
-#include "plant/virtual_control/machine_view.hpp"
 #include "plant/virtual_control/virtual_disk.hpp"
 
 namespace fitgauge::virtual_control {

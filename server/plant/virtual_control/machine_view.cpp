@@ -1,4 +1,4 @@
-#include "plant/virtual_control/machine_view.hpp"
+#include "plant/virtual_control/virtual_disk.hpp"
 
 #include <fmt/format.h>
 

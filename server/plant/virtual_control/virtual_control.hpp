@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "plant/lsv2/link/link_server.hpp"
-#include "plant/virtual_control/machine_view.hpp"
+#include "plant/virtual_control/virtual_disk.hpp"
 
 namespace fitgauge::virtual_control {
 

@@ -1,4 +1,4 @@
-#include "plant/progress.hpp"
+#include "plant/log_follower.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
