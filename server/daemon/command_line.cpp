@@ -12,7 +12,6 @@
 #include "api/services.hpp"
 #include "base/result.hpp"
 #include "base/text.hpp"
-#include "daemon/application_options.hpp"
 #include "daemon/config.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/log.hpp"

@@ -16,7 +16,6 @@
 
 #include "api/services.hpp"
 #include "base/folder.hpp"
-#include "daemon/application_options.hpp"
 #include "http/server.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/qualification/qualification.hpp"

@@ -16,7 +16,6 @@
 #include "api/wire/problem.hpp"
 #include "base/clock.hpp"
 #include "base/thread.hpp"
-#include "daemon/application_options.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/log.hpp"
 #include "daemon/opening.hpp"
