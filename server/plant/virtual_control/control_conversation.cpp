@@ -1,4 +1,4 @@
-#include "plant/virtual_control/control_conversation.hpp"
+#include "plant/virtual_control/virtual_control.hpp"
 
 #include <algorithm>
 

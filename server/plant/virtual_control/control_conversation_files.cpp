@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "plant/virtual_control/control_conversation.hpp"
+#include "plant/virtual_control/virtual_control.hpp"
 #include "plant/virtual_control/virtual_disk.hpp"
 
 namespace fitgauge::virtual_control {

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <future>
+
 #include "base/thread.hpp"
-#include "plant/virtual_control/control_conversation.hpp"
 
 namespace fitgauge::virtual_control {
 namespace {

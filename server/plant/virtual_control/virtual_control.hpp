@@ -1,13 +1,22 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <initializer_list>
+#include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
+#include "plant/lsv2/link/answers.hpp"
 #include "plant/lsv2/link/link_server.hpp"
+#include "plant/lsv2/link/requests.hpp"
 #include "plant/virtual_control/virtual_disk.hpp"
 
 namespace fitgauge::virtual_control {
@@ -39,7 +48,7 @@ const ControlModel* find_model(std::string_view name);
 
 namespace fitgauge::app {
 class FileService;
-}
+}  // namespace fitgauge::app
 
 namespace fitgauge::virtual_control {
 
@@ -80,5 +89,129 @@ struct ExampleProgram {
 };
 
 std::span<const ExampleProgram> example_programs();
+
+/// Bytes that all clients' transfers may hold together. For one thread.
+class ByteBudget {
+ public:
+  explicit ByteBudget(std::size_t bytes) : left_(bytes) {}
+
+ private:
+  friend class ByteShare;
+  std::size_t left_;
+};
+
+/// What one transfer holds of the budget; given back with it.
+class ByteShare {
+ public:
+  explicit ByteShare(ByteBudget& budget) : budget_(&budget) {}
+  ByteShare(ByteShare&& other) noexcept
+      : budget_(other.budget_), taken_(std::exchange(other.taken_, 0)) {}
+  ByteShare& operator=(ByteShare&& other) noexcept {
+    std::swap(budget_, other.budget_);
+    std::swap(taken_, other.taken_);
+    return *this;
+  }
+  ~ByteShare() { budget_->left_ += taken_; }
+
+  /// @returns false when there are not so many left; nothing is taken then.
+  bool take(std::size_t bytes) {
+    if (bytes > budget_->left_) return false;
+    budget_->left_ -= bytes;
+    taken_ += bytes;
+    return true;
+  }
+
+ private:
+  ByteBudget* budget_;
+  std::size_t taken_ = 0;
+};
+
+/// What all clients share.
+struct ControlState {
+  const ControlModel& model;
+  bool is_writable = false;
+  VirtualDisk disk;
+  MachineView machine;
+  ByteBudget transfers;
+  std::map<std::string, std::string> parameters{};  ///< of the machine, by name
+  bool keyboard_locked = false;
+};
+
+/// One client's logins, directory and transfer. A telegram without its login is NoPrivilege; one
+/// that changes something is NoWriteAccess at a control that is only read.
+class ControlConversation final : public control_link::Conversation {
+ public:
+  /// @param state outlives it.
+  explicit ControlConversation(ControlState& state) : state_(state) {}
+
+  std::optional<control_link::Telegram> answer(const control_link::Telegram& telegram) override;
+  std::size_t buffer() const override { return buffer_; }
+
+ private:
+  /// Nothing where the protocol has no answer.
+  using Reply = control_link::ControlResult<std::optional<control_link::Telegram>>;
+  /// C_FL, until T_FD.
+  struct Receiving {
+    interpreter::ControlPath path;
+    bool binary;
+    std::string bytes;
+    ByteShare share;
+  };
+  /// R_FL and R_DR, until T_FD: what is sent for each T_OK.
+  struct Sending {
+    std::string bytes{};  ///< of a file
+    std::size_t sent = 0;
+    std::vector<DiskEntry> entries{};  ///< of a directory
+    bool is_file = false;
+    ByteShare share;
+  };
+
+  Reply reply(const control_link::Login& login);
+  Reply reply(const control_link::Logout& logout);
+  Reply reply(const control_link::ReadVersion& request);
+  Reply reply(const control_link::ReadParameters& request);
+  Reply reply(const control_link::ReadSystemInformation& request);
+  Reply reply(const control_link::SystemCommand& request);
+  Reply reply(const control_link::ChangeDirectory& request);
+  Reply reply(const control_link::ReadDirectory& request);
+  Reply reply(const control_link::ListDirectory& request);
+  Reply reply(const control_link::MakeDirectory& request);
+  Reply reply(const control_link::DeleteDirectory& request);
+  Reply reply(const control_link::ReadFileInformation& request);
+  Reply reply(const control_link::DeleteFile& request);
+  Reply reply(const control_link::CopyFile& request);
+  Reply reply(const control_link::RenameFile& request);
+  Reply reply(const control_link::Upload& request);
+  Reply reply(const control_link::Download& request);
+  Reply reply(const control_link::ReadRunInformation& request);
+  Reply reply(const control_link::ReadMemory& request);
+  Reply reply(const control_link::ReadMachineParameter& request);
+  Reply reply(const control_link::WriteMachineParameter& request);
+  Reply reply(const control_link::LockKeyboard& request);
+  Reply reply(const control_link::PressKey& request);
+  Reply reply(const control_link::ReadDataPath& request);
+  Reply reply(const control_link::FileBlock& block);
+  Reply reply(const control_link::EndOfData& end);
+  Reply reply(const control_link::Accepted& next);
+
+  Reply next_error(bool first);
+  Reply dump_screen(const std::string& path);
+  Reply run_program(const std::string& path);
+  Reply copy(const std::string& source, const std::string& target, bool moves);
+  control_link::DirectoryEntry listed(const DiskEntry& entry) const;
+
+  /// @errors NoPrivilege unless one of them is logged in.
+  control_link::ControlResult<void> needs(std::initializer_list<std::string_view> logins) const;
+  /// @errors NoPrivilege, NoWriteAccess.
+  control_link::ControlResult<void> needs_to_write(std::string_view login) const;
+
+  ControlState& state_;
+  std::size_t buffer_ = control_link::kSmallestBuffer;
+  bool acknowledges_end_ = false;
+  std::set<std::string, std::less<>> logins_;
+  std::string directory_ = "TNC:\\";
+  std::variant<std::monostate, Receiving, Sending> transfer_;
+  std::size_t next_error_ = 0;
+};
 
 }  // namespace fitgauge::virtual_control

@@ -46,6 +46,14 @@ ControlResult<Message> decode(const Telegram& telegram) {
   static constexpr TelegramName kName = telegram_name(letters); \
   static auto fields([[maybe_unused]] auto& m) { return std::tie(__VA_ARGS__); }
 
+/// A request that has a path alone.
+template <TelegramName letters>
+struct OnPath {
+  static constexpr TelegramName kName = letters;
+  std::string path{};
+  static auto fields(auto& m) { return std::tie(m.path); }
+};
+
 struct Login {
   std::string name{};  ///< INSPECT, FILE, ...
   std::optional<std::string> password{};
@@ -73,10 +81,7 @@ struct SystemCommand {
   std::optional<std::string> argument{};
   FITGAUGE_TELEGRAM("C_CC", m.command, m.argument)
 };
-struct ChangeDirectory {
-  std::string path{};
-  FITGAUGE_TELEGRAM("C_DC", m.path)
-};
+using ChangeDirectory = OnPath<telegram_name("C_DC")>;
 struct ReadDirectory {
   FITGAUGE_TELEGRAM("R_DI")
 };
@@ -86,22 +91,10 @@ struct ListDirectory {
   std::uint8_t mode = kEntries;
   FITGAUGE_TELEGRAM("R_DR", m.mode)
 };
-struct MakeDirectory {
-  std::string path{};
-  FITGAUGE_TELEGRAM("C_DM", m.path)
-};
-struct DeleteDirectory {
-  std::string path{};
-  FITGAUGE_TELEGRAM("C_DD", m.path)
-};
-struct ReadFileInformation {
-  std::string path{};
-  FITGAUGE_TELEGRAM("R_FI", m.path)
-};
-struct DeleteFile {
-  std::string path{};
-  FITGAUGE_TELEGRAM("C_FD", m.path)
-};
+using MakeDirectory = OnPath<telegram_name("C_DM")>;
+using DeleteDirectory = OnPath<telegram_name("C_DD")>;
+using ReadFileInformation = OnPath<telegram_name("R_FI")>;
+using DeleteFile = OnPath<telegram_name("C_FD")>;
 struct CopyFile {
   std::string source{};
   std::string target{};
