@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/result.hpp"
@@ -49,6 +50,17 @@ struct Config {
 
 /// One setting: its place in Config, its names and its documentation.
 struct Setting {
+  Setting(std::string_view called, std::string_view meaning, std::vector<std::string> Config::*to)
+      : name(called), help(meaning), texts(to) {}
+  Setting(std::string_view called, std::string_view meaning, std::string Config::*to,
+          std::vector<std::string_view> only = {})
+      : name(called), help(meaning), text(to), words(std::move(only)) {}
+  Setting(std::string_view called, std::string_view meaning, bool Config::*to)
+      : name(called), help(meaning), flag(to) {}
+  Setting(std::string_view called, std::string_view meaning, std::int64_t Config::*to,
+          std::int64_t from, std::int64_t up_to)
+      : name(called), help(meaning), integer(to), least(from), most(up_to) {}
+
   std::string_view name;  ///< `io-threads`: the flag; `io_threads` in TOML, FITGAUGE_IO_THREADS
   std::string_view help;
   std::vector<std::string> Config::*texts = nullptr;

@@ -1,4 +1,4 @@
-#include "daemon/opening.hpp"
+#include "daemon/preflight.hpp"
 
 #include <fmt/format.h>
 #include <time.h>

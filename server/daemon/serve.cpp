@@ -18,7 +18,6 @@
 #include "base/thread.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/log.hpp"
-#include "daemon/opening.hpp"
 #include "daemon/preflight.hpp"
 #include "daemon/service_metrics.hpp"
 #include "http/response.hpp"

@@ -8,7 +8,7 @@
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/run/q_parameters.hpp"
 #include "nc/run/run_files.hpp"
-#include "record/gauge_book.hpp"
+#include "record/measurement_batch.hpp"
 
 namespace fitgauge::app {
 namespace {
