@@ -67,9 +67,9 @@ http::Response answer_error(api::Metrics& metrics, const Error& error, std::opti
   metrics.count(error.code);
   if (error.code != ErrorCode::Internal || status) return api::problem(error, status, request);
   log_error("internal_error", fmt::format("request {}: {}", request.id_text(), error.message));
-  return api::problem(
-      {ErrorCode::Internal, "The request failed; the log has the cause under its id."}, status,
-      request);
+  return api::problem({ErrorCode::Internal,
+                       "the request failed: the service log has the cause with this request id"},
+                      status, request);
 }
 
 http::ServerHooks hooks(const api::Services& services, const api::Guard& guard,

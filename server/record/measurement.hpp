@@ -36,7 +36,7 @@ class Origins;
 
 /// Who measured: a gauge at a part, or the simulated machine.
 enum class Source : std::uint8_t { Gauge, Simulation };
-/// Where the limits come from: a class of the tables, a column of the shop's own, the drawing, or a
+/// Where the limits come from: a class of the tables, a custom tolerance class, the drawing, or a
 /// designation of another standard; None: a value that nothing judges.
 enum class LimitsBasis : std::uint8_t { Iso286, Custom, Explicit, Standard, None };
 

@@ -48,7 +48,7 @@ inline constexpr std::array<RowField, RowField::Count> kRowFields = [] {
        "Measured value, above 0 to 100000000; a position, distance or deviation from -100000000; "
        "rounded to 1 nm"},
       {"nominal_mm", RowField::Kind::Length, 0, "Nominal size"},
-      {"tolerance_class", RowField::Kind::Text, 64, "H7, g6 or a column of the shop's own"},
+      {"tolerance_class", RowField::Kind::Text, 64, "H7, g6 or a custom tolerance class"},
       {"designation", RowField::Kind::Text, 64,
        "25 H7, 25 H7(E), M10-6H or 25 ISO 2768-m; a comma may mark decimals"},
       {"feature", RowField::Kind::Feature, 16,

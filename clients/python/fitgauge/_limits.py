@@ -82,7 +82,7 @@ class LimitsCalls(Transport):
 
     def put_column(self, feature: str, name: str, rows: Sequence[Mapping[str, Size]],
                    revision: str | None = None) -> str:
-        """Stores a column of the shop's own: rows of `over_mm`, `up_to_mm`, `upper_um`, `lower_um`. Gives
+        """Stores a custom tolerance class: rows of `over_mm`, `up_to_mm`, `upper_um`, `lower_um`. Gives
         the new revision. PreconditionFailed when `revision` is given and no longer in use."""
         answer = self._put(path_of("tables", feature, "classes", name), dumps({"rows": rows}).encode(),
                            "application/json", revision)

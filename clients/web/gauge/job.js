@@ -138,7 +138,7 @@ export class Job {
     return { ...parsed, limits: this.limits, ...(isOpen(parsed) && { feature: this.side.value }) };
   }
 
-  /** Asks again for the limits held: somebody may have stored a column of the shop's own. */
+  /** Asks again for the limits held: somebody may have stored a custom tolerance class. */
   renew() {
     if (this.limits) this.#look();
   }

@@ -5,7 +5,7 @@ import { nmFromMm } from '../exact.js';
 
 const ISO_CLASS = /^([A-Za-z]{1,2})(01|0|[1-9]|1[0-8])$/;
 
-/** {letters: "JS", grade: "7"}; null for a column of the shop's own. */
+/** {letters: "JS", grade: "7"}; null for a custom tolerance class. */
 export function isoClass(name) {
   const match = ISO_CLASS.exec(name);
   return match && { letters: match[1], grade: match[2] };

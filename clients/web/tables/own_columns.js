@@ -1,4 +1,4 @@
-/** Columns of the shop's own: what there is, a new one from pasted rows, and back to the standard. */
+/** Custom tolerance classes: what there is, a new one from pasted rows, and back to the standard. */
 
 import { request, url } from '../api.js';
 import { confirm } from '../confirm.js';

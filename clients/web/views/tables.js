@@ -1,4 +1,4 @@
-/** The tables: search by size and class, copy as CSV, the shop's own columns. */
+/** The tables: search by size and class, copy as CSV, custom tolerance classes. */
 
 import { get, url } from '../api.js';
 import { copyText, field, h, refill } from '../dom.js';

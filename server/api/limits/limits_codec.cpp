@@ -108,7 +108,7 @@ schema::Fields limits_fields() {
       {"tolerance_um", schema::number(), "Upper minus lower limit"},
       {"size_range_mm", range, "Step of the standard tolerance", false},
       {"basis", schema::words({"iso286", "custom", "explicit", "standard"}),
-       "ISO 286, a column of the shop's own, a drawing, or a designation of another standard"},
+       "ISO 286, a custom tolerance class, a drawing, or a designation of another standard"},
       {"table_revision", schema::text(), "The tables the limits were taken from", false},
   };
 }

@@ -134,7 +134,7 @@ Result<http::Response> rows(const http::Request& request, const iso286::Toleranc
                              first_characters(*only, 40)),
                  "table"};
   }
-  // A shop's own columns may stand for the widths of a keyway.
+  // Custom tolerance classes may replace the widths of a keyway.
   const std::string own = etag_of(tables);
   return tagged_json(std::move(body),
                      etag_of(*standard).insert(1, own.substr(1, own.size() - 2) + '.'));

@@ -252,7 +252,7 @@ constexpr std::string_view kSecurity =
 constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTags = {{
     {"limits", "Limits of size, fits and verdicts (ISO 286-1)"},
     {"statistics", "The figures of a quality engineer, each with its source"},
-    {"tables", "The tolerance tables and a shop's own columns"},
+    {"tables", "The tolerance tables and custom tolerance classes"},
     {"measurements", "Judged measurements, stored for good"},
     {"log", "Signed proof of what was stored"},
     {"plans", "What is measured at a part, in order"},

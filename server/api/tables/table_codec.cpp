@@ -109,8 +109,8 @@ using schema::Others;
 void add_table_schemas(Schemas& schemas) {
   const std::string range = schema::object({
       {"feature", feature_words(), ""},
-      {"classes", schema::array(schema::text()), "Of the standard, then those of the shop's own"},
-      {"own", schema::array(schema::text()), "Classes of the shop's own"},
+      {"classes", schema::array(schema::text()), "Of the standard, then the custom ones"},
+      {"own", schema::array(schema::text()), "Custom tolerance classes"},
       {"size_ranges", schema::count(), ""},
   });
   schemas.push_back({"TableIndex", schema::object({{"revision", schema::text(), "Of all tables"},

@@ -157,7 +157,7 @@ void add_feature_routes(std::vector<http::Route>& routes, const Services& servic
       .method = http::Method::Put,
       .pattern = path + "/classes/{name}",
       .handler = with(services, feature, put_column),
-      .summary = "Store a column of the shop's own as a new revision",
+      .summary = "Store a custom tolerance class as a new revision",
       .parameters = {name, if_match},
       .body = json_body("Column"),
       .access = "admin",

@@ -102,7 +102,8 @@ bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
       return false;
     case BodyReader::Outcome::TooLarge: refuse(exchange_.body_too_large()); return true;
     case BodyReader::Outcome::Malformed:
-      refuse({400, ErrorCode::RequestMalformed, "The body is not a gzip stream."});
+      refuse({400, ErrorCode::RequestMalformed,
+              "the body must be a gzip stream; check Content-Encoding"});
       return true;
   }
   return false;
@@ -131,7 +132,8 @@ void Connection::retry_budget() {
 
 bool Connection::finish_body() {
   if (body_.finish() != BodyReader::Outcome::Ok) {
-    refuse({400, ErrorCode::RequestMalformed, "The gzip stream of the body is incomplete."});
+    refuse({400, ErrorCode::RequestMalformed,
+            "the gzip stream of the body is incomplete; send it again"});
     return true;
   }
   exchange_.set_body(body_.bytes());

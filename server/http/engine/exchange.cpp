@@ -220,12 +220,12 @@ std::optional<Error> Exchange::take_query() {
           return parameter.place == ParameterPlace::Query && parameter.name == *name;
         });
     if (found == parameters.end()) {
-      return Error{ErrorCode::QueryUnknown, fmt::format("There is no parameter {}.", *name),
+      return Error{ErrorCode::QueryUnknown, fmt::format("unknown parameter {}", *name),
                    std::string(*name)};
     }
     auto& slot = request_.arguments_[static_cast<std::size_t>(found - parameters.begin())];
     if (slot) {
-      return Error{ErrorCode::QueryRepeated, fmt::format("Parameter {} is given twice.", *name),
+      return Error{ErrorCode::QueryRepeated, fmt::format("parameter {} must be given once", *name),
                    std::string(*name)};
     }
     auto parsed = parse_argument(*found, *value);

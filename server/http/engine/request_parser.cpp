@@ -71,7 +71,7 @@ const char* describe(const beast::error_code& code) {
       return "The request target holds a character that must be percent-encoded, or is missing.";
     case error::bad_field: return "A header field name is malformed.";
     case error::bad_value: return "A header field value is malformed; lines end with CR LF.";
-    case error::bad_line_ending: return "Lines end with CR LF.";
+    case error::bad_line_ending: return "lines of the request must end with CR LF";
     case error::bad_content_length:
     case error::multiple_content_length:
       return "Content-Length is malformed, repeated or together with Transfer-Encoding.";
@@ -94,7 +94,9 @@ RequestParser::Step RequestParser::put(std::string_view input, std::size_t& used
   try {
     return parse(input, used);
   } catch (const std::exception&) {  // Beast's containers throw std::length_error
-    return refuse(431, ErrorCode::HeaderTooLarge, "The header section is too large.");
+    return refuse(
+        431, ErrorCode::HeaderTooLarge,
+        "header section must have at most 32 KiB and 100 fields; send fewer or shorter fields");
   }
 }
 
@@ -124,10 +126,11 @@ RequestParser::Step RequestParser::take_error(const beast::error_code& error,
                                               std::string_view pending) {
   if (error == beast::http::error::need_more) return need_more(pending);
   if (error == beast::http::error::bad_version) {
-    return refuse(400, ErrorCode::VersionUnsupported, "This server speaks HTTP/1.0 and HTTP/1.1.");
+    return refuse(400, ErrorCode::VersionUnsupported, "HTTP version must be 1.0 or 1.1");
   }
   if (error == beast::http::error::header_limit) {
-    return refuse(431, ErrorCode::HeaderTooLarge, "The header section is larger than 32 KiB.");
+    return refuse(431, ErrorCode::HeaderTooLarge,
+                  "header section must have at most 32 KiB; send fewer or shorter fields");
   }
   if (error == beast::http::error::bad_chunk && has_endless_size(pending)) return refuse_body();
   return refuse(400, ErrorCode::RequestMalformed, describe(error));
@@ -137,24 +140,25 @@ RequestParser::Step RequestParser::need_more(std::string_view pending) {
   if (head_done_) {
     if (framing_run_ + pending.size() > kMaxFraming) {
       return refuse(400, ErrorCode::RequestMalformed,
-                    "More than 16 KiB of chunk framing or trailer yield no byte of the body.");
+                    "chunk framing or trailer of 16 KiB contains no byte of the body");
     }
     if (has_bare_line_feed(pending)) {
-      return refuse(400, ErrorCode::RequestMalformed, "Lines end with CR LF.");
+      return refuse(400, ErrorCode::RequestMalformed, "lines of the request must end with CR LF");
     }
   } else if (head_.method.empty()) {
     if (pending.size() > kMaxTarget + 64) {
-      return refuse(414, ErrorCode::TargetTooLong, "The request target is longer than 8 KiB.");
+      return refuse(414, ErrorCode::TargetTooLong, "request target must have at most 8 KiB");
     }
   } else if (head_bytes_ + pending.size() > kMaxHeaderSection) {
-    return refuse(431, ErrorCode::HeaderTooLarge, "The header section is larger than 32 KiB.");
+    return refuse(431, ErrorCode::HeaderTooLarge,
+                  "header section must have at most 32 KiB; send fewer or shorter fields");
   }
   return Step::NeedMore;
 }
 
 RequestParser::Step RequestParser::refuse_body() {
   return refuse(413, ErrorCode::BodyTooLarge,
-                "The chunks announce a larger body than this route takes.");
+                "the chunks announce a larger body than this route accepts");
 }
 
 void RequestParser::on_chunk_header_impl(std::uint64_t size, beast::string_view,
@@ -176,7 +180,7 @@ RequestParser::Step RequestParser::refuse(int status, ErrorCode code, const char
 void RequestParser::on_request_impl(beast::http::verb, beast::string_view method,
                                     beast::string_view target, int version, ErrorCodeOut& error) {
   if (target.size() > kMaxTarget) {
-    refuse(414, ErrorCode::TargetTooLong, "The request target is longer than 8 KiB.");
+    refuse(414, ErrorCode::TargetTooLong, "request target must have at most 8 KiB");
     error = beast::http::error::bad_target;
     return;
   }
@@ -191,14 +195,14 @@ void RequestParser::on_field_impl(beast::http::field field, beast::string_view n
   const std::string_view value = view(value_in);
   const auto once = [&](bool& seen) {
     if (seen)
-      refuse(400, ErrorCode::RequestMalformed, "A header field that is single is repeated.");
+      refuse(400, ErrorCode::RequestMalformed, "a header field that may come once is repeated");
     seen = true;
   };
   if (is_folded(name, value)) {
-    refuse(400, ErrorCode::RequestMalformed, "A header field is folded over several lines.");
+    refuse(400, ErrorCode::RequestMalformed, "a header field must be on one line");
   } else if (!head_done_) {  // trailer fields are read and thrown away
     if (head_.fields.size() == kMaxFields) {
-      refuse(431, ErrorCode::HeaderTooLarge, "The header section has more than 100 fields.");
+      refuse(431, ErrorCode::HeaderTooLarge, "header section must have at most 100 fields");
     }
     switch (field) {
       case beast::http::field::host:
@@ -212,7 +216,7 @@ void RequestParser::on_field_impl(beast::http::field field, beast::string_view n
       case beast::http::field::content_length:
         once(has_content_length_);
         if (!is_digits(value)) {
-          refuse(400, ErrorCode::RequestMalformed, "Content-Length is not a number.");
+          refuse(400, ErrorCode::RequestMalformed, "Content-Length must be a number");
         }
         break;
       case beast::http::field::content_type: once(has_content_type_); break;
@@ -241,7 +245,8 @@ bool RequestParser::check_head() {
   };
   if (head_bytes_ >
       kMaxHeaderSection + 16) {  // the count begins at the version of the request line
-    refuse(431, ErrorCode::HeaderTooLarge, "The header section is larger than 32 KiB.");
+    refuse(431, ErrorCode::HeaderTooLarge,
+           "header section must have at most 32 KiB; send fewer or shorter fields");
     return false;
   }
   if (has_transfer_encoding_) {

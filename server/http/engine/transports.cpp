@@ -138,7 +138,7 @@ Listener::Listener(std::vector<IoThread*> threads, Deliver deliver)
 namespace {
 
 Error cannot_listen(const ListenAddress& address, const error_code& error) {
-  return {ErrorCode::ListenFailed, fmt::format("Cannot listen on {} port {}: {}.", address.host,
+  return {ErrorCode::ListenFailed, fmt::format("cannot listen on {} port {}: {}", address.host,
                                                address.port, error.message())};
 }
 

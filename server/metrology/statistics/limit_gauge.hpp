@@ -20,7 +20,7 @@ struct LimitGauge {
 };
 
 /// @errors SizeOutOfRange over 500 mm; ClassUndefinedForSize for a grade without values (holes
-///   IT6 to IT16, shafts IT5 to IT16), a class of the shop's own, and the one size step whose value
+///   IT6 to IT16, shafts IT5 to IT16), a custom tolerance class, and the one size step whose value
 ///   the sources disagree about (IT5 shafts, over 250 up to 315 mm).
 Result<LimitGauge> limit_gauge(const iso286::LimitsOfSize& limits, std::string_view class_name);
 

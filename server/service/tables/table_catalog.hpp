@@ -31,8 +31,8 @@ struct TableState {
 };
 
 /// Keeps the tables: imports the compiled-in ones as the first revision, audits and loads the
-/// latest, stores a shop's own columns as new revisions. Thread-safe; callbacks come on a storage
-/// thread.
+/// latest, stores custom tolerance classes as new revisions. Thread-safe; callbacks come on a
+/// storage thread.
 class TableCatalog {
  public:
   using Tables = std::shared_ptr<const iso286::ToleranceTables>;
