@@ -51,11 +51,11 @@ export class HeldValues {
   }
 
   #newest() {
-    return this.loading.run((signal) => newestValues(this.#filter, this.count, signal));
+    return this.loading.run((signal) => newestValues(this.query, this.count, signal));
   }
 
   /** A drawing's own limits have no designation that the service could look for. */
-  get #filter() {
+  get query() {
     return { ...this.bar.query, characteristic: this.characteristic, designation: this.size.includes('/') ? '' : this.size };
   }
 
@@ -83,7 +83,7 @@ export class HeldValues {
     const newest = this.#records.at(-1);
     if (!newest) return null;
     try {
-      const { measurements, next } = await getJson(url(['measurements'], { ...this.#filter, after: newest.id, limit: MOST_MISSED }), { signal: this.leaving });
+      const { measurements, next } = await getJson(url(['measurements'], { ...this.query, after: newest.id, limit: MOST_MISSED }), { signal: this.leaving });
       return next ? null : measurements.filter((record) => this.take(record)).length > 0;
     } catch {
       return this.leaving.aborted ? false : null; // another log, or none: the list says why

@@ -13,6 +13,7 @@ import { rulesAt } from '../trend/control_chart.js';
 import { capability, controlChart } from '../trend/figures.js';
 import { HeldValues } from '../trend/held_values.js';
 import { inFigures } from '../trend/in_figures.js';
+import { nextOffset, offsetTiles } from '../trend/next_offset.js';
 import { lastRows, pointDetail } from '../trend/records.js';
 import { eventsOf, meanPoint, pointOf, subgroupsOf } from '../trend/series.js';
 import { capabilityTiles, countTiles } from '../trend/tiles.js';
@@ -26,7 +27,7 @@ const VALUES_PER_MS = 10;
 
 export function mount(main, route) {
   const leaving = new AbortController();
-  const computing = new Latest(leaving.signal);
+  const [computing, proposing] = [new Latest(leaving.signal), new Latest(leaving.signal)];
   const { options } = route;
   const bar = new FilterBar(options, () => { frozen = null; load(); });
   const values = new HeldValues({
@@ -42,6 +43,7 @@ export function mount(main, route) {
   const chart = new ChartPlace({ leaving: leaving.signal, onDrawn: () => tell() });
   const tiles = h('dl.tiles');
   const indices = h('div.indices');
+  const offset = h('section.sheet.offset', { hidden: true }); // below the chart, which stays in its place when this comes
   const detail = h('div.detail', { role: 'status' });
   const figured = h('details.in-figures', { hidden: true });
   const note = h('p.note', { role: 'alert' });
@@ -63,7 +65,7 @@ export function mount(main, route) {
     note, h('div.sums', tiles, indices),
     h('div.sheet', chart.element, chart.stretch.element, detail, figured,
       h('div.line.rules', h('span.label', t('trend.rules')), rules.map((input, i) => h('label.choice', input, h('span', t(`trend.rule.${RULES[i]}`)))), freeze)),
-    table));
+    offset, table));
 
   /** The characteristics there are; what the URL names is offered even when nothing has it yet. */
   async function offer() {
@@ -103,11 +105,21 @@ export function mount(main, route) {
         ? Promise.all([controlChart(points, charted, signal), capability(points, groups, signal)]) : [null, null]));
       if (!answers) return;
       figures = { chart: answers[0], indices: answers[1] };
+      propose(points);
       left = groups ? found.left : 0;
       draw(points, groups ? groups.map(meanPoint) : points);
     } catch (problem) {
       note.textContent = explain(problem);
     }
+  }
+
+  /** What the setter types next: of one characteristic on one machine, with limits that are the same for all values. */
+  async function propose(points) {
+    const isOne = figures.indices && new Set(points.map(({ record }) => record.machine)).size === 1;
+    const found = await proposing.run((signal) => (isOne ? nextOffset(values.query, signal) : null)).catch(() => null);
+    if (found === undefined) return;
+    refill(offset, offsetTiles(found));
+    offset.hidden = !found;
   }
 
   function remembered() {

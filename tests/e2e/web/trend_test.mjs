@@ -351,6 +351,28 @@ describe('the trend', () => {
     assert.deepEqual(await look(), onScreen);
   });
 
+  it('shows the next offset of one machine below the chart, with its interval and where it is from; none for several', async () => {
+    const wear = (machine) => Array.from({ length: 40 }, (_, i) => ({
+      designation: '25 H7', measured_mm: (25.004 + i * 0.0004 + (i % 3) * 0.0005).toFixed(4), characteristic: 'offset', machine }));
+    await daemon.send('POST', '/v1/measurements', wear('M-9'));
+    page = await openChart(browser, daemon, '#/trend?characteristic=offset');
+    await untilPoints(page, 40);
+    const found = await daemon.json('/v1/measurements/compensation?characteristic=offset&machine=M-9');
+    await page.waitForFunction(() => /Next offset/.test(document.querySelector('.offset:not([hidden])')?.textContent));
+    assert.equal(await page.getAttribute('.offset [data-state]', 'data-state'), found.state);
+    const shown = await page.textContent('.offset');
+    assert.ok(shown.includes(found.clause) && shown.includes(found.reason), shown);
+    assert.ok(shown.includes(`\u2212${Math.abs(found.offset_um).toFixed(1)} µm`) && shown.includes(`in ${found.next_in_parts} parts`), shown);
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'trend-offset', { fullPage: true });
+    await daemon.send('POST', '/v1/measurements', wear('M-10'));
+    await untilPoints(page, 80);
+    await page.waitForSelector('.offset', { state: 'hidden' });
+    await page.fill('[name="machine"]', 'M-10');
+    await page.press('[name="machine"]', 'Enter');
+    await page.waitForSelector('.offset:not([hidden])');
+  });
+
   it('draws a drawing with one limit', async () => {
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 30 }, (_, i) => ({ nominal_mm: 8, feature: 'hole', upper_um: 36, measured_mm: `8.0${10 + (i * 7) % 20}`, characteristic: 'one-limit' })));
     page = await openChart(browser, daemon, '#/trend?characteristic=one-limit');
