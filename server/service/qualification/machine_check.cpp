@@ -9,7 +9,7 @@
 #include "nc/probing/touch/fits.hpp"
 #include "nc/run/interpreter.hpp"
 #include "service/qualification/qualification.hpp"
-#include "tables/tabfile/iso286_projection.hpp"
+#include "service/tables/live_tables.hpp"
 
 namespace fitgauge::app::qualification {
 namespace {
@@ -89,13 +89,6 @@ machine::Vec3 point(const Words& row) {
   return {std::stod(row[0]), std::stod(row[1]), row.size() > 2 ? std::stod(row[2]) : 0};
 }
 
-nc::ProjectingDisk::Projection projection(const iso286::ToleranceTables& tables,
-                                          iso286::Feature feature) {
-  const auto table = std::make_shared<const tabfile::TabTable>(tabfile::project(tables, feature));
-  return {fmt::format("82553_{}.tab", word(feature)),
-          std::make_shared<const std::string>(tabfile::write_tab(*table)), "", table};
-}
-
 }  // namespace
 
 void check_iso286(const References& references, const iso286::ToleranceTables& tables,
@@ -169,8 +162,7 @@ void add_programs(const References& references, const iso286::ToleranceTables& t
                   Figures& to) {
   nc::MemoryDisk files;
   for (const auto& [name, text] : references.files) files.write("TNC:\\" + name, text);
-  const nc::ProjectingDisk disk(files, {projection(tables, iso286::Feature::Hole),
-                                        projection(tables, iso286::Feature::Shaft)});
+  const nc::ProjectingDisk disk(files, project(tables));
   nc::ProgramCache programs;
   // What the parameters of numbers hold at the end, and the verdict.
   const auto run = [&](std::string_view program, const std::string& name,
