@@ -81,7 +81,10 @@ std::string FolderDisk::name_here(const std::string& path) const {
 }
 
 Outcome<interpreter::ControlPath> local_program(const std::string& file) {
-  if (const auto readable = read_file(file); !readable) return readable.error();
+  if (const auto readable = read_file(file); !readable) {
+    const std::string& why = readable.error().message;
+    return Failure{ExitCode::LocalFile, why + "; --from-control takes a program of the service"};
+  }
   auto name = interpreter::ControlPath::parse("TNC:\\" + fs::path(file).filename().string());
   if (name) return *std::move(name);
   return Failure{ExitCode::LocalFile, file + ": " + name.error().message};

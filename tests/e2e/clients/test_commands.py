@@ -259,7 +259,7 @@ class Programs(ClientTest):
         self.assertIn("fails.h:2:", failed.stderr_text)
         self.client.write("wrong.json", '{"machine":{"tools":5}}')
         self.assertIn("/setup/machine/tools", self.assert_fails(7, "nc", "run", "t.h", "--setup", "wrong.json"))
-        self.assert_fails(5, "nc", "run", "gone.h")
+        self.assertIn("--from-control", self.assert_fails(5, "nc", "run", "gone.h"))
         self.assert_fails(4, "nc", "run", "t.h", "--part-id", "p1")
         self.assert_fails(4, "nc", "run", "--from-control", "t.h", "--files-to", "kept")
 
