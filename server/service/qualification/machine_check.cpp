@@ -9,7 +9,7 @@
 #include "nc/probing/touch/fits.hpp"
 #include "nc/run/interpreter.hpp"
 #include "service/qualification/qualification.hpp"
-#include "service/tables/live_tables.hpp"
+#include "service/runs/control_files.hpp"
 
 namespace fitgauge::app::qualification {
 namespace {
