@@ -32,7 +32,7 @@ export function mount(main, route) {
 
   main.replaceChildren(h('div.desk.overview', h('h1.unseen', { tabindex: -1 }, t('view.overview')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('plan.label'), plan), bar.element),
-    note, h('p.aside', t('overview.what', { count: LAST, fewest: FEWEST }), ' ', h('a', { href: '#/gauges' }, t('gauges.link'))), empty, table));
+    note, h('p.aside', t('overview.what', { count: LAST, fewest: FEWEST })), h('p.actions', h('a.to-gauges', { href: '#/gauges' }, t('gauges.link'))), empty, table));
 
   async function offer() {
     bar.offer(leaving.signal);

@@ -8,6 +8,7 @@ import { FilterBar } from '../filter_bar.js';
 import { explain, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { go } from '../route.js';
+import { Boxes } from '../trend/boxes.js';
 import { ChartPlace } from '../trend/chart_place.js';
 import { rulesAt } from '../trend/control_chart.js';
 import { capability, controlChart } from '../trend/figures.js';
@@ -45,6 +46,7 @@ export function mount(main, route) {
   const indices = h('div.indices');
   const offset = h('section.sheet.offset', { hidden: true }); // below the chart, which stays in its place when this comes
   const detail = h('div.detail', { role: 'status' });
+  const boxes = new Boxes(options.boxes ?? '', () => remembered());
   const figured = h('details.in-figures', { hidden: true });
   const note = h('p.note', { role: 'alert' });
   const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('recent.title') });
@@ -63,7 +65,7 @@ export function mount(main, route) {
     h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('field.characteristic'), characteristic),
       field(t('job.designation'), designation), field(t('trend.count'), count), kindField, bar.element),
     note, h('div.sums', tiles, indices),
-    h('div.sheet', chart.element, chart.stretch.element, detail, figured,
+    h('div.sheet', chart.element, chart.stretch.element, detail, boxes.element, figured,
       h('div.line.rules', h('span.label', t('trend.rules')), rules.map((input, i) => h('label.choice', input, h('span', t(`trend.rule.${RULES[i]}`)))), freeze)),
     offset, table));
 
@@ -127,7 +129,7 @@ export function mount(main, route) {
       view: 'trend',
       options: {
         characteristic: values.characteristic, designation: values.size, count: values.count, ...bar.options, kind: kind.value === 'i_mr' ? '' : kind.value,
-        rules: chosenRules().join(''), ...(frozen && { centre: frozen.centre, sd: frozen.standard_deviation }),
+        rules: chosenRules().join(''), boxes: boxes.by, ...(frozen && { centre: frozen.centre, sd: frozen.standard_deviation }),
       },
     }, { refine: true });
   }
@@ -141,6 +143,7 @@ export function mount(main, route) {
     freeze.disabled = !figures.chart && !frozen;
     freeze.textContent = t(frozen ? 'trend.thaw' : 'trend.freeze');
     figured.hidden = !points.length;
+    boxes.show(points);
     if (!points.length) {
       chart.clear(t('trend.empty'));
       for (const place of [tiles, indices, detail, figured, table]) place.replaceChildren();

@@ -80,6 +80,18 @@ describe('a confirmed value', () => {
     await page.press('[name="tool"]', 'Tab');
     await untilPoints(page, 7);
     assert.match(hashOf(page), /tool=T1/);
+    // Boxes by the tool: quartiles of each, in the address.
+    await page.fill('[name="tool"]', '');
+    await page.press('[name="tool"]', 'Tab');
+    await untilPoints(page, 13);
+    await page.click('.boxes summary');
+    await page.selectOption('[name="boxes"]', 'tool');
+    await page.waitForFunction(() => document.querySelectorAll('.boxes .box').length === 2);
+    assert.match(await page.textContent('.boxes .aside'), /T1: n = 7 · T2: n = 6/);
+    assert.match(hashOf(page), /boxes=tool/);
+    assert.deepEqual(await findings(page), []);
+    await page.$eval('.boxes', (boxes) => boxes.scrollIntoView());
+    await picture(page, 'trend-boxes');
     await page.evaluate(() => { location.hash = '#/overview?confirmed=false&tool=T1'; });
     await page.waitForSelector('.overview .scroll[data-settled]');
     assert.match(await page.textContent('.overview tbody'), /bore-D7/);

@@ -53,17 +53,19 @@ describe('a gauge', () => {
     const page = await open(browser, daemon, '#/gauges', { viewport: { width: 1366, height: 768 } });
     await page.waitForFunction(() => document.querySelector('.study [name="characteristic"]').options.length > 1);
     await page.selectOption('.study [name="characteristic"]', 'study-G-07');
-    await page.waitForFunction(() => document.querySelectorAll('.study-grid tbody input').length === 90);
+    await page.waitForFunction(() => document.querySelector('.study-grid tbody th').textContent === 'P1');
+    assert.equal(await page.$$eval('.study-grid tbody input', (all) => all.length), 90);
     assert.equal(await page.inputValue('[name="tolerance"]'), '0.021');
     await page.reload();
-    await page.waitForFunction(() => document.querySelectorAll('.study-grid tbody input').length === 90);
+    await page.waitForFunction(() => document.querySelector('.study-grid tbody th').textContent === 'P1');
+    assert.equal(await page.$$eval('.study-grid tbody input', (all) => all.length), 90);
     await page.click('.study .primary');
     await page.waitForSelector('.study-verdict');
     const study = await (await daemon.send('POST', '/v1/statistics/grr', { tolerance: 0.021, measurements: ROUNDS.flatMap(([operator, trial]) => Array.from({ length: PARTS }, (_, part) => (
       { part: `P${part + 1}`, operator: OPERATORS[operator], trial, value: readingOf(part, operator, trial) }))) })).json();
     assert.match(await page.textContent('.study-verdict'), new RegExp(`takes ${study.tolerance_percent.grr.toFixed(1)} % of the tolerance.*${study.ndc} categories`));
     assert.match(await page.textContent('.study-result tbody'), new RegExp(`Repeatability${(study.ev * 1000).toFixed(2)}`));
-    const pictures = await page.$$eval('.study-figures figure', (all) => all.map((figure) => [figure.querySelector('figcaption').textContent, figure.querySelectorAll('.reading').length, figure.querySelectorAll('svg.study-figure .mark').length]));
+    const pictures = await page.$$eval('.study-figures figure', (all) => all.map((figure) => [figure.querySelector('figcaption').textContent, figure.querySelectorAll('.reading').length, figure.querySelectorAll('svg.framed .mark').length]));
     assert.deepEqual(pictures, [['Components of variation', 0, 0], ['Readings by part, mm', 90, PARTS], ['Readings by operator, mm', 90, 3], ['Means by part and operator, mm', 0, 3 * PARTS]]);
     assert.deepEqual(await findings(page), []);
     await page.$eval('.study-verdict', (verdict) => verdict.scrollIntoView());
@@ -71,7 +73,7 @@ describe('a gauge', () => {
     for (const width of [390, 3840]) {
       await page.setViewportSize({ width, height: 844 });
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width}`);
-      const least = await page.$$eval('.study-figure text', (texts) => Math.min(...texts.map((text) => parseFloat(getComputedStyle(text).fontSize) * text.ownerSVGElement.getScreenCTM().a)));
+      const least = await page.$$eval('.framed text', (texts) => Math.min(...texts.map((text) => parseFloat(getComputedStyle(text).fontSize) * text.ownerSVGElement.getScreenCTM().a)));
       assert.ok(least >= 12, `${width}: ${least}`);
     }
     await page.emulateMedia({ forcedColors: 'active', colorScheme: 'dark' });
@@ -100,7 +102,7 @@ describe('a gauge', () => {
     await page.fill('[name="values"]', ['25.0104', '25.0106', '25.0102', '25.0104', '25.0106', '25.0102', '25.0104'].join('\n'));
     await page.click('.study .primary');
     await page.waitForFunction(() => /Cg \d+\.\d\d, Cgk/.test(document.querySelector('.study-verdict')?.textContent));
-    assert.equal(await page.$$eval('.study-figure .mark', (all) => all.length), 7);
+    assert.equal(await page.$$eval('.framed .mark', (all) => all.length), 7);
     await picture(page, 'study-master', { fullPage: true });
     await close(page);
   });
