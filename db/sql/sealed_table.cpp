@@ -35,6 +35,13 @@ Result<int> check_steps(Connection& connection, std::span<const Migration> known
   return static_cast<int>(count);
 }
 
+void refuse_code(std::int64_t stored) {
+  throw StorageFailure({ErrorCode::StorageCorrupt,
+                        fmt::format("the database holds the code {}, which means nothing: "
+                                    "`fitgauged verify` finds the row; restore a backup",
+                                    stored)});
+}
+
 void record_step(Connection& connection, const Migration& step, std::int64_t now_ns) {
   Statement record(connection, "INSERT INTO schema_migrations VALUES (?, ?, ?, ?)");
   record.run(step.number, step.name, sha256(step.sql), now_ns);

@@ -74,7 +74,8 @@ void bind_value(Statement& statement, int index, const T& value) {
 /// Bound texts are not copied: they live until the statement has run, and every run binds all anew.
 class Statement {
  public:
-  Statement(Connection& connection, std::string sql);
+  Statement(Connection& connection, std::string sql)
+      : connection_(&connection), sql_(std::move(sql)) {}
 
   /// Runs to the end, for what gives no rows.
   template <class... Values>
@@ -111,10 +112,9 @@ class Statement {
     (bind(++index, values), ...);
   }
   Prepared& prepared() {
-    if (!prepared_) prepare();
+    if (!prepared_) prepared_ = connection_->prepare(sql_);
     return *prepared_;
   }
-  void prepare();
 
   Connection* connection_;
   std::string sql_;

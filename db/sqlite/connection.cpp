@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "db/sqlite/data_directory.hpp"
-#include "db/sqlite/measurement_table.hpp"
 #include "db/store/canonical_digest.hpp"
 #include "db/store/stores.hpp"
 

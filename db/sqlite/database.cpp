@@ -13,7 +13,6 @@
 #include "db/sqlite/data_directory.hpp"
 #include "db/sqlite/database_file.hpp"
 #include "db/sqlite/upkeep.hpp"
-#include "db/sqlite/verifier.hpp"
 #include "db/store/stores.hpp"
 
 namespace fitgauge::store::sqlite {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "db/sqlite/data_directory.hpp"
-#include "db/sqlite/verifier.hpp"
 #include "db/store/stores.hpp"
 
 namespace fitgauge::store::sqlite {

@@ -1,4 +1,4 @@
-#include "db/sqlite/measurement_table.hpp"
+#include "db/sqlite/connection.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "db/sql/statement.hpp"
-#include "db/sqlite/connection.hpp"
 #include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store::sqlite {

@@ -5,7 +5,7 @@
 
 #include <exception>
 
-#include "db/sqlite/verifier.hpp"
+#include "db/sqlite/database_file.hpp"
 #include "db/store/stores.hpp"
 
 namespace fitgauge::store {

@@ -1,4 +1,4 @@
-#include "db/sqlite/verifier.hpp"
+#include "db/sqlite/database_file.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "db/sqlite/database_file.hpp"
 #include "db/store/stores.hpp"
 
 namespace fitgauge::store {

@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "db/sqlite/connection.hpp"
-#include "db/sqlite/verifier.hpp"
+#include "db/sqlite/database_file.hpp"
 #include "fixture.hpp"
 #include "support/comes_true.hpp"
 
