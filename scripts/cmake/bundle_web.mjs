@@ -14,8 +14,9 @@ const modules = path.join(packages, 'node_modules');
 const { build } = createRequire(path.join(modules, 'esbuild/package.json'))('esbuild');
 
 const ENTRY = 'app.js';
-/** What the page imports when it wants it, under names that stay. */
-const later = ['figures/path_scene.js', 'views/connections.js', 'views/overview.js', 'views/plans.js', 'views/programs.js', 'views/tables.js', 'views/trend.js'];
+/** Modules that the page imports when it needs them, with names that stay: the views that app.js names, and the scene. */
+const views = fs.readFileSync(path.join(page, ENTRY), 'utf8').matchAll(/import\('\.\/(views\/\w+\.js)'\)/g);
+const later = ['figures/path_scene.js', ...[...views].map(([, name]) => name)];
 const languages = fs.readdirSync(path.join(page, 'lang')).map((name) => `lang/${name}`).filter((name) => name !== 'lang/en.js');
 /** What runs beside the page has no module in common with it. */
 const workers = ['service_worker.js', 'stream_worker.js'];
