@@ -11,13 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `nc_prog/8255` of `TNC:\nc_prog\8255`.
-std::string relative_of(std::string_view path) {
-  std::string relative(path.substr(path.find('\\') + 1));
-  std::ranges::replace(relative, '\\', '/');
-  return relative;
-}
-
 bool is_made(const interpreter::ControlPath& path) {
   const std::string_view name = path.file_name();
   return ascii_iequals(name, "82553_hole.tab") || ascii_iequals(name, "82553_shaft.tab");
@@ -33,6 +26,30 @@ const interpreter::ControlDisk& made_tables() {
 }
 
 }  // namespace
+
+std::string relative_of(std::string_view path) {
+  std::string relative(path.substr(path.find('\\') + 1));
+  std::ranges::replace(relative, '\\', '/');
+  return relative;
+}
+
+std::optional<fs::path> find_below(const fs::path& folder, std::string_view path) {
+  fs::path found = folder;
+  std::error_code failed;
+  for (const fs::path& part : fs::path(relative_of(path))) {
+    if (fs::exists(found / part, failed)) {
+      found /= part;
+      continue;
+    }
+    const auto entries = fs::directory_iterator(found, failed);
+    const auto same = std::find_if(begin(entries), end(entries), [&part](const auto& entry) {
+      return ascii_iequals(entry.path().filename().string(), part.string());
+    });
+    if (same == end(entries)) return std::nullopt;
+    found = same->path();
+  }
+  return fs::is_regular_file(found, failed) ? std::optional(found) : std::nullopt;
+}
 
 FolderDisk::FolderDisk(const std::string& file) : folder_(fs::path(file).parent_path()) {
   if (folder_.empty()) folder_ = ".";
@@ -57,30 +74,14 @@ bool FolderDisk::has_directory(std::string_view directory) const {
   return fs::is_directory(folder_ / relative_of(directory), failed);
 }
 
-std::optional<fs::path> FolderDisk::local(std::string_view path) const {
-  fs::path found = folder_;
-  std::error_code failed;
-  for (const fs::path& part : fs::path(relative_of(path))) {
-    if (fs::exists(found / part, failed)) {
-      found /= part;
-      continue;
-    }
-    const auto entries = fs::directory_iterator(found, failed);
-    const auto same = std::find_if(begin(entries), end(entries), [&part](const auto& entry) {
-      return ascii_iequals(entry.path().filename().string(), part.string());
-    });
-    if (same == end(entries)) return std::nullopt;
-    found = same->path();
-  }
-  return fs::is_regular_file(found, failed) ? std::optional(found) : std::nullopt;
-}
-
 std::string FolderDisk::name_here(const std::string& path) const {
   const auto here = local(path);
   return here ? here->lexically_normal().generic_string() : path;
 }
 
 Outcome<interpreter::ControlPath> local_program(const std::string& file) {
+  if (std::error_code failed; fs::exists(file, failed) && !fs::is_regular_file(file, failed))
+    return Failure{ExitCode::LocalFile, file + ": is not a file; save the program into one"};
   if (const auto readable = read_file(file); !readable) {
     const std::string& why = readable.error().message;
     return Failure{ExitCode::LocalFile, why + "; --from-control takes a program of the service"};

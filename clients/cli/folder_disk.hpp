@@ -1,12 +1,21 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "cli/outcome.hpp"
 #include "nc/program/control_disk.hpp"
 
 namespace fitgauge::cli {
+
+/// `nc_prog/8255` of `TNC:\nc_prog\8255`.
+std::string relative_of(std::string_view path);
+
+/// A file of a control below a folder of this machine. Case does not count on a control.
+std::optional<std::filesystem::path> find_below(const std::filesystem::path& folder,
+                                                std::string_view path);
 
 /// The folder of a file as the disk of a control, each file read when it is asked for: what a
 /// program names beside it is found, and the folder TNC:\ is that one. 82553_hole.tab and
@@ -23,8 +32,9 @@ class FolderDisk final : public interpreter::ControlDisk {
   std::string name_here(const std::string& path) const;
 
  private:
-  /// Case does not count on a control.
-  std::optional<std::filesystem::path> local(std::string_view path) const;
+  std::optional<std::filesystem::path> local(std::string_view path) const {
+    return find_below(folder_, path);
+  }
 
   std::filesystem::path folder_;
 };

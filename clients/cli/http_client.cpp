@@ -71,6 +71,7 @@ Outcome<Answer> HttpClient::perform(const Request& request, const Sink* sink) {
   handle.begin(connection_.url + request.target, request.method, headers, request.body);
   handle.set(CURLOPT_UPLOAD_BUFFERSIZE, kUploadBuffer);
   handle.set(CURLOPT_CONNECTTIMEOUT, kConnectSeconds);
+  handle.set(CURLOPT_PATH_AS_IS, 1L);  // `..` is a name, not a way out of the resource
   if (is_loopback(connection_.url)) handle.set(CURLOPT_PROXY, "");
   handle.set_text(CURLOPT_CAINFO, connection_.authority_file);
   handle.set_text(CURLOPT_SSLCERT, connection_.certificate_file);

@@ -25,6 +25,12 @@ using klartext::Severity;
 
 using Levels = std::map<std::string, std::optional<Severity>, std::less<>>;
 
+constexpr std::string_view kCodes[] = {
+#define KLARTEXT_DIAGNOSTIC(name, id) id,
+#include "nc/klartext/diagnostic_codes.inc"
+#undef KLARTEXT_DIAGNOSTIC
+};
+
 Outcome<Levels> read_levels(const std::vector<std::string>& written) {
   Levels levels;
   for (const std::string& level : written) {
@@ -40,7 +46,10 @@ Outcome<Levels> read_levels(const std::vector<std::string>& written) {
           ExitCode::Usage,
           fmt::format("--level takes CODE=off, note, warning or error, not '{}'", level)};
     }
-    levels[level.substr(0, equals)] = severity;
+    const std::string code = level.substr(0, equals);
+    if (std::ranges::find(kCodes, code) == std::end(kCodes))
+      return Failure{ExitCode::Usage, fmt::format("--level: unknown finding '{}'", code)};
+    levels[code] = severity;
   }
   return levels;
 }
@@ -107,19 +116,27 @@ Outcome<ExitCode> run_nc_check_local(const Context& context, const CheckOptions&
   const auto levels = read_levels(options.levels);
   if (!levels) return levels.error();
   std::vector<Diagnostic> all;
+  std::optional<Failure> failed;
   for (const std::string& file : options.files) {
     const auto name = local_program(file);
-    if (!name) return name.error();
+    if (!name) {
+      failed = name.error();
+      continue;
+    }
     const FolderDisk disk(file);
     Allowance unlimited;
     interpreter::ProgramCache programs;
     auto found = interpreter::check(*name, disk, programs, unlimited);
-    if (!found) return Failure{ExitCode::LocalFile, file + ": " + found.error().message};
+    if (!found) {
+      failed = Failure{ExitCode::LocalFile, file + ": " + found.error().message};
+      continue;
+    }
     for (Diagnostic& each : *found) each.program = disk.name_here(each.program);
     apply(*levels, *found);
     all.insert(all.end(), found->begin(), found->end());
   }
   print(context, !options.format.empty() ? options.format : context.json ? "json" : "text", all);
+  if (failed) return *std::move(failed);
   auto worst = Severity::Note;
   for (const Diagnostic& each : all) worst = std::max(worst, each.severity);
   return static_cast<ExitCode>(worst);  // 0, 1, 2
@@ -130,6 +147,7 @@ namespace {
 struct ReadProgram {
   klartext::Program program;
   bool is_iso = false;
+  bool has_crlf = false;
 };
 
 /// A program of this machine, or of the service. @errors those of reading it, and ProgramFailed for
@@ -148,12 +166,11 @@ Outcome<ReadProgram> read_program(const Context& context, const std::string& fil
     bytes = *std::move(read);
   }
   const bool is_iso = iso::is_iso(bytes, file);
+  const bool has_crlf = bytes.find("\r\n") != bytes.npos;
   auto parsed = iso::parse_program(std::move(bytes), file);
-  for (const Diagnostic& found : parsed.diagnostics) {
-    if (found.severity == Severity::Error)
-      return Failure{ExitCode::ProgramFailed, klartext::render(found)};
-  }
-  return ReadProgram{std::move(parsed.program), is_iso};
+  if (const Diagnostic* found = parsed.not_printed())
+    return Failure{ExitCode::ProgramFailed, klartext::render(*found)};
+  return ReadProgram{std::move(parsed.program), is_iso, has_crlf};
 }
 
 /// The text of a conversion; what was found is printed. @errors ProgramFailed for a block without
@@ -164,6 +181,12 @@ Outcome<std::string> text_of(const std::string& file, iso::Conversion converted)
   if (!klartext::contains_error(converted.findings)) return std::move(converted.text);
   return Failure{ExitCode::ProgramFailed,
                  file + " has blocks without a form in DIN/ISO; nothing is written"};
+}
+
+std::string with_crlf(std::string_view text) {
+  std::string lines;
+  for (const char each : text) lines.append(each == '\n' ? "\r\n" : std::string_view(&each, 1));
+  return lines;
 }
 
 bool is_iso_name(std::string_view file) {
@@ -185,9 +208,10 @@ Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& opt
     if (!formatted) return formatted.error();
     if (!options.in_place) {
       context.print("{}", *formatted);
-    } else if (const auto written = write_file(file, *formatted); !written) {
-      return written.error();
+      continue;
     }
+    const auto written = write_file(file, read->has_crlf ? with_crlf(*formatted) : *formatted);
+    if (!written) return written.error();
   }
   return ExitCode::Good;
 }

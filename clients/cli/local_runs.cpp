@@ -4,6 +4,7 @@
 #include "base/json/json_value.hpp"
 #include "cli/address.hpp"
 #include "cli/folder_disk.hpp"
+#include "cli/input_file.hpp"
 #include "cli/nc_commands.hpp"
 #include "cli/output_file.hpp"
 #include "nc/program/check.hpp"
@@ -57,9 +58,10 @@ Outcome<std::string> run_here(const Context& context, RunOptions options) {
   auto order = order_of(*text, disk);
   if (!order) return order.error();
   interpreter::ProgramCache programs;
-  auto found = interpreter::check(*name, disk, programs, unlimited).value();
-  if (interpreter::has_errors(found)) {
-    for (klartext::Diagnostic& each : found) {
+  auto found = interpreter::check(*name, disk, programs, unlimited);
+  if (!found) return Failure{ExitCode::LocalFile, file + ": " + found.error().message};
+  if (interpreter::has_errors(*found)) {
+    for (klartext::Diagnostic& each : *found) {
       each.program = disk.name_here(each.program);
       if (!context.json) fmt::print(stderr, "{}\n", klartext::render(each));
     }
@@ -77,10 +79,10 @@ Outcome<std::string> run_here(const Context& context, RunOptions options) {
   for (const interpreter::WrittenFile& each : report.result.files) {
     if (options.files_to.empty()) break;
     std::error_code failed;
-    std::filesystem::create_directories(options.files_to, failed);
-    const auto written =
-        write_file(fmt::format("{}/{}", options.files_to, each.path.file_name()), each.bytes);
-    if (!written) return written.error();
+    const std::string target = options.files_to + "/" + relative_of(each.path.text());
+    std::filesystem::create_directories(std::filesystem::path(target).parent_path(), failed);
+    if (const auto allowed = may_replace(target, options.force); !allowed) return allowed.error();
+    if (const auto written = write_file(target, each.bytes); !written) return written.error();
   }
   return format.report(report);
 }

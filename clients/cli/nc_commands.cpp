@@ -227,6 +227,8 @@ Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options) 
   for (const std::string& program : options.programs) {
     RunOptions one = options;
     one.program = program;
+    if (!options.files_to.empty() && options.programs.size() > 1)
+      one.files_to += fmt::format("/{}", base_name(program));
     const auto code = run_one(context, one);
     if (!code) return code;
     worst = std::max(worst, *code);

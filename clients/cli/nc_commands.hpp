@@ -49,6 +49,7 @@ struct RunOptions {
   std::string order{};
   bool block_skip = false;
   std::string files_to{};  ///< here: the folder that gets what the run writes
+  bool force = false;      ///< replace files that are there
 };
 
 /// `nc run PROGRAM…`: prints the screen; the exit code is the verdict of the last measuring cycle,

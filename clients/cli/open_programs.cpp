@@ -11,6 +11,7 @@
 #include "base/allowance.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
+#include "cli/folder_disk.hpp"
 #include "cli/input_file.hpp"
 #include "cli/program_help.hpp"
 #include "http/engine/request_head.hpp"
@@ -191,15 +192,9 @@ class OpenPrograms::Disk final : public interpreter::ControlDisk {
 
  private:
   std::optional<fs::path> local(const ControlPath& path) const {
-    std::string below = path.text().substr(path.text().find('\\') + 1);
-    std::ranges::replace(below, '\\', '/');
-    const std::size_t name = below.find('/');
-    const auto found = entries_.find(ascii_lower(below.substr(0, name)));
-    if (found == entries_.end()) return std::nullopt;
-    const fs::path here =
-        name == below.npos ? found->second : found->second / below.substr(name + 1);
-    std::error_code failed;
-    return fs::is_regular_file(here, failed) ? std::optional(here) : std::nullopt;
+    if (main_.path.empty()) return std::nullopt;
+    const fs::path folder = main_.path.parent_path();
+    return find_below(folder.empty() ? "." : folder, path.text());
   }
 
   const OpenPrograms& programs_;

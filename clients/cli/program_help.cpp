@@ -180,6 +180,16 @@ std::string_view without_wrap(std::string_view line) {
   return line.substr(0, last + 1);
 }
 
+/// Where the comment of a line begins; npos: it has none.
+std::size_t comment_of(std::string_view line) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (line[i] == ';' && !quoted) return i;
+  }
+  return line.npos;
+}
+
 /// The new text of a line that corrects a finding there, with what it does; or nothing.
 std::pair<std::string, std::string> correction(const EditedText& text, std::size_t line,
                                                DiagnosticCode code) {
@@ -187,7 +197,7 @@ std::pair<std::string, std::string> correction(const EditedText& text, std::size
   const auto cycle = cycle_at(text, line);
   const std::string_view mark = trim(written).ends_with('~') ? " ~" : "";
   const std::string_view plain = without_wrap(written);
-  const std::size_t comment = std::min(plain.find(';'), plain.size());
+  const std::size_t comment = std::min(comment_of(plain), plain.size());
   const auto parameters = parameters_of(text, line);
   if (code == DiagnosticCode::ContinuationMissing)
     return {"Add the '~' that is missing",
@@ -261,7 +271,7 @@ std::string hover_text(const EditedText& text, Place place) {
 std::vector<Completion> completions(const EditedText& text, Place cursor, bool is_iso) {
   std::vector<Completion> items;
   const std::string_view line = text.line(cursor.line).substr(0, text.column(cursor));
-  if (line.find(';') != line.npos) return items;
+  if (comment_of(line) != line.npos) return items;
   const auto add = [&](std::size_t begin, std::string label, std::string detail, std::string by) {
     items.push_back({std::move(label),
                      std::move(detail),
@@ -315,7 +325,7 @@ std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic&
   if (is_error) return all;
   const std::string_view plain = without_wrap(text.line(line));
   add(fmt::format("Silence {} in this line", id(found.code)),
-      fmt::format("{}{}check:ignore {}{}", plain, plain.find(';') == plain.npos ? " ;" : " ",
+      fmt::format("{}{}check:ignore {}{}", plain, comment_of(plain) == plain.npos ? " ;" : " ",
                   id(found.code), trim(text.line(line)).ends_with('~') ? " ~" : ""),
       false);
   return all;
@@ -323,13 +333,15 @@ std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic&
 
 Result<std::string> formatted_text(const OpenProgram& program) {
   auto parsed = iso::parse_program(program.text.text(), program.name.text());
-  auto formatted = parsed.has_errors() ? iso::Conversion{{}, std::move(parsed.diagnostics)}
-                   : program.is_iso()  ? iso::to_iso(parsed.program, {})
-                                       : iso::Conversion{klartext::format_program(parsed.program)};
+  const auto refused = [](const klartext::Diagnostic& found) {
+    return Error{ErrorCode::FieldInvalid,
+                 fmt::format("correct line {} first: {}", found.range.begin.line, found.message)};
+  };
+  if (const klartext::Diagnostic* found = parsed.not_printed()) return refused(*found);
+  auto formatted = program.is_iso() ? iso::to_iso(parsed.program, {})
+                                    : iso::Conversion{klartext::format_program(parsed.program)};
   for (const klartext::Diagnostic& found : formatted.findings)
-    if (found.severity == klartext::Severity::Error)
-      return Error{ErrorCode::FieldInvalid,
-                   fmt::format("correct line {} first: {}", found.range.begin.line, found.message)};
+    if (found.severity == klartext::Severity::Error) return refused(found);
   return std::move(formatted.text);
 }
 

@@ -69,6 +69,7 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   run->add_option("programs", options->programs, "Files here, or paths on the control")->required();
   run->add_flag("--from-control", options->from_control, "The programs are those of the service");
   run->add_option("--files-to", options->files_to, "Folder here that gets what the run writes");
+  run->add_flag("--force", options->force, "Replace files that are in this folder");
   const auto setup =
       run->add_option("--setup", options->setup, "JSON file; of the service a stored setup's name");
   run->add_option("--setup-file", options->setup_file, "JSON file with a setup")->excludes(setup);

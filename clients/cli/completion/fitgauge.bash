@@ -116,7 +116,7 @@ _fitgauge() {
         format) options='--in-place --from-control' ;;
         convert) options='--from-control --force' ;;
         get) options=--force ;;
-        run) options='--from-control --files-to --setup --setup-file --set --on-stop --language --part-id --order --block-skip' ;;
+        run) options='--from-control --files-to --force --setup --setup-file --set --on-stop --language --part-id --order --block-skip' ;;
       esac ;;
   esac
   case ${words[*]} in

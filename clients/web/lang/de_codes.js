@@ -122,6 +122,7 @@ export default {
   'finding.text.control_character': 'Hier steht ein Steuerzeichen.',
   'finding.program.begin_missing': 'BEGIN PGM fehlt.',
   'finding.program.end_missing': 'END PGM fehlt.',
+  'finding.program.text_after_end': 'Nach END PGM folgt Text, der nicht zum Programm gehört.',
   'finding.program.name_mismatch': 'BEGIN PGM und END PGM nennen verschiedene Namen.',
   'finding.program.too_large': 'Das Programm ist zu groß.',
   'finding.diagnostics.too_many': 'Es gibt noch mehr Meldungen.',

@@ -122,6 +122,7 @@ export default {
   'finding.text.control_character': 'Qui c’è un carattere di controllo.',
   'finding.program.begin_missing': 'Manca BEGIN PGM.',
   'finding.program.end_missing': 'Manca END PGM.',
+  'finding.program.text_after_end': 'Dopo END PGM c’è testo che non fa parte del programma.',
   'finding.program.name_mismatch': 'BEGIN PGM ed END PGM indicano nomi diversi.',
   'finding.program.too_large': 'Il programma è troppo grande.',
   'finding.diagnostics.too_many': 'Ci sono altri messaggi.',

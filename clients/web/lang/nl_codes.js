@@ -122,6 +122,7 @@ export default {
   'finding.text.control_character': 'Hier staat een stuurteken.',
   'finding.program.begin_missing': 'BEGIN PGM ontbreekt.',
   'finding.program.end_missing': 'END PGM ontbreekt.',
+  'finding.program.text_after_end': 'Na END PGM staat tekst die niet bij het programma hoort.',
   'finding.program.name_mismatch': 'BEGIN PGM en END PGM noemen verschillende namen.',
   'finding.program.too_large': 'Het programma is te groot.',
   'finding.diagnostics.too_many': 'Er zijn nog meer meldingen.',

@@ -70,6 +70,8 @@ std::string_view frame_message(DiagnosticCode code) {
       return "a DIN/ISO program begins with %NAME G71 *, or G70 for inch";
     case DiagnosticCode::EndMissing:
       return "the program ends with N99999999 %NAME G71 *, or G70 for inch";
+    case DiagnosticCode::TextAfterEnd:
+      return "the text after N99999999 %NAME is not part of the program: move it to another file";
     case DiagnosticCode::NameMismatch:
       return "the name or unit differs from the first line, which holds";
     default: return {};

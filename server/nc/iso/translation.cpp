@@ -79,12 +79,15 @@ class Translator {
     out_.is_too_large = lines > klartext::kMostLines;
     out_.lines.reserve(std::min(lines, klartext::kMostLines));
     out_.klartext.reserve(std::min(source_.size() + source_.size() / 4, kLargestKlartext));
-    for (std::size_t at = 0; at < source_.size() && !ended_ && !out_.is_too_large;) {
+    std::size_t at = 0;
+    while (at < source_.size() && !ended_ && !out_.is_too_large) {
       out_.is_too_large = out_.klartext.size() > kLargestKlartext ||
                           out_.lines.size() > klartext::kMostLines ||
                           out_.blocks > klartext::kMostBlocks;
       at = block(at) + 1;
     }
+    at = source_.find_first_not_of(" \t\r\n", at);
+    if (ended_ && at < source_.size()) block(at);  // which the parser reports
     return std::move(out_);
   }
 

@@ -39,7 +39,7 @@ class Parser {
     return parts_.blocks.size() >= kMostBlocks || parts_.memory_bytes() > kMostMemory;
   }
   std::size_t parse_block(std::size_t begin);
-  void end_program();
+  void end_program(std::size_t at);
   void parse_body(Block& block);
   Text parse_comment();
   void report_failure(Block& block, const char* body);
@@ -222,13 +222,22 @@ std::size_t Parser::parse_block(std::size_t begin) {
 }
 
 /// Findings about the program as a whole.
-void Parser::end_program() {
+void Parser::end_program(std::size_t at) {
   if (parts_.blocks.size() == kMostBlocks && !ended_) {
     report(Severity::Error, DiagnosticCode::ProgramTooLarge, parts_.blocks.back(),
            fmt::format("the program has more than {} blocks", kMostBlocks));
   } else if (is_too_large()) {
     report(Severity::Error, DiagnosticCode::ProgramTooLarge, parts_.blocks.back(),
            too_much_memory());
+  } else if (at = parts_.source.find_first_not_of(" \t\r\n", at);
+             ended_ && at < parts_.source.size()) {
+    const char* rest = parts_.source.data() + at;
+    for (std::size_t end; (end = parts_.source.find('\n', parts_.line_starts.back())) < at;)
+      parts_.line_starts.push_back(static_cast<std::uint32_t>(end + 1));
+    diagnostics_.add(Severity::Note, DiagnosticCode::TextAfterEnd,
+                     in_.place(rest, parts_.source.data() + std::min(parts_.source.find('\n', at),
+                                                                     parts_.source.size())),
+                     "the text after END PGM is not part of the program: move it to another file");
   } else if (!ended_) {
     if (parts_.line_starts.empty()) parts_.line_starts.push_back(0);
     diagnostics_.add(Severity::Error, DiagnosticCode::EndMissing,
@@ -246,8 +255,9 @@ ParsedProgram Parser::parse() && {
   parts_.blocks.reserve(std::min(lines, kMostBlocks));
   parts_.line_starts.reserve(lines);
   parts_.words.reserve(size / kShortWord);
-  for (std::size_t at = 0; at < size && !ended_ && !is_too_large();) at = parse_block(at) + 1;
-  end_program();
+  std::size_t at = 0;
+  while (at < size && !ended_ && !is_too_large()) at = parse_block(at) + 1;
+  end_program(at);
   std::vector<Diagnostic> diagnostics = diagnostics_.take();
   return {Program(std::move(parts_)), std::move(diagnostics)};
 }
@@ -261,6 +271,13 @@ std::string too_much_memory() {
 }
 
 bool ParsedProgram::has_errors() const { return contains_error(diagnostics); }
+
+const Diagnostic* ParsedProgram::not_printed() const {
+  const auto found = std::ranges::find_if(diagnostics, [](const Diagnostic& each) {
+    return each.severity == Severity::Error || each.code == DiagnosticCode::TextAfterEnd;
+  });
+  return found == diagnostics.end() ? nullptr : &*found;
+}
 
 ParsedProgram parse_program(std::string bytes, std::string name) {
   if (bytes.size() > kLargestSource) {

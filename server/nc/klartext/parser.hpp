@@ -26,6 +26,8 @@ struct ParsedProgram {
   std::vector<Diagnostic> diagnostics{};  ///< in the order of the source
 
   bool has_errors() const;
+  /// The first finding because of which a printed program would lose text; null: there is none.
+  const Diagnostic* not_printed() const;
 };
 
 /// Reads a Klartext program: UTF-8 with or without byte order mark, or Windows-1252 when it is not

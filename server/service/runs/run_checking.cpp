@@ -71,10 +71,9 @@ Result<std::string> format_file(const interpreter::ControlPath& path,
   const auto file = disk.find(path);
   if (!file) return Error{ErrorCode::ProgramUnknown, "there is no file " + path.text()};
   const auto parsed = iso::parse_program(*file->bytes, file->path.text());
-  for (const klartext::Diagnostic& found : parsed.diagnostics) {
-    if (found.severity != klartext::Severity::Error) continue;
-    return Error{ErrorCode::ProgramInvalid, "line " + std::to_string(found.range.begin.line) +
-                                                ": " + found.message +
+  if (const klartext::Diagnostic* found = parsed.not_printed()) {
+    return Error{ErrorCode::ProgramInvalid, "line " + std::to_string(found->range.begin.line) +
+                                                ": " + found->message +
                                                 "; action=check lists all that is wrong"};
   }
   return klartext::format_program(parsed.program);

@@ -230,6 +230,21 @@ class Programs(ClientTest):
         self.assert_fails(4, "nc", "check", "a.h", "--level", "x=loud")
         self.assert_fails(5, "nc", "check", "gone.h")
 
+    def test_no_text_of_a_program_is_lost_by_formatting(self):
+        for name, text in (("t.h", "0 BEGIN PGM T MM\r\n1 L  X+5 FMAX\r\n2 END PGM T MM\r\n3 L Y+9\r\n"),
+                           ("t.i", "%T G71 *\nN10 G00 G40 G90 X+5 *\nN99999999 %T G71 *\nN20 X+9 *\n")):
+            self.client.write(name, text)
+            self.assertIn("program.text_after_end", self.assert_runs(0, "nc", "check", name))
+            for command in (("format", "--in-place", name), ("convert", name, "out.h" if name == "t.i" else "out.i")):
+                refused = self.client.run("nc", *command)
+                self.assertEqual(refused.returncode, 9)
+                self.assertIn(f"{name}:4:", refused.stderr_text)
+            self.assertEqual((self.client.folder / name).read_bytes(), text.encode())
+        self.client.write("t.h", "0 BEGIN PGM T MM\r\n1 L  X+5 FMAX\r\n2 END PGM T MM\r\n")
+        self.assert_runs(0, "nc", "format", "--in-place", "t.h")
+        self.assertEqual((self.client.folder / "t.h").read_bytes(), b"0 BEGIN PGM T MM\r\n1 L X+5 FMAX\r\n2 END PGM T MM\r\n")
+        self.assertIn("unknown finding", self.assert_fails(4, "nc", "check", "t.h", "--level", "program.misssing=off"))
+
     def test_programs_run_here_as_at_the_service(self):
         folder = EXAMPLES / "8255"
         for name, code in (("hole-good", 0), ("hole-rework", 1), ("hole-reject", 2)):
@@ -247,8 +262,14 @@ class Programs(ClientTest):
         self.client.write("tool.t", "BEGIN TOOL .T MM\nT       NAME            L          R\n7       MILL7           +80        +4\n[END]\n")
         self.client.write("t.h", "BEGIN PGM T MM\nTOOL CALL \"MILL7\" Z S1000\nFN 16: F-PRINT m.a / out\\r.txt\nEND PGM T MM\n")
         self.client.write("m.a", '"L %5.1f", Q114;\n')
-        self.assert_runs(0, "nc", "run", "t.h", "t.h", "--files-to", "kept")
-        self.assertIn("80.0", next((self.client.folder / "kept").rglob("*.txt"), None).read_text())
+        self.client.write("u.h", "BEGIN PGM U MM\nCALL PGM T.H\nEND PGM U MM\n")
+        self.assert_runs(0, "nc", "run", "t.h", "--files-to", "kept")
+        self.assertIn("80.0", (self.client.folder / "kept/out/r.txt").read_text())
+        self.assertIn("--force", self.assert_fails(5, "nc", "run", "t.h", "--files-to", "kept"))
+        self.assert_runs(0, "nc", "run", "t.h", "--files-to", "kept", "--force")
+        self.assert_runs(0, "nc", "run", "t.h", "u.h", "--files-to", "each")
+        self.assertEqual(len(list((self.client.folder / "each").rglob("r.txt"))), 2)
+        self.assertIn("save the program", self.assert_fails(5, "nc", "run", "/dev/null"))
         self.client.write("bad.h", "0 BEGIN PGM BAD MM\n1 LX 5\n2 END PGM BAD MM\n")
         refused = self.client.run("nc", "run", "bad.h")
         self.assertEqual(refused.returncode, 9)

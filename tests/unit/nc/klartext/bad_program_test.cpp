@@ -84,7 +84,12 @@ TEST_CASE("A program has one BEGIN PGM and one END PGM") {
                                       : std::string(id(parsed.diagnostics.front().code));
   };
   CHECK(finding("BEGIN PGM T MM\nEND PGM T MM\n").empty());
-  CHECK(finding(";comment\nBEGIN PGM T MM\nEND PGM T MM\nanything after it").empty());
+  CHECK(finding(";comment\nBEGIN PGM T MM\nEND PGM T MM\n\n  \n").empty());
+  const ParsedProgram more = parse_program("BEGIN PGM T MM\nEND PGM T MM\nL X+1\nL X+2", "t.h");
+  REQUIRE(more.not_printed() != nullptr);
+  CHECK(id(more.not_printed()->code) == "program.text_after_end");
+  CHECK(more.not_printed()->range.begin.line == 3);
+  CHECK_FALSE(more.has_errors());
   CHECK(finding("L X+1\nEND PGM T MM\n") == "program.begin_missing");
   CHECK(finding("BEGIN PGM T MM\nL X+1\n") == "program.end_missing");
   CHECK(finding("") == "program.end_missing");
