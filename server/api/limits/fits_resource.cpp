@@ -84,13 +84,17 @@ Result<iso286::FitDesignation> read_fit(std::string_view hole, std::string_view 
   const std::size_t at = hole.find("ISO 492-");
   const bool is_bore = at != std::string_view::npos;
   const bool is_ring = standards::is_bearing_class(shaft);
-  if (is_bore && is_ring) {
-    return Error{ErrorCode::FitMalformed,
-                 "a bearing fits a shaft or a housing: write 25 ISO 492-P6/k6 or 52 H7/ISO 492-P6"};
-  }
   // The bearing's side is read with a class of ISO 286 in its place.
   auto fit = iso286::parse_fit_designation(
       is_bore ? std::string(hole.substr(0, at)) + "H7" : std::string(hole), is_ring ? "h6" : shaft);
+  if ((is_bore && is_ring) ||
+      (!fit && (is_bore || is_ring) && fit.error().code == ErrorCode::FitMalformed)) {
+    return Error{
+        ErrorCode::FitMalformed,
+        fmt::format("'{}/{}' is no fit of a bearing, which fits a shaft or a housing: write "
+                    "25 ISO 492-P6/k6 or 52 H7/ISO 492-P6",
+                    first_characters(hole, 40), first_characters(shaft, 40))};
+  }
   if (!fit && is_bore && fit.error().code == ErrorCode::DesignationMalformed) {
     return Error{ErrorCode::DesignationMalformed,
                  fmt::format("'{}' is not a bore of a bearing such as 25 ISO 492-P6",

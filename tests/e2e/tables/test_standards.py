@@ -105,6 +105,9 @@ class Standards(DaemonTest):
                                    ("2H7/ISO%20492-P6", 422, "class.undefined_for_size"),
                                    ("25%20ISO%20492-P6/k99", 404, "class.unknown")):
             self.assert_problem(self.daemon.get(f"/v1/fits/{path}"), status, code)
+        for path, written in (("25%20ISO%20492-P6/K6", "'25 ISO 492-P6/K6'"), ("52%20g6/ISO%20492-P6", "'52 g6/ISO 492-P6'")):
+            detail = self.daemon.get(f"/v1/fits/{path}").json["detail"]
+            self.assertIn(f"{written} is no fit of a bearing", detail)
 
     def test_tables_answer_by_size(self):
         names = {s["name"]: s for s in self.limits("/v1/standards")["standards"]}
