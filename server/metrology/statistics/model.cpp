@@ -60,7 +60,7 @@ Derivative extrapolate(const Difference& difference, double noise, int order) {
   Derivative best;
   std::array<double, kColumns> before{};
   for (int i = 0; i < kSteps; ++i) {
-    const double step = std::ldexp(1.0, -i);
+    const double step = std::ldexp(0.7, -i);  // the period of a wave is no simple part of u
     std::array<double, kColumns> row{difference(step)};
     double factor = 1;
     const std::size_t columns = std::min(kColumns, static_cast<std::size_t>(i) + 1);
@@ -78,19 +78,22 @@ Derivative extrapolate(const Difference& difference, double noise, int order) {
 }
 
 /// The model about the estimates, with steps of its own for each quantity: its uncertainty, or for
-/// first derivatives an eighth of the estimate, which rounding troubles less.
+/// first derivatives so much of the estimate at least that rounding troubles less.
 class Neighbourhood {
  public:
-  Neighbourhood(const Budget& budget, bool is_wide) : budget_(budget) {
+  Neighbourhood(const Budget& budget, double least) : budget_(budget) {
     for (const Contribution& c : budget.contributions) {
       at_.push_back(c.estimate);
-      const double wide = is_wide ? std::abs(c.estimate) / 8 : 0;
-      const double step = std::max(wide, c.standard_uncertainty);
+      const double step = std::max(least * std::abs(c.estimate), c.standard_uncertainty);
       steps_.push_back(step > 0 ? step : 1);
-      noise_ = std::fmax(noise_, std::abs(c.sensitivity * c.estimate));
     }
     value_ = budget.model(at_);
-    noise_ = std::fmax(noise_, std::abs(value_)) * std::numeric_limits<double>::epsilon();
+    noise_ = std::abs(value_);
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+      const double moved = std::abs(rise(i) / steps_[i] * at_[i]);
+      if (std::isfinite(moved)) noise_ = std::max(noise_, moved);
+    }
+    noise_ *= std::numeric_limits<double>::epsilon();
   }
 
   double value() const { return value_; }
@@ -108,6 +111,25 @@ class Neighbourhood {
     at_[i] = budget_.contributions[i].estimate;
     at_[j] = budget_.contributions[j].estimate;
     return found;
+  }
+  /// Half of what a step to either side changes.
+  double rise(std::size_t i) { return (away(i, 1) - away(i, -1)) / 2; }
+
+  /// What a step to either side changes, without the value itself, which may stand at a pole.
+  double spread(std::size_t i, double slope) {
+    const double bend = away(i, 1) + away(i, -1) - away(i, 0.5) - away(i, -0.5);
+    double found = std::abs(slope);
+    for (const double each : {rise(i), bend}) {
+      if (std::isfinite(each)) found = std::max(found, std::abs(each));
+    }
+    return found;
+  }
+  /// Whether the slope on either side is the derivative: not so at a kink and beside a pole.
+  bool is_smooth(std::size_t i, double slope, double within) {
+    const double near = std::max(width(i) / 4096, 5e-5);
+    const double open = 0.01 * within + 8 * noise_ / near;
+    const auto fits = [&](double h) { return std::abs((away(i, h) - value_) / h - slope) <= open; };
+    return fits(near) && fits(-near);
   }
   // Derivatives by the steps:
 
@@ -142,7 +164,8 @@ class Neighbourhood {
 }  // namespace
 
 bool can_be_quantity(std::string_view name) {
-  return !name.empty() && kDigits.find(name.front()) == std::string_view::npos &&
+  return !name.empty() && name.size() <= kLongestName &&
+         kDigits.find(name.front()) == std::string_view::npos &&
          name.find_first_not_of(kNameCharacters) == std::string_view::npos && name != "pi" &&
          std::ranges::find(kFunctionNames, name) == std::end(kFunctionNames);
 }
@@ -193,24 +216,27 @@ Result<Model> read_model(const std::string& text, const std::vector<std::string>
 }
 
 Result<double> linearise(Budget& budget) {
-  for (Contribution& c : budget.contributions) c.sensitivity = 0;
-  Neighbourhood near(budget, true);
+  constexpr double kLeastStep = 7e-5;  // of the estimate
+  Neighbourhood near(budget, kLeastStep);
   if (!std::isfinite(near.value())) {
     return unreadable(
         "the model has no value at the estimates: a division by 0, or a function "
         "outside its domain");
   }
-  double spread = std::abs(near.value()) * 1e-6;  // of the value within the uncertainties, at least
+  double least = std::abs(near.value());
+  double spread = 0;  // of the value within the uncertainties
   std::vector<double> errors;
   for (std::size_t i = 0; i < budget.contributions.size(); ++i) {
     const Derivative found = near.first(i);
     const double width = near.width(i);
     budget.contributions[i].sensitivity = found.value / near.step(i);
-    errors.push_back(std::isfinite(found.error) ? found.error * width : found.error);
-    for (const double by : {width, -width}) {
-      spread = std::fmax(spread, std::abs(near.away(i, by) - near.value()));
-    }
+    const double within = near.spread(i, found.value);
+    spread = std::max(spread, within * width);
+    for (const double by : {width, -width}) least = std::fmin(least, std::abs(near.away(i, by)));
+    const bool is_known = std::isfinite(found.error) && near.is_smooth(i, found.value, within);
+    errors.push_back(is_known ? found.error * width : std::numeric_limits<double>::infinity());
   }
+  spread = std::max(spread, least * 1e-6);
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (errors[i] <= spread * 1e-6) continue;
     return unreadable(fmt::format(
@@ -225,24 +251,36 @@ Result<std::optional<double>> second_order_uncertainty(const Budget& budget) {
   for (const Correlation& c : budget.correlations) {
     if (c.coefficient != 0) return std::optional<double>{};
   }
-  Neighbourhood near(budget, false);
-  const std::size_t count = budget.contributions.size();
+  std::vector<std::size_t> uncertain;
+  for (std::size_t i = 0; i < budget.contributions.size(); ++i) {
+    if (budget.contributions[i].standard_uncertainty > 0) uncertain.push_back(i);
+  }
+  if (uncertain.size() > kMostOfSecondOrder) return std::optional<double>{};
+  Neighbourhood near(budget, 0);
   double variance = 0;
   double error = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Contribution& c = budget.contributions[i];
-    const double slope = c.sensitivity * c.standard_uncertainty;
-    if (c.standard_uncertainty == 0) continue;
-    variance += slope * slope;
-    for (std::size_t j = 0; j < count; ++j) {
+  const auto add_third = [&](double slope, std::size_t i, std::size_t j) {
+    if (slope == 0) return;
+    const Derivative third = near.third(i, j);
+    variance += slope * third.value;
+    error += std::abs(slope) * third.error;
+  };
+  for (const std::size_t i : uncertain) {
+    const auto slope_of = [&](std::size_t k) {
+      return budget.contributions[k].sensitivity * budget.contributions[k].standard_uncertainty;
+    };
+    variance += slope_of(i) * slope_of(i);
+    for (const std::size_t j : uncertain) {
+      if (j < i) continue;
       if (Allowance::of_thread().is_spent()) {
         return Error{ErrorCode::FiguresLimit, "the terms of second order take too long"};
       }
-      if (budget.contributions[j].standard_uncertainty == 0) continue;
+      const double times = i == j ? 0.5 : 1;
       const Derivative bend = near.second(i, j);
-      const Derivative third = near.third(i, j);
-      variance += bend.value * bend.value / 2 + slope * third.value;
-      error += std::abs(bend.value) * bend.error + std::abs(slope) * third.error;
+      variance += times * bend.value * bend.value;
+      error += 2 * times * std::abs(bend.value) * bend.error;
+      add_third(slope_of(i), i, j);
+      if (i != j) add_third(slope_of(j), j, i);
     }
   }
   // NaN and infinity are beyond every bound.

@@ -9,9 +9,12 @@
 namespace fitgauge::metrology {
 
 inline constexpr std::size_t kLongestModel = 1000;  ///< characters
+inline constexpr std::size_t kLongestName = 100;    ///< characters, as muParser has it
+/// Quantities with an uncertainty: some 10^5 values of the model.
+inline constexpr std::size_t kMostOfSecondOrder = 25;
 
-/// Whether a model can name a quantity so: letters, digits and `_`, the first no digit, and neither
-/// a function nor `pi`.
+/// Whether a model can name a quantity so: at most 100 letters, digits and `_`, the first no digit,
+/// and neither a function nor `pi`.
 bool can_be_quantity(std::string_view name);
 
 /// Reads `P*V/(R*(1+a*(T-T0)))`: + - * / ^ and brackets over quantities, numbers with a point,
@@ -25,12 +28,14 @@ Result<Model> read_model(const std::string& text, const std::vector<std::string>
 /// Gives each contribution its sensitivity, the derivative of the model at the estimates to about
 /// 1e-9: central differences, extrapolated (Ridders 1982) with the step whose error is least.
 /// @returns the value of the model at the estimates
-/// @errors FieldInvalid: no value there, or a derivative not known to 1e-6 of the uncertainty.
+/// @errors FieldInvalid: no value there, or a derivative not known to 1e-6 of the uncertainty,
+///   as at a kink, in noise, and near a pole that the uncertainty reaches.
 Result<double> linearise(Budget& budget);
 
 /// The standard uncertainty with the terms of second order (JCGM 100, note to 5.1.2).
 /// @pre linearise() has been called.
-/// @returns none for correlated quantities, and where the terms are not known to 1e-3 of it.
+/// @returns none for correlated quantities, for more than kMostOfSecondOrder, and where the terms
+///   are not known to 1e-3 of it.
 /// @errors FiguresLimit where the thread's allowance is spent.
 Result<std::optional<double>> second_order_uncertainty(const Budget& budget);
 

@@ -268,7 +268,11 @@ Result<MonteCarloResult> simulate(const Budget& budget, const Simulation& simula
     if (!simulation.digits) break;
     sequences.push_back(result_of(std::span(values).subspan(begin), budget.probability));
   } while (sequences.size() < 2 || !are_settled(sequences, *simulation.digits));
-  return result_of(values, budget.probability);
+  const MonteCarloResult made = result_of(values, budget.probability);
+  if (std::isfinite(made.mean) && std::isfinite(made.standard_deviation)) return made;
+  return Error{ErrorCode::NumberOutOfRange,
+               "the mean or the standard deviation of what was drawn is too large for a number: "
+               "choose a unit that fits"};
 }
 
 }  // namespace fitgauge::metrology

@@ -80,8 +80,8 @@ struct Simulation {
 /// of the model. A normal contribution with degrees of freedom is drawn from their t distribution
 /// (6.4.9), a correlated one from a normal one. The same seed gives the same answer everywhere.
 /// @errors FieldInvalid: correlated contributions that are not normal, or correlations as above;
-///   NumberOutOfRange: values at which the model has none; FiguresLimit where the thread's allowance
-///   is spent, or the digits are not reached with `trials`.
+///   NumberOutOfRange: values at which the model has none, or figures too large;
+///   FiguresLimit where the thread's allowance is spent, or `trials` do not reach the digits.
 Result<MonteCarloResult> simulate(const Budget& budget, const Simulation& simulation);
 
 }  // namespace fitgauge::metrology

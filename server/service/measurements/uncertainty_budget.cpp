@@ -201,8 +201,8 @@ void apply_model(BudgetOrder& order, FieldReader& fields) {
     report(c.sensitivity.has_value(), ErrorCode::FieldConflict, "sensitivity",
            "the sensitivity follows from the model: leave it out");
     report(!metrology::can_be_quantity(c.name), ErrorCode::FieldInvalid, "name",
-           "a name in a model has letters a to z, digits and _, begins with no digit, and is no "
-           "function and not pi");
+           "a name in a model has 1 to 100 letters a to z, digits and _, begins with no digit, and "
+           "is no function and not pi");
   }
   if (!order.model || !fields.errors().empty()) return;
   UncertaintyBudget& made = order.made;

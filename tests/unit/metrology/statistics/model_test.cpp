@@ -18,7 +18,7 @@ namespace {
 const double kRoot3 = std::sqrt(3.0);
 const double kRoot6 = std::sqrt(6.0);
 
-struct Quantity {
+struct Estimated {
   std::string name;
   double estimate;
   double u;
@@ -29,7 +29,7 @@ struct Quantity {
 struct Example {
   std::string source;
   std::string model;
-  std::vector<Quantity> quantities;
+  std::vector<Estimated> quantities;
   std::vector<Correlation> correlations;
   double value;
   double first;
@@ -37,10 +37,10 @@ struct Example {
   double close = 1e-9;  ///< relative, of the value and the figures
 };
 
-Budget budget_of(const std::string& model, const std::vector<Quantity>& quantities) {
+Budget budget_of(const std::string& model, const std::vector<Estimated>& quantities) {
   Budget budget;
   std::vector<std::string> names;
-  for (const Quantity& q : quantities) {
+  for (const Estimated& q : quantities) {
     names.push_back(q.name);
     budget.contributions.push_back({.standard_uncertainty = q.u, .estimate = q.estimate});
   }
@@ -49,9 +49,9 @@ Budget budget_of(const std::string& model, const std::vector<Quantity>& quantiti
 }
 
 /// H.2: the means and standard deviations of the five series, in V, mA and rad.
-const std::vector<Quantity> kImpedance = {{"V", 4.999, 0.0032093613071762425},
-                                          {"I", 19.661, 0.0094710083940412596},
-                                          {"phi", 1.04446, 0.00075206382707852663}};
+const std::vector<Estimated> kImpedance = {{"V", 4.999, 0.0032093613071762425},
+                                           {"I", 19.661, 0.0094710083940412596},
+                                           {"phi", 1.04446, 0.00075206382707852663}};
 const std::vector<Correlation> kOfImpedance = {
     {0, 1, -0.35531121981751054}, {0, 2, 0.85762421083995434}, {1, 2, -0.64511121768924497}};
 
@@ -327,6 +327,8 @@ TEST_CASE("what is no model is refused with its place") {
     CHECK_FALSE(can_be_quantity(name));
   }
   CHECK(can_be_quantity("_T0"));
+  CHECK(can_be_quantity(std::string(100, 'a')));
+  CHECK_FALSE(can_be_quantity(std::string(101, 'a')));
 }
 
 TEST_CASE("deep brackets and long powers are read within the length of a model") {
@@ -361,6 +363,83 @@ TEST_CASE("a model without a value or a derivative is refused") {
   Budget drawn = budget_of("ln(a)", {{"a", 1, 1}});
   REQUIRE(linearise(drawn).has_value());
   CHECK(simulate(drawn, {.trials = 1000}).error().code == ErrorCode::NumberOutOfRange);
+}
+
+TEST_CASE("sensitivities are those within the uncertainty, whatever is further away") {
+  const struct {
+    std::string model;
+    Estimated at;
+    double sensitivity;  // of the derivative, to 15 digits
+  } rows[] = {{"x + 0.5*sin(2*pi*x/5)", {"x", 80, 0.01}, 1.62831853071796},
+              {"x + 0.5*sin(2*pi*x/5)", {"x", 80, 5}, 1.62831853071796},
+              {"exp(-((t - 20)/0.1)^2)", {"t", 20.05, 0.0005}, -7.78800783071405},
+              {"exp(-1000000*(a - 1)^2)", {"a", 1.002, 1e-5}, -73.2625555549367},
+              {"(a - 8)^2", {"a", 8, 0.01}, 0},
+              {"1 - cos(a - 8)", {"a", 8, 0.01}, 0},
+              {"(a - 8)^2", {"a", 8, 1e-10}, 0},
+              {"a - 5", {"a", 5, 1e-20}, 1},
+              {"1/(a - 99999.875)", {"a", 100000, 1e-6}, -64},
+              {"exp(20*a)", {"a", 0, 1}, 20}};
+  for (const auto& [model, at, sensitivity] : rows) {
+    CAPTURE(model);
+    Budget budget = budget_of(model, {at});
+    const auto value = linearise(budget);
+    CHECK_MESSAGE(value.has_value(), (value ? "" : value.error().message));
+    CHECK(std::abs(budget.contributions[0].sensitivity - sensitivity) <=
+          1e-8 * std::abs(sensitivity) + 1e-12);
+  }
+}
+
+TEST_CASE("kinks, and poles that the uncertainty reaches, have no sensitivity") {
+  for (const auto& [model, quantities] :
+       std::vector<std::pair<std::string, std::vector<Estimated>>>{
+           {"1/(a - b)", {{"a", 10.00001, 0.01}, {"b", 10, 0.01}}},
+           {"1/x", {{"x", 1e-9, 0.01}}},
+           {"1/x^2", {{"x", 1e-9, 0.01}}},
+           {"tan(a)", {{"a", M_PI / 2, 0.001}}},
+           {"sqrt((a - b)^2)", {{"a", 5, 0.01}, {"b", 5, 0.01}}},
+           {"sqrt((a - b)^2)", {{"a", 5, 1e-9}, {"b", 5, 1e-9}}},
+           {"b + sqrt((a - 1)^2)", {{"a", 1, 1e-5}, {"b", 0, 1}}},
+           {"(x*x)^0.5", {{"x", 0, 1}}}}) {
+    CAPTURE(model);
+    Budget budget = budget_of(model, quantities);
+    const auto value = linearise(budget);
+    CHECK_FALSE(value.has_value());
+    if (value) continue;
+    CHECK(value.error().message.find("no derivative") != std::string::npos);
+  }
+}
+
+TEST_CASE("terms of second order are left out beyond a bound of quantities") {
+  const auto product_of = [](std::size_t count) {
+    std::string model = "1";
+    std::vector<Estimated> quantities;
+    for (std::size_t i = 0; i < count; ++i) {
+      quantities.push_back({"q" + std::to_string(i), 1, 0.01});
+      model += "*" + quantities.back().name;
+    }
+    Budget budget = budget_of(model, quantities);
+    std::size_t evaluations = 0;
+    budget.model = [&evaluations, of = budget.model](const std::vector<double>& at) {
+      ++evaluations;
+      return of(at);
+    };
+    REQUIRE(linearise(budget).has_value());
+    const bool is_given = second_order_uncertainty(budget).value().has_value();
+    CHECK(evaluations < 120'000);
+    return is_given;
+  };
+  CHECK(product_of(25));
+  CHECK_FALSE(product_of(26));
+  CHECK_FALSE(product_of(100));
+}
+
+TEST_CASE("what a simulation comes to is a number") {
+  Budget large = budget_of("a*10^307", {{"a", 1, 1}});
+  REQUIRE(linearise(large).has_value());
+  const auto found = simulate(large, {.trials = 1000});
+  REQUIRE_FALSE(found.has_value());
+  CHECK(found.error().code == ErrorCode::NumberOutOfRange);
 }
 
 TEST_CASE("terms of second order end with the allowance of the thread") {
