@@ -9,6 +9,7 @@
 #include "api/service/commit_stream.hpp"
 #include "api/wire/event_text.hpp"
 #include "api/wire/formulas.hpp"
+#include "api/wire/problem.hpp"
 #include "metrology/statistics/compensation.hpp"
 #include "record/record.hpp"
 #include "service/measurements/gauges_in_use.hpp"
@@ -24,6 +25,7 @@ constexpr std::size_t kMostParts = 500;
 constexpr double kNanometresOfUm = 1000;
 constexpr double kMillionths = 1e6;
 constexpr double kUsualCost = 0.1;
+constexpr int kFirstOfServer = 500;
 
 /// The newest values of one characteristic, from the newest on.
 struct CorrectedParts {
@@ -147,27 +149,45 @@ struct OffsetOrder {
   }
 };
 
-/// Tells the proposal at its beginning, and again whenever its state is another.
+/// Tells the proposal at its beginning, and again whenever its state is another; in its place why
+/// the values give none, for as long as they do not.
 class OffsetStream final : public CommitStream {
  public:
   OffsetStream(const Services& services, OffsetOrder order)
       : CommitStream(services.events), services_(services), order_(std::move(order)) {}
 
  private:
+  /// The state, or the text of why there is none.
+  using Told = std::pair<std::optional<CompensationState>, std::string>;
+
+  static std::string failure_json(const Error& error) {
+    std::string text;
+    JsonWriter(text)
+        .begin_object()
+        .member("code", id(error.code))
+        .member("detail", std::string_view(error.message))
+        .end_object();
+    return text;
+  }
+
   void read() override {
     order_.find(services_, [self = std::static_pointer_cast<OffsetStream>(shared_from_this())](
                                const Result<Proposal>& found, const std::string& newest) {
-      if (!found) return self->fail();
+      if (!found && status_of(found.error().code) >= kFirstOfServer) return self->fail();
+      const Told told =
+          found ? Told{found->found.state, {}} : Told{{}, failure_json(found.error())};
       std::string piece;
-      if (std::exchange(self->state_, found->found.state) != found->found.state)
-        append_event(piece, "compensation.changed", newest, body_json(*found));
+      if (std::exchange(self->told_, told) != told) {
+        append_event(piece, found ? "compensation.changed" : "compensation.failed", newest,
+                     found ? body_json(*found) : told.second);
+      }
       self->took(std::move(piece));
     });
   }
 
   const Services& services_;
   const OffsetOrder order_;
-  std::optional<CompensationState> state_{};  ///< of the one thread that reads at a time
+  Told told_{};  ///< of the one thread that reads at a time
 };
 
 void propose(const Services& services, const http::Request& request, http::Responder responder) {
@@ -177,12 +197,11 @@ void propose(const Services& services, const http::Request& request, http::Respo
   order.query.newest_first = true;
   if (const auto given = request.integer("cost"))
     order.cost = static_cast<double>(*given) / kMillionths;
-  if (request.response_type() == kEventStreamType) {
-    return responder.answer(
-        event_response(std::make_shared<OffsetStream>(services, std::move(order))));
-  }
-  order.find(services, [answer = answer_by(share(std::move(responder)))](
+  const bool streams = request.response_type() == kEventStreamType;
+  order.find(services, [&services, order, streams, answer = answer_by(share(std::move(responder)))](
                            const Result<Proposal>& found, const std::string&) {
+    if (found && streams)
+      return answer(event_response(std::make_shared<OffsetStream>(services, order)));
     answer(json_response(found ? Result<std::string>(body_json(*found)) : found.error()));
   });
 }
@@ -205,7 +224,8 @@ void add_compensation_routes(std::vector<http::Route>& routes, const Services& s
       .description = "A proposal from the newest 500 values that match; nothing moves a machine. "
                      "Select one characteristic, and the machine or the tool that makes it. As "
                      "`text/event-stream`, `compensation.changed` carries it now and at each "
-                     "change of its state.",
+                     "change of its state; `compensation.failed`, with `code` and `detail`, says "
+                     "that the values give none until the next one.",
       .parameters = std::move(parameters),
       .response_types = {"application/json", std::string(kEventStreamType)},
       .access = "viewer",

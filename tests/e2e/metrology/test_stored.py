@@ -283,22 +283,29 @@ class Stored(DaemonTest):
         self.assertEqual((found["state"], found["values"]), ("wait", 32), found)
         self.assertLess(abs(found["offset_um"]), 1)
 
-    def test_a_stream_tells_each_change_of_state(self):
+    def follow(self, query):
         connection = self.daemon.connect()
         self.addCleanup(connection.close)
+        connection.request("GET", f"/v1/measurements/compensation?{query}", headers={"Accept": "text/event-stream"})
+        return connection.getresponse()
+
+    def told(self, events, characteristic):
+        """The next event, as (type, data)."""
+        while not (line := events.readline().decode()).startswith("event: "):
+            self.assertNotEqual(line, "")
+        fields = dict(events.readline().decode().rstrip().split(": ", 1) for _ in range(2))
+        newest = self.daemon.get(f"/v1/measurements?characteristic={characteristic}&last=1").json["measurements"][0]["id"]
+        self.assertEqual(fields["id"], newest)
+        return line.split()[1], json.loads(fields["data"])
+
+    def test_a_stream_tells_each_change_of_state(self):
         self.store("told", self.about(0), tool="T1")
-        connection.request("GET", "/v1/measurements/compensation?characteristic=told", headers={"Accept": "text/event-stream"})
-        events = connection.getresponse()
+        events = self.follow("characteristic=told")
         self.assertEqual(events.status, 200)
 
         def changed(state):
-            while (line := events.readline().decode()) != "event: compensation.changed\n":
-                self.assertNotEqual(line, "")
-            fields = dict(events.readline().decode().rstrip().split(": ", 1) for _ in range(2))
-            found = json.loads(fields["data"])
-            self.assertEqual(found["state"], state, found)
-            newest = self.daemon.get("/v1/measurements?characteristic=told&last=1").json["measurements"][0]["id"]
-            self.assertEqual(fields["id"], newest)
+            name, found = self.told(events, "told")
+            self.assertEqual((name, found["state"]), ("compensation.changed", state), found)
             return found["offset_um"]
 
         changed("wait")
@@ -308,6 +315,23 @@ class Stored(DaemonTest):
         changed("wait")
         self.store("told", self.about(-30, 1), tool="T2")
         self.assertAlmostEqual(changed("propose"), 30, delta=3)
+
+    def test_a_stream_outlives_values_that_propose_nothing(self):
+        self.store("torn", self.about(0))
+        events = self.follow("characteristic=torn")
+        self.assertEqual(self.told(events, "torn")[0], "compensation.changed")
+        for _ in range(2):
+            self.store("torn", ["74.0004"], {**DRAWING, "upper_um": 60})
+            odd = self.daemon.get("/v1/measurements?characteristic=torn&last=1").json["measurements"][0]["id"]
+            refused = self.daemon.get("/v1/measurements/compensation?characteristic=torn").json
+            self.assertEqual(self.told(events, "torn"), ("compensation.failed", {
+                "code": "limits.mixed", "detail": refused["detail"]}))
+            self.store("torn", self.about(0, 1))  # it fails as before, which is not told again
+            corrected = self.daemon.post(f"/v1/measurements/{odd}/corrections",
+                                         {**DRAWING, "measured_mm": 74.0004, "reason": "of another drawing"})
+            self.assertEqual(corrected.status, 201, corrected)
+            name, found = self.told(events, "torn")
+            self.assertEqual((name, found["state"]), ("compensation.changed", "wait"), found)
 
     def test_what_an_offset_cannot_be_proposed_for(self):
         one_sided = {"nominal_mm": 74, "feature": "hole", "upper_um": 50}
@@ -319,4 +343,6 @@ class Stored(DaemonTest):
                                     ("characteristic=mixed&cost=0", 400, "query.invalid"),
                                     ("characteristic=one-sided&target_mm=74.05", 400, "query.invalid")]:
             with self.subTest(query):
-                self.assert_problem(self.daemon.get("/v1/measurements/compensation?" + query), status, code)
+                for kind in ("application/json", "text/event-stream"):
+                    answer = self.daemon.get("/v1/measurements/compensation?" + query, Accept=kind)
+                    self.assert_problem(answer, status, code)
