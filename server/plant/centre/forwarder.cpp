@@ -90,14 +90,20 @@ bool Forwarder::wait(const std::stop_token& stop, milliseconds time) {
 void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
   const auto there = follower_.look(link_, goes_on);
   if (!there) return;
-  // It was set back to an older copy: it gets the records it has lost. Of a branch that it does not
-  // know it may still have the records below.
+  // It was set back to an older copy: it gets what it has lost. Of a branch that it does not know
+  // it may still have the records below.
   const std::int64_t has = std::max(there->size, outbox_.history_of(seen_).begin);
-  if (has < confirmed_) confirmed_ = has;
+  if (has < confirmed_) goes_back_to(has);
   if (!there->notes) return noted_.reset();
   const std::int64_t noted = noted_.value_or(0);
   const bool is_told = outbox_.is_note_of(there->history, std::max(noted, *there->notes));
   noted_ = is_told ? *there->notes : noted;  // what it has already is left out there
+}
+
+/// With the records it may have lost notes, also of histories before the newest.
+void Forwarder::goes_back_to(std::int64_t size) {
+  confirmed_ = size;
+  if (noted_) noted_ = 0;
 }
 
 /// Counts what is waiting while a call does.
@@ -198,6 +204,7 @@ Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root)
   if (!same) return failed(Sent::Failed, same.error().message);
   if (*same == true && size != confirmed_) {
     lacks_records_ = size < confirmed_;
+    if (lacks_records_) goes_back_to(size);
     took(size);
     return Sent::Taken;
   }

@@ -114,6 +114,7 @@ class Forwarder {
 
   void run(const std::stop_token& stop);
   void follow(const CentreLink::GoesOn& goes_on);
+  void goes_back_to(std::int64_t size);
   CentreLink::GoesOn goes_on(const std::stop_token& stop);
   Sent send(const std::stop_token& stop);
   Sent answered(const http_client::HttpAnswer& answer, std::int64_t end, std::int64_t last_note);

@@ -3,6 +3,7 @@ deduplicate by id lose nothing."""
 
 import base64
 import pathlib
+import re
 import shutil
 import unittest
 
@@ -295,6 +296,42 @@ class Stations(Restored):
         wait_for(lambda: "corrected_by" in self.station.get(f"/v1/measurements/{first[0]}").json,
                  lambda: self.station.log)
         self.assertEqual(self.station.get(f"/v1/measurements/{first[0]}").json["corrected_by"], made.json["id"])
+
+    def put_the_centre_back(self, station_sends_first):
+        record = {"id": self.store(self.station, "s1 s2")[0]}
+        self.drained()
+        self.centre.stop()
+        copy = self.centre.folder / "copy"
+        shutil.copytree(self.centre.data, copy)
+        self.centre.start()
+        said = [note(self.station, record, "x1"), note(self.station, record, "x2")]
+        wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
+        self.centre.stop()
+        self.station.stop()
+        self.station.start()  # a branch, of which the notes are none
+        self.station.wait_for_log('"event":"log_branched"')
+        names = {one["id"]: one["part_id"] for one in self.station.stored()}
+        names[self.store(self.station, "s3")[0]] = "s3"
+        self.centre.start()
+        # It sends its notes between two questions of what the centre has.
+        asked = re.escape('fitgauge_http_requests_total{route="/v1/log/revisions",method="GET",status="200"}')
+        wait_for(lambda: (metric(self.centre, asked) or 0) >= 2, lambda: self.station.log)
+        self.assertEqual(self.there(), names)
+        self.centre.stop()
+        shutil.rmtree(self.centre.data)
+        shutil.copytree(copy, self.centre.data)
+        if station_sends_first:
+            names[self.store(self.station, "s4")[0]] = "s4"
+        self.centre.start()
+        wait_for(lambda: self.there() == names, lambda: self.station.log)
+        wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
+        self.assert_clean(self.centre)
+
+    def test_notes_from_before_a_branch_for_a_centre_that_was_put_back(self):
+        self.put_the_centre_back(station_sends_first=False)
+
+    def test_notes_from_before_a_branch_for_a_centre_whose_lack_a_batch_finds(self):
+        self.put_the_centre_back(station_sends_first=True)
 
     def test_two_folders_that_go_on_under_one_history(self):
         self.store(self.station, "s1")
