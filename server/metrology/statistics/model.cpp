@@ -112,12 +112,14 @@ class Neighbourhood {
     at_[j] = budget_.contributions[j].estimate;
     return found;
   }
-  /// Half of what a step to either side changes.
-  double rise(std::size_t i) { return (away(i, 1) - away(i, -1)) / 2; }
+  /// Half of what a step to either side changes, by an eighth of it: a whole one may explode.
+  double rise(std::size_t i) { return (away(i, kEighth) - away(i, -kEighth)) / (2 * kEighth); }
 
   /// What a step to either side changes, without the value itself, which may stand at a pole.
   double spread(std::size_t i, double slope) {
-    const double bend = away(i, 1) + away(i, -1) - away(i, 0.5) - away(i, -0.5);
+    const double bend =
+        (away(i, kEighth) + away(i, -kEighth) - away(i, kEighth / 2) - away(i, -kEighth / 2)) /
+        (kEighth * kEighth);
     double found = std::abs(slope);
     for (const double each : {rise(i), bend}) {
       if (std::isfinite(each)) found = std::max(found, std::abs(each));
@@ -154,6 +156,8 @@ class Neighbourhood {
   }
 
  private:
+  static constexpr double kEighth = 0.125;
+
   const Budget& budget_;
   std::vector<double> at_{};
   std::vector<double> steps_{};

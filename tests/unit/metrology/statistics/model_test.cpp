@@ -379,7 +379,8 @@ TEST_CASE("sensitivities are those within the uncertainty, whatever is further a
               {"(a - 8)^2", {"a", 8, 1e-10}, 0},
               {"a - 5", {"a", 5, 1e-20}, 1},
               {"1/(a - 99999.875)", {"a", 100000, 1e-6}, -64},
-              {"exp(20*a)", {"a", 0, 1}, 20}};
+              {"exp(20*a)", {"a", 0, 1}, 20},
+              {"exp(10 - 20/c)", {"c", 0.4, 0.58}, 125 * std::exp(-40.0)}};
   for (const auto& [model, at, sensitivity] : rows) {
     CAPTURE(model);
     Budget budget = budget_of(model, {at});
