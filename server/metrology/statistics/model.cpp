@@ -112,14 +112,14 @@ class Neighbourhood {
     at_[j] = budget_.contributions[j].estimate;
     return found;
   }
-  /// Half of what a step to either side changes, by an eighth of it: a whole one may explode.
-  double rise(std::size_t i) { return (away(i, kEighth) - away(i, -kEighth)) / (2 * kEighth); }
+  /// Half of what a step to either side changes, by a small part of it: a whole one may explode.
+  double rise(std::size_t i) { return (away(i, kPart) - away(i, -kPart)) / (2 * kPart); }
 
   /// What a step to either side changes, without the value itself, which may stand at a pole.
   double spread(std::size_t i, double slope) {
     const double bend =
-        (away(i, kEighth) + away(i, -kEighth) - away(i, kEighth / 2) - away(i, -kEighth / 2)) /
-        (kEighth * kEighth);
+        (away(i, kPart) + away(i, -kPart) - away(i, kPart / 2) - away(i, -kPart / 2)) /
+        (kPart * kPart);
     double found = std::abs(slope);
     for (const double each : {rise(i), bend}) {
       if (std::isfinite(each)) found = std::max(found, std::abs(each));
@@ -129,7 +129,7 @@ class Neighbourhood {
   /// Whether the slope on either side is the derivative: not so at a kink and beside a pole.
   bool is_smooth(std::size_t i, double slope, double within) {
     const double near = std::max(width(i) / 4096, 5e-5);
-    const double open = 0.01 * within + 8 * noise_ / near;
+    const double open = 0.004 * within + 8 * noise_ / near;
     const auto fits = [&](double h) { return std::abs((away(i, h) - value_) / h - slope) <= open; };
     return fits(near) && fits(-near);
   }
@@ -156,7 +156,7 @@ class Neighbourhood {
   }
 
  private:
-  static constexpr double kEighth = 0.125;
+  static constexpr double kPart = 1.0 / 64;
 
   const Budget& budget_;
   std::vector<double> at_{};

@@ -380,6 +380,8 @@ TEST_CASE("sensitivities are those within the uncertainty, whatever is further a
               {"a - 5", {"a", 5, 1e-20}, 1},
               {"1/(a - 99999.875)", {"a", 100000, 1e-6}, -64},
               {"exp(20*a)", {"a", 0, 1}, 20},
+              {"a^3", {"a", 0, 1}, 0},
+              {"(a - 8)^4", {"a", 8, 0.1}, 0},
               {"exp(10 - 20/c)", {"c", 0.4, 0.58}, 125 * std::exp(-40.0)}};
   for (const auto& [model, at, sensitivity] : rows) {
     CAPTURE(model);
