@@ -74,8 +74,8 @@ http {{
 
 
 def shown_to_users(servers, port):
-    """What docs/guide/growing.md puts before the daemons, for these servers and this port."""
-    guide = (ROOT / "docs" / "guide" / "growing.md").read_text()
+    """What docs/guide/postgresql.md puts before the services, for these servers and this port."""
+    guide = (ROOT / "docs" / "guide" / "postgresql.md").read_text()
     shown = re.search(r"```nginx\n(.*?)```", guide, re.DOTALL)[1]
     shown, named = re.subn(r"server app\d:8286", lambda _: f"server {next(servers)}", shown)
     shown, listens = re.subn(r"listen 80;", f"listen 127.0.0.1:{port};", shown)
