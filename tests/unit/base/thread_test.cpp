@@ -63,11 +63,14 @@ TEST_CASE("a thread shows the first 15 bytes of its place, without the article")
                                      {"an I/O thread", "I/O thread"},
                                      {"a place of many words", "place of many w"}}) {
     std::string name;
-    Thread thread(place, [&name](const std::stop_token&) {
+    std::promise<void> named;  // by whoever starts it
+    Thread thread(place, [&name, begun = named.get_future().share()](const std::stop_token&) {
+      begun.wait();
       std::array<char, 16> bytes{};
       pthread_getname_np(pthread_self(), bytes.data(), bytes.size());
       name = bytes.data();
     });
+    named.set_value();
     thread.stop();
     CHECK(name == shown);
   }
