@@ -68,7 +68,7 @@ describe('the parts', () => {
     await said('as they were');
     await page.getByLabel('Measured value').fill('0.98');
     await page.click('dialog .primary');
-    await said('Say why');
+    await said('Enter the reason');
     await page.getByLabel('Reason').fill('scanned twice');
     await page.click('dialog .primary');
     await said('far outside');

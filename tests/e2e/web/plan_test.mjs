@@ -136,7 +136,7 @@ describe('a plan', () => {
     await scanUnasked(page, '4711-A');
     await asked('4711-A');
     await scanUnasked(page, '25.01');
-    assert.match(await page.textContent('#entry-note'), /Nothing is stored/);
+    assert.match(await page.textContent('#entry-note'), /Not stored: the characteristic is being loaded/);
     await scanUnasked(page, 'OTHER-1');
     await asked('OTHER-1');
     held['OTHER-1']();

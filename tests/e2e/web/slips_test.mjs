@@ -51,7 +51,7 @@ describe('a key at the wrong moment', () => {
     let answer = await holdLimits('30k6');
     await scanUnasked(page, '30k6');
     await page.keyboard.type('30.01\n');
-    await notes(/Nothing is stored/);
+    await notes(/Not stored: the characteristic is being loaded/);
     assert.deepEqual([await page.inputValue('#value'), await stored('W-ASK')], ['30.01', []]);
     await answer();
     await echo('Ø 30 k6');
@@ -75,7 +75,7 @@ describe('a key at the wrong moment', () => {
     await page.fill('#designation', '40 H7');
     await page.press('#designation', 'Enter');
     await page.keyboard.type('41\n');
-    await notes(/Nothing is stored/);
+    await notes(/Not stored: the characteristic is being loaded/);
     await answer();
     await echo('Ø 40 H7');
     await sleep(PAIR_MS);
