@@ -75,7 +75,7 @@ std::optional<ControlPath> named(const interpreter::FileReference& reference,
   return path->with_default_extension(interpreter::program_extension(program));
 }
 
-/// What keeps a parameter from being renamed to or from this name, by the line that has `written`.
+/// The reason why a parameter is not renamed to or from this name, by the line that has `written`.
 std::string obstacle(QRef from, QRef to, std::string_view line, const WrittenParameter& written) {
   constexpr int kLongestRow = 8;
   const auto has = [&line](std::string_view word) { return line.find(word) != line.npos; };

@@ -7,7 +7,7 @@
 
 #include "cli/open_programs.hpp"
 
-/// What the language server knows about a place of a program, in either dialect.
+/// The knowledge of the language server about a place of a program, in either dialect.
 namespace fitgauge::cli {
 
 /// The parameters of a line of a program or mask; not those of comments, texts and names of files.

@@ -10,7 +10,7 @@
 
 namespace fitgauge::api {
 
-/// What is new after each commit, for one reader, until it goes. Owns no more than one piece, so a
+/// The news after each commit, for one reader, until it goes. Owns no more than one piece, so a
 /// slow reader costs nothing and falls behind; the connection drops one that takes nothing.
 class CommitStream : public http::BodyStream,
                      public app::CommitListener,

@@ -44,7 +44,7 @@ struct ChangedLimits {
   std::string after{};
 };
 
-/// What the characteristics of a drawing have that those of a plan have not.
+/// Members that characteristics of a drawing have and characteristics of a plan have not.
 struct Comparison {
   std::optional<std::string> digest{};  ///< of the drawing that the plan came from
   std::vector<std::string> added{};

@@ -32,7 +32,7 @@ struct ParsedModel {
 
 Error unreadable(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
 
-/// What muParser found, in words. @param at character of the text, from 0
+/// The finding of muParser, in words. @param at character of the text, from 0
 Error refusal(const std::string& text, const std::string& token, std::size_t at) {
   const std::string place = fmt::format("at character {} of {}", at + 1, text.size());
   if (at >= text.size()) return unreadable("the model ends too early: complete the last term");
@@ -115,7 +115,7 @@ class Neighbourhood {
   /// Half of what a step to either side changes, by a small part of it: a whole one may explode.
   double rise(std::size_t i) { return (away(i, kPart) - away(i, -kPart)) / (2 * kPart); }
 
-  /// What a step to either side changes, without the value itself, which may stand at a pole.
+  /// The change by a step to either side, without the value itself, which may be at a pole.
   double spread(std::size_t i, double slope) {
     const double bend =
         (away(i, kPart) + away(i, -kPart) - away(i, kPart / 2) - away(i, -kPart / 2)) /
@@ -178,7 +178,7 @@ Result<Model> read_model(const std::string& text, const std::vector<std::string>
   if (text.size() > kLongestModel) {
     return unreadable(fmt::format("a model has at most {} characters", kLongestModel));
   }
-  // What else muParser reads (assignment, comparison, several results) is no part of a model.
+  // The rest that muParser reads (assignment, comparison, several results) is no part of a model.
   const std::size_t foreign = text.find_first_not_of(std::string(kNameCharacters) + " .+-*/^()");
   if (foreign != std::string::npos) {
     return unreadable(fmt::format(
