@@ -41,7 +41,7 @@ void add_common(CLI::App& app, CommonOptions& common) {
   app.add_option("--cert-key", common.certificate_key_file, "Private key of --cert (PEM)");
   app.add_flag("--json", common.json, "Print the documents of the service");
   app.add_option("--retry", common.retry_seconds,
-                 "Seconds a write waits for the service in all; import: 60, others: 0")
+                 "Seconds that a write waits for the service (default: import 60, others 0)")
       ->check(CLI::Range(0, 86'400));
 }
 
@@ -57,7 +57,7 @@ Outcome<std::string> read_key(const CommonOptions& common) {
   const bool printable =
       std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c < '\x7F'; });
   if (printable) return std::string(key);
-  return Failure{ExitCode::Usage, "the API key has a character that no key has: copy it again"};
+  return Failure{ExitCode::Usage, "the API key has a wrong character: copy it again"};
 }
 
 Outcome<Connection> connection_of(const CommonOptions& common) {
@@ -114,7 +114,7 @@ std::optional<std::string> what_is_unknown(const CLI::App& command,
   if (!is_option) {
     for (const CLI::App* known : command.get_subcommands({})) hint.consider(known->get_name());
   }
-  std::string text = fmt::format("there is no {} '{}'", is_option ? "option" : "command", word);
+  std::string text = fmt::format("unknown {} '{}'", is_option ? "option" : "command", word);
   if (!hint.word().empty()) text += fmt::format("; did you mean '{}'?", hint.word());
   return text;
 }
@@ -135,7 +135,7 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
 
 int run_command_line(int argc, char** argv) {
   CLI::App app(
-      "fitgauge asks and feeds the fitgauge service: ISO 286 limits, fits, verdicts, "
+      "fitgauge is the client of the fitgauge service: ISO 286 limits, fits, verdicts, "
       "measurements, NC programs.",
       "fitgauge");
   CommonOptions common;

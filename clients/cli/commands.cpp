@@ -146,7 +146,7 @@ void add_stored(CLI::App& app, Action& chosen, const StoredKind& kind) {
             chosen, {"name", "file"}, 2, [&kind](const Context& context, const Words& words) {
               return run_stored_put(context, kind, words[0], words[1]);
             });
-  add_words(*stored, "get", fmt::format("Print {}, or write it into a file", kind.what), chosen,
+  add_words(*stored, "get", fmt::format("Print {}, or write it to a file", kind.what), chosen,
             {"name", "file"}, 1, [&kind](const Context& context, const Words& words) {
               return run_stored_get(context, kind, words[0], words[1]);
             });
@@ -194,11 +194,11 @@ void add_tables(CLI::App& app, Action& chosen) {
 void add_watch(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<WatchOptions>();
   CLI::App* watch =
-      add_command(app, "watch", "Print what happens as it happens", chosen, options, run_watch);
-  watch->add_option("--source", options->source, "gauge, simulation or all; gauge when absent")
+      add_command(app, "watch", "Print events as they happen", chosen, options, run_watch);
+  watch->add_option("--source", options->source, "gauge, simulation or all (default: gauge)")
       ->check(CLI::IsMember({"gauge", "simulation", "all"}));
-  watch->add_option("--after", options->after, "Begin behind the event of this id");
-  watch->add_option("--count", options->count, "End after so many events");
+  watch->add_option("--after", options->after, "Begin after the event with this id");
+  watch->add_option("--count", options->count, "Stop after this number of events");
 }
 
 void add_about(CLI::App& app, Action& chosen) {

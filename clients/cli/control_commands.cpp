@@ -57,7 +57,7 @@ Outcome<LinkClient> connect(const std::string& address,
   if (!parsed) {
     return Failure{
         ExitCode::Usage,
-        fmt::format("'{}' is no address of a control: write HOST or HOST:PORT", address)};
+        fmt::format("address of the control must be HOST or HOST:PORT; got '{}'", address)};
   }
   auto control = LinkClient::connect({.address = *parsed});
   if (!control) return failure_of(control.error());
@@ -293,7 +293,7 @@ Outcome<ExitCode> run_control_put(const Context& context, const ControlPutOption
   const std::vector<std::string> files(options.words.begin() + 1, options.words.end() - 1);
   if (files.size() > 1 && !destination.ends_with('\\') && !destination.ends_with('/')) {
     return Failure{ExitCode::Usage,
-                   fmt::format("several files go into a folder: write {}/", destination)};
+                   fmt::format("several files need a folder: write {}/", destination)};
   }
   auto control = connect(options.words.front(), {"FILE"});
   if (!control) return control.error();
@@ -305,8 +305,7 @@ Outcome<ExitCode> run_control_put(const Context& context, const ControlPutOption
       const auto there = is_there(*control, path);
       if (!there) return there.error();
       if (*there) {
-        return Failure{ExitCode::Refused,
-                       path + ": is on the control already; --force replaces it"};
+        return Failure{ExitCode::Refused, path + ": exists on the control; --force replaces it"};
       }
     }
     const auto sent = control->upload(path, *bytes, transfer_of(path));
@@ -323,10 +322,11 @@ Outcome<ExitCode> run_control_run(const Context& context, const std::string& add
   const auto identity = control->identity();
   if (!identity) return failure_of(identity.error());
   if (identity->plc != control_link::kVirtualPlc) {
-    return Failure{ExitCode::Refused,
-                   fmt::format("{} at {} is a real control, and LSV-2 has no NC start: start the "
-                               "program at the machine",
-                               identity->control, address)};
+    return Failure{
+        ExitCode::Refused,
+        fmt::format(
+            "{} at {} is a real control: start the program at the machine, LSV-2 has no NC start",
+            identity->control, address)};
   }
   if (const auto done = log_in(*control, {"FILE", "DNC", "PLCDEBUG"}); !done) return done.error();
   const std::string path = control_path(program);
@@ -339,7 +339,7 @@ Outcome<ExitCode> run_control_run(const Context& context, const std::string& add
   if (!errors) return errors.error();
   for (const auto& error : *errors) context.note(fmt::format("{}: {}", error.number, error.text));
   if (*state != ProgramState::Finished) {
-    return Failure{ExitCode::ProgramFailed, fmt::format("{} ended as {}", path, name_of(*state))};
+    return Failure{ExitCode::ProgramFailed, fmt::format("{} ended with status {}", path, name_of(*state))};
   }
   if (!context.json) context.print("{} {}\n", path, name_of(*state));
   return ExitCode::Good;

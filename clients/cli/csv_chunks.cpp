@@ -80,7 +80,8 @@ Outcome<void> CsvChunks::read_header() {
     header = first_record(buffer_, separator_, ended_);
     if (!header && buffer_.size() > limits_.bytes) break;
   }
-  if (!header) return Failure{ExitCode::LocalFile, "the input has no header line with field names"};
+  if (!header)
+    return Failure{ExitCode::LocalFile, "the input must begin with a header line of field names"};
   header_ = buffer_.substr(0, header->size);
   header_lines_ = header->lines;
   pass(header->size);
@@ -150,7 +151,7 @@ Outcome<std::optional<CsvChunk>> CsvChunks::next() {
   if (rows > 0) return take(size, rows, lines);
   if (ended_ && size == buffer_.size()) return std::nullopt;
   return Failure{ExitCode::LocalFile,
-                 fmt::format("line {}: the row is larger than a request may be; is a quote open?",
+                 fmt::format("line {}: the row is too long for a request; is a quote missing?",
                              position_.lines + lines + 1)};
 }
 

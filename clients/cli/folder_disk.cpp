@@ -81,10 +81,10 @@ std::string FolderDisk::name_here(const std::string& path) const {
 
 Outcome<interpreter::ControlPath> local_program(const std::string& file) {
   if (std::error_code failed; fs::exists(file, failed) && !fs::is_regular_file(file, failed))
-    return Failure{ExitCode::LocalFile, file + ": is not a file; save the program into one"};
+    return Failure{ExitCode::LocalFile, file + ": is not a file: save the program to a file"};
   if (const auto readable = read_file(file); !readable) {
     const std::string& why = readable.error().message;
-    return Failure{ExitCode::LocalFile, why + "; --from-control takes a program of the service"};
+    return Failure{ExitCode::LocalFile, why + "; --from-control uses a program of the service"};
   }
   auto name = interpreter::ControlPath::parse("TNC:\\" + fs::path(file).filename().string());
   if (name) return *std::move(name);

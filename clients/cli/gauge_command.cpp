@@ -108,9 +108,9 @@ Outcome<ExitCode> verdict_exit_code(std::string_view word) {
   const auto found = std::find_if(kVerdicts.begin(), kVerdicts.end(),
                                   [word](const VerdictWord& v) { return v.word == word; });
   if (found != kVerdicts.end()) return found->exit_code;
-  return Failure{ExitCode::NoAnswer, fmt::format("the service answers with verdict '{}', which "
-                                                 "this fitgauge does not know",
-                                                 word)};
+  return Failure{
+      ExitCode::NoAnswer,
+      fmt::format("unknown verdict '{}' from the service: use a fitgauge of its version", word)};
 }
 
 Colour verdict_colour(std::string_view word) {
@@ -139,8 +139,8 @@ std::string format_verdict(const JsonValue& document, const Terminal& terminal) 
 Outcome<std::string> measured_text(const std::string& typed) {
   const auto measured = parse_length_mm(typed, {.decimal_comma = true, .round_to_nearest = true});
   if (measured) return format_mm(*measured);
-  return Failure{ExitCode::Usage, fmt::format("'{}' is no measured value in mm: {}", typed,
-                                              measured.error().message)};
+  return Failure{ExitCode::Usage, fmt::format("the measured value must be in mm; got '{}': {}",
+                                              typed, measured.error().message)};
 }
 
 Outcome<ExitCode> show_verdict(const Context& context, const Answer& answer) {
@@ -175,8 +175,9 @@ constexpr const char* kLine = R"((?:\d\dA)?\s*([+-]?\d+(?:[.,]\d+)?)\s*(?:mm)?)"
 Outcome<std::regex> pattern_of(const std::string& pattern) try {
   return std::regex(pattern.empty() ? kLine : pattern);
 } catch (const std::regex_error& wrong) {
-  return Failure{ExitCode::Usage,
-                 fmt::format("--pattern '{}' is no regular expression: {}", pattern, wrong.what())};
+  return Failure{
+      ExitCode::Usage,
+      fmt::format("--pattern must be a regular expression; got '{}': {}", pattern, wrong.what())};
 }
 
 /// The value in a line that the pattern takes whole.
@@ -205,8 +206,8 @@ Outcome<ExitCode> follow_port(const Context& context, GaugeOptions options) {
     if (!line) return line.error();
     const auto value = line->whole ? value_in(line->text, *pattern) : std::nullopt;
     if (!value || !measured_text(*value)) {
-      context.note(fmt::format("{}: '{}' is no value{}", options.serial, line->text,
-                               line->whole ? "" : ": it is not whole"));
+      context.note(fmt::format("{}: '{}' is not a value{}", options.serial, line->text,
+                               line->whole ? "" : ": it is incomplete"));
       continue;
     }
     options.fields[RowField::MeasuredAt] = format_rfc3339(SystemClock().now());
@@ -228,12 +229,12 @@ Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options)
   if ((given(RowField::Upper) || given(RowField::Lower)) &&
       (!options.record || (!given(RowField::Feature) && !given(RowField::Quantity)))) {
     return Failure{ExitCode::Usage,
-                   "--upper-um and --lower-um take --record, and --feature or a --quantity"};
+                   "--upper-um and --lower-um need --record, and --feature or --quantity"};
   }
   if (!options.serial.empty()) return follow_port(context, options);
   if (options.measured.empty()) {
     return Failure{ExitCode::Usage,
-                   "a measured value is needed, or --serial PORT; see fitgauge gauge --help"};
+                   "give a measured value, or --serial PORT; see fitgauge gauge --help"};
   }
   return judge(context, options, options.measured);
 }

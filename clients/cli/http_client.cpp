@@ -25,13 +25,15 @@ struct Reading {
 std::string_view advice_for(CURLcode code) {
   switch (code) {
     case CURLE_PEER_FAILED_VERIFICATION:
-      return "name the authority of its certificate with --ca, or its right name with --server";
-    case CURLE_SSL_CACERT_BADFILE: return "--ca takes a PEM file with certificates";
+      return "give the authority of its certificate with --ca, or its correct name with --server";
+    case CURLE_SSL_CACERT_BADFILE: return "--ca must be a PEM file with certificates";
     case CURLE_SSL_CERTPROBLEM:
-      return "--cert and --cert-key take this client's certificate and its key as PEM files";
+      return "--cert and --cert-key must be PEM files with the certificate and the key of this "
+             "client";
     case CURLE_SSL_CONNECT_ERROR:
-      return "does it speak TLS there, and does it want a certificate (--cert, --cert-key)?";
-    default: return "start fitgauged there, or name another address with --server";
+      return "check that the service uses TLS at this address, and if it needs a certificate "
+             "(--cert, --cert-key)";
+    default: return "start fitgauged there, or give another address with --server";
   }
 }
 

@@ -95,11 +95,11 @@ Outcome<std::string> read_file(const std::string& path) {
 Outcome<void> may_replace(const std::string& path, bool force) {
   if (force || path == "-" || ::access(path.c_str(), F_OK) != 0) return {};
   if (::isatty(STDIN_FILENO) == 1) {
-    fmt::print(stderr, "fitgauge: {} is there already: replace it? [y/N] ", path);
+    fmt::print(stderr, "fitgauge: {} exists: replace it? [y/N] ", path);
     std::string line;
     if (std::getline(std::cin, line) && (line == "y" || line == "Y")) return {};
   }
-  return Failure{ExitCode::LocalFile, path + ": is there already; --force replaces it"};
+  return Failure{ExitCode::LocalFile, path + ": exists; --force replaces it"};
 }
 
 }  // namespace fitgauge::cli

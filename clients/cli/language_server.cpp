@@ -296,7 +296,7 @@ Reply reply_to(Server& server, std::string_view method, const JsonValue& params)
     return Refusal{kNotInitialized, "the first request is initialize"};
   const auto* found = std::ranges::find(kMethods, method, &Method::name);
   if (found != std::end(kMethods)) return found->handle(server, params);
-  return Refusal{kMethodNotFound, fmt::format("there is no method {}", method)};
+  return Refusal{kMethodNotFound, fmt::format("unknown method {}", method)};
 }
 
 void handle(Server& server, const std::string& text) {
@@ -310,7 +310,7 @@ void handle(Server& server, const std::string& text) {
       !(is_notice || is_text || id.is(JsonValue::Kind::Number)))
     return respond("null",
                    Refusal{kInvalidRequest,
-                           "a message has a method and, of a request, a number or text as id"});
+                           "a message must have a method, and a request a number or text as id"});
   server.is_over = is_notice && method.text == "exit";
   if (server.is_over) return;
   const Reply reply = reply_to(server, method.text, message->member("params"));

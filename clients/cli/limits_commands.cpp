@@ -116,7 +116,7 @@ Outcome<std::string> table_target(const TableOptions& options, const std::string
   if (format == "tab") {
     if (options.classes.empty() && options.revision.empty()) return table + ".tab";
     return Failure{ExitCode::Usage,
-                   "--classes and --revision go with the formats csv and json: the control's table "
+                   "--classes and --revision are for the formats csv and json: the control's table "
                    "has every class"};
   }
   std::string target = table + "?format=" + format;
@@ -171,8 +171,9 @@ std::string measured_clearance(const JsonValue& stored, const Terminal& terminal
       "a probability of {:.3g}\n{}",
       count("hole"), count("shaft"), number(stored, "mean_clearance_um"),
       number(stored, "standard_deviation_um"), number(stored, "probability_of_interference"),
-      stored.text_of("stable") == "true" ? ""
-                                         : "NOT STABLE: what is made next, this does not say\n",
+      stored.text_of("stable") == "true"
+          ? ""
+          : "NOT STABLE: these figures do not predict the next parts\n",
       fmt::arg("unit", terminal.micrometre()));
 }
 

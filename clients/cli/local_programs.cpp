@@ -44,7 +44,7 @@ Outcome<Levels> read_levels(const std::vector<std::string>& written) {
     if (!severity && said != "off") {
       return Failure{
           ExitCode::Usage,
-          fmt::format("--level takes CODE=off, note, warning or error, not '{}'", level)};
+          fmt::format("--level must be CODE=off, note, warning or error; got '{}'", level)};
     }
     const std::string code = level.substr(0, equals);
     if (std::ranges::find(kCodes, code) == std::end(kCodes))
@@ -180,7 +180,7 @@ Outcome<std::string> text_of(const std::string& file, iso::Conversion converted)
     fmt::print(stderr, "{}\n", klartext::render(found));
   if (!klartext::contains_error(converted.findings)) return std::move(converted.text);
   return Failure{ExitCode::ProgramFailed,
-                 file + " has blocks without a form in DIN/ISO; nothing is written"};
+                 file + " has blocks that DIN/ISO cannot express: nothing was written"};
 }
 
 std::string with_crlf(std::string_view text) {
@@ -197,8 +197,7 @@ bool is_iso_name(std::string_view file) {
 
 Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& options) {
   if (options.in_place && options.from_control)
-    return Failure{ExitCode::Usage,
-                   "--in-place is for files here: leave it out with --from-control"};
+    return Failure{ExitCode::Usage, "--in-place is for local files: remove it with --from-control"};
   for (const std::string& file : options.files) {
     const auto read = read_program(context, file, options.from_control);
     if (!read) return read.error();
@@ -219,14 +218,15 @@ Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& opt
 Outcome<ExitCode> run_nc_convert(const Context& context, const ConvertOptions& options) {
   const bool is_iso = is_iso_name(options.file);
   if (is_iso == is_iso_name(options.target))
-    return Failure{ExitCode::Usage,
-                   "one of the two files is called .i and has DIN/ISO: nc convert bore.i bore.h"};
+    return Failure{
+        ExitCode::Usage,
+        "exactly one of the two files must have the ending .i (DIN/ISO): nc convert bore.i bore.h"};
   const auto read = read_program(context, options.file, options.from_control);
   if (!read) return read.error();
   if (read->is_iso != is_iso)
     return Failure{ExitCode::LocalFile,
-                   fmt::format("{} has {} in it, unlike its name says: rename it", options.file,
-                               is_iso ? "Klartext" : "DIN/ISO")};
+                   fmt::format("{} contains {}, which does not match its name: rename it",
+                               options.file, is_iso ? "Klartext" : "DIN/ISO")};
   const auto text = text_of(options.file, is_iso ? iso::to_klartext(read->program, ".I")
                                                  : iso::to_iso(read->program, ".H"));
   if (!text) return text.error();

@@ -43,8 +43,9 @@ Outcome<app::RunOrder> order_of(const std::string& text, const FolderDisk& disk)
 
 Outcome<std::string> run_here(const Context& context, RunOptions options) {
   if (!options.part_id.empty() || !options.order.empty()) {
-    return Failure{ExitCode::Usage,
-                   "--part-id and --order are for the records of the service: use --from-control"};
+    return Failure{
+        ExitCode::Usage,
+        "--part-id and --order need --from-control: the service stores them with its records"};
   }
   const std::string file = options.program;
   options.program = base_name(file);
@@ -65,8 +66,7 @@ Outcome<std::string> run_here(const Context& context, RunOptions options) {
       each.program = disk.name_here(each.program);
       if (!context.json) fmt::print(stderr, "{}\n", klartext::render(each));
     }
-    return Failure{ExitCode::ProgramFailed,
-                   file + " or a program it calls has errors; each is listed"};
+    return Failure{ExitCode::ProgramFailed, file + " or a program that it calls has errors"};
   }
   const SystemClock clock;
   const app::RunFormat format = api::run_format();

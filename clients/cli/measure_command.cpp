@@ -92,8 +92,8 @@ class Upload {
     const bool is_ndjson = sheet::is_ndjson(options_.input);
     if (is_ndjson && is_converted(options_)) {
       return Failure{ExitCode::Usage,
-                     "--map, --set, --encoding, --time-zone and --leave-out-others are of tables: "
-                     "a line of NDJSON has the names of the service"};
+                     "--map, --set, --encoding, --time-zone and --leave-out-others are for tables, "
+                     "not for NDJSON"};
     }
     auto opened = RowInput::open(context_, options_);
     if (!opened) return opened.error();
@@ -154,10 +154,9 @@ class Upload {
   }
 
   Failure other_server(const MeasureState& last) const {
-    return {ExitCode::LocalFile,
-            fmt::format("{}: the state is that of {}: name another file with --state, or send all "
-                        "rows with --again",
-                        journal_.path(), last.server)};
+    return {ExitCode::LocalFile, fmt::format("{}: the state belongs to {}: give another file with "
+                                             "--state, or send all rows with --again",
+                                             journal_.path(), last.server)};
   }
 
   Failure row_has_grown(std::uint64_t line) const {
@@ -169,10 +168,9 @@ class Upload {
   }
 
   Failure changed(std::uint64_t lines) const {
-    return {ExitCode::LocalFile,
-            fmt::format("{}: the lines up to {} were sent before and are not the same now: put "
-                        "them back, or send all rows with --again",
-                        name_, lines)};
+    return {ExitCode::LocalFile, fmt::format("{}: the lines up to {} have changed after they were "
+                                             "sent: restore them, or send all rows with --again",
+                                             name_, lines)};
   }
 
   Outcome<void> send(const CsvChunks& chunks, const CsvChunk& chunk) {
@@ -205,9 +203,8 @@ class Upload {
   }
 
   Failure interrupted(const Failure& failure) const {
-    const std::string_view remedy = journal_.path().empty()
-                                        ? "with --state it could have been resumed"
-                                        : "run it again to resume";
+    const std::string_view remedy =
+        journal_.path().empty() ? "with --state you can resume it" : "run it again to resume";
     return {failure.exit_code,
             fmt::format("{}; {} rows are stored, up to line {}: {}", failure.message,
                         grouped(state_.counts.sum()), state_.stored.lines, remedy),
@@ -253,9 +250,10 @@ class Upload {
     if (const auto kept = journal_.append(state_); !kept) return kept.error();
     line_.clear();
     if (state_.counts.sum() == 0) {
-      return Failure{ExitCode::LocalFile, name_ + (sheet::is_ndjson(options_.input)
-                                                       ? ": there is no record"
-                                                       : ": there is no row below the header")};
+      return Failure{
+          ExitCode::LocalFile,
+          name_ + (sheet::is_ndjson(options_.input) ? ": the input has no record"
+                                                    : ": the input has no row after the header")};
     }
     if (rows_sent_ == 0) {
       context_.note(name_ + ": every row was stored before; --again stores them once more");

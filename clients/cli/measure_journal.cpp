@@ -65,8 +65,8 @@ void forget_oldest_states(const std::filesystem::path& folder) {
 }
 
 Failure state_failure(const std::string& path, const char* what) {
-  return {ExitCode::LocalFile, fmt::format("{}: cannot {}: {}; --state names another file", path,
-                                           what, std::strerror(errno))};
+  return {ExitCode::LocalFile, fmt::format("{}: cannot {}: {}; give another file with --state",
+                                           path, what, std::strerror(errno))};
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ Outcome<void> MeasureJournal::read_last_line() {
   state_ = parse_state(std::string_view(*text).substr(begin, end - 1 - begin));
   if (state_) return {};
   return Failure{ExitCode::LocalFile,
-                 path_ + ": is no state of fitgauge; --state names another file"};
+                 path_ + ": is not a state of fitgauge: give another file with --state"};
 }
 
 Outcome<void> MeasureJournal::append(const MeasureState& state) {
@@ -184,8 +184,7 @@ Outcome<std::string> journal_path(const std::string& input, const std::string& s
     const std::string home = environment_variable("HOME");
     if (home.empty()) {
       return Failure{ExitCode::LocalFile,
-                     "neither HOME nor XDG_STATE_HOME says where the state is kept: name a file "
-                     "with --state"};
+                     "HOME and XDG_STATE_HOME are missing: give a file for the state with --state"};
     }
     folder = home + "/.local/state";
   }

@@ -52,7 +52,7 @@ Outcome<std::string> parameter_json(std::string_view name, std::string_view valu
   const auto number = parse_document(value);
   if (number && number->kind == JsonValue::Kind::Number) return std::string(value);
   return Failure{ExitCode::Usage,
-                 fmt::format("{} takes a number such as 25.5, not '{}'", name, value)};
+                 fmt::format("{} must be a number such as 25.5; got '{}'", name, value)};
 }
 
 Outcome<std::string> setup_json(const RunOptions& options) {
@@ -97,7 +97,7 @@ Outcome<ExitCode> run_nc_put(const Context& context, const std::vector<std::stri
                              const std::string& destination) {
   if (files.size() > 1 && !names_folder(destination)) {
     return Failure{ExitCode::Usage,
-                   fmt::format("several files go into a folder: write {}/", destination)};
+                   fmt::format("several files need a folder: write {}/", destination)};
   }
   for (const std::string& file : files) {
     const auto bytes = read_file(file);
@@ -130,7 +130,7 @@ Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& optio
   if (!options.from_control) return run_nc_check_local(context, options);
   if (!options.format.empty() || !options.levels.empty()) {
     return Failure{ExitCode::Usage,
-                   "--format and --level are for files here: leave them out with --from-control"};
+                   "--format and --level are for local files: remove them with --from-control"};
   }
   int worst = 0;
   for (const std::string& path : options.files) {
@@ -155,7 +155,7 @@ Outcome<std::string> run_order(const RunOptions& options) {
     const std::size_t equals = parameter.find('=');
     if (equals == std::string::npos) {
       return Failure{ExitCode::Usage,
-                     fmt::format("--set takes a parameter such as Q1=25, not '{}'", parameter)};
+                     fmt::format("--set must be a parameter such as Q1=25; got '{}'", parameter)};
     }
     const std::string name = parameter.substr(0, equals);
     const auto value = parameter_json(name, std::string_view(parameter).substr(equals + 1));
@@ -183,7 +183,7 @@ namespace {
 /// The document of a run at the service.
 Outcome<std::string> run_there(const Context& context, const RunOptions& options) {
   if (!options.files_to.empty())
-    return Failure{ExitCode::Usage, "--files-to is for runs here: use fitgauge runs get ID NAME"};
+    return Failure{ExitCode::Usage, "--files-to is for local runs: use fitgauge runs get ID NAME"};
   const auto order = run_order(options);
   if (!order) return order.error();
   auto answer =
@@ -213,7 +213,7 @@ Outcome<ExitCode> run_one(const Context& context, const RunOptions& options) {
   if (status != "completed") {
     return Failure{
         ExitCode::ProgramFailed,
-        fmt::format("run {} ended as {}",
+        fmt::format("run {} ended with status {}",
                     options.from_control ? run->text_of("id") : options.program, status)};
   }
   const std::string_view verdict = run->text_of("verdict");

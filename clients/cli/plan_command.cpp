@@ -90,7 +90,7 @@ Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing,
   for (const std::string& name : plan->compared.added) context.note("added: " + name);
   for (const std::string& name : plan->compared.gone) context.note("gone: " + name);
   for (const auto& one : plan->compared.changed)
-    context.note(fmt::format("changed: {}: {}, before {}", one.name, one.after, one.before));
+    context.note(fmt::format("changed: {}: {}, in the plan {}", one.name, one.after, one.before));
   return ExitCode::Good;
 }
 

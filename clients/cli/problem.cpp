@@ -62,8 +62,8 @@ Failure failure_of(const Answer& answer, const std::string& url) {
                         answer.status)};
   }
   std::string text = sentence(*problem);
-  if (answer.status == kUnauthorized) text += "; set FITGAUGE_KEY, or name a file with --key-file";
-  if (answer.status == kForbidden) text += "; use a key of another role";
+  if (answer.status == kUnauthorized) text += "; set FITGAUGE_KEY, or give a file with --key-file";
+  if (answer.status == kForbidden) text += "; use a key with another role";
   return {exit_code_of(answer), std::move(text), answer.body};
 }
 
@@ -94,7 +94,7 @@ Outcome<JsonValue> read_document(const Answer& answer, const std::string& url) {
   auto document = parse_document(answer.body);
   if (document) return *std::move(document);
   return Failure{ExitCode::NoAnswer,
-                 fmt::format("{} answers with something that is not JSON: is it fitgauged?", url)};
+                 fmt::format("{} does not answer with JSON: is it fitgauged?", url)};
 }
 
 }  // namespace fitgauge::cli

@@ -72,7 +72,7 @@ Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query) {
     context.print("{}", record_line(record, context.out));
   }
   if (const std::string_view next = page->text_of("next"); !next.empty()) {
-    context.note(fmt::format("there are more: --after {}", next));
+    context.note(fmt::format("more: --after {}", next));
   }
   return ExitCode::Good;
 }

@@ -21,12 +21,12 @@ struct RecordFilter {
 };
 inline constexpr auto kRecordFilters = [] {
   std::array<RecordFilter, app::kTextFilters.size() + 6> filters = {{
-      {"designation", "Size and class, as in 25H7"},
+      {"designation", "Size and class, such as 25H7"},
       {"verdict", "good, rework, reject or indeterminate"},
-      {"source", "gauge, simulation or all; gauge when absent"},
-      {"from", "Measured from this RFC 3339 time on"},
+      {"source", "gauge, simulation or all (default: gauge)"},
+      {"from", "Earliest time of measuring (RFC 3339)"},
       {"to", "Measured before this time"},
-      {"history", "all shows corrected records too"},
+      {"history", "all: corrected records too"},
   }};
   std::ranges::transform(app::kTextFilters, filters.begin() + 6,
                          [](std::string_view name) { return RecordFilter{name}; });

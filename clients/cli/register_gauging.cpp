@@ -21,11 +21,11 @@ void add_limits(CLI::App& app, Action& chosen) {
       add_command(app, "fit", "A fit with its zones: fitgauge fit 25H7/g6", chosen, query, run_fit);
   fit->add_option("fit", query->designation, "Size, class of the hole, class of the shaft")
       ->required();
-  fit->add_option("--hole", query->holes, "Stored holes, by filters: characteristic=bore")
+  fit->add_option("--hole", query->holes, "Filters of stored holes: characteristic=bore")
       ->expected(1)
       ->take_all();
   fit->add_option("--shaft", query->shafts, "Stored shafts, likewise")->expected(1)->take_all();
-  fit->add_option("--subgroups", query->subgroups, "use or ignore those that the values name")
+  fit->add_option("--subgroups", query->subgroups, "Subgroups of the values: use or ignore")
       ->check(CLI::IsMember({"use", "ignore"}));
 }
 
@@ -36,18 +36,19 @@ void add_tools(CLI::App& app, Action& chosen) {
       ->add_option("designation", *designation, "Size and class")
       ->required();
   const auto search = std::make_shared<FitSearch>();
-  CLI::App* fits = add_command(app, "fits", "Fits whose clearances lie between two bounds", chosen,
+  CLI::App* fits = add_command(app, "fits", "Find fits with clearances between two bounds", chosen,
                                search, run_fits);
   fits->add_option("nominal", search->nominal_mm, "Nominal size in mm")->required();
-  fits->add_option("--min-um", search->min_clearance_um, "Least clearance; interference is below 0")
+  fits->add_option("--min-um", search->min_clearance_um,
+                   "Smallest clearance; interference is below 0")
       ->required();
   fits->add_option("--max-um", search->max_clearance_um, "Greatest clearance")->required();
   fits->add_option("--limit", search->limit, "Most fits, else 20")->check(CLI::Range(1, 1000));
   const auto standard = std::make_shared<StandardQuery>();
-  CLI::App* standards = add_command(app, "standards", "Numbers of other standards than ISO 286",
+  CLI::App* standards = add_command(app, "standards", "Tables of other standards than ISO 286",
                                     chosen, standard, run_standards);
   standards->add_option("name", standard->name, "iso2768-1, iso965-1, din6885-1 or iso492");
-  standards->add_option("--size-mm", standard->size_mm, "Only what holds for this size");
+  standards->add_option("--size-mm", standard->size_mm, "Only rows for this size");
 }
 
 void add_gauge(CLI::App& app, Action& chosen) {
@@ -57,10 +58,11 @@ void add_gauge(CLI::App& app, Action& chosen) {
   gauge->add_option("designation", options->designation, "Size and class, or the nominal size")
       ->required();
   const auto measured = gauge->add_option("measured", options->measured, "Measured value in mm");
-  const auto serial = gauge->add_option("--serial", options->serial, "Port whose lines are values")
-                          ->excludes(measured);
-  gauge->add_option("--baud", options->baud, "Of the port, else 9600")->needs(serial);
-  gauge->add_option("--pattern", options->pattern, "Regular expression of a whole line")
+  const auto serial =
+      gauge->add_option("--serial", options->serial, "Serial port that sends the values")
+          ->excludes(measured);
+  gauge->add_option("--baud", options->baud, "Speed of the port (default: 9600)")->needs(serial);
+  gauge->add_option("--pattern", options->pattern, "Regular expression for a whole line")
       ->needs(serial);
   const auto record = gauge->add_flag("--record", options->record, "Store the measurement");
   for (std::size_t i = RowField::Feature; i < RowField::Count; ++i) {
@@ -82,40 +84,45 @@ void add_measure(CLI::App& app, Action& chosen) {
           ->alias("measure");
   measure->add_option("file", options->input, "CSV file or DFQ, or - for standard input")
       ->required();
-  measure->add_option("--state", options->state_file, "File that says how far a stopped run was");
-  measure->add_option("--chunk", options->chunk_rows, "Rows of one request, else 100000")
+  measure->add_option("--state", options->state_file,
+                      "File with the progress, to resume a stopped run");
+  measure->add_option("--chunk", options->chunk_rows, "Rows of one request (default: 100000)")
       ->check(CLI::Range(1, 100'000));
   measure
       ->add_option("--map", options->columns,
-                   "Column and field: Istwert=measured_mm; also date and time, or none")
+                   "Column and its field: Istwert=measured_mm; also date, time, or nothing")
       ->allow_extra_args(false);
   measure->add_option("--set", options->constants, "Field and value of all rows: machine=M3")
       ->allow_extra_args(false);
-  measure->add_option("--time-zone", options->time_zone, "Of times without an offset");
-  measure->add_option("--length-unit", options->length_unit, "Of a DFQ that names none: mm, inch");
+  measure->add_option("--time-zone", options->time_zone, "Time zone of times without an offset");
+  measure->add_option("--length-unit", options->length_unit,
+                      "Unit of a DFQ without a unit: mm, inch");
   measure->add_option("--encoding", options->encoding, "auto, utf-8, utf-16 or windows-1252");
   measure->add_flag("--leave-out-others", options->leave_out_others,
-                    "Columns that are no field are left out");
-  measure->add_flag("--again", options->again, "Store rows that were stored before once more");
-  measure->add_flag("--exit-verdict", options->exit_verdict, "The exit code is the worst verdict");
+                    "Ignore columns that are not a field");
+  measure->add_flag("--again", options->again, "Store rows again that were stored before");
+  measure->add_flag("--exit-verdict", options->exit_verdict,
+                    "Exit with the code of the worst verdict");
 }
 
 void add_statistics(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<StatisticsOptions>();
-  CLI::App* statistics = add_command(app, "statistics", "Figures of values in a file", chosen,
-                                     options, run_statistics);
+  CLI::App* statistics = add_command(app, "statistics", "Compute figures of the values in a file",
+                                     chosen, options, run_statistics);
   statistics
       ->add_option("figure", options->figure,
                    "summary, anova, capability, chart, type1, grr, pairing or uncertainty")
       ->required()
       ->check(CLI::IsMember(
           {"summary", "anova", "capability", "chart", "type1", "grr", "pairing", "uncertainty"}));
-  statistics->add_option("file", options->file, "JSON as the HTTP API takes it, or a value a line")
+  statistics
+      ->add_option("file", options->file, "JSON as in the HTTP API, or one value on each line")
       ->required();
   statistics->add_option("--lower", options->lower, "Lower limit of capability");
   statistics->add_option("--upper", options->upper, "Upper limit of capability");
   statistics->add_option("--reference", options->reference, "Size of the master of type1");
-  statistics->add_option("--tolerance", options->tolerance, "Of what the gauge of type1 is for");
+  statistics->add_option("--tolerance", options->tolerance,
+                         "Tolerance of the characteristic for type1");
 }
 
 }  // namespace

@@ -12,11 +12,11 @@ namespace {
 void add_nc_files(CLI::App& nc, Action& chosen) {
   const auto prefix = std::make_shared<std::string>();
   add_command<std::string>(nc, "ls", "List the control's files", chosen, prefix, run_nc_ls)
-      ->add_option("prefix", *prefix, "Only paths that begin so");
+      ->add_option("prefix", *prefix, "Only paths that begin with this");
 
   const auto paths = std::make_shared<std::vector<std::string>>();
   CLI::App* put = nc.add_subcommand("put", "Store files: nc put 8255.h nc_prog/8255/");
-  put->add_option("paths", *paths, "Files, then the path or the folder/ they get")
+  put->add_option("paths", *paths, "Files, then their path or folder/ on the control")
       ->required()
       ->expected(2, CLI::detail::expected_max_vector_size);
   put->callback([&chosen, paths] {
@@ -30,62 +30,65 @@ void add_nc_files(CLI::App& nc, Action& chosen) {
                               options, run_nc_get);
   get->add_option("path", options->path, "Path on the control")->required();
   get->add_option("file", options->file,
-                  "File it goes to, else its name here; - is standard output");
-  get->add_flag("--force", options->force, "Replace a file that is there");
+                  "Local file (default: the same name); - is standard output");
+  get->add_flag("--force", options->force, "Replace an existing file");
 }
 
 void add_nc_programs(CLI::App& nc, Action& chosen) {
   add_words(nc, "lsp", "Serve an editor: a language server on standard input and output", chosen,
             {}, 0, [](const Context& context, const Words&) { return run_nc_lsp(context); });
   const auto checked = std::make_shared<CheckOptions>();
-  CLI::App* check = add_command(nc, "check", "Check programs, here or on the control", chosen,
+  CLI::App* check = add_command(nc, "check", "Check programs, local or on the control", chosen,
                                 checked, run_nc_check);
-  check->add_option("files", checked->files, "Files here, or paths on the control")->required();
-  check->add_flag("--from-control", checked->from_control, "The files are those of the service");
-  check->add_option("--format", checked->format, "Of findings: text, json, sarif")
+  check->add_option("files", checked->files, "Local files, or paths on the control")->required();
+  check->add_flag("--from-control", checked->from_control, "Use files of the service");
+  check->add_option("--format", checked->format, "Format of the findings: text, json, sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
-  check->add_option("--level", checked->levels, "Of a code: CODE=off, note, warning or error")
+  check->add_option("--level", checked->levels, "Level of a code: CODE=off, note, warning or error")
       ->expected(1)
       ->take_all();
 
   const auto formatted = std::make_shared<FormatOptions>();
-  CLI::App* format = add_command(nc, "format", "List programs here as a control does", chosen,
+  CLI::App* format = add_command(nc, "format", "Format programs as a control does", chosen,
                                  formatted, run_nc_format);
   format->add_option("files", formatted->files, "Files here")->required();
-  format->add_flag("--in-place", formatted->in_place, "Write the files, else print");
-  format->add_flag("--from-control", formatted->from_control, "The files are those of the service");
+  format->add_flag("--in-place", formatted->in_place, "Write to the files (default: print)");
+  format->add_flag("--from-control", formatted->from_control, "Use files of the service");
 
   const auto converted = std::make_shared<ConvertOptions>();
   CLI::App* convert = add_command(nc, "convert", "DIN/ISO to Klartext or back: nc convert a.i a.h",
                                   chosen, converted, run_nc_convert);
-  convert->add_option("file", converted->file, "File here, or path on the control")->required();
-  convert->add_option("target", converted->target, "File here that gets the program")->required();
-  convert->add_flag("--from-control", converted->from_control, "The program is the service's");
-  convert->add_flag("--force", converted->force, "Replace a file that is there");
+  convert->add_option("file", converted->file, "Local file, or path on the control")->required();
+  convert->add_option("target", converted->target, "Local file for the converted program")
+      ->required();
+  convert->add_flag("--from-control", converted->from_control, "Use a program of the service");
+  convert->add_flag("--force", converted->force, "Replace an existing file");
 
   const auto options = std::make_shared<RunOptions>();
   CLI::App* run =
       add_command(nc, "run", "Run a program on a simulated machine", chosen, options, run_nc_run);
-  run->add_option("programs", options->programs, "Files here, or paths on the control")->required();
-  run->add_flag("--from-control", options->from_control, "The programs are those of the service");
-  run->add_option("--files-to", options->files_to, "Folder here that gets what the run writes");
-  run->add_flag("--force", options->force, "Replace files that are in this folder");
-  const auto setup =
-      run->add_option("--setup", options->setup, "JSON file; of the service a stored setup's name");
+  run->add_option("programs", options->programs, "Local files, or paths on the control")
+      ->required();
+  run->add_flag("--from-control", options->from_control, "Use programs of the service");
+  run->add_option("--files-to", options->files_to,
+                  "Local folder for the files that the run writes");
+  run->add_flag("--force", options->force, "Replace existing files in this folder");
+  const auto setup = run->add_option("--setup", options->setup,
+                                     "JSON file; with --from-control the name of a stored setup");
   run->add_option("--setup-file", options->setup_file, "JSON file with a setup")->excludes(setup);
   run->add_option("--set", options->parameters, "Parameter before block 0: Q1=25, QS1=H7")
       ->expected(1)
       ->take_all();
   run->add_option("--on-stop", options->on_stop, "At STOP: continue or end");
   run->add_option("--language", options->language,
-                  "Of masks: english, german, dutch, italian, polish");
-  run->add_option("--part-id", options->part_id, "Part that is measured, for the records");
+                  "Language of masks: english, german, dutch, italian, polish");
+  run->add_option("--part-id", options->part_id, "Part number for the records");
   run->add_option("--order", options->order, "Its order");
-  run->add_flag("--block-skip", options->block_skip, "Pass over blocks that begin with /");
+  run->add_flag("--block-skip", options->block_skip, "Skip blocks that begin with /");
 }
 
 void add_runs(CLI::App& app, Action& chosen) {
-  CLI::App* runs = app.add_subcommand("runs", "The runs of NC programs");
+  CLI::App* runs = app.add_subcommand("runs", "Runs of NC programs");
   runs->require_subcommand(1);
   const auto query = std::make_shared<RunsQuery>();
   CLI::App* list =
@@ -93,15 +96,15 @@ void add_runs(CLI::App& app, Action& chosen) {
   list->add_option("--status", query->status, "queued, running, completed, stopped, failed, …");
   list->add_option("--program", query->program, "Only this program");
   list->add_option("--limit", query->limit, "Most runs, else 100")->check(CLI::Range(1, 1000));
-  list->add_option("--after", query->after, "Begin where the page before ended");
+  list->add_option("--after", query->after, "Begin after this cursor of an earlier page");
   add_words(
       *runs, "show", "Screen, messages and files of a run", chosen, {"id"}, 1,
       [](const Context& context, const Words& words) { return run_runs_show(context, words[0]); });
-  add_words(*runs, "get", "Print a file a run has written", chosen, {"id", "name", "file"}, 2,
+  add_words(*runs, "get", "Print a file that a run wrote", chosen, {"id", "name", "file"}, 2,
             [](const Context& context, const Words& words) {
               return run_runs_get(context, words[0], words[1], words[2]);
             });
-  add_words(*runs, "cancel", "Cancel a run that is queued or under way", chosen, {"id"}, 1,
+  add_words(*runs, "cancel", "Cancel a queued or running run", chosen, {"id"}, 1,
             [](const Context& context, const Words& words) {
               return run_runs_cancel(context, words[0]);
             });
@@ -119,15 +122,15 @@ void add_control(CLI::App& app, Action& chosen) {
                               got, run_control_get);
   get->add_option("address", got->address, "The control: HOST or HOST:PORT")->required();
   get->add_option("path", got->path, "Path on the control")->required();
-  get->add_option("file", got->file, "File it goes to, else its name here; - is standard output");
-  get->add_flag("--force", got->force, "Replace a file that is there");
+  get->add_option("file", got->file, "Local file (default: the same name); - is standard output");
+  get->add_flag("--force", got->force, "Replace an existing file");
   const auto put = std::make_shared<ControlPutOptions>();
   CLI::App* send = add_command(*control, "put", "Send files: control put tnc part.h TNC:/nc_prog/",
                                chosen, put, run_control_put);
-  send->add_option("paths", put->words, "The control, files, then the path or the folder/ they get")
+  send->add_option("paths", put->words, "Control, files, then their path or folder/ on the control")
       ->required()
       ->expected(3, CLI::detail::expected_max_vector_size);
-  send->add_flag("--force", put->force, "Replace a file that is on the control");
+  send->add_flag("--force", put->force, "Replace an existing file on the control");
   add_words(*control, "run", "Run a program of a virtual control", chosen, {"address", "program"},
             2, [](const Context& context, const Words& words) {
               return run_control_run(context, words[0], words[1]);
@@ -141,8 +144,8 @@ void add_control(CLI::App& app, Action& chosen) {
 void add_replay(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<ReplayOptions>();
   CLI::App* replay =
-      add_command(app, "replay", "Compare a machine's log with the same contacts here", chosen,
-                  options, run_replay);
+      add_command(app, "replay", "Replay the contacts of a machine's log and compare the results",
+                  chosen, options, run_replay);
   replay->add_option("program", options->run.program, "Path on the control")->required();
   replay->add_option("file", options->log, "Measuring log of the machine")->required();
   replay->add_option("--contacts", options->contacts, "JSON file: [[X, Y, Z], null, …]")

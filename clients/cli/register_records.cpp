@@ -18,21 +18,25 @@ void add_filters(CLI::App& command, const std::shared_ptr<RecordQuery>& query) {
 }
 
 void add_figures(CLI::App& app, Action& chosen) {
-  const std::string help = "use, or ignore to take the values one by one";
+  const std::string help = "use, or ignore for single values";
   const auto indices = std::make_shared<CapabilityQuery>();
-  CLI::App* capability = add_command(app, "capability", "Capability of what is stored", chosen,
+  CLI::App* capability = add_command(app, "capability", "Capability of stored measurements", chosen,
                                      indices, run_capability);
   add_filters(*capability, indices);
-  capability->add_option("--target-mm", indices->target_mm, "Of cpm, else the middle");
-  capability->add_option("--confidence", indices->confidence, "Of the intervals, else 0.95");
+  capability->add_option("--target-mm", indices->target_mm,
+                         "Target of cpm (default: the middle of the limits)");
+  capability->add_option("--confidence", indices->confidence,
+                         "Confidence level of the intervals (default: 0.95)");
   capability->add_option("--subgroups", indices->subgroups, help)
       ->check(CLI::IsMember({"use", "ignore"}));
 
   const auto query = std::make_shared<ChartQuery>();
   CLI::App* chart =
-      add_command(app, "chart", "Control chart of what is stored", chosen, query, run_chart);
+      add_command(app, "chart", "Control chart of stored measurements", chosen, query, run_chart);
   add_filters(*chart, query);
-  chart->add_option("--kind", query->kind, "xbar_r with subgroups, else i_mr, when not given")
+  chart
+      ->add_option("--kind", query->kind,
+                   "Kind of chart (default: xbar_r with subgroups, else i_mr)")
       ->check(CLI::IsMember({"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}));
   chart->add_option("--rules", query->rules, "Of Western Electric: 1,2,3,4");
   chart->add_option("--subgroups", query->subgroups, help)->check(CLI::IsMember({"use", "ignore"}));
@@ -43,7 +47,7 @@ void add_listed(CLI::App& app, Action& chosen) {
   CLI::App* list = add_command(app, "list", "Print stored measurements", chosen, query, run_list);
   add_filters(*list, query);
   list->add_option("--limit", query->limit, "Most records, else 100")->check(CLI::Range(1, 1000));
-  list->add_option("--after", query->after, "Begin where the page before ended");
+  list->add_option("--after", query->after, "Begin after this cursor of an earlier page");
 
   query = std::make_shared<RecordQuery>();
   CLI::App* out = add_command(app, "export", "Write all stored measurements that match", chosen,
@@ -52,14 +56,15 @@ void add_listed(CLI::App& app, Action& chosen) {
   out->add_option("--format", query->format, "csv, ndjson, dfq of Q-DAS, qif or xlsx")
       ->check(CLI::IsMember({"csv", "ndjson", "dfq", "qif", "xlsx"}));
   out->add_option("--time-zone", query->time_zone,
-                  "Of the times of dfq and xlsx: Europe/Berlin; else UTC");
+                  "Time zone of times in dfq and xlsx, such as Europe/Berlin (default: UTC)");
   out->add_option("--output,-o", query->output, "File, else standard output");
 
   query = std::make_shared<RecordQuery>();
   CLI::App* summary = add_command(app, "summary", "Count, mean and scatter of each group", chosen,
                                   query, run_summary);
   add_filters(*summary, query);
-  summary->add_option("--group-by", query->group_by, "Field of the groups, else characteristic");
+  summary->add_option("--group-by", query->group_by,
+                      "Field of the groups (default: characteristic)");
 
   const auto options = std::make_shared<CorrectOptions>();
   CLI::App* correct = add_command(app, "correct", "Correct a record: fitgauge correct m17 25.0131",
@@ -73,7 +78,7 @@ void add_listed(CLI::App& app, Action& chosen) {
       app, "note", "Add a cause or an action to a measurement; without one, show its notes", chosen,
       said, run_note);
   note->add_option("id", said->id, "The record")->required();
-  note->add_option("--cause", said->cause, "Why the value is what it is");
+  note->add_option("--cause", said->cause, "Cause of the value");
   note->add_option("--action", said->measure, "Action that was taken");
   note->add_option("--measure", said->measure, "Another name of --action");
   note->add_option("--text", said->text, "Whatever else");
@@ -85,10 +90,10 @@ void add_plans(CLI::App& app, Action& chosen) {
   plan->require_subcommand(1);
   const auto options = std::make_shared<PlanOptions>();
   CLI::App* from =
-      add_command(*plan, "from", "Read the sizes of a STEP drawing, which --part makes a plan",
+      add_command(*plan, "from", "Read the sizes of a STEP drawing; --part stores them as a plan",
                   chosen, options, run_plan_from);
   from->add_option("file", options->file, "STEP file of AP242, AP203 or AP214")->required();
-  from->add_option("--part", options->part, "Part number whose plan it becomes");
+  from->add_option("--part", options->part, "Part number of the plan");
 }
 
 }  // namespace

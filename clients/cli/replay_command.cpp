@@ -35,7 +35,7 @@ Outcome<ByCycle> read_log(const std::string& file) {
     return Failure{ExitCode::LocalFile, fmt::format("{}:{}: {}", file, line, why)};
   }
   if (reading.logs.empty()) {
-    return Failure{ExitCode::LocalFile, file + ": holds no whole measuring log"};
+    return Failure{ExitCode::LocalFile, file + ": contains no complete measuring log"};
   }
   ByCycle logs;
   sort_in(std::move(reading.logs), logs);
@@ -192,7 +192,7 @@ Outcome<ExitCode> run_replay(const Context& context, const ReplayOptions& option
   const std::string_view status = run->text_of("status");
   if (status != "completed" && status != "stopped") {
     return Failure{ExitCode::ProgramFailed,
-                   fmt::format("run {} ended as {}", run->text_of("id"), status)};
+                   fmt::format("run {} ended with status {}", run->text_of("id"), status)};
   }
   return comparison.differing() == 0 ? ExitCode::Good : ExitCode::ProgramFailed;
 }

@@ -75,7 +75,7 @@ Outcome<sheet::Words> read_words(std::string_view option, const std::vector<std:
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
     if (equals == 0 || equals == std::string::npos) {
-      return Failure{ExitCode::Usage, fmt::format("{} takes NAME=TEXT, not '{}'", option, text)};
+      return Failure{ExitCode::Usage, fmt::format("{} must be NAME=TEXT; got '{}'", option, text)};
     }
     words.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
@@ -234,7 +234,8 @@ Outcome<sheet::ShopCsvOptions> table_options(const MeasureOptions& options) {
   if (!options.encoding.empty()) {
     const auto encoding = sheet::encoding_from_word(options.encoding);
     if (!encoding) {
-      return Failure{ExitCode::Usage, "--encoding is auto, utf-8, utf-16 or windows-1252"};
+      return Failure{ExitCode::Usage,
+                     "--encoding must be one of: auto, utf-8, utf-16, windows-1252"};
     }
     table.encoding = *encoding;
   }

@@ -73,7 +73,7 @@ Outcome<std::string> body_of(const StatisticsOptions& options) {
   if (trim(*text).starts_with('{')) return *text;
   if (options.figure == "grr" || options.figure == "pairing" || options.figure == "uncertainty") {
     return Failure{ExitCode::Usage,
-                   fmt::format("{} takes a JSON file: docs/reference/api.md says its members",
+                   fmt::format("{} needs a JSON file: see its members in docs/reference/api.md",
                                options.figure)};
   }
   bool flat = true;
@@ -182,7 +182,7 @@ Outcome<ExitCode> run_capability(const Context& context, const CapabilityQuery& 
   }
   const bool stable = found->text_of("stable") == "true";
   context.print("{}\n", stable ? "stable: no rule is broken"
-                               : "NOT STABLE: what the process makes next, these do not say");
+                               : "NOT STABLE: these figures do not predict the next parts");
   print_violations(context, *found);
   return ExitCode::Good;
 }

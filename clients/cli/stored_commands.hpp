@@ -20,7 +20,7 @@ struct StoredKind {
   std::string_view member;  ///< of the list's answer
 };
 inline constexpr std::array<StoredKind, 3> kStoredKinds = {{
-    {"setups", "a setup", "Machines with what lies on their tables", "/v1/setups", "setups"},
+    {"setups", "a setup", "Machines with the workpieces on their tables", "/v1/setups", "setups"},
     {"budgets", "an uncertainty budget", "Uncertainty budgets", "/v1/uncertainties",
      "uncertainties"},
     {"gauges", "a gauge in use", "Gauges in use: their uncertainty and calibration",

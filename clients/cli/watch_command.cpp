@@ -46,7 +46,7 @@ class Watch {
         return failure_of(*answer, context_.client.url());
       }
       if (!connected && !answer) return answer.error();
-      context_.note(answer ? "the service ended the stream; connecting again"
+      context_.note(answer ? "the service ended the stream: connecting again"
                            : answer.error().message + "; connecting again");
       reader_.reconnect();
       std::this_thread::sleep_for(kPause);

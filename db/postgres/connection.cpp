@@ -186,7 +186,7 @@ void Connection::wait_for_commit() {
   }
   // Of a transaction that failed before, COMMIT makes a ROLLBACK and calls it so.
   if (has_committed_) return;
-  throw StorageFailure({ErrorCode::StorageUnavailable, "PostgreSQL has undone the transaction"});
+  throw StorageFailure({ErrorCode::StorageUnavailable, "PostgreSQL rolled the transaction back"});
 }
 
 ResultPtr Connection::execute(const std::string& sql) {

@@ -29,7 +29,7 @@ Result<std::size_t> taken_steps(Connection& connection) {
   if (!steps) return steps.error();
   if (*steps > 0) return static_cast<std::size_t>(*steps);
   return Error{ErrorCode::DatabaseForeign,
-               "the schema fitgauge of the database lists no migration"};
+               "the schema fitgauge of the database has no list of migrations"};
 }
 
 /// Makes the schema where there is none, takes the steps that one of an older version lacks, and
@@ -52,8 +52,8 @@ Result<void> prepare_schema(const std::string& address, bool may_change, std::in
   const auto missing = migrations().subspan(taken);
   if (!missing.empty() && !may_change) {
     return Error{ErrorCode::StorageUnavailable,
-                 taken == 0 ? "the database has no schema fitgauge: start the daemon on it first"
-                            : "the database has an older schema: start the daemon on it once"};
+                 taken == 0 ? "the database has no schema fitgauge: start fitgauged on it once"
+                            : "the database has an older schema: start fitgauged on it once"};
   }
   for (const sql::Migration& migration : missing) {
     connection.run_script(std::string(migration.sql));

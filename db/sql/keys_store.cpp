@@ -76,7 +76,7 @@ Result<std::optional<StoredAnswer>> IdempotencyStore::find(const IdempotentReque
   if (rows.get<Digest>(0) != request.body) {
     return Error{
         ErrorCode::IdempotencyKeyReused,
-        "this Idempotency-Key was used with another body; use a new key for a new request"};
+        "this Idempotency-Key was used with another body: use a new key for each new request"};
   }
   return std::optional(StoredAnswer{.status = rows.get<int>(1),
                                     .content_type = rows.get<std::string>(2),
@@ -184,10 +184,11 @@ KeysStore::~KeysStore() = default;
 
 Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_view token,
                                  std::int64_t now_ns, std::optional<std::int64_t> expires_at_ns) {
-  if (name.empty()) return Error{ErrorCode::FieldInvalid, "a key needs a name", "name"};
+  if (name.empty())
+    return Error{ErrorCode::FieldInvalid, "name of the key must not be empty", "name"};
   if (token.size() < kShortestToken) {
     return Error{ErrorCode::FieldInvalid,
-                 fmt::format("a key needs at least {} characters", kShortestToken), "token"};
+                 fmt::format("key must have at least {} characters", kShortestToken), "token"};
   }
   ApiKey key{.id = 0,
              .name = std::string(name),
@@ -197,16 +198,17 @@ Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_v
              .revoked_at_ns = std::nullopt,
              .expires_at_ns = expires_at_ns};
   if (key.is_expired(now_ns)) {
-    return Error{ErrorCode::FieldInvalid, "a key must expire later than now", "expires"};
+    return Error{ErrorCode::FieldInvalid, "expires must be a time in the future", "expires"};
   }
   if (Rows clash = statements_->clash.query(name, key.token_hash); clash.next()) {
     if (clash.get<bool>(0)) {
       return Error{
           ErrorCode::FieldConflict,
-          fmt::format("there is a key '{}'; revoke it first, or choose another name", name),
+          fmt::format("a key with the name '{}' exists: revoke it first, or choose another name",
+                      name),
           "name"};
     }
-    return Error{ErrorCode::FieldConflict, "this token was used before; make a new one", "token"};
+    return Error{ErrorCode::FieldConflict, "this key was used before: create a new one", "token"};
   }
   key.id = statements_->insert.returning<std::int64_t>(name, role, key.token_hash, now_ns,
                                                        key.revoked_at_ns, key.expires_at_ns);
@@ -231,7 +233,7 @@ Result<void> KeysStore::revoke(std::string_view name, std::int64_t now_ns) {
   for (Rows rows = statements_->revoke.query(name, now_ns); rows.next();) {
     id = rows.get<std::int64_t>(0);
   }
-  if (!id) return Error{ErrorCode::NotFound, fmt::format("there is no valid key '{}'", name)};
+  if (!id) return Error{ErrorCode::NotFound, fmt::format("valid key not found: '{}'", name)};
   statements_->seal.renew(*id);
   return {};
 }

@@ -76,7 +76,8 @@ sql::Blob blob_of(const Origin& origin) {
 LogStore::State LogStore::state() const {
   Rows rows = statements_->state.query();
   if (!rows.next()) {
-    throw StorageFailure({ErrorCode::StorageCorrupt, "the database has lost the head of its log"});
+    throw StorageFailure(
+        {ErrorCode::StorageCorrupt, "the head of the log is missing in the database"});
   }
   require_sound(rows, 3, kLog);
   State state;

@@ -404,15 +404,15 @@ void MeasurementIndexer::verify(const std::function<void(std::string)>& note) {
       continue;
     }
     const IdSpan ids = node.node.ids();
-    note(fmt::format("the index of measurements {} to {} (level {}) is not what they make it",
+    note(fmt::format("the index of measurements {} to {} (level {}) differs from the measurements",
                      ids.first, ids.last, node.node.level));
   }
   const auto surplus = count_postings_.returning<std::int64_t>() - postings +
                        count_values_.returning<std::int64_t>() - values;
-  if (surplus > 0) note(fmt::format("the index has {} values that no measurement has", surplus));
+  if (surplus > 0) note(fmt::format("the index has {} values without a measurement", surplus));
   if (surplus < 0) note(fmt::format("the index lacks {} values of measurements", -surplus));
   if (const auto others = pairs_.count_surplus(); others > 0) {
-    note(fmt::format("the index has {} columns or pairs of rows that it does not know", others));
+    note(fmt::format("the index has {} unknown columns or pairs of rows", others));
   }
 }
 

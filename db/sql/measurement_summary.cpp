@@ -51,7 +51,7 @@ Result<std::vector<SummaryGroup>> MeasurementSummary::run(const MeasurementFilte
   }
   if (!fits_) {
     return Error{ErrorCode::QueryInvalid,
-                 fmt::format("there are more than {} groups; narrow the filter", max_groups)};
+                 fmt::format("the answer has more than {} groups: narrow the filter", max_groups)};
   }
   std::vector<SummaryGroup> summary;
   summary.reserve(groups_.size());

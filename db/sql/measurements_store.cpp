@@ -112,12 +112,12 @@ struct MeasurementsStore::Statements {
   /// @errors as append
   Result<void> require_current(std::int64_t id) {
     if (!by_id.query(id).next()) {
-      return Error{ErrorCode::MeasurementUnknown,
-                   fmt::format("there is no measurement {} to correct", id)};
+      return Error{ErrorCode::MeasurementUnknown, fmt::format("measurement not found: {}", id)};
     }
     if (replaced_by(id)) {
-      return Error{ErrorCode::MeasurementCorrected,
-                   fmt::format("measurement {} was corrected before; correct the current one", id)};
+      return Error{
+          ErrorCode::MeasurementCorrected,
+          fmt::format("measurement {} has a correction: correct the current measurement", id)};
     }
     return {};
   }
@@ -142,7 +142,7 @@ struct MeasurementsStore::Statements {
   void require_revision(std::int64_t number) {
     if (number == seen_revision) return;
     if (!revision.query(number).next()) {
-      throw std::logic_error(fmt::format("there is no table revision {}", number));
+      throw std::logic_error(fmt::format("table revision not found: {}", number));
     }
     seen_revision = number;
   }

@@ -80,7 +80,7 @@ struct RunsStore::Statements {
 
   Result<void> require_unfinished(std::int64_t id) {
     Rows rows = status.query(id);
-    if (!rows.next()) return Error{ErrorCode::RunUnknown, fmt::format("there is no run {}", id)};
+    if (!rows.next()) return Error{ErrorCode::RunUnknown, fmt::format("run not found: {}", id)};
     if (is_finished(rows.get<RunStatus>(0))) {
       return Error{ErrorCode::RunFinished, fmt::format("run {} has finished", id)};
     }

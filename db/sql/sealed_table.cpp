@@ -11,11 +11,10 @@
 namespace fitgauge::store::sql {
 
 Error newer_database(std::int64_t found, std::size_t known) {
-  return {
-      ErrorCode::DatabaseNewer,
-      fmt::format("the database has schema {}, this version of fitgauge knows {}; use the newer "
-                  "version, or restore the backup made before its upgrade",
-                  found, known)};
+  return {ErrorCode::DatabaseNewer,
+          fmt::format("the database has schema {}, and this version of fitgauge knows {}: use the "
+                      "newer version, or restore the backup from before the upgrade",
+                      found, known)};
 }
 
 Result<int> check_steps(Connection& connection, std::span<const Migration> known) {
@@ -27,8 +26,8 @@ Result<int> check_steps(Connection& connection, std::span<const Migration> known
     if (count == known.size()) return newer_database(number, known.size());
     if (number != known[count].number || rows.get<Digest>(1) != sha256(known[count].sql)) {
       return Error{ErrorCode::DatabaseForeign,
-                   fmt::format("migration {} of the database is not the one of this build; use "
-                               "the build that made the database",
+                   fmt::format("migration {} of the database differs from this build: use the "
+                               "build that made the database",
                                number)};
     }
   }
@@ -36,10 +35,10 @@ Result<int> check_steps(Connection& connection, std::span<const Migration> known
 }
 
 void refuse_code(std::int64_t stored) {
-  throw StorageFailure({ErrorCode::StorageCorrupt,
-                        fmt::format("the database holds the code {}, which means nothing: "
-                                    "`fitgauged verify` finds the row; restore a backup",
-                                    stored)});
+  throw StorageFailure(
+      {ErrorCode::StorageCorrupt, fmt::format("the database contains the unknown code {}: find the "
+                                              "row with `fitgauged verify`, and restore a backup",
+                                              stored)});
 }
 
 void record_step(Connection& connection, const Migration& step, std::int64_t now_ns) {
@@ -126,7 +125,7 @@ void require_sound(const sql::Rows& rows, int column, const SealedTable& table) 
   if (rows.get<bool>(column)) return;
   throw StorageFailure(
       Error{ErrorCode::StorageCorrupt,
-            fmt::format("a row of {} does not fit its seal; restore a backup", table.name)});
+            fmt::format("a row of {} does not match its seal: restore a backup", table.name)});
 }
 
 }  // namespace fitgauge::store

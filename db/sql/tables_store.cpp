@@ -39,10 +39,11 @@ const Cell* first_invalid(const std::vector<Cell>& cells) {
 
 template <class Cell>
 Error invalid(const Cell& cell) {
-  return {ErrorCode::TableRowsInvalid,
-          "a size range is given twice, is empty, or has its lower deviation above the upper one",
-          fmt::format("{} {} over {} nm up to {} nm", cell.table, cell.column, cell.over_nm,
-                      cell.up_to_nm)};
+  return {
+      ErrorCode::TableRowsInvalid,
+      "a size range is a repetition, is empty, or has a lower deviation above its upper deviation",
+      fmt::format("{} {} over {} nm up to {} nm", cell.table, cell.column, cell.over_nm,
+                  cell.up_to_nm)};
 }
 
 constexpr std::size_t kShownDigits = 8;
@@ -159,10 +160,10 @@ Result<TableRevision> TablesStore::import(const TableImport& tables, std::int64_
   const std::optional<std::int64_t> in_force =
       newest ? std::optional(newest->number) : std::nullopt;
   if (tables.parent != in_force) {
-    return Error{ErrorCode::PreconditionFailed,
-                 fmt::format("the tables in force are revision {}; read them again and repeat the "
-                             "change",
-                             newest ? newest->id : "none")};
+    return Error{
+        ErrorCode::PreconditionFailed,
+        fmt::format("the current tables are revision {}: read them again and repeat the change",
+                    newest ? newest->id : "none")};
   }
   TableContent content = tables.content;
   sort(content);

@@ -319,7 +319,7 @@ void Writer::end(const IdempotentRequest& request) { engine_.end(request); }
 
 Error Writer::in_progress() {
   return {ErrorCode::IdempotencyInProgress,
-          "the first request with this Idempotency-Key is still running; try again soon"};
+          "the first request with this Idempotency-Key is still running: try again soon"};
 }
 
 }  // namespace fitgauge::store

@@ -139,10 +139,10 @@ Result<DirectoryLock> DirectoryLock::acquire(const std::filesystem::path& direct
   }
   if (::flock(descriptor.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK) return system_error("lock", file);
-    return Error{ErrorCode::DatabaseInUse,
-                 fmt::format("{} is in use by another fitgauged; stop it, or choose another data "
-                             "directory",
-                             directory.string())};
+    return Error{
+        ErrorCode::DatabaseInUse,
+        fmt::format("{} is in use by another fitgauged: stop it, or choose another data directory",
+                    directory.string())};
   }
   struct stat status {};
   if (::fstat(descriptor.get(), &status) != 0) return system_error("look at", file);
@@ -158,11 +158,10 @@ Result<FileIdentity> FileIdentity::of(const std::filesystem::path& file) {
 Result<void> FileIdentity::check() const {
   const auto now = of(path_);
   if (now && now->device_ == device_ && now->inode_ == inode_) return {};
-  return Error{
-      ErrorCode::StorageUnavailable,
-      fmt::format("{} was {} while the service had it open: nothing more is stored. Put the "
-                  "file back, or end the service and start it again",
-                  path_.string(), now ? "replaced" : "removed")};
+  return Error{ErrorCode::StorageUnavailable,
+               fmt::format("{} was {} while the service used it: the service stores nothing now. "
+                           "Put the file back, or restart the service",
+                           path_.string(), now ? "replaced" : "removed")};
 }
 
 Result<void> inspect_file(const std::filesystem::path& file, Access access) {
@@ -173,8 +172,8 @@ Result<void> inspect_file(const std::filesystem::path& file, Access access) {
   if (size < 0) return system_error("read", file);
   const auto foreign = [&](std::string_view what) {
     return Error{ErrorCode::DatabaseForeign,
-                 fmt::format("{} {}; it was left as it is. Restore a backup in its place, or move "
-                             "it away to start with a new database",
+                 fmt::format("{} {}, and is unchanged: restore a backup, or move the file away to "
+                             "start with a new database",
                              file.string(), what)};
   };
   using namespace std::string_view_literals;

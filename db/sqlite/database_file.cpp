@@ -74,7 +74,7 @@ Result<void> create_file(const fs::path& file, std::span<const sqlite::Migration
                          std::int64_t now_ns) {
   if (fs::exists(with_suffix(file, "-wal"))) {
     return Error{ErrorCode::DatabaseForeign,
-                 fmt::format("{0} is missing, but its log {0}-wal is there; restore a backup, or "
+                 fmt::format("{0} is missing, but its log {0}-wal exists: restore a backup, or "
                              "move the log away to start with a new database",
                              file.string())};
   }
@@ -139,8 +139,8 @@ Result<void> has_whole_log(sqlite::Connection& connection, const fs::path& file)
       connection.query_integer("SELECT coalesce(max(id), 0) FROM measurements");
   if (rows >= signed_rows) return {};
   return Error{ErrorCode::StorageCorrupt,
-               fmt::format("{} has signed {} measurements and holds {}: the newest were cut off. "
-                           "Restore a backup in its place",
+               fmt::format("{} has signed {} measurements and contains {}: the newest measurements "
+                           "are missing. Restore a backup",
                            file.string(), signed_rows, rows)};
 }
 
@@ -169,9 +169,8 @@ Result<int> checked_version(const OpenOptions& options, const fs::path& file,
     return version;
   } catch (const StorageFailure& failure) {
     if (failure.error().code != ErrorCode::StorageCorrupt) throw;
-    return Error{ErrorCode::StorageCorrupt,
-                 fmt::format("{} is damaged: {}. Restore a backup in its place", file.string(),
-                             failure.error().message)};
+    return Error{ErrorCode::StorageCorrupt, fmt::format("{} is damaged: {}. Restore a backup",
+                                                        file.string(), failure.error().message)};
   }
 }
 
@@ -180,7 +179,7 @@ Result<void> prepare_or_throw(const OpenOptions& options, std::span<const sqlite
   const fs::path file = options.directory / kDatabaseFile;
   if (!fs::exists(file)) {
     if (options.access == Access::Serve) return create_file(file, known, now_ns);
-    return unavailable(fmt::format("{} does not exist; start fitgauged once", file.string()));
+    return unavailable(fmt::format("{} does not exist: start fitgauged once", file.string()));
   }
   if (Result<void> ours = inspect_file(file, options.access); !ours) return ours;
   if (options.access == Access::Serve) {
@@ -192,7 +191,7 @@ Result<void> prepare_or_throw(const OpenOptions& options, std::span<const sqlite
   if (*version == static_cast<int>(known.size())) return {};
   if (options.access == Access::Serve) return upgrade_file(file, known, *version, now_ns);
   return unavailable(
-      fmt::format("{} has an older schema; start fitgauged once to upgrade it", file.string()));
+      fmt::format("{} has an older schema: start fitgauged once to upgrade it", file.string()));
 }
 
 }  // namespace
@@ -210,8 +209,7 @@ Result<void> prepare_file(const OpenOptions& options, std::span<const sqlite::Mi
 
 Result<void> copy_database(const fs::path& source, const fs::path& target) {
   if (fs::exists(fs::symlink_status(target))) {
-    return unavailable(fmt::format(
-        "{} is there already: a backup replaces nothing; name a new file", target.string()));
+    return unavailable(fmt::format("{} exists: name a new file for the backup", target.string()));
   }
   const fs::path draft = with_suffix(target, ".partial");
   remove_leftover(draft);

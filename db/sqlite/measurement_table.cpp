@@ -101,7 +101,7 @@ void MeasurementTable::insert(std::span<const MeasurementRow> rows) {
   statement.run();
   // SQLite finds the end of the table without a search where it gives the ids itself.
   if (const std::int64_t id = rows.back().id; connection_.last_inserted_id() != id) {
-    throw std::logic_error(fmt::format("measurement {} was stored under another id", id));
+    throw std::logic_error(fmt::format("measurement {} was stored with another id", id));
   }
 }
 

@@ -51,9 +51,8 @@ Result<void> check_file(const std::filesystem::path& file, std::stop_token stop)
   }
   if (finding == "ok" || stop.stop_requested()) return {};
   std::replace(finding.begin(), finding.end(), '\n', ' ');  // SQLite's heading is a line of its own
-  return Error{
-      ErrorCode::StorageCorrupt,
-      fmt::format("{} is damaged: {}. Restore a backup in its place", file.string(), finding)};
+  return Error{ErrorCode::StorageCorrupt,
+               fmt::format("{} is damaged: {}. Restore a backup", file.string(), finding)};
 }
 
 VerifyReport Verifier::run() {
@@ -90,9 +89,8 @@ void Verifier::check_file() {
   sql::Statement references(session_.connection,
                             "SELECT \"table\", rowid, parent FROM pragma_foreign_key_check");
   for (sql::Rows rows = references.query(); rows.next();) {
-    note(fmt::format("row {} of {} refers to a row of {} that is not there",
-                     rows.get<std::int64_t>(1), rows.get<std::string>(0),
-                     rows.get<std::string>(2)));
+    note(fmt::format("row {} of {} refers to a missing row of {}", rows.get<std::int64_t>(1),
+                     rows.get<std::string>(0), rows.get<std::string>(2)));
   }
 }
 
@@ -139,7 +137,7 @@ void Verifier::check_rows() {
 void Verifier::check_rows(const SealedTable& table) {
   sql::Statement altered(session_.connection, table.altered());
   for (sql::Rows rows = altered.query(); rows.next();) {
-    note(fmt::format("the row {} of {} was altered: it does not fit its seal",
+    note(fmt::format("row {} of {} was altered: it does not match its seal",
                      rows.get<std::string>(0), table.name));
   }
 }
@@ -150,7 +148,7 @@ void Verifier::check_files() {
                        "revision FROM file_revisions GROUP BY path_key) newest USING (path_key) "
                        "WHERE files.revision IS NOT newest.revision");
   for (sql::Rows rows = files.query(); rows.next();) {
-    note(fmt::format("the file {} does not have its newest revision", rows.get<std::string>(0)));
+    note(fmt::format("the file {} has not its newest revision", rows.get<std::string>(0)));
   }
 }
 
@@ -183,7 +181,7 @@ void Verifier::check_measurement(const MeasurementRow& row) {
   };
   if (is_unknown()) check_tables();  // they may have changed since
   if (is_unknown()) {
-    note(fmt::format("measurement {} names table revision {}, which is not there", row.id,
+    note(fmt::format("measurement {} names the missing table revision {}", row.id,
                      *row.table_revision));
   }
   if (check_) {

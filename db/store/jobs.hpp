@@ -103,7 +103,7 @@ void enqueue_or_refuse(JobQueue<Job>& queue, std::unique_ptr<Job> job) {
   if (refusal == Refusal::Closed)
     job->refuse({ErrorCode::ShuttingDown, "the service is shutting down"});
   if (refusal == Refusal::Full)
-    job->refuse({ErrorCode::StorageBusy, "the storage has all the work it takes; try again soon"});
+    job->refuse({ErrorCode::StorageBusy, "the storage is busy: try again soon"});
 }
 
 /// A few threads that read, each on a read-only connection of its own. A job sees one consistent

@@ -248,10 +248,10 @@ void ForwardClock::compare(const Reading& reading, Jumps& jumps) const {
   if (ahead || shortest - passed >= kLeastJump) held_ = nanoseconds(0);
   if (!ahead) return;
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(passed - longest).count();
-  jumps.push_back({"clock_set_ahead",
-                   fmt::format("the machine's clock jumped ahead by {} s, to {}; nothing expires "
-                               "until it has held for a day",
-                               seconds, format_rfc3339({reading.ns}))});
+  jumps.push_back(
+      {"clock_set_ahead", fmt::format("the clock of the machine jumped ahead by {} s, to {}: "
+                                      "nothing expires until the clock is steady for a day",
+                                      seconds, format_rfc3339({reading.ns}))});
 }
 
 /// Sets given_ns_.
@@ -262,8 +262,8 @@ void ForwardClock::follow(std::int64_t other_ns, Jumps& jumps) const {
     if (behind >= kLeastJump) {
       jumps.push_back(
           {"clock_set_back",
-           fmt::format("the machine's clock says {}, {} s before a time that was recorded: times "
-                       "go on at half speed until it has caught up",
+           fmt::format("the clock of the machine shows {}, {} s before a stored time: times run at "
+                       "half speed until the clock reaches them",
                        format_rfc3339({other_ns}),
                        std::chrono::duration_cast<std::chrono::seconds>(behind).count())});
     }

@@ -94,7 +94,8 @@ Result<const std::vector<CsvCell>*> CsvReader::next() {
   if (rest_.empty()) return static_cast<const std::vector<CsvCell>*>(nullptr);
   if (const auto read = read_record(); !read) return read.error();
   if (cells_.size() != header_.size()) {
-    return malformed(fmt::format("has {} cells and the header {}", cells_.size(), header_.size()));
+    return malformed(
+        fmt::format("has {} cells, and the header has {}", cells_.size(), header_.size()));
   }
   return &cells_;
 }
@@ -132,7 +133,7 @@ Result<void> CsvReader::read_quoted() {
   bool doubled = false;
   for (;; end += 2) {
     end = rest_.find('"', end);
-    if (end == std::string_view::npos) return malformed("has a quote that is not closed");
+    if (end == std::string_view::npos) return malformed("has a quote without its end");
     if (end + 1 >= rest_.size() || rest_[end + 1] != '"') break;
     doubled = true;
   }

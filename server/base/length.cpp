@@ -121,7 +121,7 @@ Result<Length> parse_length(std::string_view text, int scale, LengthSyntax synta
   const Length length = Length::nanometres(*parsed);
   if (length > kLongest || length < -kLongest) {
     return Error{ErrorCode::LengthOutOfRange,
-                 "'" + std::string(text) + "' is beyond the longest length, 1000000000 mm"};
+                 "'" + std::string(text) + "' is longer than 1000000000 mm"};
   }
   return length;
 }

@@ -34,13 +34,13 @@ void WorkerPool::run() {
 }
 
 Error JobPool::full() {
-  return {ErrorCode::Overloaded, "too much work of this kind waits already; try again soon"};
+  return {ErrorCode::Overloaded, "too much work of this kind is waiting: try again soon"};
 }
 
 Error JobPool::ended() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
 
 Error JobPool::internal(const std::exception& bug) {
-  return {ErrorCode::Internal, std::string("the work on a request failed: ") + bug.what()};
+  return {ErrorCode::Internal, std::string("a request failed: ") + bug.what()};
 }
 
 Error JobPool::beyond_bound(Allowance::Spent spent) {

@@ -59,8 +59,8 @@ Result<int> run_forward_all(const Config& config) {
     }
     if (state.rows == 0 && state.failure.empty() && !state.sends) break;
     if (state.is_refused || now > went_on + kCentrePatience) {
-      std::cout << fmt::format("{} measurements are not at {}: {}\n", state.rows, config.forward_to,
-                               state.failure);
+      std::cout << fmt::format("{} measurements have not reached {}: {}\n", state.rows,
+                               config.forward_to, state.failure);
       return 1;
     }
     if (now > told + kBetweenLines) {
@@ -69,7 +69,8 @@ Result<int> run_forward_all(const Config& config) {
     }
     std::this_thread::sleep_for(kBetweenGlances);
   }
-  std::cout << fmt::format("all of {} is at {}\n", app.log().head_text(), config.forward_to);
+  std::cout << fmt::format("all measurements of {} have reached {}\n", app.log().head_text(),
+                           config.forward_to);
   return 0;
 }
 
@@ -126,10 +127,10 @@ void add_options(CLI::App& app, Arguments& arguments) {
     if (setting.texts == nullptr) option->expected(1);
   }
   app.add_option("--port-file", arguments.port_file, "Receives the port once the socket listens");
-  app.add_flag("--check-config", arguments.check_config, "Check the configuration and end");
-  app.add_flag("--print-config", arguments.print_config, "Print the configuration and end");
+  app.add_flag("--check-config", arguments.check_config, "Check the configuration and exit");
+  app.add_flag("--print-config", arguments.print_config, "Print the configuration and exit");
   app.add_flag("--healthcheck", arguments.healthcheck,
-               "Ask the running service whether it is ready, and end");
+               "Check if the running service is ready, and exit");
   app.set_version_flag("--version", "fitgauged " + std::string(api::kVersion));
 }
 
@@ -157,24 +158,25 @@ struct Commands {
     // The settings stand before or after the command: `fitgauged verify --data DIR`.
     app.fallthrough();
     backup = app.add_subcommand("backup", "Write a consistent copy of the live database");
-    backup->add_option("file", file, "The copy; must not exist")->required();
+    backup->add_option("file", file, "File of the copy; must not exist")->required();
     verify = app.add_subcommand("verify", "Check database, tables, log and every stored verdict");
     verify->add_option("--checkpoint", checkpoints,
-                       "A checkpoint that was kept elsewhere: the log must begin with it");
+                       "Checkpoint from a safe place: the log must begin with it");
     qualify =
-        app.add_subcommand("qualify", "Compare what this program computes with published figures");
-    qualify->add_option("--out", folder, "The folder for qualification.json and qualification.pdf")
+        app.add_subcommand("qualify", "Compare the results of this program with published figures");
+    qualify->add_option("--out", folder, "Folder for qualification.json and qualification.pdf")
         ->required();
-    log_key = app.add_subcommand("log-key",
-                                 "Make a new key for the log, which signs from the next start on");
+    log_key =
+        app.add_subcommand("log-key", "Create a new key that signs the log from the next start");
     forward = app.add_subcommand("forward", "Forward the log of a stopped service to a centre");
-    forward->add_flag("--all", all, "All of it, then end")->required();
+    forward->add_flag("--all", all, "Forward the whole log, then exit")->required();
     key = app.add_subcommand("key", "Create, list and revoke API keys");
     key->require_subcommand(1);
     create = key->add_subcommand("create", "Create a key and show it once");
-    create->add_option("--name", name, "Who the key is for")->required();
-    create->add_option("--role", role, "viewer, operator, admin or station")->required();
-    create->add_option("--expires", expires, "When it ends, as 2027-01-01T00:00:00Z");
+    create->add_option("--name", name, "Name of the person or machine that uses the key")
+        ->required();
+    create->add_option("--role", role, "Role: viewer, operator, admin or station")->required();
+    create->add_option("--expires", expires, "Time of expiry, such as 2027-01-01T00:00:00Z");
     revoke = key->add_subcommand("revoke", "Revoke a key");
     revoke->add_option("--name", name, "The key's name")->required();
     list = key->add_subcommand("list", "List the keys");

@@ -110,8 +110,8 @@ Result<int> run_verify(const Config& config, const std::vector<std::string>& che
                            verification->findings.size());
   if (!verification->head.empty()) std::cout << verification->head << '\n';
   if (checkpoints.empty()) {
-    std::cout << "without a checkpoint kept elsewhere (--checkpoint FILE) this cannot tell whether "
-                 "all of it was replaced\n";
+    std::cout
+        << "give --checkpoint FILE, a checkpoint from a safe place, to detect a replaced log\n";
   }
   return verification->findings.empty() ? 0 : 1;
 }
@@ -162,8 +162,9 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
                            const std::string& expires) {
   const auto known = app::role_from_word(role);
   if (!known) {
-    return Error{ErrorCode::ConfigInvalid,
-                 fmt::format("role is viewer, operator, admin or station, not '{}'", role)};
+    return Error{
+        ErrorCode::ConfigInvalid,
+        fmt::format("role must be one of: viewer, operator, admin, station; got '{}'", role)};
   }
   std::optional<Timestamp> end;
   if (!expires.empty()) {
@@ -171,7 +172,7 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
     if (!time) {
       return Error{
           ErrorCode::ConfigInvalid,
-          fmt::format("expires must be a time as 2027-01-01T00:00:00Z; got '{}'", expires)};
+          fmt::format("expires must be a time such as 2027-01-01T00:00:00Z; got '{}'", expires)};
     }
     end = *time;
   }

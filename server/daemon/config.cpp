@@ -52,7 +52,7 @@ Result<void> assign_integer(const Setting& setting, std::string_view text, Confi
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (failure != std::errc() || end != text.data() + text.size() || value < setting.least ||
       value > setting.most) {
-    return invalid(fmt::format("{} must be a whole number from {} to {}, not '{}'", setting.name,
+    return invalid(fmt::format("{} must be a whole number from {} to {}; got '{}'", setting.name,
                                setting.least, setting.most, text));
   }
   config.*setting.integer = value;
@@ -61,7 +61,7 @@ Result<void> assign_integer(const Setting& setting, std::string_view text, Confi
 
 Result<void> assign_flag(const Setting& setting, std::string_view text, Config& config) {
   if (text != "true" && text != "false") {
-    return invalid(fmt::format("{} must be true or false, not '{}'", setting.name, text));
+    return invalid(fmt::format("{} must be true or false; got '{}'", setting.name, text));
   }
   config.*setting.flag = text == "true";
   return {};
@@ -110,15 +110,16 @@ std::string toml_string(std::string_view text) {
 
 const std::vector<Setting>& settings() {
   static const std::vector<Setting> kSettings = {
-      {"listen", "Addresses to listen on, as host:port; port 0 takes a free one", &Config::listen},
+      {"listen", "Addresses to listen on, as host:port; port 0 chooses a free port",
+       &Config::listen},
       {"data", "Folder of the database", &Config::data},
       {"database",
        "PostgreSQL that several services share, as postgresql://host/name; empty: a file in data",
        &Config::database},
-      {"origin-name", "What the log of a new data folder is called, as in plant-3/press-7",
+      {"origin-name", "Name of the log of a new data folder, such as plant-3/press-7",
        &Config::origin_name},
       {"auth",
-       "Who needs a key: default is open on loopback addresses and read-open elsewhere",
+       "Requests that need a key; default: open on loopback addresses, else read-open",
        &Config::auth,
        {"default", "open", "read-open", "keys"}},
       {"allow-origin",
@@ -126,18 +127,20 @@ const std::vector<Setting>& settings() {
        &Config::allow_origin},
       {"admin-key-file", "File with the first administrator's key", &Config::admin_key_file},
       {"admin-key-out",
-       "File for the administrator's key that the first start makes; empty: admin.key in data",
+       "File for the first administrator's key; empty: admin.key in the data folder",
        &Config::admin_key_out},
       {"tls-cert", "Certificate chain (PEM)", &Config::tls_cert},
       {"tls-key", "Private key of the certificate (PEM)", &Config::tls_key},
-      {"tls-client-ca", "Authorities of client certificates (PEM); a client without one is refused",
+      {"tls-client-ca",
+       "Authorities of client certificates (PEM); a client must have such a certificate",
        &Config::tls_client_ca},
       {"log-level",
-       "Least severe log line that is written",
+       "Lowest level of log lines",
        &Config::log_level,
        {"debug", "info", "warning", "error", "off"}},
       {"durability",
-       "group: one commit for all that waits; each: one a request; off: no fsync, for tests",
+       "group: one commit for all waiting requests; each: one commit a request; off: no fsync, for "
+       "tests",
        &Config::durability,
        {"group", "each", "off"}},
       {"io-threads", "Threads that serve connections", &Config::io_threads, 1, 64},
@@ -145,40 +148,41 @@ const std::vector<Setting>& settings() {
       {"run-workers", "NC programs that run at the same time", &Config::run_workers, 1, 64},
       {"max-connections", "Connections served at the same time", &Config::max_connections, 1,
        100'000},
-      {"write-queue", "Writes that may wait for the disk before requests get 503",
-       &Config::write_queue, 1, 1'000'000},
-      {"idempotency-days", "Days an idempotency key is remembered", &Config::idempotency_days, 1,
+      {"write-queue", "Writes that wait for the disk; more requests get 503", &Config::write_queue,
+       1, 1'000'000},
+      {"idempotency-days", "Days that an idempotency key is kept", &Config::idempotency_days, 1,
        3650},
-      {"run-retention-days", "Days a run with its trace and files is kept; 0 keeps them for ever",
+      {"run-retention-days",
+       "Days that a run, its trace and its files are kept; 0 keeps them for ever",
        &Config::run_retention_days, 0, 36500},
-      {"event-retention", "Events kept for readers that come back", &Config::event_retention, 100,
+      {"event-retention", "Events kept for readers that reconnect", &Config::event_retention, 100,
        10'000'000},
       {"control-listen",
        "Address of a virtual control that speaks LSV-2, as host:port; empty for none",
        &Config::control_listen},
       {"control-model", "Which control it is", &Config::control_model, model_names()},
       {"control-setup",
-       "Named setup of the machine it shows and runs programs on; empty for the default",
+       "Setup of the machine of the virtual control; empty for the default machine",
        &Config::control_setup},
-      {"control-write", "Its clients may change files and start programs; else they only read",
+      {"control-write", "Clients of the virtual control may change files and start programs",
        &Config::control_write},
       {"shdr-listen",
-       "Address where agents of MTConnect read lines of SHDR, as host:port; empty for none",
+       "Address of the SHDR lines for MTConnect agents, as host:port; empty for none",
        &Config::shdr_listen},
       {"connections",
        "File with connections to controls, folders and receivers (TOML); empty for none",
        &Config::connections},
       {"connection-folders",
-       "Folders below which connections made over HTTP may watch and write; empty for none",
+       "Folders in which connections made over HTTP may read and write; empty for none",
        &Config::connection_folders},
       {"allow-private-addresses",
-       "Webhooks may reach this machine and private networks; else public addresses alone",
+       "Webhooks may use addresses of this machine and of private networks",
        &Config::allow_private_addresses},
       {"forward-to", "Centre that gets a copy of the log, as https://host:port; empty for none",
        &Config::forward_to},
-      {"forward-key-file", "File with the key of the role station that the centre has given",
+      {"forward-key-file", "File with the key of this station at the centre",
        &Config::forward_key_file},
-      {"forward-ca", "Authorities of the centre's certificate (PEM); empty for those of the system",
+      {"forward-ca", "Authorities of the centre's certificate (PEM); empty for the system's",
        &Config::forward_ca},
       {"forward-insecure", "The centre may be reached by http:// beyond this machine",
        &Config::forward_insecure},
@@ -217,7 +221,7 @@ Result<void> assign(const Setting& setting, std::string_view text, Config& confi
   const auto& words = setting.words;
   if (!words.empty() && std::find(words.begin(), words.end(), text) == words.end()) {
     return invalid(
-        fmt::format("{} must be one of {}, not '{}'", setting.name, fmt::join(words, ", "), text));
+        fmt::format("{} must be one of: {}; got '{}'", setting.name, fmt::join(words, ", "), text));
   }
   config.*setting.text = text;
   return {};
@@ -236,7 +240,7 @@ Result<void> read_toml(const std::string& path, Config& config) {
     };
     const Setting* setting = find(key.str(), toml_key);
     if (setting == nullptr) {
-      return place(fmt::format("unknown key '{}'; known are {}", key.str(), known(toml_key)));
+      return place(fmt::format("unknown key '{}'; known keys: {}", key.str(), known(toml_key)));
     }
     const auto text = text_of(*setting, node);
     if (!text) return place(text.error().message);
@@ -258,7 +262,7 @@ Result<void> read_environment(const std::vector<std::string>& environment, Confi
     }
     const Setting* setting = find(name, environment_name);
     if (setting == nullptr) {
-      return invalid(fmt::format("unknown environment variable {}; known are {}", name,
+      return invalid(fmt::format("unknown environment variable {}; known variables: {}", name,
                                  known(environment_name)));
     }
     const auto assigned = assign(*setting, std::string_view(variable).substr(equals + 1), config);
@@ -290,13 +294,13 @@ Result<void> check_database(const Config& config) {
   }
   if (!config.forward_to.empty()) {
     return invalid(
-        "forward-to is for a station with a data folder of its own: a daemon with database "
-        "is a centre, and its copy elsewhere is a standby of PostgreSQL");
+        "forward-to needs a data folder: with PostgreSQL (database) the service is a centre; use a "
+        "standby of PostgreSQL for a copy");
   }
   if (!config.connections.empty()) {
     return invalid(
-        "connections are for a station with a data folder of its own: each daemon that "
-        "shares a database would do their work again");
+        "connections need a data folder: with a shared database each service would repeat the "
+        "work");
   }
   return {};
 }
@@ -306,11 +310,11 @@ Result<void> check_database(const Config& config) {
 Result<void> check(const Config& config) {
   if (config.listen.empty())
     return invalid("listen needs at least one address such as 127.0.0.1:8286");
-  if (config.data.empty()) return invalid("data needs the folder of the database");
+  if (config.data.empty()) return invalid("data must be the folder of the database");
   if (!app::is_origin_name(config.origin_name)) {
     return invalid(
-        fmt::format("origin-name takes lower-case letters, digits, '.', '/' and '-', up to "
-                    "64 and a letter or digit first, not '{}'",
+        fmt::format("origin-name must have 1 to 64 lower-case letters, digits, '.', '/' and '-', "
+                    "and begin with a letter or digit; got '{}'",
                     config.origin_name));
   }
   for (const std::string& origin : config.allow_origin) {
@@ -322,7 +326,7 @@ Result<void> check(const Config& config) {
     }
   }
   if (config.tls_cert.empty() != config.tls_key.empty()) {
-    return invalid("tls-cert and tls-key go together: give both or neither");
+    return invalid("tls-cert and tls-key belong together: give both or neither");
   }
   if (!config.tls_client_ca.empty() && config.tls_cert.empty()) {
     return invalid("tls-client-ca needs tls-cert and tls-key");

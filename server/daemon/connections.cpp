@@ -120,7 +120,7 @@ Result<Definition> ConnectionReader::read() const {
   JsonValue body = json_of(table_);
   const JsonValue* const name = body.find("name");
   if (name == nullptr || !name->is(JsonValue::Kind::String)) {
-    return error(table_.get("name"), "a connection needs a name, which is a text");
+    return error(table_.get("name"), "name of a connection must be a text");
   }
   std::string named = name->text;
   std::erase_if(body.members, [](const auto& member) { return member.first == "name"; });
@@ -184,7 +184,7 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
   for (const auto& [key, node] : file) {
     const toml::array* const list = node.as_array();
     if (key.str() != "connection" || list == nullptr) {
-      return invalid(key.source().begin.line, "there is nothing here but [[connection]]");
+      return invalid(key.source().begin.line, "the file must contain only [[connection]]");
     }
     for (const toml::node& item : *list) {
       const toml::table* const table = item.as_table();
@@ -193,7 +193,7 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
       if (!definition) return definition.error();
       if (!names.insert(ascii_lower(definition->name)).second) {
         return invalid(item.source().begin.line,
-                       fmt::format("the connection '{}' comes twice", definition->name));
+                       fmt::format("the connection '{}' occurs twice", definition->name));
       }
       definitions.push_back(*std::move(definition));
     }
@@ -282,9 +282,9 @@ void write_outbox_metrics(const forwarder::Forwarder* forwarder, const Clock& cl
                           api::Exposition& out) {
   // The families are told without a centre too.
   const auto state = forwarder == nullptr ? std::nullopt : std::optional(forwarder->state());
-  out.gauge("fitgauge_outbox_rows", "Measurements that the centre does not have");
+  out.gauge("fitgauge_outbox_rows", "Measurements that have not reached the centre");
   if (state) out.sample(static_cast<double>(state->rows));
-  out.gauge("fitgauge_outbox_oldest_seconds", "How long the first of them has been waiting");
+  out.gauge("fitgauge_outbox_oldest_seconds", "Waiting time of the oldest of these measurements");
   if (!state) return;
   const std::int64_t now = clock.now().nanoseconds;
   const std::int64_t oldest = state->oldest ? state->oldest->nanoseconds : now;

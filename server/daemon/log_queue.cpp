@@ -42,8 +42,9 @@ std::string_view next_piece(std::string_view text) {
 
 std::string lost_line(std::uint64_t lines) {
   std::string line;
-  append_event_line(line, LogLevel::Warning, "log_lines_lost",
-                    fmt::format("{} lines: the reader of the log was too slow or away", lines));
+  append_event_line(
+      line, LogLevel::Warning, "log_lines_lost",
+      fmt::format("{} lines were lost: the reader of the log was too slow or absent", lines));
   return line;
 }
 

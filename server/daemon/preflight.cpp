@@ -83,7 +83,7 @@ Result<void> take_key_of_file(const std::string& file, const std::vector<app::Ke
       replaces ? keys.replace(kName, *token) : keys.create(kName, app::Role::Admin, *token);
   if (!taken && taken.error().where == "token") {
     log_warning("admin_key_refused",
-                fmt::format("the key of {} was revoked before: put a new one there", file));
+                fmt::format("the key in {} was revoked: put a new key into the file", file));
     return {};
   }
   if (!taken) {
@@ -92,9 +92,9 @@ Result<void> take_key_of_file(const std::string& file, const std::vector<app::Ke
   }
   if (replaces) {
     log_warning("admin_key_replaced",
-                fmt::format("the key of {} is valid now, the one it replaces is revoked", file));
+                fmt::format("the key in {} is valid now, and the old key is revoked", file));
   } else {
-    log_info("admin_key_taken", fmt::format("the key of {} is valid", file));
+    log_info("admin_key_taken", fmt::format("the key in {} is valid", file));
   }
   return {};
 }
@@ -201,9 +201,9 @@ Result<std::string> read_admin_key(const std::string& file) {
     return Error{ErrorCode::ConfigInvalid, fmt::format("admin-key-file {} {}", file, what)};
   };
   if (!in.is_open()) return invalid(fmt::format("cannot be read: {}", std::strerror(errno)));
-  if (token.empty()) return invalid("holds no key in its first line");
-  return invalid(fmt::format("holds a key of {} characters; it needs at least {}", token.size(),
-                             app::kShortestToken));
+  if (token.empty()) return invalid("has no key in its first line");
+  return invalid(fmt::format("has a key of {} characters; a key must have at least {}",
+                             token.size(), app::kShortestToken));
 }
 
 Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeyService& keys) {

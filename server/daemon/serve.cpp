@@ -107,7 +107,7 @@ void wait_for_end(http::Server& server, bool tls, const Clock& clock) {
     if (signal != SIGHUP) return;
     const auto reloaded = server.reload_tls();
     if (!tls) {
-      log_info("nothing_to_reload", "SIGHUP reads the certificates again, and there are none");
+      log_info("nothing_to_reload", "SIGHUP reloads certificates, and the service has none");
     } else if (reloaded) {
       log_info("certificates_reloaded", "");
     } else {
@@ -120,7 +120,7 @@ void wait_for_end(http::Server& server, bool tls, const Clock& clock) {
 void end_in_time(const std::stop_token& stop) {
   constexpr std::chrono::seconds kLongestEnd{9};
   if (!wait_unless_stopped(stop, kLongestEnd)) return;
-  log_error("stop_forced", "a thread had not ended after 9 s");
+  log_error("stop_forced", "a thread did not end within 9 s");
   std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the log's own thread writes it
   _exit(1);
 }

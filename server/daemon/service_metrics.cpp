@@ -76,7 +76,7 @@ void write_server_metrics(const http::Server& server, api::Exposition& out) {
 }
 
 void write_application_metrics(app::Application& app, api::Exposition& out) {
-  out.gauge("fitgauge_ready", "1 when the service may be used, as /readyz says")
+  out.gauge("fitgauge_ready", "1 when the service is ready (/readyz)")
       .sample(app.readiness().findings.empty() ? 1 : 0);
   const app::WriterFigures writer = app.writer();
   out.gauge("fitgauge_writer_queue_jobs", "Jobs that wait for the writer")
@@ -84,7 +84,7 @@ void write_application_metrics(app::Application& app, api::Exposition& out) {
   out.histogram("fitgauge_writer_batch_jobs", "Jobs that one commit stored")
       .sample(writer.batch_jobs);
   out.histogram("fitgauge_writer_commit_duration_seconds",
-                "From a transaction's begin until it is on disk")
+                "Time of a transaction from its begin to the disk")
       .sample(writer.commit_seconds);
   out.counter("fitgauge_writer_failures_total", "Commits and maintenance steps that failed")
       .sample(static_cast<double>(writer.failures));
@@ -97,7 +97,7 @@ void write_application_metrics(app::Application& app, api::Exposition& out) {
   };
   out.gauge("fitgauge_runs_active", "NC programs that wait or run");
   for (const auto state : {app::RunState::Queued, app::RunState::Running}) sample(state);
-  out.counter("fitgauge_runs_total", "NC programs that ended, by how");
+  out.counter("fitgauge_runs_total", "NC programs that ended, by status");
   for (auto i = static_cast<std::size_t>(app::RunState::Completed); i < app::kRunStates; ++i) {
     sample(static_cast<app::RunState>(i));
   }
@@ -119,10 +119,10 @@ void write_storage_metrics(const app::Application& app, const fs::path& folder,
   out.gauge("fitgauge_reader_queue_jobs", "Jobs that wait for a reader of the database")
       .sample(static_cast<double>(storage.readers_queued));
   // Every family is told; samples have those that the engine knows.
-  out.gauge("fitgauge_database_standbys", "Servers that follow the database's");
+  out.gauge("fitgauge_database_standbys", "Standby servers of the database");
   sample(storage.standbys);
   out.gauge("fitgauge_database_standby_behind_bytes",
-            "Of the write-ahead log that the last of them does not have on its disk");
+            "Bytes of the write-ahead log that are not on the disk of the slowest server");
   sample(storage.standby_behind_bytes);
   struct statvfs space {};
   const bool has_files = !storage.is_on_server && statvfs(folder.c_str(), &space) == 0;
@@ -151,28 +151,29 @@ void write_connection_metrics(const std::vector<connections::ConnectionState>& c
   const auto count = [&](std::uint64_t connections::ConnectionState::*member) {
     each([member](const auto& connection) { return static_cast<double>(connection.*member); });
   };
-  out.gauge("fitgauge_connection_up", "1 when its last attempt succeeded");
+  out.gauge("fitgauge_connection_up", "1 when the last attempt succeeded");
   each([](const auto& connection) {
     return connection.last_success_at && !connection.is_failing ? 1.0 : 0.0;
   });
   out.gauge("fitgauge_connection_lag_seconds",
-            "Since its last success; outgoing: the age of what is to go next; -1 before");
+            "Time since the last success; outgoing: age of the next measurement; -1 before the "
+            "first success");
   each([now = clock.now()](const auto& connection) {
     const auto behind = lag(connection, now);
     return behind ? static_cast<double>(*behind) / 1e9 : -1.0;
   });
-  out.gauge("fitgauge_connection_behind_measurements", "Outgoing: measurements not dealt with");
+  out.gauge("fitgauge_connection_behind_measurements", "Outgoing: measurements that wait");
   each([](const auto& connection) { return static_cast<double>(connection.behind); });
   out.counter("fitgauge_connection_failures_total", "Attempts that failed");
   count(&connections::ConnectionState::failures);
-  out.counter("fitgauge_connection_files_total", "Files taken because they were new, or written");
+  out.counter("fitgauge_connection_files_total",
+              "Files read because they were new, or files written");
   count(&connections::ConnectionState::files);
   out.counter("fitgauge_connection_bytes_total", "Bytes of these files");
   count(&connections::ConnectionState::bytes);
-  out.counter("fitgauge_connection_measurements_total",
-              "Measurements stored, or told to the other side");
+  out.counter("fitgauge_connection_measurements_total", "Measurements stored, or delivered");
   count(&connections::ConnectionState::measurements);
-  out.counter("fitgauge_connection_unreadable_total", "Places in them that no reader understood");
+  out.counter("fitgauge_connection_unreadable_total", "Places in files that no reader understood");
   count(&connections::ConnectionState::unreadable);
   out.counter("fitgauge_connection_refused_total", "Measurements that the other side refused");
   count(&connections::ConnectionState::refused);
@@ -190,10 +191,10 @@ void write_process_metrics(api::Exposition& out) {
   out.gauge("process_resident_memory_bytes", "Memory in use").sample(resident);
   out.gauge("process_virtual_memory_bytes", "Size of the address space").sample(address_space);
   out.gauge("process_open_fds", "Open files").sample(open_files());
-  out.gauge("process_max_fds", "Open files there may be")
+  out.gauge("process_max_fds", "Largest number of open files")
       .sample(static_cast<double>(files.rlim_cur));
-  out.gauge("process_start_time_seconds", "When the process began, since 1970").sample(started);
-  out.counter("fitgauge_log_lines_lost_total", "Lines of the log that found no room")
+  out.gauge("process_start_time_seconds", "Start of the process, since 1970").sample(started);
+  out.counter("fitgauge_log_lines_lost_total", "Log lines that were lost")
       .sample(static_cast<double>(log_lines_lost()));
 }
 

@@ -25,7 +25,7 @@ const Kind* named_kind(const JsonValue& body, api::FieldErrors& errors) {
     names += (names.empty() ? "" : ", ") + std::string(kind.name);
   }
   fields.report(ErrorCode::FieldInvalid, "kind",
-                fmt::format("there is no kind of connection '{}': take {}",
+                fmt::format("unknown kind of connection '{}'; use one of: {}",
                             first_characters(*word, 40), names));
   return nullptr;
 }
@@ -46,12 +46,12 @@ constexpr std::size_t kMostWaiting = 64;
 
 Error unknown(std::string_view name) {
   return {ErrorCode::ConnectionUnknown,
-          fmt::format("there is no connection '{}'", first_characters(name, 100))};
+          fmt::format("connection not found: '{}'", first_characters(name, 100))};
 }
 
 Error read_only(std::string_view name) {
   return {ErrorCode::ConnectionReadOnly,
-          fmt::format("the connection '{}' stands in the configuration file: change it there and "
+          fmt::format("the connection '{}' belongs to the configuration file: change it there and "
                       "restart the service",
                       name)};
 }
@@ -67,7 +67,7 @@ Result<void> check_name(std::string_view name) {
       });
   if (is_name) return {};
   return Error{ErrorCode::PathMalformed,
-               "the name of a connection has 1 to 63 letters, digits, - and _"};
+               "the name of a connection must have 1 to 63 letters, digits, - and _"};
 }
 
 void keep_secrets(JsonValue& body, const Definition& before) {
@@ -200,21 +200,21 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
                               const std::optional<std::string>& caller) {
   if (plant_.is_shared) {
     return Error{ErrorCode::ConnectionReadOnly,
-                 "this daemon shares its database and keeps no connections: give them to a station "
-                 "with a data folder of its own, which forwards to here"};
+                 "this service shares its database and has no connections: add them at a station "
+                 "with a data folder, which forwards to this service"};
   }
   if (const auto checked = check_name(name); !checked) return checked.error();
   const auto before = find(name);
   if (before && before->is_read_only) return read_only(before->definition.name);
   if (before && before->definition.name != name) {
     return Error{ErrorCode::PathMalformed,
-                 fmt::format("'{}' and the connection '{}' differ in upper and lower case alone",
+                 fmt::format("'{}' and the connection '{}' differ only in upper and lower case",
                              name, before->definition.name)};
   }
   if (!before && states().size() >= kMostConnections) {
-    return Error{
-        ErrorCode::RequestInvalid,
-        fmt::format("there are {} connections, and no more can be: delete one", kMostConnections)};
+    return Error{ErrorCode::RequestInvalid,
+                 fmt::format("the service has {} connections, the largest number: delete one",
+                             kMostConnections)};
   }
   auto json = parse_json(body);
   if (!json) return json.error();
@@ -260,10 +260,9 @@ Result<void> Connections::replay(const std::string& name, std::string_view body)
   if (!order) return order.error();
   const FollowerOptions* const follower = found->definition.settings->follower();
   if (follower == nullptr) {
-    return Error{ErrorCode::RequestInvalid,
-                 fmt::format("the connection '{}' brings measurements: only outgoing connections "
-                             "send again",
-                             name)};
+    return Error{
+        ErrorCode::RequestInvalid,
+        fmt::format("the connection '{}' is incoming: only outgoing connections can replay", name)};
   }
   end(ascii_lower(name));  // which keeps how far it came
   const auto saved = [&]() -> Result<void> {

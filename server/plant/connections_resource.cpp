@@ -100,7 +100,7 @@ Result<http::Response> list(const Connections& all) {
 std::string name_of(const http::Request& request) { return std::string(*request.text("name")); }
 
 Error unknown(const std::string& name) {
-  return {ErrorCode::ConnectionUnknown, "there is no connection '" + name + "'"};
+  return {ErrorCode::ConnectionUnknown, "connection not found: '" + name + "'"};
 }
 
 Result<http::Response> one(const Connections& all, const std::string& name, int status) {
@@ -166,7 +166,7 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
   routes.push_back({
       .pattern = "/v1/connections",
       .handler = [&all](const http::Request&) { return list(all); },
-      .summary = "The connections to the world outside: state, lag, last error and what they did",
+      .summary = "The connections: state, lag, last error and counts",
       .access = "viewer",
       .operation = "listConnections",
       .tag = "connections",
@@ -196,7 +196,8 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
       .access = "admin",
       .operation = "putConnection",
       .tag = "connections",
-      .outcomes = {{.meaning = "It is replaced and goes on where it stood", .schema = "Connection"},
+      .outcomes = {{.meaning = "The connection is replaced and continues at its position",
+                    .schema = "Connection"},
                    {.status = 201, .meaning = "It is new", .schema = "Connection"}},
       .refusals = {409},
   });
@@ -204,7 +205,7 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
       .method = http::Method::Delete,
       .pattern = "/v1/connections/{name}",
       .handler = by(all, remove),
-      .summary = "End a connection and forget how far it came",
+      .summary = "Delete a connection and its position",
       .parameters = {name},
       .access = "admin",
       .operation = "deleteConnection",
@@ -216,8 +217,8 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
       .method = http::Method::Post,
       .pattern = "/v1/connections/{name}/test",
       .handler = by(all, test),
-      .summary = "Try the other side of a connection once",
-      .description = "Answers 200 however the attempt ends, after at most half a minute.",
+      .summary = "Test a connection once",
+      .description = "Answers 200 for every result of the test, after at most half a minute.",
       .parameters = {name},
       .access = "admin",
       .operation = "testConnection",

@@ -17,18 +17,18 @@ template <class V>
 void event_members(V& v, FollowerOptions& options) {
   v.optional("events", options.events,
              SomeOf{{kRecorded, "run.finished", "table.changed", "note.added"}},
-             "What goes out; measurement.recorded when absent");
+             "Events that are sent; measurement.recorded when absent");
 }
 
 /// Describes the settings of every outgoing connection. Call it after event_members().
 template <class V>
 void follower_members(V& v, FollowerOptions& options) {
   v.optional("filter", options.filter, FilterForm{},
-             "Which measurements go out; all that a gauge has measured when absent");
+             "Measurements that are sent; all measurements of gauges when absent");
   v.optional("start", options.from_beginning, Choice<bool>{{{"now", false}, {"beginning", true}}},
-             "Where a new connection begins; now when absent");
+             "Start of a new connection; now when absent");
   v.optional("longest_wait_s", options.longest_wait, Within{1, 3600},
-             "Between two attempts; 300 when absent");
+             "Longest time between two attempts; 300 when absent");
   v.check([&](const auto&) {
     if (options.events.erase(std::string(kRecorded)) == 0) options.filter.verdicts.clear();
   });

@@ -170,8 +170,7 @@ Result<void> LogFollower::read_events() {
   if (!page) return page.error();
   if (page->gap) {
     plant_.tell("connection_events_lost",
-                fmt::format("{}: event_retention keeps too few events for how long the other side "
-                            "was away",
+                fmt::format("{}: the other side was absent for too long: raise event_retention",
                             options_.name));
   }
   if (page->events.empty()) return {};

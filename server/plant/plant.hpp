@@ -72,17 +72,17 @@ struct ConnectionCounter {
   std::string_view meaning;
 };
 inline constexpr std::array<ConnectionCounter, 9> kConnectionCounters = {{
-    {"attempts", &ConnectionState::attempts, "Since the start, as all that follow"},
+    {"attempts", &ConnectionState::attempts, "Since the start, like all following counts"},
     {"failures", &ConnectionState::failures, "Attempts that failed"},
-    {"files", &ConnectionState::files, "Files taken because they were new, or written"},
+    {"files", &ConnectionState::files, "Files read because they were new, or files written"},
     {"bytes", &ConnectionState::bytes, "Bytes of these files"},
-    {"logs", &ConnectionState::logs, "Measuring logs read in them, whether new or not"},
-    {"measurements", &ConnectionState::measurements, "Stored, or told to the other side"},
+    {"logs", &ConnectionState::logs, "Measuring logs read in files, new or not"},
+    {"measurements", &ConnectionState::measurements, "Measurements stored, or delivered"},
     {"values_kept", &ConnectionState::values_kept,
-     "Angles and figures of axes, which stay in the file"},
+     "Angles and figures of axes, which are not stored"},
     {"unreadable", &ConnectionState::unreadable,
      "Places that no reader understood, files that were refused"},
-    {"refused", &ConnectionState::refused, "Measurements that the other side refused for good"},
+    {"refused", &ConnectionState::refused, "Measurements that the other side refused finally"},
 }};
 
 /// What a test of a connection found.

@@ -42,22 +42,22 @@ schema::Fields state_fields() {
   const std::string time_or_null = schema::null_or(schema::text());
   const std::string letter =
       schema::object({{"measurement", schema::text(), "Its id"},
-                      {"at", schema::time(), "When it was given up"},
-                      {"reason", schema::text(), "What the other side said"}});
+                      {"at", schema::time(), "Time of the refusal"},
+                      {"reason", schema::text(), "Answer of the other side"}});
   schema::Fields fields = {
       {"state", schema::words({"waiting", "ok", "failing", "hanging", "stopped"}),
-       "Of its last attempt; hanging: the attempt under way has stood still for a minute; stopped: "
-       "the other side wants no more"},
+       "State of the last attempt; hanging: the current attempt has made no progress for a minute; "
+       "stopped: the other side accepts no more"},
       {"last_attempt_at", time_or_null, ""},
-      {"last_success_at", time_or_null, "When something was delivered or stored"},
-      {"attempt_began_at", time_or_null, "Of the attempt under way"},
+      {"last_success_at", time_or_null, "Time of the last delivery or storage"},
+      {"attempt_began_at", time_or_null, "Start of the current attempt"},
       {"lag_s", schema::null_or(schema::number()),
-       "Since the last success; of an outgoing one the age of what is to go next"},
-      {"last_error", schema::null_or(schema::text()), "Of the last attempt that failed"},
-      {"position", schema::count(), "Outgoing: measurements of the log that are dealt with", false},
-      {"behind", schema::count(), "Outgoing: those that are not", false},
-      {"dead_letters", schema::array(letter), "Outgoing: refused for good, the newest first",
-       false},
+       "Time since the last success; outgoing: age of the next measurement"},
+      {"last_error", schema::null_or(schema::text()), "Error of the last failed attempt"},
+      {"position", schema::count(), "Outgoing: measurements of the log that are done", false},
+      {"behind", schema::count(), "Outgoing: measurements of the log that wait", false},
+      {"dead_letters", schema::array(letter),
+       "Outgoing: finally refused measurements, newest first", false},
   };
   for (const ConnectionCounter& counter : kConnectionCounters) {
     fields.push_back({std::string(counter.name), schema::count(), std::string(counter.meaning)});
@@ -77,13 +77,13 @@ bool SomeOf::read(api::FieldReader& fields, std::string_view name,
                         std::find(words.begin(), words.end(), item.text) != words.end();
     if (!is_one) {
       fields.report(ErrorCode::FieldInvalid, name,
-                    fmt::format("{} is a list of {}", name, fmt::join(words, ", ")));
+                    fmt::format("{} must be a list of {}", name, fmt::join(words, ", ")));
       return false;
     }
     to.insert(item.text);
   }
   if (to.empty()) {
-    fields.report(ErrorCode::FieldInvalid, name, "an empty list lets nothing through");
+    fields.report(ErrorCode::FieldInvalid, name, "an empty list would send nothing: remove it");
   }
   return !to.empty();
 }
@@ -97,7 +97,7 @@ bool Path::read(api::FieldReader& fields, std::string_view name, fs::path& to) c
   if (!to.is_absolute() || climbs || text->find('\0') != std::string::npos) {
     fields.report(
         ErrorCode::FieldInvalid, name,
-        fmt::format("{} is an absolute path without .., such as /srv/measurements", name));
+        fmt::format("{} must be an absolute path without .., such as /srv/measurements", name));
     return false;
   }
   const bool is_allowed =
@@ -106,10 +106,9 @@ bool Path::read(api::FieldReader& fields, std::string_view name, fs::path& to) c
   if (!is_allowed) {
     fields.report(ErrorCode::FieldInvalid, name,
                   allowed->roots.empty()
-                      ? "no path may be named over HTTP: set connection_folders in the "
-                        "configuration of the service, or write the connection into its file"
-                      : "it is not below those of connection_folders in the configuration "
-                        "of the service");
+                      ? "paths are not allowed over HTTP: set connection_folders in the "
+                        "configuration, or write the connection to the configuration file"
+                      : "the path must be in a folder of connection_folders of the configuration");
   }
   return is_allowed;
 }
@@ -170,9 +169,10 @@ void add_connection_schemas(api::Schemas& schemas) {
            schema::Fields{{"name", schema::text(), ""},
                           {"kind", schema::words(names), ""},
                           {"direction", schema::words({"in", "out"}), ""},
-                          {"read_only", schema::boolean(), "Stands in the configuration file"}} +
+                          {"read_only", schema::boolean(),
+                           "The connection belongs to the configuration file"}} +
            shown_settings() +
-           schema::Fields{{"secret_count", schema::count(), "How many secrets there are", false},
+           schema::Fields{{"secret_count", schema::count(), "Number of secrets", false},
                           {"password_set", schema::boolean(), "There is a password", false}} +
            state_fields())});
   schemas.push_back(

@@ -81,16 +81,16 @@ inline constexpr Accepted kRemark{.longest = kLongestComment};
 inline constexpr Accepted kMaterialName{.longest = 64, .is_thermal = true};
 inline constexpr Accepted kCelsius{.least = gauging::kColdest,
                                    .most = gauging::kHottest,
-                                   .range = "lies from -273.15 to 10000",
+                                   .range = "must be from -273.15 to 10000",
                                    .is_thermal = true};
 inline constexpr Accepted kExpansion{
-    .most = gauging::kLargestExpansion, .range = "lies from 0 to 1000", .is_thermal = true};
+    .most = gauging::kLargestExpansion, .range = "must be from 0 to 1000", .is_thermal = true};
 inline constexpr Accepted kThermalUncertainty{
-    .most = gauging::kLargestUncertainty, .range = "lies from 0 to 1000", .is_thermal = true};
+    .most = gauging::kLargestUncertainty, .range = "must be from 0 to 1000", .is_thermal = true};
 inline constexpr Accepted kOffset{
-    .least = -1'000'000'000, .most = 1'000'000'000, .range = "lies from -1000000 to 1000000"};
+    .least = -1'000'000'000, .most = 1'000'000'000, .range = "must be from -1000000 to 1000000"};
 inline constexpr Accepted kDegreesOfFreedom{
-    .least = 1'000'000, .most = 1'000'000'000'000, .range = "lies from 1 to 1000000"};
+    .least = 1'000'000, .most = 1'000'000'000'000, .range = "must be from 1 to 1000000"};
 inline constexpr Accepted kSizeOperator{.longest = 8};
 inline constexpr Accepted kEnvelopeWord{.longest = 16};
 inline constexpr Accepted kTruth{.most = 1, .is_truth = true};
@@ -145,25 +145,25 @@ using Of = MeasurementFields;
 inline constexpr MeasurementField kMeasurementFields[] = {
     {"part_id", &Of::part_id, "part_id", 22, kIdentifier, "The part: a serial number", 1},
     {"characteristic", &Of::characteristic, "characteristic", 23, kIdentifier,
-     "What was measured at the part", 3},
+     "Measured characteristic of the part", 3},
     {"order", &Of::order, "work_order", 24, kIdentifier, "Work order", 2},
     {"operation", &Of::operation, "operation", 25, kIdentifier, "Step of the routing", 5},
     {"machine", &Of::machine, "machine", 26, kIdentifier, "Where it was made", 4},
     {"operator", &Of::operator_id, "operator", 27, kIdentifier, "Who measured", 6},
-    {"gauge", &Of::gauge, "gauge", 28, kIdentifier, "What it was measured with", 7},
+    {"gauge", &Of::gauge, "gauge", 28, kIdentifier, "Gauge of the measurement", 7},
     {"unit", &Of::unit, "unit", 29, kIdentifier, "Line, cell or plant", 8},
     {"comment", &Of::comment, "comment", 30, kRemark, "Anything else"},
     {"subgroup", &Of::subgroup, "subgroup", 31, kIdentifier, "Parts that were made together", 11},
-    {"tool", &Of::tool, "tool", 65, kIdentifier, "What cut it: the tool in the spindle", 16},
+    {"tool", &Of::tool, "tool", 65, kIdentifier, "Tool in the spindle that cut the part", 16},
 
     {"temperature_c", &Of::temperature, 6, "temperature", 21, kCelsius,
-     "Of the part, -273.15 to 10000; corrects with an expansion"},
+     "Temperature of the part, -273.15 to 10000; corrects with an expansion"},
     {"scale_temperature_c", &Of::scale_temperature, 6, "scale_temperature", 41, kCelsius,
-     "Of what it was read on; else 20"},
+     "Temperature of the scale; 20 when absent"},
     {"part_expansion_um_per_m_k", &Of::part_expansion, 6, "part_expansion", 42, kExpansion,
-     "Of the part, 0 to 1000"},
+     "Expansion of the part, 0 to 1000"},
     {"scale_expansion_um_per_m_k", &Of::scale_expansion, 6, "scale_expansion", 43, kExpansion,
-     "Of what it was read on"},
+     "Expansion of the scale"},
     {"part_material", &Of::part_material, "part_material", 44, kMaterialName,
      "Instead of part_expansion_um_per_m_k: steel"},
     {"scale_material", &Of::scale_material, "scale_material", 45, kMaterialName,
@@ -175,23 +175,23 @@ inline constexpr MeasurementField kMeasurementFields[] = {
      "scale_temperature_uncertainty", 50, kThermalUncertainty, "Of scale_temperature_c"},
     {"part_expansion_uncertainty_um_per_m_k", &Of::part_expansion_uncertainty, 6,
      "part_expansion_uncertainty", 51, kThermalUncertainty,
-     "Of the part's expansion; that of its material's source when absent"},
+     "Standard uncertainty of the part's expansion; from the source of the material when absent"},
     {"scale_expansion_uncertainty_um_per_m_k", &Of::scale_expansion_uncertainty, 6,
      "scale_expansion_uncertainty", 52, kThermalUncertainty, "Of the scale's expansion"},
 
     {"degrees_of_freedom", &Of::degrees_of_freedom, 6, "degrees_of_freedom", 56, kDegreesOfFreedom,
-     "Of uncertainty_um, 1 to 1000000; without end when absent"},
+     "Degrees of freedom of uncertainty_um, 1 to 1000000; infinite when absent"},
 
     {"offset_um", &Of::offset, 3, "offset_nm", 54, kOffset,
      "Correction of the machine that was made before this part, -1000000 to 1000000"},
     {"size_operator", &Of::size_operator, "size_operator", 57, kSizeOperator,
-     "Of ISO 14405-1; LP, two-point, when absent"},
+     "Size operator of ISO 14405-1; LP (two-point) when absent"},
     {"envelope", &Of::envelope, "envelope", 58, kEnvelopeWord,
      "required: the size has the modifier (E) of ISO 14405-1"},
     {"go_gauge", &Of::go_gauge, "go_gauge", 59, kEnvelopeWord,
-     "passes or fails: the GO gauge, which verifies the envelope"},
+     "passes or fails: result of the GO gauge, which verifies the envelope"},
     {"confirmed", &Of::confirmed, 0, "confirmed", 66, kTruth,
-     "true: a person confirmed the value, which was called far outside"},
+     "true: a person confirmed a value far outside the limits"},
 
     {"caller", &Of::caller, "caller", 32, kNotGiven, {}, 10},
     {"cycle", &Of::cycle, 0, "cycle", 34, kNotGiven},

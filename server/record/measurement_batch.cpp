@@ -20,7 +20,8 @@ std::optional<Timestamp> parse_date(std::string_view text, std::string_view time
 
 Error too_many_rows() {
   return {ErrorCode::RequestInvalid,
-          fmt::format("a request takes at most {} rows: send the rest in another", kMostRows)};
+          fmt::format("a request must have at most {} rows: send the rest in another request",
+                      kMostRows)};
 }
 
 Error no_rows(std::string_view what) {
@@ -31,7 +32,7 @@ Error no_rows(std::string_view what) {
 void read_row(const JsonValue& object, MeasurementRowReader& reader, MeasurementBatch& batch) {
   if (!object.is(JsonValue::Kind::Object)) {
     reader.report_row(ErrorCode::FieldType,
-                      fmt::format("a measurement is an object, not {}", name_of(object.kind)));
+                      fmt::format("a measurement must be an object; got {}", name_of(object.kind)));
     return;
   }
   for (const auto& [name, value] : object.members) {
@@ -206,7 +207,7 @@ Result<void> decode_measurements(std::string_view body, std::string_view media_t
   if (read_body_fast(body, context, batch, errors)) return finish(errors);
   if (batch.has_too_many) return too_many_rows();
   batch.wants_whole = batch.is_begun;
-  if (batch.wants_whole) return Error{ErrorCode::RequestInvalid, "the body is to be read whole"};
+  if (batch.wants_whole) return Error{ErrorCode::RequestInvalid, "the body must be read whole"};
   return decode_json(body, context, batch);
 }
 

@@ -18,7 +18,7 @@ bool is_nominal(Length nominal, gauging::Quantity quantity) {
 }
 
 std::string nominal_range(gauging::Quantity quantity) {
-  return fmt::format("nominal_mm of a {} is {} and at most 100000000", word(quantity),
+  return fmt::format("nominal_mm of a {} must be {} and at most 100000000", word(quantity),
                      gauging::is_signed(quantity) ? "at least -100000000" : "above 0");
 }
 
@@ -51,13 +51,13 @@ void MeasurementRowReader::resolve_limits() {
   if (ways == 0 && given(RowField::Quantity)) return resolve_none();
   if (!given(RowField::Nominal)) {
     report(ErrorCode::FieldMissing, kRowFields[RowField::Nominal].name,
-           "nominal_mm is required, or a designation");
+           "nominal_mm or designation is required");
   }
   if (by_drawing) return resolve_explicit();
   if (by_class) return resolve_class();
   report(ErrorCode::FieldMissing, kRowFields[RowField::Class].name,
-         "tolerance_class is required, or feature with upper_um, lower_um or both; a value without "
-         "limits has a quantity");
+         "give tolerance_class, or feature with upper_um, lower_um or both; for a value without "
+         "limits give quantity");
 }
 
 void MeasurementRowReader::take_quantity(gauging::Quantity of_class, bool has_others) {
@@ -66,12 +66,13 @@ void MeasurementRowReader::take_quantity(gauging::Quantity of_class, bool has_ot
       *draft_.quantity <= gauging::Quantity::Width;  // of a slot, a key, or between two faces
   if (has_others && is_size) return;
   report(ErrorCode::FieldConflict, kRowFields[RowField::Quantity].name,
-         fmt::format("the limits are those of a {}: leave quantity out", word(of_class)));
+         fmt::format("the limits belong to a {}: remove quantity", word(of_class)));
 }
 
 void MeasurementRowReader::refuse_feature(gauging::Quantity quantity) {
   report(ErrorCode::FieldConflict, kRowFields[RowField::Feature].name,
-         fmt::format("a {} is no hole or shaft: leave feature out", word(quantity)));
+         fmt::format("feature is for diameters and widths, not for a {}: remove feature",
+                     word(quantity)));
 }
 
 /// A value that nothing judges.
@@ -171,13 +172,13 @@ void MeasurementRowReader::resolve_explicit() {
     refuse_feature(quantity);
   } else if (has_feature && !given(RowField::Feature)) {
     report(ErrorCode::FieldMissing, kRowFields[RowField::Feature].name,
-           "feature is required beside the limits of a drawing");
+           "feature (hole or shaft) is required with explicit limits");
   }
   const bool one_given = given(RowField::Upper) || given(RowField::Lower);
   if (!one_given) {
     report(ErrorCode::FieldMissing, kRowFields[RowField::Upper].name,
-           "upper_um is required beside feature, or lower_um, or both; a value without limits has "
-           "a quantity and no feature");
+           "give upper_um, lower_um or both with feature; for a value without limits give quantity "
+           "without feature");
   }
   if (!draft_.nominal || !one_given || draft_.failed) return;
   const Length upper = draft_.upper.value_or(app::kNoLimit);
@@ -192,7 +193,7 @@ void MeasurementRowReader::resolve_explicit() {
            "upper_um is below lower_um");
   } else if (!gauging::is_signed(quantity) && draft_.lower && *draft_.nominal + lower <= Length()) {
     report(ErrorCode::LimitsInvalid, kRowFields[RowField::Lower].name,
-           "the lower limit would be 0 or less");
+           "the lower limit must be above 0");
   }
   m.basis = app::LimitsBasis::Explicit;
   m.nominal_size = *draft_.nominal;

@@ -68,7 +68,7 @@ void MeasurementRowReader::report(std::size_t field, const Error& error) {
 }
 
 void MeasurementRowReader::report_unknown(std::string_view name) {
-  report(ErrorCode::FieldUnknown, name, fmt::format("there is no field {}", name));
+  report(ErrorCode::FieldUnknown, name, fmt::format("unknown field {}", name));
 }
 
 void MeasurementRowReader::report_row(ErrorCode code, std::string message) {
@@ -94,7 +94,8 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
     case RowField::Feature:
       if (const auto given_word = text(field, value)) {
         draft_.feature = iso286::feature_from_word(*given_word);
-        if (!draft_.feature) report(field, {ErrorCode::FieldInvalid, "feature is hole or shaft"});
+        if (!draft_.feature)
+          report(field, {ErrorCode::FieldInvalid, "feature must be hole or shaft"});
       }
       break;
     case RowField::Quantity:
@@ -123,20 +124,21 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
       break;
     case RowField::Coverage:
       draft_.rule.coverage_millionths =
-          decimal_in(field, value, 1, kLargestCoverage, "is above 0 and at most 100");
+          decimal_in(field, value, 1, kLargestCoverage, "must be above 0 and at most 100");
       break;
     case RowField::Rule:
       if (const auto rule = text(field, value)) {
         const auto kind = gauging::rule_from_word(*rule);
         draft_.rule.kind = kind.value_or(draft_.rule.kind);
         if (!kind) {
-          report(field, {ErrorCode::FieldInvalid, "rule is simple, guard_band or conformance"});
+          report(field,
+                 {ErrorCode::FieldInvalid, "rule must be one of: simple, guard_band, conformance"});
         }
       }
       break;
     case RowField::Probability:
       draft_.rule.probability_millionths =
-          decimal_in(field, value, kMillion / 2, kMillion - 1, "is at least 0.5 and below 1");
+          decimal_in(field, value, kMillion / 2, kMillion - 1, "must be at least 0.5 and below 1");
       break;
     default: {
       const app::MeasurementField& plain = *kRowFields[field].plain;
@@ -155,7 +157,7 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
 bool MeasurementRowReader::check_number(std::size_t field, const RawValue& value) {
   const bool fits = value.kind == RawValue::Kind::Number || value.kind == RawValue::Kind::String;
   if (!fits) {
-    report(field, {ErrorCode::FieldType, fmt::format("{} takes a number, not {}",
+    report(field, {ErrorCode::FieldType, fmt::format("{} must be a number; got {}",
                                                      kRowFields[field].name, name_of(value.kind))});
   }
   return fits;
@@ -206,15 +208,16 @@ std::optional<std::string_view> MeasurementRowReader::text(std::size_t field,
   const std::size_t longest = kRowFields[field].longest;
   if (value.kind != RawValue::Kind::String) {
     report(ErrorCode::FieldType, name,
-           fmt::format("{} takes a string, not {}", name, name_of(value.kind)));
+           fmt::format("{} must be a string; got {}", name, name_of(value.kind)));
     return std::nullopt;
   }
   if (value.text.size() > longest) {
-    report(ErrorCode::FieldTooLong, name, fmt::format("{} takes at most {} bytes", name, longest));
+    report(ErrorCode::FieldTooLong, name,
+           fmt::format("{} must have at most {} bytes", name, longest));
     return std::nullopt;
   }
   if (value.text.find('\0') != std::string_view::npos) {
-    report(ErrorCode::FieldInvalid, name, fmt::format("{} holds a NUL character", name));
+    report(ErrorCode::FieldInvalid, name, fmt::format("{} must not contain a NUL character", name));
     return std::nullopt;
   }
   return value.text;
@@ -225,7 +228,7 @@ std::optional<std::int64_t> MeasurementRowReader::truth(std::size_t field, const
   if (can_be && ascii_iequals(value.text, "true")) return 1;
   if (!can_be || !ascii_iequals(value.text, "false")) {
     const std::string_view name = kRowFields[field].name;
-    report(ErrorCode::FieldType, name, fmt::format("{} is true or false", name));
+    report(ErrorCode::FieldType, name, fmt::format("{} must be true or false", name));
   }
   return std::nullopt;
 }
@@ -312,8 +315,8 @@ void MeasurementRowReader::refuse_rule_without_limits() {
        {RowField::Uncertainty, RowField::Coverage, RowField::Rule, RowField::Probability}) {
     if (!given(field)) continue;
     report(ErrorCode::FieldConflict, kRowFields[field].name,
-           fmt::format("{} decides by limits, and none are given: give nominal_mm with "
-                       "tolerance_class, designation, or upper_um or lower_um",
+           fmt::format("{} needs limits: give nominal_mm with tolerance_class, designation, or "
+                       "upper_um or lower_um",
                        kRowFields[field].name));
   }
 }
@@ -327,17 +330,17 @@ void MeasurementRowReader::apply_size() {
   for (const auto& [name, value] : given_words) {
     if (*value && m.quantity && !is_size) {
       report(ErrorCode::FieldConflict, name,
-             fmt::format("{} belongs to a size, not to a {}", name, word(*m.quantity)));
+             fmt::format("{} is for sizes, not for a {}", name, word(*m.quantity)));
     }
   }
   if (m.envelope && m.envelope != app::kEnvelopeRequired) {
-    report(ErrorCode::FieldInvalid, "envelope", "envelope is required, or left out");
+    report(ErrorCode::FieldInvalid, "envelope", "envelope must be required or absent");
   }
   if (m.go_gauge && m.go_gauge != app::kGoPasses && m.go_gauge != app::kGoFails) {
-    report(ErrorCode::FieldInvalid, "go_gauge", "go_gauge is passes or fails");
+    report(ErrorCode::FieldInvalid, "go_gauge", "go_gauge must be passes or fails");
   } else if (m.go_gauge && !m.envelope) {
     report(ErrorCode::FieldMissing, "envelope",
-           "go_gauge verifies an envelope: give envelope required, or a designation with (E)");
+           "go_gauge needs an envelope: give envelope required, or a designation with (E)");
   }
   if (is_size && !m.size_operator) m.size_operator = "LP";
 }
@@ -359,7 +362,7 @@ const app::Measurement* MeasurementRowReader::end() {
   apply_size();
   if (m.degrees_of_freedom && !m.standard_uncertainty && !given(RowField::Uncertainty)) {
     report(ErrorCode::FieldMissing, kRowFields[RowField::Uncertainty].name,
-           "degrees_of_freedom are those of uncertainty_um, which is missing");
+           "degrees_of_freedom needs uncertainty_um");
   }
   if (!given(RowField::MeasuredAt)) m.measured_at = context_.received_at;
   apply_gauge();

@@ -25,7 +25,7 @@ struct NoteText {
       errors.add(ErrorCode::FieldTooLong, at, fmt::format("at most {} bytes", longest));
     } else if (text.find_first_not_of(" \t\r\n") == std::string_view::npos ||
                text.find('\0') != std::string_view::npos) {
-      errors.add(ErrorCode::FieldInvalid, at, "a text that is given is not blank");
+      errors.add(ErrorCode::FieldInvalid, at, "text must not be blank");
     }
   }
   bool read(FieldReader& fields, std::string_view name, std::string& to) const {
@@ -40,9 +40,9 @@ struct NoteText {
 
 /// What a caller says in a note.
 void given_members(auto& v, auto& note) {
-  v.optional("cause", note.cause, NoteText{}, "Why the value is what it is");
-  v.optional("measure", note.measure, NoteText{}, "What was done about it");
-  v.optional("text", note.text, NoteText{2000}, "Whatever else; one of the three is there");
+  v.optional("cause", note.cause, NoteText{}, "Cause of the value");
+  v.optional("measure", note.measure, NoteText{}, "Action after the value");
+  v.optional("text", note.text, NoteText{2000}, "Free text; one of the three is required");
   v.optional("operator", note.operator_id, NoteText{}, "Who says so");
 }
 
@@ -50,9 +50,9 @@ template <class N>
 requires std::same_as<std::remove_const_t<N>, app::Note>
 void members(auto& v, N& note) {
   v.member("id", note.id, "Opaque; sorts nowhere");
-  v.member("measurement_id", note.measurement, "The record it stands beside");
+  v.member("measurement_id", note.measurement, "The record of the note");
   given_members(v, note);
-  v.optional("caller", note.caller, "The name of the key that stored it");
+  v.optional("caller", note.caller, "Name of the key that stored the note");
   v.member("received_at", note.received_at, Time{}, "In UTC");
 }
 

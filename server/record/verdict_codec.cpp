@@ -32,11 +32,12 @@ Result<std::optional<gauging::ThermalBody>> read_body(const BodyWords& words) {
                  field};
   }
   if (!expands) {
-    return Error{ErrorCode::FieldMissing,
-                 fmt::format("an uncertainty of the {} is of its correction to 20 degrees, which "
-                             "needs {} or {}",
-                             words.name, number, field),
-                 number};
+    return Error{
+        ErrorCode::FieldMissing,
+        fmt::format(
+            "an uncertainty of the {} needs {} or {}: it belongs to the correction to 20 degrees",
+            words.name, number, field),
+        number};
   }
   gauging::ThermalBody body;
   if (words.material) {
@@ -47,9 +48,10 @@ Result<std::optional<gauging::ThermalBody>> read_body(const BodyWords& words) {
         names += names.empty() ? "" : ", ";
         names += known.name;
       }
-      return Error{ErrorCode::FieldInvalid,
-                   fmt::format("{} is one of {}; for another give {}", field, names, number),
-                   field};
+      return Error{
+          ErrorCode::FieldInvalid,
+          fmt::format("{} must be one of: {}; for other materials give {}", field, names, number),
+          field};
     }
     body.expansion = material->expansion;
     body.expansion_uncertainty = material->uncertainty;
@@ -96,11 +98,11 @@ void write_warnings(JsonWriter& json, std::span<const Warning> warnings) {
 void warn_of_no_acceptance(const gauging::DecisionRule& rule, Length tolerance,
                            std::vector<Warning>& warnings) {
   if (!gauging::has_no_acceptance(rule, tolerance)) return;
-  warnings.push_back({"rule.no_acceptance",
-                      fmt::format("no value can be good: the guard bands of {} um times {} leave "
-                                  "nothing of the tolerance of {} um",
-                                  format_um(rule.standard_uncertainty()),
-                                  format(rule.coverage_factor()), format_um(tolerance))});
+  warnings.push_back(
+      {"rule.no_acceptance", fmt::format("no value can be good: the guard bands of {} um times {} "
+                                         "are larger than the tolerance of {} um",
+                                         format_um(rule.standard_uncertainty()),
+                                         format(rule.coverage_factor()), format_um(tolerance))});
 }
 
 Result<std::optional<ThermalCorrection>> make_correction(const app::MeasurementFields& fields) {
@@ -119,7 +121,7 @@ Result<std::optional<ThermalCorrection>> make_correction(const app::MeasurementF
   if (!*part && !*scale) return std::optional<ThermalCorrection>();
   if (*part && !fields.temperature) {
     return Error{ErrorCode::FieldMissing,
-                 "temperature_c, of the part, is required beside its expansion", "temperature_c"};
+                 "temperature_c of the part is required with its expansion", "temperature_c"};
   }
   ThermalCorrection correction;
   correction.part = part->value_or(gauging::ThermalBody());
@@ -137,14 +139,15 @@ Result<void> check_measured(Length measured, gauging::Quantity quantity) {
   const bool is_above = is_signed ? measured >= -kLargestMeasured : measured > Length();
   if (is_above && measured <= kLargestMeasured) return {};
   return Error{ErrorCode::LengthOutOfRange,
-               fmt::format("a measured {} is {} and at most {} mm, not {}", word(quantity),
+               fmt::format("measured {} must be {} and at most {} mm; got {}", word(quantity),
                            is_signed ? "at least -100000000" : "above 0",
                            format_mm(kLargestMeasured), format_mm(measured))};
 }
 
 Result<void> check_uncertainty(Length uncertainty) {
   if (uncertainty >= Length()) return {};
-  return Error{ErrorCode::LengthOutOfRange, "an uncertainty is not negative", "uncertainty_um"};
+  return Error{ErrorCode::LengthOutOfRange, "an uncertainty must not be negative",
+               "uncertainty_um"};
 }
 
 Result<gauging::DecisionRule> make_rule(const RuleWords& words) {

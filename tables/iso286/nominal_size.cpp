@@ -5,7 +5,7 @@ namespace {
 
 Error out_of_range(std::string_view size) {
   return {ErrorCode::SizeOutOfRange,
-          "nominal size " + std::string(size) + " mm is not above 0 and up to 3150 mm"};
+          "nominal size " + std::string(size) + " mm must be above 0 and at most 3150 mm"};
 }
 
 }  // namespace

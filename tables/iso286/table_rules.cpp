@@ -51,9 +51,8 @@ std::vector<Error> compare_structure(const TableData& data) {
     const bool first = found.emplace(key_of(cell), &cell).second;
     const bool expected = compiled_in_by_key().contains(key_of(cell));
     if (first && expected) continue;
-    findings.push_back(
-        finding(cell.table, cell.range, cell.column,
-                first ? "the standard has no such cell" : "the cell is there twice"));
+    findings.push_back(finding(cell.table, cell.range, cell.column,
+                               first ? "the standard has no such cell" : "the cell occurs twice"));
   }
   for (const auto& [key, cell] : compiled_in_by_key()) {
     if (found.contains(key)) continue;
@@ -186,14 +185,16 @@ void check_row(const CustomColumn& column, std::size_t i, std::vector<Error>& fi
     findings.push_back(
         {ErrorCode::TableRowsInvalid, std::move(message), fmt::format("/rows/{}/{}", i, field)});
   };
-  if (row.range.over < Length()) add("over_mm", "a range starts at 0 mm or above");
-  if (row.range.up_to > kLargestNominalSize) add("up_to_mm", "a range ends at 3150 mm or below");
-  if (row.range.up_to <= row.range.over) add("up_to_mm", "a range ends above its start");
+  if (row.range.over < Length()) add("over_mm", "a range must start at 0 mm or above");
+  if (row.range.up_to > kLargestNominalSize)
+    add("up_to_mm", "a range must end at 3150 mm or below");
+  if (row.range.up_to <= row.range.over)
+    add("up_to_mm", "the end of a range must be above its start");
   if (row.deviations.upper < row.deviations.lower) {
-    add("upper_um", "the upper deviation is less than the lower one");
+    add("upper_um", "the upper deviation must not be less than the lower deviation");
   }
   if (i > 0 && row.range.over != column.rows[i - 1].range.up_to) {
-    add("over_mm", fmt::format("the range does not start where the one before ends, at {} mm",
+    add("over_mm", fmt::format("the range must start at the end of the previous range, {} mm",
                                format_mm(column.rows[i - 1].range.up_to)));
   }
 }
@@ -230,16 +231,17 @@ Result<void> check_custom_column(const CustomColumn& column) {
   std::vector<Error> findings;
   if (!is_class_name(column.name)) {
     findings.push_back({ErrorCode::TableRowsInvalid,
-                        "a column's name is a letter and up to 15 letters, digits or underscores",
+                        "the name must be a letter and up to 15 letters, digits or underscores",
                         "/name"});
   } else if (feature_of_name(column.name) != column.feature) {
     findings.push_back({ErrorCode::TableRowsInvalid,
-                        "names of hole columns start with an upper-case letter, those of shaft "
-                        "columns with a lower-case one",
+                        "the name for holes must begin with an upper-case letter, for shafts with "
+                        "a lower-case letter",
                         "/name"});
   } else if (column.name == "NR" || column.name == "BEREICH") {
-    findings.push_back({ErrorCode::TableRowsInvalid,
-                        "NR and BEREICH are columns of the control's table already", "/name"});
+    findings.push_back(
+        {ErrorCode::TableRowsInvalid,
+         "the name must not be NR or BEREICH: these are columns of the control's table", "/name"});
   }
   if (column.rows.empty()) {
     findings.push_back({ErrorCode::TableRowsInvalid, "a column needs at least one row", "/rows"});

@@ -124,13 +124,15 @@ Result<ClassId> ToleranceTables::find_class(std::string_view name) const {
   const bool has_digit = name.find_first_of("0123456789") != std::string_view::npos;
   if (!is_class_name(name) || !has_digit) {
     return Error{ErrorCode::DesignationMalformed,
-                 "a tolerance class is letters and a grade such as H7, or the name of a custom "
-                 "column"};
+                 "a tolerance class must be letters and a grade such as H7, or the name of a "
+                 "custom tolerance class"};
   }
-  return Error{ErrorCode::ClassUnknown,
-               fmt::format("'{}' is no class of ISO 286 (letters A to ZC without I, L, O, Q and W, "
-                           "or the same in lower case, grades 01 to 18) and no custom column",
-                           name)};
+  return Error{
+      ErrorCode::ClassUnknown,
+      fmt::format(
+          "unknown tolerance class '{}': use letters A to ZC without I, L, O, Q and W (holes; "
+          "lower case for shafts) and a grade 01 to 18, or a custom tolerance class",
+          name)};
 }
 
 Result<LimitsOfSize> ToleranceTables::limits_of_size(NominalSize size, ClassId id) const {
@@ -151,7 +153,8 @@ Result<LimitsOfSize> ToleranceTables::limits_of_size(NominalSize size,
 
 Result<Fit> ToleranceTables::fit(NominalSize size, ClassId hole, ClassId shaft) const {
   if (feature(hole) != Feature::Hole || feature(shaft) != Feature::Shaft) {
-    return Error{ErrorCode::FitMalformed, "a fit is the class of a hole, then of a shaft: H7/g6"};
+    return Error{ErrorCode::FitMalformed,
+                 "a fit must be the class of a hole, then of a shaft, such as H7/g6"};
   }
   const auto hole_limits = limits_of_size(size, hole);
   if (!hole_limits) return hole_limits.error();
@@ -191,9 +194,10 @@ Error ToleranceTables::undefined(NominalSize size, ClassId id) const {
   std::string message =
       fmt::format("{} is not defined for {} mm: ", class_name(id), format_mm(size.length()));
   if (covered) {
-    message += "its lower limit of size would be 0 or less";
+    message += "the lower limit of size must be above 0";
   } else {
-    message += basis(id) == Basis::Custom ? "the custom column covers sizes " : "ISO 286 has it ";
+    message +=
+        basis(id) == Basis::Custom ? "the custom tolerance class covers sizes " : "ISO 286 has it ";
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       if (i > 0) message += ", and ";
       message += format_range(ranges[i]);

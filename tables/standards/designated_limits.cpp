@@ -33,12 +33,12 @@ Error unknown_class(std::string_view text) {
   constexpr std::string_view kGeometry = "HKL";
   const bool geometry = text.size() > kGeneralTolerance.size() + 2 &&
                         kGeometry.find(text.back()) != std::string_view::npos;
-  return {
-      ErrorCode::ClassUnknown,
-      fmt::format(
-          "'{}' is no class of ISO 2768-1, which has f, m, c and v{}", first_characters(text, 40),
-          geometry ? fmt::format("; {} is of ISO 2768-2, for geometry: leave it out", text.back())
-                   : std::string())};
+  return {ErrorCode::ClassUnknown,
+          fmt::format("unknown class '{}' of ISO 2768-1; its classes are f, m, c and v{}",
+                      first_characters(text, 40),
+                      geometry ? fmt::format("; {} belongs to ISO 2768-2 (geometry): remove it",
+                                             text.back())
+                               : std::string())};
 }
 
 /// ISO 2768-1 as limits_of() says. An outside dimension, unless the caller knows better.
@@ -122,10 +122,10 @@ Result<DesignatedLimits> bearing_limits(Length nominal, std::string_view toleran
   const auto* const known =
       std::find(kBearingClasses.begin(), kBearingClasses.end(), tolerance_class);
   if (known == kBearingClasses.end()) {
-    return Error{ErrorCode::ClassUnknown,
-                 fmt::format("'{}' is no class of ISO 492 here: use ISO 492-normal, ISO 492-P6 or "
-                             "ISO 492-P5",
-                             first_characters(tolerance_class, 40))};
+    return Error{
+        ErrorCode::ClassUnknown,
+        fmt::format("unknown class '{}' of ISO 492: use ISO 492-normal, ISO 492-P6 or ISO 492-P5",
+                    first_characters(tolerance_class, 40))};
   }
   const bool is_bore = feature == iso286::Feature::Hole;
   for (const Row& row : standard.table(is_bore ? "bores" : "outer_rings").rows) {
@@ -139,10 +139,11 @@ Result<DesignatedLimits> bearing_limits(Length nominal, std::string_view toleran
                                            .lower = row.length(item, Member::Lower).value()},
                             .size_range = iso286::NominalSizeRange{*row.over, *row.up_to}};
   }
-  return Error{ErrorCode::ClassUndefinedForSize,
-               fmt::format("ISO 492 has no {} of {} mm here: bores are from 0.6 and outer rings "
-                           "from 2.5 to 630 mm",
-                           is_bore ? "bore" : "outer ring", format_mm(nominal))};
+  return Error{
+      ErrorCode::ClassUndefinedForSize,
+      fmt::format(
+          "ISO 492 has no {} of {} mm: use bores from 0.6 and outer rings from 2.5 to 630 mm",
+          is_bore ? "bore" : "outer ring", format_mm(nominal))};
 }
 
 void append_designation(std::string& out, Length nominal, std::string_view tolerance_class) {

@@ -79,7 +79,7 @@ Result<std::optional<Length>> coarse_pitch(Length diameter) {
     if (row.diameter == diameter) return row.length("coarse_pitch", Member::Nominal);
   }
   return Error{ErrorCode::ClassUndefinedForSize,
-               fmt::format("M{} is no thread of ISO 261", format_mm(diameter))};
+               fmt::format("M{} is not a thread of ISO 261", format_mm(diameter))};
 }
 
 Result<Thread> parse(std::string_view designation) {
@@ -151,15 +151,15 @@ Result<Length> deviation_of(const Thread& thread) {
   }
   if (position >= "a" && position <= "d") {
     return Error{ErrorCode::ClassUnknown,
-                 fmt::format("the position {} of ISO 965-1 is left out: no second source of its "
-                             "deviations that is public was found; state them: nominal_mm, "
-                             "feature, upper_um, lower_um",
+                 fmt::format("the position {} of ISO 965-1 is not available: give its limits by "
+                             "nominal_mm, feature, upper_um, lower_um",
                              position)};
   }
-  return Error{ErrorCode::ClassUnknown,
-               fmt::format("the position {} is not known: internal threads have G and H, external "
-                           "ones e, f, g and h",
-                           position)};
+  return Error{
+      ErrorCode::ClassUnknown,
+      fmt::format(
+          "unknown position {}: internal threads have G and H, external threads have e, f, g and h",
+          position)};
 }
 
 /// d - 3 sqrt(3) P / 8, to the micrometre.

@@ -122,7 +122,7 @@ void replay(const SharedPosting& posting, app::Answer kept) {
 http::Response invalid_program(const http::Request& request, const std::string& program,
                                const std::vector<klartext::Diagnostic>& diagnostics) {
   http::Response response = problem(
-      {ErrorCode::ProgramInvalid, program + " or a program it calls has errors; each is listed"},
+      {ErrorCode::ProgramInvalid, program + " or a program that it calls has errors"},
       std::nullopt, request);
   auto& body = std::get<std::string>(response.body);
   body.pop_back();

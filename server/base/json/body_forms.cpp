@@ -12,7 +12,7 @@ bool Text::read(FieldReader& fields, std::string_view name, std::string& to) con
     to = *std::move(given);
   } else {
     fields.report(ErrorCode::FieldTooLong, name,
-                  fmt::format("{} takes at most {} bytes", name, longest));
+                  fmt::format("{} must have at most {} bytes", name, longest));
   }
   return fits;
 }
@@ -61,7 +61,7 @@ bool Number::read(FieldReader& fields, std::string_view name, double& to) const 
     to = *given;
   } else {
     const std::string_view between =
-        ends == Ends::Closed ? "lies from {} to {}" : "lies between {} and {}";
+        ends == Ends::Closed ? "must be from {} to {}" : "must be between {} and {}";
     const std::string wanted =
         must.empty() ? fmt::format(fmt::runtime(between), least, most) : std::string(must);
     fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} {}", name, wanted));

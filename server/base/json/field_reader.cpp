@@ -29,7 +29,7 @@ std::string listed(std::string_view words) {
 std::optional<std::string> not_applicable(const Applicable& row, std::string_view what,
                                           std::string_view kind) {
   if (has_word(row.kinds, kind)) return std::nullopt;
-  return fmt::format("{}{}{} would change nothing with {} {}: it belongs to {} {}", row.member,
+  return fmt::format("{}{}{} has no effect with {} {}: it belongs to {} {}", row.member,
                      row.values.empty() ? "" : " ", row.values, what, kind, what,
                      listed(row.kinds));
 }
@@ -62,7 +62,7 @@ FieldReader::FieldReader(const JsonValue& object, std::string pointer, FieldErro
     : object_(object), pointer_(std::move(pointer)), errors_(errors) {
   if (!object.is(Kind::Object)) {
     errors_.add(ErrorCode::FieldType, pointer_,
-                fmt::format("an object is wanted, not {}", name_of(object.kind)));
+                fmt::format("must be an object; got {}", name_of(object.kind)));
   }
 }
 
@@ -86,7 +86,7 @@ const JsonValue* FieldReader::take(std::string_view name, bool required,
     return value;
   }
   report(ErrorCode::FieldType, name,
-         fmt::format("{} takes {}, not {}", name, wanted, name_of(value->kind)));
+         fmt::format("{} must be {}; got {}", name, wanted, name_of(value->kind)));
   return nullptr;
 }
 
@@ -148,7 +148,7 @@ std::optional<std::int64_t> FieldReader::integer(std::string_view name, std::int
   const auto [stop, failure] = std::from_chars(value->text.data(), end, parsed);
   if (failure == std::errc() && stop == end && parsed >= least && parsed <= most) return parsed;
   report(ErrorCode::FieldInvalid, name,
-         fmt::format("{} takes a whole number from {} to {}", name, least, most));
+         fmt::format("{} must be a whole number from {} to {}", name, least, most));
   return std::nullopt;
 }
 
@@ -183,7 +183,7 @@ void FieldReader::refuse_not_applicable(std::span<const Applicable> table, std::
 void FieldReader::refuse_unknown() {
   for (const auto& [name, value] : object_.members) {
     if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
-      report(ErrorCode::FieldUnknown, name, fmt::format("there is no field {}", name));
+      report(ErrorCode::FieldUnknown, name, fmt::format("unknown field {}", name));
     }
   }
 }

@@ -102,7 +102,7 @@ class Builder final : public nlohmann::json_sax<WideJson> {
     open_.pop_back();
     if (const auto name = repeated_name(value)) {
       error_ =
-          Error{ErrorCode::JsonDuplicateKey, fmt::format("the key \"{}\" stands twice", *name)};
+          Error{ErrorCode::JsonDuplicateKey, fmt::format("the key \"{}\" occurs twice", *name)};
       return false;
     }
     return add(std::move(value));
@@ -138,7 +138,7 @@ class Builder final : public nlohmann::json_sax<WideJson> {
 Result<JsonValue> read(std::string_view text, const JsonItemHandler& handle_item,
                        std::size_t most) {
   if (text.starts_with("\xEF\xBB\xBF")) {
-    return Error{ErrorCode::TextEncoding, "JSON begins with a byte-order mark: leave it out"};
+    return Error{ErrorCode::TextEncoding, "JSON begins with a byte-order mark: remove it"};
   }
   if (const std::size_t at = find_invalid_utf8(text); at != std::string_view::npos) {
     return Error{ErrorCode::TextEncoding, fmt::format("byte {} is not UTF-8", at), place(text, at)};
@@ -198,8 +198,8 @@ Result<JsonValue> parse_stored_json(std::string_view text, std::string_view what
   auto value = parse_json(text, handle_item);
   if (value) return value;
   return Error{ErrorCode::StorageCorrupt,
-               fmt::format("the stored {} cannot be read ({}); restore a backup or delete it", what,
-                           value.error().message)};
+               fmt::format("the stored {} cannot be read ({}): restore a backup, or delete it",
+                           what, value.error().message)};
 }
 
 std::string pointer_to(std::string_view pointer, std::string_view token) {
@@ -252,8 +252,8 @@ Result<std::string> stored_member(std::string_view object, std::string_view name
   if (failure == simdjson::NO_SUCH_FIELD) return std::string();
   if (failure == simdjson::SUCCESS) return std::string(found);
   return Error{ErrorCode::StorageCorrupt,
-               fmt::format("the stored {} cannot be read ({}); restore a backup or delete it", what,
-                           simdjson::error_message(failure))};
+               fmt::format("the stored {} cannot be read ({}): restore a backup, or delete it",
+                           what, simdjson::error_message(failure))};
 }
 
 }  // namespace fitgauge::api

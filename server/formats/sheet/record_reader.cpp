@@ -124,7 +124,7 @@ Result<void> RecordReader::read_cell(std::string& cell, Record& record) {
     const std::size_t end = rest_.find('"');
     if (end == std::string_view::npos) {
       rest_ = {};
-      return at_table_line(ErrorCode::CsvMalformed, record.line, "has a quote that is not closed");
+      return at_table_line(ErrorCode::CsvMalformed, record.line, "has a quote without its end");
     }
     for (const char c : rest_.substr(0, end)) record.lines += c == '\n' ? 1 : 0;
     cell += rest_.substr(0, end);

@@ -160,7 +160,7 @@ Result<void> ShopRows::Converter::convert_row(const Record& record, std::string&
   if (record.cells.size() != header_.size()) {
     return at_table_line(
         ErrorCode::CsvMalformed, record.line,
-        fmt::format("has {} cells and the header {}", record.cells.size(), header_.size()));
+        fmt::format("has {} cells, and the header has {}", record.cells.size(), header_.size()));
   }
   if (const auto checked = check_export(record); !checked) return checked.error();
   bool is_first = true;

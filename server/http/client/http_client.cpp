@@ -249,8 +249,8 @@ HttpAnswer HttpClient::call(const HttpCall& call, const std::function<bool()>& g
   answer.failure = handle.reason(code);
   if (handle.gate.has_refused) {
     answer.failure =
-        "its address is one of this machine or a private network: allow these by "
-        "allow_private_addresses in the configuration of the service";
+        "the address belongs to this machine or a private network: set allow_private_addresses in "
+        "the configuration to allow it";
   }
   return answer;
 }
@@ -270,7 +270,7 @@ std::optional<std::string> fault_of_url(const std::string& url) {
   const std::string scheme = part(CURLUPART_SCHEME);
   if (scheme != "https" && scheme != "http") return "an address begins with https:// or http://";
   if (!part(CURLUPART_USER).empty() || !part(CURLUPART_PASSWORD).empty()) {
-    return "an address holds no name and password: the signature says who sends";
+    return "the address must not contain a name or password: the signature identifies the sender";
   }
   return std::nullopt;
 }

@@ -79,7 +79,7 @@ Result<DecisionRule> DecisionRule::guard_band(Length standard_uncertainty, Cover
 Result<ConformanceProbability> ConformanceProbability::from_millionths(std::int64_t millionths) {
   if (millionths < 500'000 || millionths >= 1'000'000) {
     return Error{ErrorCode::RuleInvalid,
-                 "the probability of conformance is at least 0.5 and below 1; 0.95 is usual"};
+                 "the probability of conformance must be at least 0.5 and below 1; 0.95 is usual"};
   }
   return ConformanceProbability(millionths);
 }

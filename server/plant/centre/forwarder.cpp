@@ -138,8 +138,8 @@ Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
   if (!batch) return failed(Sent::Failed, batch.error().message);
   if (batch->unsigned_to && lacks_records_) {
     return failed(Sent::Refused,
-                  "the centre lacks records from before an older copy was put back, and the key "
-                  "that signs them is lost: put it back into fitgauge.log.key");
+                  "the centre lacks records of an earlier history, and the key for their signature "
+                  "is missing: restore fitgauge.log.key");
   }
   if (batch->unsigned_to) {  // perhaps it has them
     confirmed_ = *batch->unsigned_to;
@@ -164,7 +164,7 @@ Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::
   const auto json = parse_json(answer.body);
   if (answer.status == kOk) {
     if (!json || size_of(*json) != end) {
-      return failed(Sent::Failed, "the centre's answer is none of a centre");
+      return failed(Sent::Failed, "the answer is not from a centre: check forward-to");
     }
     most_rows_ = app::LogOutbox::kMostRows;
     took(end);
@@ -209,24 +209,22 @@ Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root)
     return Sent::Taken;
   }
   if (*same == true) return failed(Sent::Failed, "the centre is behind itself");
-  return forked(*same
-                    ? fmt::format("the {} records of this log at the centre are others than here: "
-                                  "this folder was copied and started twice, or an older copy "
-                                  "was put back",
-                                  size)
-                    : fmt::format("the centre has {} records of this log, which are more than "
-                                  "there are here: an older copy was put back, or this folder was "
-                                  "copied and started twice",
-                                  size));
+  return forked(
+      *same ? fmt::format("the {} records of this log at the centre differ from the records here: "
+                          "this folder was copied and started twice, or an older copy was restored",
+                          size)
+            : fmt::format("the centre has {} records of this log, more than this folder: an older "
+                          "copy was restored, or this folder was copied and started twice",
+                          size));
 }
 
 /// Two folders go on under one history: no more ids are given out.
 Forwarder::Sent Forwarder::forked(const std::string& why) {
-  outbox_.set_forked(fmt::format(
-      "the centre refuses what follows: {}. No measurement is taken, so that none gets the id of "
-      "another: put a backup back from before the two folders went apart, or start with an empty "
-      "folder",
-      why));
+  outbox_.set_forked(
+      fmt::format("the centre refuses the next records: {}. The service stores nothing, because "
+                  "ids would repeat: restore a backup from before the two folders differed, or "
+                  "start with an empty folder",
+                  why));
   return failed(Sent::Refused, why);
 }
 

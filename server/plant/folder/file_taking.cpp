@@ -35,7 +35,7 @@ aqdef::LimitsOfClass limits_by(const iso286::ToleranceTables& tables) {
 
 Error too_large(std::string_view what) {
   return {ErrorCode::BodyTooLarge,
-          fmt::format("it has more than {}: cut it into several files", what)};
+          fmt::format("it has more than {}: split it into several files", what)};
 }
 
 template <class Source>
@@ -241,10 +241,10 @@ std::string told(std::string_view file_name, const Error& error) {
         slash == std::string::npos ? std::string() : field.where.substr(slash + 1) + ": ";
     text += fmt::format("{}{}{}\n", line, name, field.message);
   }
-  if (count >= kMostTold) text += "\nThere can be more: these are the first.\n";
+  if (count >= kMostTold) text += "\nThese are the first errors; the file may have more.\n";
   text +=
-      "\nPut it right and put the file back into the folder above. Names of columns and constants "
-      "are settings of the connection: map, set, time_zone, encoding, length_unit.\n";
+      "\nCorrect the file and move it back to the folder above. Names of columns and constants are "
+      "settings of the connection: map, set, time_zone, encoding, length_unit.\n";
   return text;
 }
 

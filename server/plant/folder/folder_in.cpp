@@ -169,7 +169,7 @@ Result<std::string> FolderIn::description_of(const std::string& name, const Seen
   }
   return Error{
       ErrorCode::RequestInvalid,
-      fmt::format("its description, {}.dfd, is not in the folder: put both into it", stem)};
+      fmt::format("its description {}.dfd is not in the folder: copy both files into it", stem)};
 }
 
 std::optional<std::string> FolderIn::take(const Folder& folder, const std::string& name,
@@ -190,7 +190,7 @@ std::optional<std::string> FolderIn::take(const Folder& folder, const std::strin
     if (look.size > static_cast<std::int64_t>(options_.most_file_bytes)) {
       return fail(folder, names,
                   {ErrorCode::BodyTooLarge,
-                   fmt::format("it has more than {} MiB: cut it into several files",
+                   fmt::format("it has more than {} MiB: split it into several files",
                                options_.most_file_bytes >> 20)});
     }
     auto file = RestingFile::open(folder, one, look);

@@ -61,23 +61,23 @@ TextsBy(Fault) -> TextsBy<Fault>;
 
 std::string fault_of_column(std::string_view, std::string_view to) {
   if (to.empty() || to == "date" || to == "time" || is_field(to)) return {};
-  return fmt::format("there is no field {}; an empty text leaves the column out",
+  return fmt::format("unknown field {}; an empty text ignores the column",
                      first_characters(to, 100));
 }
 
 std::string fault_of_constant(std::string_view field, std::string_view) {
   if (is_field(field) && field != "measured_mm") return {};
-  return fmt::format("{} is no field that all rows can have alike", first_characters(field, 100));
+  return fmt::format("{} must not be set for all rows", first_characters(field, 100));
 }
 
 Result<sheet::Encoding> read_encoding(std::string_view word) {
   if (const auto encoding = sheet::encoding_from_word(word)) return *encoding;
-  return invalid_field("encoding is auto, utf-8, utf-16 or windows-1252");
+  return invalid_field("encoding must be one of: auto, utf-8, utf-16, windows-1252");
 }
 
 Result<aqdef::LengthUnit> read_unit(std::string_view name) {
   if (const auto unit = aqdef::length_unit(name)) return *unit;
-  return invalid_field("length_unit is mm, \xC2\xB5m, cm, m or inch");
+  return invalid_field("length_unit must be one of: mm, \xC2\xB5m, cm, m, inch");
 }
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;
@@ -91,25 +91,26 @@ Error unreadable(const std::string& name) {
 
 template <class V>
 void members(V& v, FolderInOptions& options) {
-  v.member("folder", options.folder, path_for(v), "Of this machine, an absolute path");
+  v.member("folder", options.folder, path_for(v), "Absolute path on this machine");
   v.optional("names", options.names,
              Each{1, 20, "names", api::schema::text(kLongestGlob), read_glob},
-             "Of files, with * and ?; *.csv and such");
+             "Names of files, with * and ?, such as *.csv");
   v.optional("map", options.csv.columns, TextsBy{fault_of_column},
-             "A column's name and the field it is, date or time; empty leaves it out");
+             "Name of a column and its field, date or time; empty ignores the column");
   v.optional("set", options.csv.constants, TextsBy{fault_of_constant},
              "A field and its value for every row");
   v.optional("time_zone", options.csv.zone, By{0, sheet::TimeZone::load},
-             "Of times without an offset: Europe/Berlin");
+             "Time zone of times without an offset, such as Europe/Berlin");
   v.optional("encoding", options.csv.encoding, By{0, read_encoding},
              "auto, utf-8, utf-16, windows-1252; auto when absent");
   v.optional("other_columns", options.csv.leaves_out_others,
              Choice<bool>{{{"refuse", false}, {"leave_out", true}}}, "refuse when absent");
   v.optional("length_unit", options.length_unit, By{0, read_unit},
-             "Of a DFQ that names none: mm, inch");
-  v.optional("interval_s", options.interval, Within{1, 3600}, "Between two looks; 10 when absent");
+             "Unit of a DFQ without a unit: mm, inch");
+  v.optional("interval_s", options.interval, Within{1, 3600},
+             "Seconds between two scans of the folder; 10 when absent");
   v.optional("rest_s", options.rest, Within{1, 3600},
-             "Size and time of a file are the same for so long; 2 when absent");
+             "Seconds without a change of a file's size and time; 2 when absent");
 }
 
 Kind folder_in_kind() { return kind_of<FolderInOptions>("folder_in"); }

@@ -162,9 +162,9 @@ auto part_text(std::size_t longest, int field) {
 
 template <class V>
 void members(V& v, FolderOutOptions& options) {
-  v.member("folder", options.folder, path_for(v), "Of this machine, an absolute path");
+  v.member("folder", options.folder, path_for(v), "Absolute path on this machine");
   v.optional("time_zone", options.dfq.zone, By{0, sheet::TimeZone::load},
-             "Of the times in a DFQ; UTC when absent");
+             "Time zone of times in a DFQ; UTC when absent");
   v.optional("format", options.format,
              Choice<Format>{{{"csv", Format::Csv},
                              {"ndjson", Format::Ndjson},
@@ -178,9 +178,9 @@ void members(V& v, FolderOutOptions& options) {
   v.optional(
       "split", options.split,
       Choice<Split>{{{"none", Split::None}, {"part_id", Split::Part}, {"order", Split::Order}}},
-      "A file has measurements of one of these alone; none when absent");
+      "Field that separates files, one value for each file; none when absent");
   v.optional("every_s", options.follower.gather, Within{1, 86'400},
-             "What is younger waits for more; 60 when absent");
+             "Seconds that new measurements wait for more; 60 when absent");
   follower_members(v, options.follower);
 }
 

@@ -154,7 +154,7 @@ Result<std::optional<app::SizeLimits>> drawn_limits(const Fields& fields, Length
     const auto lower = as_deviation ? fields.micrometres(names[1]) : fields.length(names[1]);
     if (!lower) return lower.error();
     const Length base = as_deviation ? nominal : Length();
-    if (*upper < *lower) return field_error("the upper limit is below the lower one");
+    if (*upper < *lower) return field_error("the upper limit must not be below the lower limit");
     return std::optional(app::SizeLimits{.upper = base + *upper, .lower = base + *lower});
   }
   return std::optional<app::SizeLimits>();
@@ -173,7 +173,7 @@ Result<void> judge_by_drawing(Measurement& measurement, const Fields& fields) {
   size.limits = *limits;
   const std::string_view feature = fields.text("feature");
   if (!feature.empty() && feature != "hole" && feature != "shaft") {
-    return field_error(fmt::format("feature is hole or shaft, not '{}'", feature));
+    return field_error(fmt::format("feature must be hole or shaft; got '{}'", feature));
   }
   if (feature == "shaft") size.feature = iso286::Feature::Shaft;
   judge_size(measurement, size);
@@ -186,7 +186,7 @@ Result<void> take_time(Measurement& measurement, CollectedLog& log, const Fields
   LocalTime local;
   if (!log_reader::read_date(fields.text("date"), local) ||
       !log_reader::read_time(fields.text("time"), local)) {
-    return field_error(fmt::format("'{} {}' is no date and time: DD-MM-YYYY and H:MM:SS",
+    return field_error(fmt::format("date and time must be DD-MM-YYYY and H:MM:SS; got '{} {}'",
                                    fields.text("date"), fields.text("time")));
   }
   measurement.measured_at = instant(local);
@@ -200,7 +200,7 @@ Result<std::shared_ptr<CollectedLog>> collected(const PatternResult& result, con
   Measurement measurement = begun(*log, origin);
   const auto measured = fields.length("measured_mm");
   if (!measured) return measured.error();
-  if (*measured <= Length()) return field_error("a measured size is above 0");
+  if (*measured <= Length()) return field_error("a measured size must be above 0");
   measurement.measured = *measured;
   if (const auto taken = take_time(measurement, *log, fields); !taken) return taken.error();
   for (const app::MeasurementField& field : app::kLabels) {

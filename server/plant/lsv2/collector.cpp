@@ -1,6 +1,5 @@
 #include "plant/lsv2/collected_log.hpp"
 
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -149,7 +148,7 @@ std::optional<std::string> Collector::fetch(LinkClient& control, const std::stri
                         known->second.unix_time == entry.unix_time;
   if (is_known && known->second.is_settled) return std::nullopt;
   if (entry.bytes > options_.most_file_bytes) {
-    return fmt::format("{}: is longer than {} bytes: move it away on the control", path,
+    return fmt::format("{}: has more than {} bytes: move it away on the control", path,
                        options_.most_file_bytes);
   }
   if (round_bytes_ + entry.bytes > options_.most_round_bytes) return std::nullopt;
@@ -188,12 +187,14 @@ constexpr std::size_t kMostPatterns = 20;
 
 Result<control_link::ControlAddress> read_address(std::string_view text) {
   if (const auto address = control_link::parse_control_address(text)) return *address;
-  return invalid_field(fmt::format("'{}' is no HOST or HOST:PORT", first_characters(text, 100)));
+  return invalid_field(
+      fmt::format("address must be HOST or HOST:PORT; got '{}'", first_characters(text, 100)));
 }
 
 /// `TNC:\nc_prog\TCHPR*.TXT`; `/` separates as `\` does.
 Result<WatchedPath> read_watched(const JsonValue& item) {
-  if (!item.is(JsonValue::Kind::String)) return Error{ErrorCode::FieldType, "a path is a text"};
+  if (!item.is(JsonValue::Kind::String))
+    return Error{ErrorCode::FieldType, "a path must be a text"};
   std::string path = item.text;
   std::replace(path.begin(), path.end(), '/', '\\');
   const std::size_t stroke = path.rfind('\\');
@@ -201,10 +202,10 @@ Result<WatchedPath> read_watched(const JsonValue& item) {
                        stroke + 1 < path.size() && path.find("..") == std::string::npos &&
                        path.find_first_of("*?") >= stroke;
   if (is_path) return WatchedPath{path.substr(0, stroke + 1), path.substr(stroke + 1)};
-  return invalid_field(fmt::format(
-      "'{}' is no path to watch: write a folder of TNC:\\ and a file name, which may have "
-      "* and ?, such as TNC:\\nc_prog\\TCHPR*.TXT",
-      item.text));
+  return invalid_field(
+      fmt::format("a path must be a folder of TNC:\\ and a file name (* and ? allowed), such as "
+                  "TNC:\\nc_prog\\TCHPR*.TXT; got '{}'",
+                  item.text));
 }
 
 struct Patterns {
@@ -255,13 +256,13 @@ template <class V>
 void members(V& v, MachineOptions& machine) {
   v.member("address", machine.address, By{0, read_address}, "host or host:port of the control");
   v.member("paths", machine.paths,
-           Each{1, 100, "paths are watched, such as TNC:\\nc_prog\\TCHPR*.TXT", api::schema::text(),
-                read_watched},
+           Each{1, 100, "paths of the control, such as TNC:\\nc_prog\\TCHPR*.TXT",
+                api::schema::text(), read_watched},
            "What is watched: TNC:\\nc_prog\\TCHPR*.TXT");
   v.optional("machine", machine.machine, api::Text{200},
-             "Of its measurements; its name when absent");
+             "Machine of the measurements; the name of the connection when absent");
   v.optional("interval_s", machine.interval, Within{1, 86'400},
-             "Between two attempts; 60 when absent");
+             "Time between two attempts; 60 when absent");
   v.optional("patterns", machine.patterns, Patterns{}, "For files of FN 16");
 }
 

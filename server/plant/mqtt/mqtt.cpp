@@ -124,7 +124,7 @@ Delivery Mqtt::publish(const Items& items, const std::stop_token& stop, const Co
       if (stop.stop_requested()) return delivery;
       // What is on its way comes again over a new connection: a broker that is out of step ends.
       delivery.failure =
-          link_.give_up(reason ? mqtt_reason(*reason) : "it does not acknowledge what it is sent");
+          link_.give_up(reason ? mqtt_reason(*reason) : "the broker does not acknowledge messages");
       return delivery;
     }
     if (*reason != 0) {
@@ -161,13 +161,13 @@ void members(V& v, MqttOptions& options) {
   v.member("topic", options.topic, By{kLongestTopic, TopicTemplate::parse},
            "plant/{machine}/{characteristic}");
   v.optional("version", options.broker.version_5, Choice<bool>{{{"3.1.1", false}, {"5", true}}},
-             "Of MQTT; 3.1.1 when absent");
+             "Version of MQTT; 3.1.1 when absent");
   v.optional("status_topic", options.status_topic, plain_topic("status_topic"),
-             "Of online and offline; client_id/status when absent");
+             "Topic of online and offline; client_id/status when absent");
   v.optional("events_topic", options.events_topic, plain_topic("events_topic"),
-             "Above the type of an event; client_id/events when absent");
+             "Topic before the type of an event; client_id/events when absent");
   v.optional("retain", options.retain, Truth{},
-             "The broker keeps the last of each topic; true when absent");
+             "The broker keeps the last message of each topic; true when absent");
   event_members(v, options.follower);
   follower_members(v, options.follower);
 }

@@ -125,7 +125,8 @@ void MqttClient::Loop::on_connect(mosquitto*, void* user, int reason, int, Prope
 void MqttClient::Loop::on_disconnect(mosquitto*, void* user, int reason, Properties) {
   auto& loop = *static_cast<Loop*>(user);
   if (loop.client_.broker_.version_5 && reason >= 128 && loop.refusal_.empty()) {
-    loop.refusal_ = fmt::format("it ends the connection: {}", mosquitto_reason_string(reason));
+    loop.refusal_ =
+        fmt::format("the broker ended the connection: {}", mosquitto_reason_string(reason));
   }
 }
 
@@ -291,7 +292,7 @@ void MqttClient::Loop::run(const std::stop_token& stop) {
   } else if (is_late) {
     end(fmt::format("the broker {} does not answer", address));
   } else if (ended == MOSQ_ERR_ERRNO) {
-    end(fmt::format("the broker {} is not reached: {}", address,
+    end(fmt::format("the broker {} cannot be reached: {}", address,
                     std::strerror(errno != 0 ? errno : socket_error)));
   } else if (ended == MOSQ_ERR_TLS) {
     end(fmt::format("the broker {}: TLS fails: {}", address,

@@ -105,25 +105,26 @@ std::string topic_level(std::string_view text) {
 Result<TopicTemplate> TopicTemplate::parse(std::string_view text) {
   // The broker keeps $ for itself; a text that begins with one must not get there.
   if (text.starts_with('$') || text.starts_with('{')) {
-    return invalid("a topic begins with a word of your own, such as plant/");
+    return invalid("a topic must begin with your own word, such as plant/");
   }
   return parse_parts(text);
 }
 
 Result<TopicTemplate> TopicTemplate::parse_level(std::string_view text) {
-  if (text.find('/') != std::string_view::npos) return invalid("one level of a topic has no /");
+  if (text.find('/') != std::string_view::npos)
+    return invalid("one level of a topic must not have /");
   return parse_parts(text);
 }
 
 Result<TopicTemplate> TopicTemplate::parse_parts(std::string_view text) {
   if (text.empty() || text.size() > kLongest) {
-    return invalid(fmt::format("a topic has 1 to {} bytes", kLongest));
+    return invalid(fmt::format("a topic must have 1 to {} bytes", kLongest));
   }
   TopicTemplate made;
   while (!text.empty()) {
     const std::size_t open = text.find('{');
     const std::string_view literal = text.substr(0, open);
-    if (!is_literal(literal)) return invalid("a topic has no +, #, } and control characters");
+    if (!is_literal(literal)) return invalid("a topic must not have +, #, } or control characters");
     made.parts_.push_back({.text = std::string(literal)});
     if (open == std::string_view::npos) break;
     text.remove_prefix(open + 1);
@@ -131,7 +132,7 @@ Result<TopicTemplate> TopicTemplate::parse_parts(std::string_view text) {
     const std::string_view name = text.substr(0, close);
     if (close == std::string_view::npos || !value_of({}, name)) {
       return invalid(
-          fmt::format("there is no {{{}}}: take {}", first_characters(name, 40), names()));
+          fmt::format("unknown {{{}}}; use one of: {}", first_characters(name, 40), names()));
     }
     made.parts_.push_back({.is_name = true, .text = std::string(name)});
     text.remove_prefix(close + 1);
@@ -190,8 +191,8 @@ Result<std::string> read_client_id(std::string_view id) {
         return c > ' ' && c < '\x7F' && c != '+' && c != '#';
       });
   if (is_id) return std::string(id);
-  return invalid_field(fmt::format("client_id has 1 to {} ASCII characters without blanks, + and #",
-                                   kLongestClientId));
+  return invalid_field(fmt::format(
+      "client_id must have 1 to {} ASCII characters without blanks, + and #", kLongestClientId));
 }
 
 Broker named(Broker broker, std::string_view origin, std::string_view connection) {

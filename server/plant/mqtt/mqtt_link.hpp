@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "plant/settings.hpp"
 #include "plant/mqtt/mqtt_client.hpp"
 #include "plant/plant.hpp"
+#include "plant/settings.hpp"
 #include "record/measurement.hpp"
 
 namespace fitgauge::connections {
@@ -83,12 +83,12 @@ Result<std::string> read_client_id(std::string_view id);
 
 /// The form of a user or a password.
 inline auto short_text(std::string_view name) {
-  return By{
-      kLongestBrokerText, [name](std::string_view text) -> Result<std::string> {
-        if (text.size() <= kLongestBrokerText && text.find('\0') == text.npos)
-          return std::string(text);
-        return invalid_field(fmt::format("{} has at most {} bytes", name, kLongestBrokerText));
-      }};
+  return By{kLongestBrokerText, [name](std::string_view text) -> Result<std::string> {
+              if (text.size() <= kLongestBrokerText && text.find('\0') == text.npos)
+                return std::string(text);
+              return invalid_field(
+                  fmt::format("{} must have at most {} bytes", name, kLongestBrokerText));
+            }};
 }
 
 /// Describes the settings of every connection to a broker. An absent `client_id` is empty.
@@ -96,16 +96,17 @@ template <class V>
 void broker_members(V& v, Broker& broker) {
   v.member("broker", broker, By{kLongestBrokerText, read_broker},
            "mqtts://host or mqtt://host, with :port");
-  v.optional("user", broker.user, short_text("user"), "As the broker knows the service");
-  v.optional("ca_file", broker.ca_file, path_for(v),
-             "Of this machine, who vouches for the broker; the system's authorities when absent");
+  v.optional("user", broker.user, short_text("user"), "Client id of the service at the broker");
+  v.optional(
+      "ca_file", broker.ca_file, path_for(v),
+      "File of authorities for the broker's certificate; the system's authorities when absent");
   v.optional("client_id", broker.client_id, By{kLongestClientId, read_client_id},
              "fitgauge-, digits of the data folder and the name when absent");
   v.optional("password", broker.password, short_text("password"),
-             "That there is when absent, for the same broker, user and ca_file");
+             "Password; the stored one when absent, for the same broker, user and ca_file");
   v.check([&](api::FieldReader& fields) {
     if (!broker.password.empty() && broker.user.empty()) {
-      fields.report(ErrorCode::FieldMissing, "user", "a password belongs to a user");
+      fields.report(ErrorCode::FieldMissing, "user", "password needs user");
     }
     if (fields.has("ca_file") && !broker.tls) {
       fields.report(ErrorCode::FieldInvalid, "ca_file",

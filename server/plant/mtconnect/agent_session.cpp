@@ -76,7 +76,7 @@ void AgentSession::send(std::shared_ptr<const std::string> lines) {
     full_.expires_after(options_.longest_full);
     full_.async_wait([weak = weak_from_this()](error_code error) {
       const auto self = weak.lock();
-      if (!error && self) self->end("it does not read what it is sent");
+      if (!error && self) self->end("the agent does not read its lines");
     });
   }
   if (waiting_.size() == 1) write();

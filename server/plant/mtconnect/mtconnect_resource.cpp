@@ -157,7 +157,7 @@ void current(const Services& services, const http::Request& request, http::Respo
     current->at = wanted ? static_cast<std::uint64_t>(*wanted) : last;
     if (current->at > last) {
       return gathered.responder->fail(
-          {ErrorCode::NotFound, fmt::format("at goes from 1 to {}", last), "at"});
+          {ErrorCode::NotFound, fmt::format("at must be from 1 to {}", last), "at"});
     }
     read_current(services, current);
   });
@@ -194,7 +194,7 @@ void asset(const Services& services, const http::Request& request, http::Respond
         gathered->agent.has_asset && wanted == mtconnect::asset_id(gathered->agent);
     if (is_there) return answer_assets(*gathered);
     gathered->responder->fail(
-        {ErrorCode::NotFound, "there is no asset of that id: see /mtconnect/assets", "id"});
+        {ErrorCode::NotFound, "asset not found: see /mtconnect/assets", "id"});
   });
 }
 
@@ -270,7 +270,7 @@ void add_mtconnect_routes(std::vector<http::Route>& routes, const Services& serv
                                .place = http::ParameterPlace::Path,
                                .description = "As `AssetChanged` of current says it"}};
   routes.back().outcomes.push_back({.status = 404,
-                                    .meaning = "MTConnectError: there is no such asset",
+                                    .meaning = "MTConnectError: asset not found",
                                     .media_types = {std::string(kXml)}});
 }
 

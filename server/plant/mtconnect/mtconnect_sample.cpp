@@ -49,7 +49,7 @@ Result<Sampled> sampled(const Gathering& gathering, const Sample& sample,
   const std::uint64_t end = mtconnect::feature_sequence(page.as_of) + 1;
   const std::uint64_t from = sample.from.value_or(sample.backwards ? end - 1 : 1);
   if (from > end) {
-    return Error{ErrorCode::NotFound, fmt::format("from goes from 1 to {}", end), "from"};
+    return Error{ErrorCode::NotFound, fmt::format("from must be from 1 to {}", end), "from"};
   }
   Streams streams(gathering.agent, sample.selection);
   const auto sampled = [&](std::uint64_t next) {
@@ -213,7 +213,7 @@ void sample_mtconnect(const Services& services, const OpenStreams& open,
                       const http::Request& request, http::Responder responder) {
   const std::int64_t count = request.integer("count").value_or(100);
   if (count == 0) {
-    return responder.fail({ErrorCode::QueryInvalid, "count is no 0: leave it out", "count"});
+    return responder.fail({ErrorCode::QueryInvalid, "count must not be 0: remove it", "count"});
   }
   Sample sample{.count = static_cast<std::size_t>(std::abs(count)), .backwards = count < 0};
   if (const auto from = request.integer("from")) sample.from = static_cast<std::uint64_t>(*from);
@@ -232,13 +232,13 @@ void sample_mtconnect(const Services& services, const OpenStreams& open,
   }
   if (sample.backwards) {
     return responder.fail({ErrorCode::QueryInvalid,
-                           "a stream goes forwards: leave the minus or interval out", "count"});
+                           "a stream must run forwards: remove the minus, or interval", "count"});
   }
   if (++*open > kMostMtconnectStreams) {
     --*open;
-    return responder.fail({ErrorCode::Overloaded,
-                           fmt::format("{} streams are open, which is all there may be: end one",
-                                       kMostMtconnectStreams)});
+    return responder.fail(
+        {ErrorCode::Overloaded,
+         fmt::format("{} streams are open, the largest number: end one", kMostMtconnectStreams)});
   }
   const milliseconds heartbeat(request.integer("heartbeat").value_or(10'000));
   constexpr std::int64_t kShortest = 10;

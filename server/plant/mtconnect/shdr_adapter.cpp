@@ -145,7 +145,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
     error_code ignored;
     const auto peer = socket.remote_endpoint(ignored).address().to_string();
     if (agents_.size() >= options_.most_agents) {
-      return tell(peer, "as many agents are connected as the adapter takes");
+      return tell(peer, "too many agents are connected");
     }
     // What waits in the kernel is bounded as well.
     socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);

@@ -152,11 +152,11 @@ auto level_id(std::string_view name) {
                                  id.find('%') == id.npos && id != "-" && topic_level(id) == id;
               if (!is_id) {
                 return invalid_field(
-                    fmt::format("{} has 1 to {} bytes without + # / % and control characters", name,
-                                kLongestBrokerText));
+                    fmt::format("{} must have 1 to {} bytes without + # / % and control characters",
+                                name, kLongestBrokerText));
               }
               if (name == "group" && id == "STATE") {
-                return invalid_field("STATE is the place of the hosts");
+                return invalid_field("group must not be STATE, the topic of the hosts");
               }
               return std::string(id);
             }};
@@ -178,14 +178,14 @@ ConnectionTest test_of(const SparkplugOptions& options, const Plant& plant,
 template <class V>
 void members(V& v, SparkplugOptions& options) {
   broker_members(v, options.broker);
-  v.member("group", options.group, level_id("group"), "Its id of a group");
-  v.member("node", options.node, level_id("node"), "Its id of an edge node");
+  v.member("group", options.group, level_id("group"), "Id of the Sparkplug group");
+  v.member("node", options.node, level_id("node"), "Id of the edge node");
   v.optional("device", options.device, By{500, TopicTemplate::parse_level},
              "{machine}:{characteristic} when absent");
   v.optional("primary_host", options.primary_host, level_id("primary_host"),
-             "Nothing goes out while it is offline");
+             "Primary host; nothing is sent while it is offline");
   v.optional("most_devices", options.most_devices, Within{1, 1000},
-             "Alive together; 1000 when absent");
+             "Largest number of devices; 1000 when absent");
   follower_members(v, options.follower);
 }
 

@@ -52,8 +52,8 @@ Result<std::string> read_key(const JsonValue& item) {
   const auto key = item.is(JsonValue::Kind::String) ? webhook_key(item.text) : std::nullopt;
   if (key) return *key;
   return invalid_field(
-      fmt::format("a secret is {} and {} to {} bytes in base64, as `printf "
-                  "whsec_; openssl rand -base64 32` makes one",
+      fmt::format("a secret must be {} and {} to {} bytes in base64, such as the output of `printf "
+                  "whsec_; openssl rand -base64 32`",
                   kSecretPrefix, kShortestKey, kLongestKey));
 }
 
@@ -129,17 +129,17 @@ struct BodyForm {
 template <class V>
 void members(V& v, WebhookOptions& options) {
   v.member("url", options.url, By{kLongestUrl, read_url}, "https://host/path");
-  v.optional("timeout_s", options.timeout, Within{1, 30}, "Of a request; 15 when absent");
+  v.optional("timeout_s", options.timeout, Within{1, 30}, "Timeout of a request; 15 when absent");
   v.optional("headers", options.headers, HeadersForm{},
              "Of each request, as Authorization. Values are not shown; null keeps the stored value "
              "while the url stays, as leaving headers out does");
   v.optional("body", options.body, BodyForm{},
-             "JSON with {{field}} of the event; the event as it is when absent");
+             "JSON with {{field}} of the event; the whole event when absent");
   event_members(v, options.follower);
   follower_members(v, options.follower);
-  v.optional(
-      "secrets", options.keys, Each{1, kMostKeys, "secrets", api::schema::text(), read_key},
-      "1 to 4, whsec_ and 24 to 64 bytes in base64; each signs. Those there are when absent");
+  v.optional("secrets", options.keys, Each{1, kMostKeys, "secrets", api::schema::text(), read_key},
+             "1 to 4 secrets, each whsec_ and 24 to 64 bytes in base64; each signs. The stored "
+             "secrets when absent");
   v.check([](api::FieldReader& fields) {
     if (!fields.has("secrets")) static_cast<void>(fields.array("secrets"));
   });

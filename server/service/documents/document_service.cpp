@@ -59,8 +59,7 @@ Result<void> check_change(const DocumentService::Precondition& precondition, Doc
     return {};
   }
   return Error{ErrorCode::PreconditionFailed,
-               called(kind, name) +
-                   " is not in the state that the request's precondition names: read it again"};
+               called(kind, name) + " has changed since you read it: read it again"};
 }
 
 /// What a centre has given is changed there. @errors Forbidden
@@ -108,7 +107,7 @@ Result<void> check_free(const store::Stores& stores, DocumentKind kind, const st
   }
   if (users.empty()) return {};
   return Error{ErrorCode::DocumentInUse,
-               fmt::format("{} is named by {}: change or delete them first", called(kind, name),
+               fmt::format("{} is in use by {}: change or delete them first", called(kind, name),
                            fmt::join(users, ", "))};
 }
 

@@ -13,9 +13,8 @@ Error unknown(const interpreter::ControlPath& path) {
 }
 
 Error changed(const interpreter::ControlPath& path) {
-  return {
-      ErrorCode::PreconditionFailed,
-      path.text() + " is not in the state that the request's precondition names: read it again"};
+  return {ErrorCode::PreconditionFailed,
+          path.text() + " has changed since you read it: read it again"};
 }
 
 std::optional<std::int64_t> revision_of(const store::Stores& stores,

@@ -64,7 +64,7 @@ Result<LogService::Proof> LogService::read_proof(const store::Stores& stores,
   if (place == 0) {
     return Error{
         ErrorCode::MeasurementUnknown,
-        fmt::format("there is no measurement '{}'",
+        fmt::format("measurement not found: '{}'",
                     measurement_id_text(name.number, origins_.digits(name.origin, name.number)))};
   }
   proof.index = static_cast<std::uint64_t>(place - 1);
@@ -116,7 +116,7 @@ void LogService::end_waiters(std::unique_lock<std::mutex>& lock) {
     guarded("a proof that was waited for", [&] {
       if (waiter.index < size) return prove(waiter.name, std::move(waiter.done));
       waiter.done(Error{ErrorCode::StorageBusy,
-                        "no checkpoint covers the measurement yet; ask again in a second"});
+                        "no checkpoint covers the measurement yet: ask again in a second"});
     });
   }
   lock.lock();

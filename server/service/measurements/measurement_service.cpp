@@ -42,7 +42,7 @@ store::MeasurementFilter measurement_filter(const MeasurementQuery& query) {
 }
 
 Error unknown_cursor() {
-  return {ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"};
+  return {ErrorCode::CursorInvalid, "after must be the `next` of an earlier page"};
 }
 
 MeasurementGroup measurement_group(store::SummaryGroup group) {
@@ -212,7 +212,7 @@ void MeasurementService::summary(const MeasurementQuery& query, std::string_view
                                  Done<std::vector<MeasurementGroup>> done) {
   const auto field = std::find(kTextFilters.begin(), kTextFilters.end(), group_by);
   if (field == kTextFilters.end()) {
-    return done(Error{ErrorCode::QueryInvalid, "group_by names no field to group by"});
+    return done(Error{ErrorCode::QueryInvalid, "group_by must name one field or more"});
   }
   const auto number = static_cast<std::size_t>(field - kTextFilters.begin());
   const store::TextField group = store::kTextColumns.at(number).field;

@@ -23,7 +23,7 @@ Error corrected_before(const store::Stores& stores, const Measurement& correctio
                              newer = measurement_id_text(found.id, correction.origin);
                            });
   return {ErrorCode::MeasurementCorrected,
-          fmt::format("measurement {} was corrected by {}: correct that one",
+          fmt::format("measurement {0} was corrected by {1}: correct {1}",
                       corrected_id_text(correction), newer)};
 }
 
@@ -95,13 +95,11 @@ Result<std::int64_t> existing_row_of(const store::Stores& stores, const RecordNa
 
 Error unknown_measurement(const RecordName& name, const Origins& origins) {
   return {ErrorCode::MeasurementUnknown,
-          "there is no measurement '" +
+          "measurement not found: '" +
               measurement_id_text(name.number, origins.digits(name.origin, name.number)) + "'"};
 }
 
-Error too_much_work() {
-  return {ErrorCode::StorageBusy, "the storage has all the work it takes; try again soon"};
-}
+Error too_much_work() { return {ErrorCode::StorageBusy, "the storage is busy: try again soon"}; }
 
 void append_note(store::Stores& stores, std::int64_t row, const Origins& origins, Note& note,
                  std::int64_t now_ns, const RecordName& there) {

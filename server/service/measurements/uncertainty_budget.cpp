@@ -14,10 +14,10 @@ namespace fitgauge::api {
 
 void members(auto& v, UncertaintySimulation& simulation) {
   v.optional("trials", simulation.trials, Integer{1000, simulation.most},
-             "Trials times contributions have a limit");
+             "Trials times contributions are limited");
   v.optional("seed", simulation.seed, Integer{});
   v.optional("digits", simulation.digits, Integer{1, 2},
-             "Instead of trials: as many as these digits of u need (JCGM 101, 7.9)");
+             "Significant digits of u, which set the number of trials (JCGM 101, 7.9)");
   v.check([&simulation](FieldReader& fields) {
     if (!simulation.digits) return;
     if (fields.has("trials")) {
@@ -42,11 +42,11 @@ struct Magnitude {
     to = fields.number(name).value_or(to);
     const double magnitude = std::abs(to);
     if (to < 0 && least == 0) {
-      fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} is 0 or more", name));
+      fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} must be 0 or more", name));
     } else if (magnitude != 0 && (magnitude < kLeast || magnitude > kMost)) {
-      fields.report(
-          ErrorCode::FieldInvalid, name,
-          fmt::format("{} is 0 or from {} to {}: choose a unit that fits", name, kLeast, kMost));
+      fields.report(ErrorCode::FieldInvalid, name,
+                    fmt::format("{} must be 0, or from {} to {}: choose a suitable unit", name,
+                                kLeast, kMost));
     }
     return true;
   }
@@ -90,7 +90,7 @@ void check_width(const ContributionOrder& c, FieldReader& fields) {
                   "give standard_uncertainty or half_width, not both");
   } else if (!has_uncertainty && !has_width) {
     fields.report(ErrorCode::FieldMissing, "standard_uncertainty",
-                  "standard_uncertainty is required, or half_width with distribution");
+                  "give standard_uncertainty, or half_width with distribution");
   } else if (c.half_width && !metrology::standard_uncertainty_of(c.shape(), *c.half_width)) {
     fields.report(ErrorCode::FieldInvalid, "half_width",
                   "half_width belongs to rectangular, triangular and u_shaped; for the others give "
@@ -99,7 +99,7 @@ void check_width(const ContributionOrder& c, FieldReader& fields) {
   if (c.limits_half_width &&
       !(c.half_width > c.limits_half_width && c.shape() == Distribution::Rectangular)) {
     fields.report(ErrorCode::FieldInvalid, "limits_half_width",
-                  "limits_half_width belongs to rectangular and is less than half_width");
+                  "limits_half_width is for rectangular, and must be less than half_width");
   }
 }
 
@@ -119,7 +119,7 @@ void members(auto& v, ContributionOrder& c) {
   v.check([&c](FieldReader& fields) {
     if (c.shape() == Distribution::T && !fields.has("degrees_of_freedom")) {
       fields.report(ErrorCode::FieldMissing, "degrees_of_freedom",
-                    "a contribution with the distribution t has degrees_of_freedom");
+                    "degrees_of_freedom is required with the distribution t");
     }
   });
 }
@@ -136,7 +136,7 @@ struct Contributions : List<ContributionOrder> {
     const bool fits = !array->items.empty() && array->items.size() <= kMost;
     if (!fits) {
       fields.report(ErrorCode::FieldInvalid, name,
-                    fmt::format("a budget has 1 to {} contributions", kMost));
+                    fmt::format("a budget must have 1 to {} contributions", kMost));
     }
     return fits && List::read(fields, name, to);
   }
@@ -199,7 +199,7 @@ void apply_model(BudgetOrder& order, FieldReader& fields) {
     if (!order.model) continue;
     report(!c.value, ErrorCode::FieldMissing, "value", "value is required with a model");
     report(c.sensitivity.has_value(), ErrorCode::FieldConflict, "sensitivity",
-           "the sensitivity follows from the model: leave it out");
+           "sensitivity follows from the model: remove it");
     report(!metrology::can_be_quantity(c.name), ErrorCode::FieldInvalid, "name",
            "a name in a model has 1 to 100 letters a to z, digits and _, begins with no digit, and "
            "is no function and not pi");
@@ -225,7 +225,7 @@ void correlate(BudgetOrder& order, FieldReader& fields) {
     const std::string& name = order.contributions[i].name;
     if (!names.try_emplace(name, i).second && !name.empty()) {
       report(ErrorCode::FieldConflict, "contributions", i, "name",
-             fmt::format("another contribution is called '{}'", name));
+             fmt::format("another contribution has the name '{}'", name));
     }
     order.made.names.push_back(name);
     order.made.budget.contributions.push_back(order.contributions[i].contribution());

@@ -18,9 +18,9 @@ namespace fitgauge::app {
 
 /// The refusal to change at a station what its centre has given. @param what `the plan 'X'`
 inline Error centre_decides(std::string_view what) {
-  return {ErrorCode::Forbidden,
-          std::string(what) +
-              " came from the centre: change it there, and it is here within half a minute"};
+  return {
+      ErrorCode::Forbidden,
+      std::string(what) + " belongs to the centre: change it there, and wait half a minute for it"};
 }
 
 /// Numbered as in the database.
@@ -62,7 +62,8 @@ struct RevisionPage {
   bool more = false;
   std::string origin{};   ///< of the centre: 16 hexadecimal digits
   std::int64_t size = 0;  ///< records of the station's log that are at the centre
-  /// The number in the id of the newest of the station's notes that are there; none: it accepts none
+  /// The number in the id of the newest of the station's notes that are there; none: it accepts
+  /// none
   std::optional<std::int64_t> notes{};
   std::vector<Revision> revisions{};
 };

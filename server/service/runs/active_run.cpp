@@ -16,9 +16,7 @@ struct Seen {
   std::vector<store::Run> ended;
 };
 
-Error no_longer() {
-  return {ErrorCode::ShuttingDown, "the service is shutting down and follows no run any more"};
-}
+Error no_longer() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
 
 }  // namespace
 

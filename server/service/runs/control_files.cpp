@@ -67,10 +67,10 @@ Result<void> MeshFiles::load(machine::Setup& setup, std::string_view pointer,
     if (mesh == nullptr) return;
     auto body = body_of(*mesh);
     if (body && (triangles += (*body)->triangles().size()) > kMostTriangles) {
-      body = refused(fmt::format(
-          "the meshes of a workpiece have at most {} triangles together, with {} there are {}: "
-          "export it with a coarser tolerance",
-          kMostTriangles, mesh->file, triangles));
+      body =
+          refused(fmt::format("the meshes of a workpiece must have at most {} triangles together; "
+                              "with {} there are {}: export it with a coarser tolerance",
+                              kMostTriangles, mesh->file, triangles));
     }
     if (body) {
       mesh->body = *std::move(body);

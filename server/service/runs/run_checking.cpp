@@ -74,7 +74,7 @@ Result<std::string> format_file(const interpreter::ControlPath& path,
   if (const klartext::Diagnostic* found = parsed.not_printed()) {
     return Error{ErrorCode::ProgramInvalid, "line " + std::to_string(found->range.begin.line) +
                                                 ": " + found->message +
-                                                "; action=check lists all that is wrong"};
+                                                "; action=check lists all errors"};
   }
   return klartext::format_program(parsed.program);
 }
@@ -113,7 +113,7 @@ Result<void> RunService::check_start(const RunOrder& order) try {
   const auto program = file == nullptr ? nullptr : file->runnable(order.options.keeps_unreadable);
   if (program == nullptr || program->instruction_of(*start)) return {};  // the run says the former
   const std::string refused =
-      fmt::format("{} has no block {}; its last is block {}", order.program.text(), *start,
+      fmt::format("{} has no block {}; its last block is {}", order.program.text(), *start,
                   program->program().blocks().back().number);
   return Error{
       ErrorCode::RequestInvalid, refused, {}, {{ErrorCode::FieldInvalid, refused, "/start_block"}}};

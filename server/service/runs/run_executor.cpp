@@ -202,10 +202,12 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active) {
   const auto main = surroundings.programs.get(surroundings.disk, order.program);
   const auto linked = main == nullptr ? nullptr : main->runnable(order.options.keeps_unreadable);
   if (linked == nullptr) {
-    return {unstarted(RunStatus::Failed, MessageKind::Error,
-                      "the program was deleted or replaced by one with errors before the run began",
-                      program),
-            empty_trace(surroundings.trace)};
+    return {
+        unstarted(
+            RunStatus::Failed, MessageKind::Error,
+            "the program was deleted, or replaced by a program with errors, before the run began",
+            program),
+        empty_trace(surroundings.trace)};
   }
   const interpreter::RunLimits& limits = order.options.limits;
   Allowance allowance(limits.time, limits.memory_bytes, active.stop_token());

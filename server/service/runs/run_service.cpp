@@ -9,9 +9,7 @@ namespace {
 using interpreter::MessageKind;
 using interpreter::RunStatus;
 
-Error stopping() {
-  return {ErrorCode::ShuttingDown, "the service is shutting down and takes no more runs"};
-}
+Error stopping() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
 
 }  // namespace
 
@@ -66,7 +64,7 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
   {
     const std::lock_guard lock(mutex_);
     if (active_.size() >= options_.workers + options_.queue) {
-      return Error{ErrorCode::Overloaded, "too many runs wait already; try again soon"};
+      return Error{ErrorCode::Overloaded, "too many runs are waiting: try again soon"};
     }
   }
   const auto shared = std::make_shared<const RunOrder>(std::move(order));
@@ -86,7 +84,7 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
   if (!created) return created.error();
   if (created->replayed) {
     return Error{ErrorCode::IdempotencyInProgress,
-                 "another request with this Idempotency-Key came first; try again"};
+                 "another request with this Idempotency-Key was first: try again"};
   }
   return queue(std::move(active));
 }
@@ -101,8 +99,7 @@ Result<std::shared_ptr<ActiveRun>> RunService::queue(std::shared_ptr<ActiveRun> 
   }
   if (!is_queued) {
     end(*active, without_moves(unstarted(RunStatus::Failed, MessageKind::Error,
-                                         "the service takes no more runs: it is shutting down",
-                                         active->program())));
+                                         "the service is shutting down", active->program())));
   }
   return active;
 }

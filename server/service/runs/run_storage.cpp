@@ -22,11 +22,11 @@ constexpr std::string_view kFinishedEvent = "run.finished";
 constexpr std::size_t kPage = 100;
 
 Error unknown_run(const std::string& id) {
-  return {ErrorCode::RunUnknown, "there is no run '" + id + "'"};
+  return {ErrorCode::RunUnknown, "run not found: '" + id + "'"};
 }
 
 Error too_late(const std::string& id) {
-  return {ErrorCode::RunFinished, "run '" + id + "' is over and can no longer be cancelled"};
+  return {ErrorCode::RunFinished, "run '" + id + "' has ended and cannot be cancelled"};
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ Result<void> RunService::close_interrupted() {
     if (runs->empty()) return {};
     for (const store::Run& run : *runs) {
       const auto kept =
-          keep_failed(run, "the service ended before the run did; nothing it had done was kept");
+          keep_failed(run, "the service ended before the run: no result of the run was stored");
       // Another daemon may have been first.
       if (!kept && kept.error().code != ErrorCode::RunFinished) return kept.error();
     }
@@ -94,9 +94,9 @@ Result<void> RunService::take_over(const store::Run& run) {
         Timestamp{run.created_at_ns})));
     return {};
   }
-  static_cast<void>(keep_failed(
-      run,
-      "the service ended before the run did, and it cannot be repeated: " + order.error().message));
+  static_cast<void>(
+      keep_failed(run, "the service ended before the run, and the run cannot be repeated: " +
+                           order.error().message));
   return {};
 }
 
@@ -168,7 +168,8 @@ void RunService::follow(std::int64_t id, Done<Followed> done) {
     // Between its row and its place in the queue a run is nobody's for a moment.
     auto followed = own ? own : shared_ ? shared_->follow(*run) : this->own(id);
     if (followed) return done(Followed{std::move(followed), {}});
-    done(Error{ErrorCode::StorageBusy, "run '" + run->id_text() + "' is being queued; try again"});
+    done(Error{ErrorCode::StorageBusy,
+               "run '" + run->id_text() + "' is not in the queue yet: try again"});
   });
 }
 
@@ -200,8 +201,9 @@ void RunService::trace(std::int64_t id, Done<TraceReader> done) {
       [this, id](const store::Stores& stores) -> Result<TraceReader> {
         if (auto trace = stores.runs.trace(id)) return TraceReader(*std::move(trace));
         if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_of(id)));
-        return Error{ErrorCode::RunUnfinished, "run '" + run_id_text(id, origin_of(id)) +
-                                                   "' is not over; its trace comes with its end"};
+        return Error{ErrorCode::RunUnfinished,
+                     "run '" + run_id_text(id, origin_of(id)) +
+                         "' has not ended: its trace is available after its end"};
       },
       std::move(done));
 }
@@ -213,8 +215,8 @@ void RunService::file(std::int64_t id, std::string name, Done<File> done) {
           return File{.path = std::move(file->path), .bytes = std::move(file->content)};
         }
         if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_of(id)));
-        return Error{ErrorCode::FileUnknown, "run '" + run_id_text(id, origin_of(id)) +
-                                                 "' has written no file '" + name + "'"};
+        return Error{ErrorCode::FileUnknown,
+                     "run '" + run_id_text(id, origin_of(id)) + "' has no file '" + name + "'"};
       },
       std::move(done));
 }

@@ -52,7 +52,7 @@ Error inconsistent(const std::vector<Error>& findings) {
 }
 
 Error unknown_revision(std::string_view id) {
-  return {ErrorCode::RevisionUnknown, fmt::format("there is no table revision '{}'", id)};
+  return {ErrorCode::RevisionUnknown, fmt::format("table revision not found: '{}'", id)};
 }
 
 Result<store::LoadedTables> load_or_import(store::Stores& stores, Timestamp now) {
@@ -166,8 +166,9 @@ void TableCatalog::remove_column(iso286::Feature feature, std::string name,
        name = std::move(name)](std::vector<iso286::CustomColumn>& columns) -> Result<bool> {
         const auto found = find_column(columns, feature, name);
         if (found == columns.end()) {
-          return Error{ErrorCode::ClassUnknown,
-                       fmt::format("the {} table has no custom column {}", word(feature), name)};
+          return Error{
+              ErrorCode::ClassUnknown,
+              fmt::format("the {} table has no custom tolerance class {}", word(feature), name)};
         }
         columns.erase(found);
         return false;
@@ -193,7 +194,8 @@ void TableCatalog::change(ColumnName column, Edit edit,
         if (condition && std::find(condition->begin(), condition->end(), latest.revision.id) ==
                              condition->end()) {
           return Error{ErrorCode::PreconditionFailed,
-                       "the tables have changed since: read them again, then repeat the change"};
+                       "the tables have changed since you read them: read them again, and repeat "
+                       "the change"};
         }
         const TableState state = audit(latest);
         if (state.tables == nullptr) return inconsistent(state.findings);

@@ -62,7 +62,7 @@ class Serial(ClientTest):
         os.write(gauge, b"305\r\n  25,002 mm\r\n\r\n25.0131\r\n")
         printed = [process.stdout.readline().decode() for _ in range(8)]
         self.assertEqual([line.split()[0] for line in printed[::2]], ["GOOD", "REJECT", "GOOD", "GOOD"])
-        for line, why in ((b"A25", "'A25' is no value\n"), (b"9" * 300, "is not whole\n"), (b"25.01 25.01", "is no value\n")):
+        for line, why in ((b"A25", "'A25' is not a value\n"), (b"9" * 300, "is incomplete\n"), (b"25.01 25.01", "is not a value\n")):
             os.write(gauge, line + b"\r\n")
             told = process.stderr.readline().decode()
             self.assertTrue(told.endswith(why), told)
@@ -85,7 +85,7 @@ class Serial(ClientTest):
         self.assertIn(b"is gone", process.stderr.read())
 
     def test_what_cannot_work_is_refused(self):
-        self.assertIn("is no regular expression", self.assert_fails(4, "gauge", "25H7", "--serial", "/dev/null", "--pattern", "("))
+        self.assertIn("must be a regular expression", self.assert_fails(4, "gauge", "25H7", "--serial", "/dev/null", "--pattern", "("))
         self.assertIn("is no serial port", self.assert_fails(5, "gauge", "25H7", "--serial", "/dev/null"))
         self.assertIn("--baud 110", self.assert_fails(4, "gauge", "25H7", "--serial", "/dev/null", "--baud", "110"))
         self.assertIn("cannot be opened", self.assert_fails(5, "gauge", "25H7", "--serial", "/dev/none"))

@@ -256,7 +256,7 @@ class Forwarding(unittest.TestCase):
         self.assertEqual(forward(self.centre.port, "--all").returncode, 0)
         refused = command("forward", "--all", "--data", twin.data, "--forward-to", f"http://127.0.0.1:{self.centre.port}")
         self.assertEqual(refused.returncode, 1, refused.stdout)
-        self.assertIn("1 measurements are not at", refused.stdout)
+        self.assertIn("1 measurements have not reached", refused.stdout)
         self.assertEqual(forward(1, "--all").returncode if DEEP else 1, 1, "nobody there")
 
     def test_a_station_goes_on_with_a_new_key_of_its_log(self):

@@ -142,7 +142,7 @@ class Statistics(DaemonTest):
     def test_a_member_that_would_change_nothing_is_refused_by_name(self):
         answer = self.send("chart", {"kind": "i_mr", "values": [1, 2, 3], "lambda": 0.3})
         self.assertEqual([(e["pointer"], e["detail"]) for e in answer.json["errors"]],
-                         [("/lambda", "lambda would change nothing with kind i_mr: it belongs to kind ewma")])
+                         [("/lambda", "lambda has no effect with kind i_mr: it belongs to kind ewma")])
         answer = self.daemon.get("/v1/measurements/chart?kind=cusum&lambda=0.3")
         self.assert_problem(answer, 400, "query.invalid")
         self.assertIn("kind ewma", answer.json["detail"])

@@ -165,7 +165,7 @@ class Collecting(unittest.TestCase):
         self.assertEqual([(row["part_id"], row["designation"], row["verdict"]) for row in found],
                          [("SN-1", "25 H7", "good"), ("SN-2", "25 H7", "rework")])
         self.assertEqual(state["unreadable"], 1)
-        shop.collector.wait_for_log("result 3: a measured size is above 0")
+        shop.collector.wait_for_log("result 3: a measured size must be above 0")
 
     def test_what_no_reader_understands_is_kept_and_said(self):
         shop = self.shop(1, "TNC:\\logs\\*")
@@ -272,17 +272,17 @@ class Settings(unittest.TestCase):
     def test_what_cannot_be_meant_ends_the_start(self):
         self.assertEqual(self.refusal(self.GOOD)[0], 0)
         for change, said in (
-                (("m3", "m 3"), "FILE:2: the name of a connection has"),
-                (("lsv2", "post"), "FILE:3: there is no kind of connection 'post'"),
-                (("10.0.0.7", "10.0.0.7:x"), "FILE:4: '10.0.0.7:x' is no HOST or HOST:PORT"),
-                (("TNC:", "PLC:"), "is no path to watch"),
-                (("paths", "path"), "FILE:5: there is no field path"),
-                (("[[connection]]", "[[connections]]"), "nothing here but [[connection]]")):
+                (("m3", "m 3"), "FILE:2: the name of a connection must have"),
+                (("lsv2", "post"), "FILE:3: unknown kind of connection 'post'"),
+                (("10.0.0.7", "10.0.0.7:x"), "FILE:4: address must be HOST or HOST:PORT; got '10.0.0.7:x'"),
+                (("TNC:", "PLC:"), "a path must be a folder of TNC:"),
+                (("paths", "path"), "FILE:5: unknown field path"),
+                (("[[connection]]", "[[connections]]"), "must contain only [[connection]]")):
             with self.subTest(change):
                 code, error = self.refusal(self.GOOD.replace(*change, 1))
                 self.assertEqual(code, 2)
                 self.assertIn(said, error)
-        self.assertIn("comes twice", self.refusal(self.GOOD * 2)[1])
+        self.assertIn("occurs twice", self.refusal(self.GOOD * 2)[1])
         self.assertIn("cannot read the pattern file", self.refusal(self.GOOD + 'patterns = ["none"]\n')[1])
 
 

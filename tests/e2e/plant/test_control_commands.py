@@ -55,7 +55,7 @@ class Commands(ClientTest):
         self.assertRegex(listed, r"(?m)  8255\\$")
         entries = json.loads(self.run_control("ls", "nc_prog/8255", "--json"))["entries"]
         self.assertEqual({entry["name"] for entry in entries}, {"8255.h", "82551.h", "82552.a"})
-        self.assertIn("there is no such directory", self.assert_fails(7, "control", "ls", self.control, "TNC:\\none"))
+        self.assertIn("directory not found", self.assert_fails(7, "control", "ls", self.control, "TNC:\\none"))
 
     def test_a_program_runs_to_its_end(self):
         self.client.write("good.h", "BEGIN PGM GOOD MM\nQ1 = 1\nEND PGM GOOD MM\n")
@@ -65,7 +65,7 @@ class Commands(ClientTest):
         done = self.client.run("control", "run", self.control, "TNC:\\nc_prog\\bad.h")
         self.assertEqual(done.returncode, 9)
         self.assertIn("tool 99", done.stderr_text)
-        self.assertIn("bad.h ended as failed", done.stderr_text)
+        self.assertIn("bad.h ended with status failed", done.stderr_text)
         self.assert_fails(7, "control", "run", self.control, "TNC:\\nc_prog\\none.h")
 
     def test_the_state_of_what_runs_is_told(self):
@@ -80,7 +80,7 @@ class Commands(ClientTest):
         self.daemon.request("DELETE", f"/v1/runs/{run}")
         done = self.client.end(running)
         self.assertEqual(done.returncode, 9)
-        self.assertIn("ended as cancelled", done.stderr_text)
+        self.assertIn("ended with status cancelled", done.stderr_text)
 
     def test_what_is_no_control_is_said(self):
         with socket.socket() as unused:

@@ -30,7 +30,7 @@ def bad_files():
     yield "value.csv", table(wrong).encode(), "not a decimal number"
     yield "utf16.csv", table(wrong, SIZE // 2).encode("utf-16"), "not a decimal number"
     yield "windows.csv", table(wrong).replace("x", "ø").encode("cp1252"), "it has more than 48 MiB of rows"
-    yield "cut.csv", table("25 H7;25").encode(), "line 90002 has 2 cells and the header 4"
+    yield "cut.csv", table("25 H7;25").encode(), "line 90002 has 2 cells, and the header has 4"
     yield "quote.csv", table('"25 H7;25;;\n', 1 << 23).encode() + b"25 H7;25;;\n" * 2_000_000, "is a quote open?"
     yield "quotes.csv", HEADER.encode() + b'25 H7;25;"""";""""\n' * 90_000 + wrong.encode(), "not a decimal number"
     yield "rows.csv", b"designation;measured_mm\n" + b"25 H7;25\n" * (SIZE // 9), "it has more than 100000 rows"

@@ -117,7 +117,7 @@ class Taking(Folders):
         self.assertRegex(told["bad.csv"], "line 3: measured_mm: .*not a decimal number")
         self.assertRegex(told["bad.csv"], "line 4: .*H99")
         self.assertIn("line 2 has the time '20.11.2026 08:00:00' without an offset", told["time.csv"])
-        self.assertRegex(told["cut.csv"], "\nline 6 has 2 cells and the header 3")
+        self.assertRegex(told["cut.csv"], "\nline 6 has 2 cells, and the header has 3")
         self.assertEqual((self.folder / "failed" / "bin.csv").read_bytes(), bytes(range(256)) * 100)
         state = daemon.get("/v1/connections/cmm").json
         self.assertEqual((state["state"], state["unreadable"]), ("ok", 5))

@@ -137,7 +137,7 @@ class Shdr(DaemonTest):
             self.daemon.measure(rows[begin:begin + 500])
         reading.join()
         self.assertEqual(parts, list(range(3000)))
-        self.told('"shdr_agent_sent_away","detail":"127.0.0.1: it does not read what it is sent"')
+        self.told('"shdr_agent_sent_away","detail":"127.0.0.1: the agent does not read its lines"')
         taken = sum(1 for _ in slow.lines)
         self.assertLess(taken, 3000)
 

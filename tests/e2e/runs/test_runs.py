@@ -175,7 +175,7 @@ class Runs(ControlTest):
             self.assertEqual((run["status"], run["messages"][0]["block"]), ("stopped", 5))
         refused = self.assert_problem(self.daemon.post("/v1/runs", {**order, "start_block": 99}), 422, "request.invalid")
         self.assertEqual(refused["errors"], [{"pointer": "/start_block", "code": "field.invalid",
-                                              "detail": f"{program} has no block 99; its last is block 6"}])
+                                              "detail": f"{program} has no block 99; its last block is 6"}])
 
     def test_watched_parameters_stand_in_the_trace_after_each_block(self):
         program = self.upload_program("watched", "Q1 = 1", "LBL 1", "Q1 = Q1 + 1", 'QS2 = "two"', "FN 12: IF +Q1 LT +3 GOTO LBL 1")

@@ -103,11 +103,11 @@ TEST_CASE("every bad member of a body is reported at its place") {
         "/colour: colour is red, green or blue\n"
         "/share: share lies between 0 and 1\n"
         "/spare/name: name is required\n"
-        "/spare/weight: weight takes a whole number from 1 to 9\n"
-        "/spare/x: there is no field x\n"
-        "/parts/0: an object is wanted, not a number\n");
+        "/spare/weight: weight must be a whole number from 1 to 9\n"
+        "/spare/x: unknown field x\n"
+        "/parts/0: must be an object; got a number\n");
   CHECK(refusals(R"({"colour":"green","spare":{"name":"abcdef"}})") ==
-        "/spare/name: name takes at most 5 bytes\n"
+        "/spare/name: name must have at most 5 bytes\n"
         "/parts: parts is required\n"
         "/spare: green has no spare part\n");
 }

@@ -187,7 +187,7 @@ TEST_CASE("a table that cannot be used names itself and the place") {
         "TNC:\\table\\TOOL.T: table TOOL .T has no number in row 1, column L: 'ten'");
   CHECK(tools("x       10\n[END]\n") == "TNC:\\table\\TOOL.T: 'x' is not the number of a row");
   CHECK(tools("1       10        1         1.5\n[END]\n") ==
-        "TNC:\\table\\TOOL.T: row 1, TP_NO: a whole number from 0 to 65535 is wanted");
+        "TNC:\\table\\TOOL.T: row 1, TP_NO: must be a whole number from 0 to 65535");
   CHECK(tools("1       10        1         7\n[END]\n") ==
         "TNC:\\table\\TOOL.T: row 1, probe: There is no probe 7.");
   CHECK(tools("1       10        -1\n[END]\n") ==

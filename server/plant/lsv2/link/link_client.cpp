@@ -27,26 +27,26 @@ constexpr std::size_t kBlockHead = kHeadBytes + 2;
 
 std::string_view refusal_text(std::uint8_t code) {
   switch (static_cast<ControlError>(code)) {
-    case ControlError::BadFormat: return "it cannot read the telegram";
+    case ControlError::BadFormat: return "the telegram is malformed";
     case ControlError::Unexpected: return "the telegram is out of order";
-    case ControlError::UnknownTelegram: return "it does not know this telegram";
-    case ControlError::NoPrivilege: return "the login does not allow it";
-    case ControlError::WrongParameter: return "it does not know this parameter";
-    case ControlError::BadFileName: return "this is no path of a control, or it is too long";
-    case ControlError::NoFile: return "there is no such file";
-    case ControlError::FileExists: return "a file of that name is there";
+    case ControlError::UnknownTelegram: return "unknown telegram";
+    case ControlError::NoPrivilege: return "the login does not allow this";
+    case ControlError::WrongParameter: return "unknown parameter";
+    case ControlError::BadFileName: return "the path is not a path of a control, or is too long";
+    case ControlError::NoFile: return "file not found";
+    case ControlError::FileExists: return "the file exists";
     case ControlError::InUse: return "it is in use";
-    case ControlError::NoLogin: return "it does not allow this login";
-    case ControlError::BadAddress: return "there is no such address";
-    case ControlError::NoSpace: return "its disk is full, or the file too long";
+    case ControlError::NoLogin: return "the control does not allow this login";
+    case ControlError::BadAddress: return "address not found";
+    case ControlError::NoSpace: return "the disk is full, or the file is too long";
     case ControlError::DirectoryNotEmpty: return "the directory is not empty";
-    case ControlError::NoDirectory: return "there is no such directory";
-    case ControlError::WrongMode: return "it is in the wrong mode of operation";
-    case ControlError::NoNextError: return "there is no further error";
-    case ControlError::NoWriteAccess: return "it can only be read";
+    case ControlError::NoDirectory: return "directory not found";
+    case ControlError::WrongMode: return "the control is in the wrong mode of operation";
+    case ControlError::NoNextError: return "no further error";
+    case ControlError::NoWriteAccess: return "the file is read-only";
     case ControlError::Failed: return "it failed";
   }
-  return "it gives no reason that is known";
+  return "unknown reason";
 }
 
 LinkResult<LinkClient> LinkClient::connect(LinkClientOptions options) {
@@ -56,7 +56,7 @@ LinkResult<LinkClient> LinkClient::connect(LinkClientOptions options) {
 }
 
 LinkFailure LinkClient::unexpected(const Telegram& telegram) const {
-  return {Kind::Broken, fmt::format("{} answers with {}, which is no answer to this",
+  return {Kind::Broken, fmt::format("{} answers with {}, which does not belong to the request",
                                     to_text(socket_.address()), word(telegram.name))};
 }
 
@@ -82,8 +82,8 @@ LinkResult<void> LinkClient::login(std::string_view name) {
   auto done = tell(Login{.name = std::string(name)});
   if (done || done.error().kind != Kind::Refused) return done;
   return LinkFailure(Kind::Refused,
-                     fmt::format("login {}: {}; is its option there, and does the machine builder "
-                                 "allow it?",
+                     fmt::format("login {}: {}; check that the control has the option and that the "
+                                 "machine builder allows it",
                                  name, done.error().message),
                      done.error().code);
 }

@@ -18,7 +18,7 @@ struct ControlIdentity {
   std::string plc{};          ///< of the machine builder
 };
 
-/// The words for the code of a T_ER: "there is no such file".
+/// The words for the code of a T_ER: "file not found".
 std::string_view refusal_text(std::uint8_t code);
 
 /// How a file travels: its bytes, or its lines as the control keeps programs and tables.

@@ -101,9 +101,9 @@ pollfd Connection::interest() const {
 
 std::pair<Connection::Time, std::string_view> Connection::deadline(
     const LinkServerOptions& options) const {
-  if (!out_.empty()) return {since_ + options.write_timeout, "it does not take its answer"};
+  if (!out_.empty()) return {since_ + options.write_timeout, "the client does not read its answer"};
   if (reader_.is_inside()) return {since_ + options.telegram_timeout, "its telegram stays short"};
-  return {since_ + options.idle_timeout, "it was silent for too long"};
+  return {since_ + options.idle_timeout, "the client was silent for too long"};
 }
 
 std::optional<Ending> Connection::read(Time now) {
@@ -127,7 +127,7 @@ std::optional<Ending> Connection::answer(Time now) {
   while (out_.empty()) {
     reader_.set_buffer(conversation_->buffer());
     const auto telegram = reader_.next();
-    if (!telegram) return Ending{"what it sends is no telegram"};
+    if (!telegram) return Ending{"the client does not send telegrams"};
     if (!*telegram) return std::nullopt;
     since_ = now;
     const auto reply = conversation_->answer(**telegram);
@@ -254,7 +254,7 @@ class LinkServer::Loop {
     }
     const std::string address = address_of(peer, length);
     if (connections_.size() >= options_.most_connections) {
-      return send_away(address, "as many clients are connected as the control takes");
+      return send_away(address, "too many clients are connected");
     }
     const int on = 1;
     setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);

@@ -36,7 +36,7 @@ LinkResult<Addresses> resolve(const ControlAddress& address) {
       getaddrinfo(address.host.c_str(), std::to_string(address.port).c_str(), &wanted, &found);
   if (failed == 0) return Addresses(found, &freeaddrinfo);
   return LinkFailure(Kind::NotReached,
-                     fmt::format("there is no host {}: {}", address.host, gai_strerror(failed)));
+                     fmt::format("host not found: {}: {}", address.host, gai_strerror(failed)));
 }
 
 }  // namespace
@@ -114,8 +114,8 @@ LinkResult<LinkSocket> LinkSocket::connect(LinkClientOptions options) {
     why = std::strerror(error);
   }
   return LinkFailure(Kind::NotReached,
-                     fmt::format("the control {} is not reached: {}; is it switched on, and is its "
-                                 "network setting for LSV-2 open?",
+                     fmt::format("the control {} cannot be reached: {}; check that it is switched "
+                                 "on and that its network setting allows LSV-2",
                                  to_text(link.address()), why));
 }
 
@@ -153,7 +153,7 @@ LinkResult<Telegram> LinkSocket::receive() {
   const Time deadline = std::chrono::steady_clock::now() + options_.answer_timeout;
   for (;;) {
     auto telegram = reader_.next();
-    if (!telegram) return broken("sends what is no LSV-2 telegram: is it a control?");
+    if (!telegram) return broken("does not send LSV-2 telegrams: is it a control?");
     if (*telegram) return **std::move(telegram);
     if (const auto ready = wait(POLLIN, deadline); !ready) return ready.error();
     std::array<char, kLargestBuffer> bytes;

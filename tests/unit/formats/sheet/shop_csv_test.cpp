@@ -124,8 +124,8 @@ TEST_CASE("a row that does not end is refused before it is held") {
 TEST_CASE("what is wrong names its line") {
   CHECK(converted("") == "error: line 1 should have the names of the columns");
   CHECK(converted("measured_mm;comment\n25;a\n26\n") ==
-        "error: line 3 has 1 cells and the header 2");
-  CHECK(converted("measured_mm\n\"25\n") == "error: line 2 has a quote that is not closed");
+        "error: line 3 has 1 cells, and the header has 2");
+  CHECK(converted("measured_mm\n\"25\n") == "error: line 2 has a quote without its end");
   CHECK(converted("measured_mm\n\"25\"x\n") == "error: line 2 has text after a closing quote");
   CHECK(converted("measured_mm\n25\xFF\n", {.encoding = Encoding::Utf8})
             .starts_with("error: byte 14 is not UTF-8"));

@@ -83,7 +83,7 @@ TEST_CASE("one that does not read is sent away") {
   connected.session->send(lines);
   CHECK(connected.session->is_full());
   connected.io.run_for(20s);
-  CHECK(connected.ended == "it does not read what it is sent");
+  CHECK(connected.ended == "the agent does not read its lines");
 }
 
 }  // namespace

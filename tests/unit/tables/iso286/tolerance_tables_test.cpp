@@ -126,7 +126,7 @@ TEST_CASE("a refused class names the reason and the nearest class") {
         "P2 is not defined for 25 mm: ISO 286 has it over 0 up to and including 3 mm, and over "
         "500 up to and including 3150 mm. The nearest class defined there is P3");
   CHECK(message("0.1", "c11") ==
-        "c11 is not defined for 0.1 mm: its lower limit of size would be 0 or less. The nearest "
+        "c11 is not defined for 0.1 mm: the lower limit of size must be above 0. The nearest "
         "class defined there is c9");
   CHECK(message("0.8", "N9").ends_with("is N8"));
   CHECK(message("0.8", "H14").ends_with("is H13"));
