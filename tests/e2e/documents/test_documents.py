@@ -82,6 +82,20 @@ class Commands(unittest.TestCase):
             if path.name != "README.md":
                 self.assertIn(f"({path.relative_to(ROOT / 'docs')})", index)
 
+    def test_each_path_setting_and_command_is_in_a_guide(self):
+        """Or in the list of docs/README.md, with the reason."""
+        guides = "".join(path.read_text(encoding="utf-8") for path in DOCUMENTS)
+        listed = (ROOT / "docs/README.md").read_text(encoding="utf-8").split("## Not in a guide")[1]
+        paths = set(re.findall(r"^## [A-Z]+ (/\S*)", (ROOT / "docs/reference/api.md").read_text(encoding="utf-8"), re.MULTILINE))
+        without = {path for path in paths if not re.search(re.sub(r"\\\{\w+\\\}", r"[^/\\s`?]+", re.escape(path)) + r"(?![/\w.-])", guides)}
+        self.assertEqual(without, set(re.findall(r"\| `(/\S+)` \|", listed)))
+        settings = re.findall(r"^\| `(\w+)` \| `(--[\w-]+)` \| `(FITGAUGE_\w+)`",
+                              (ROOT / "docs/reference/configuration.md").read_text(encoding="utf-8"), re.MULTILINE)
+        commands = re.findall(r"^\.It Cm ([a-z][a-z -]*)", (ROOT / "docs/man/fitgauge.1").read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertGreater(min(len(paths), len(settings), len(commands)), 30)
+        for names in [*settings, *((f"fitgauge {command.strip()}",) for command in commands)]:
+            self.assertRegex(guides, rf"({'|'.join(map(re.escape, names))})(?![\w-])", f"{names[0]} is in no guide")
+
     def test_what_is_shown_is_compared(self):
         self.assertTrue(agrees('{"a":1,…\n "c":3}\n', '{"a":1,"b":2,"c":3}'))
         self.assertFalse(agrees('{"a":1,…"c":3}', '{"a":1,"b":2,"c":4}'))
