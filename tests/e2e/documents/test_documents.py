@@ -12,7 +12,7 @@ DOCUMENTS = [ROOT / "README.md", ROOT / "clients/python/README.md", *sorted((ROO
              *sorted((ROOT / "docs").glob("guide/*.md")), *sorted((ROOT / "docs").glob("explanation/*.md"))]
 # Their readers have built the programs and installed nothing.
 BUILT_ONLY = {ROOT / "README.md", ROOT / "docs/tutorial/first-hour.md"}
-LANGUAGES = {"sh", "console", "python", "json", "ini", "toml", "nginx", ""}
+LANGUAGES = {"sh", "console", "python", "json", "ini", "toml", "nginx", "mermaid", ""}
 
 
 class Reference(DaemonTest):

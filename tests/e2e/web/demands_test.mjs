@@ -1,4 +1,14 @@
-/** What a value demands is one state: done, corrected and moved values are asked about once, and leave no tile behind. */
+/**
+ * What a value demands is one state: done, corrected and moved values are asked about once, and leave no tile
+ * behind.
+ *
+ * Tried, and held here:
+ * - Say the cause in an outage, or before a slow answer: asked once
+ * - Correct a good value to a reject: asked once; the note is also on the correction
+ * - Correct a reject to a good value: nothing is asked
+ * - Correct the part of a value: the characteristic is due again
+ * - Measure a part twice, in another tab or at another station: *SN-1 was measured at 04:26*
+ */
 
 import assert from 'node:assert/strict';
 import { before, beforeEach, describe, it } from 'node:test';

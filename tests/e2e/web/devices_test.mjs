@@ -1,4 +1,10 @@
-/** What a station has on its table: a scanner of badges, a number pad, a gauge on a wire, a loudspeaker. */
+/**
+ * What a station has on its table: a scanner of badges, a number pad, a gauge on a wire, a loudspeaker.
+ *
+ * Tried, and held here:
+ * - A gauge on a wire is in the middle of 125.013, and the page is busy while it opens the port; or a fault in the
+ *   middle: may be cut: send it again
+ */
 
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';

@@ -1,4 +1,17 @@
-/** One door for keys: a scan or a gauge that reaches any field of the station is read whole, and never taken for what it is not. */
+/**
+ * One door for keys: a scan or a gauge that reaches any field of the station is read whole, and never taken for
+ * what it is not.
+ *
+ * Tried, and held here:
+ * - Scan `2009`, wait, Enter: not stored
+ * - Scan a part or measure into *Something else*: a part, a value that waits for the cause
+ * - `01A+00025.015` by a wedge: 25.015 mm
+ * - `PÖSN-2006`, `https://ex.org/p/SN-2011`: asked about
+ * - End a plan with a good value after a reject: *Reject*, with the name of the characteristic
+ * - Ctrl+Z, then the next bore: amber, with the old value and its size
+ * - A bar with a machine, then a tap on a characteristic: of that machine
+ * - A program that probes, as a drawing: all are; computed styles of every view are compared
+ */
 
 import assert from 'node:assert/strict';
 import { before, beforeEach, describe, it } from 'node:test';

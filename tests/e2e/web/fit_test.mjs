@@ -1,4 +1,14 @@
-/** Fits and the tables of deviations. */
+/**
+ * Fits and the tables of deviations.
+ *
+ * Tried, and held here:
+ * - A column of one's own named `H7`: asked, hatched in the table, listed with its way back
+ * - `25 g6` among the holes: *g6 is a shaft class*
+ * - Store a column while a station is open: every screen changes
+ * - Store a column: in plain ink
+ * - `25 H7/` after a fit: nothing
+ * - Choose another fit on a slow connection: nothing until they are its own
+ */
 
 import assert from 'node:assert/strict';
 import { afterEach, describe, it } from 'node:test';

@@ -1,4 +1,9 @@
-/** The service is killed, the page and every value stay: the service worker, two tabs, a scanner that goes on. */
+/**
+ * The service is killed, the page and every value stay: the service worker, two tabs, a scanner that goes on.
+ *
+ * Tried, and held here:
+ * - Two tabs, and what became of the values of an outage: each under its own name
+ */
 
 import assert from 'node:assert/strict';
 import { afterEach, before, beforeEach, describe, it } from 'node:test';

@@ -1,4 +1,9 @@
-/** What holds for the whole page: its size, its policy, languages, keys, and that everybody can use it. */
+/**
+ * What holds for the whole page: its size, its policy, languages, keys, and that everybody can use it.
+ *
+ * Tried, and held here:
+ * - Load at 100 ms a round trip: two round trips; unchanged files are not asked for again
+ */
 
 import assert from 'node:assert/strict';
 import fs from 'node:fs';

@@ -1,4 +1,10 @@
-/** Parts: their records, and what is saved of them. */
+/**
+ * Parts: their records, and what is saved of them.
+ *
+ * Tried, and held here:
+ * - Press *Store* twice at a note; give it up while it is on its way; lose the answer and press again: one; nothing
+ *   is given up before the answer; one
+ */
 
 import assert from 'node:assert/strict';
 import { afterEach, describe, it } from 'node:test';

@@ -1,4 +1,10 @@
-/** What the station knows beforehand: plans and gauges in use. */
+/**
+ * What the station knows beforehand: plans and gauges in use.
+ *
+ * Tried, and held here:
+ * - Another gauge, with a guard band: none until that of this gauge is known
+ * - Scan a plan while the service has too much to do, or fails: what it said, and another scan asks again
+ */
 
 import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';

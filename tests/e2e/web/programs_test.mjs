@@ -1,4 +1,13 @@
-/** NC programs: stored, checked, run. */
+/**
+ * NC programs: stored, checked, run.
+ *
+ * Tried, and held here:
+ * - *Delete*; upload over a program of the same name: asked first
+ * - Upload 9 MiB with no program open: the reason in sight
+ * - Press *Run* twice: one
+ * - Type while another program is being opened; store twice: to the program that is shown; stored
+ * - Open another program while one runs: nothing of it: the run is in its own list
+ */
 
 import assert from 'node:assert/strict';
 import fs from 'node:fs';

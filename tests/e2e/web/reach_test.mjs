@@ -1,4 +1,12 @@
-/** Everybody reaches everything: on a phone, by the keyboard, on paper, in every language. */
+/**
+ * Everybody reaches everything: on a phone, by the keyboard, on paper, in every language.
+ *
+ * Tried, and held here:
+ * - Print every view: whole, with what, where and when
+ * - Fit at 1024 pixels; Italian on a tablet: the wide column, 12 px and more; one line
+ * - Every view on a phone, in every language: fits 390 pixels
+ * - Enter on a view, a fit, a file by the keyboard: on the heading, or where it was; tiles are silent
+ */
 
 import assert from 'node:assert/strict';
 import fs from 'node:fs';

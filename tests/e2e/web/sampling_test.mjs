@@ -1,4 +1,17 @@
-/** Samples: what a plan says how often, and how many at a time. The station derives it from what is stored, by whomever. */
+/**
+ * Samples: what a plan says how often, and how many at a time. The station derives it from what is stored, by
+ * whomever.
+ *
+ * Tried, and held here:
+ * - A plan with *every 5th part*, *each hour*, five at a time: due or not at each tile; the value goes to what is
+ *   due
+ * - Change the part, reload, or kill the service in the middle of five: goes on at the same value, in the same
+ *   `subgroup`; no part is in it twice
+ * - Two stations measure one plan at the same time: what one has measured is not due at the other; each fills a
+ *   sample of its own, none has too many
+ * - A value where nothing is due: not taken: scan, or touch a tile
+ * - The service refuses a value of a sample: asked for again, in the same sample
+ */
 
 import assert from 'node:assert/strict';
 import path from 'node:path';

@@ -1,4 +1,31 @@
-/** Slips of hands, wires and hours: keys at the wrong moment or in the wrong place, plans left in the middle, proxies, full storage. */
+/**
+ * Slips of hands, wires and hours: keys at the wrong moment or in the wrong place, plans left in the middle,
+ * proxies, full storage.
+ *
+ * Tried, and held here:
+ * - A plan at its third step: reload, or change the language: goes on where it was, with its marks
+ * - Measure the last characteristic first: finished when all are
+ * - Forget to scan the next part after *All 3 measured*: not taken: scan, or touch a tile
+ * - The service refuses a value of a plan: comes back
+ * - Scan the next part with two steps open: *Not measured at SN-2: bore-2, bore-3.*
+ * - The plan is changed, or deleted, while a station uses it: asked for with each part
+ * - The key is revoked, the dialog stands there, scan `SN-2`, measure: both go to the station
+ * - Caps Lock is on, scan `25H7`: refused with the reason
+ * - Tap *Part*, then measure instead of scanning; the same at *Correct part*: judged as a value; refused
+ * - Choose a rule or tick a box, then measure: a value
+ * - Measure while a size is asked for: stays in the field, not stored, said
+ * - Ctrl+Z while the last value waits: *not stored yet*
+ * - The service away behind a reverse proxy (502): away, judged by the limits held
+ * - The browser's storage is full in an outage: said
+ * - Type a value, scan `SN-2` before its answer is there: a late verdict is heard and stands in the list; one that
+ *   is bad and was not seen is shown
+ * - The same, and a value is typed that is asked about: *no verdict yet*
+ * - Scan a plan, then the part, before the plan is there: begins with the part that was scanned
+ * - Scan another plan, then the part: the plan that was chosen last
+ * - Scan a plan before it is known which there are: the plan, once it is known
+ * - Scan a size, type another: the one typed last
+ * - The service does not say in four seconds what a size is: asked again until they are known
+ */
 
 import assert from 'node:assert/strict';
 import { afterEach, describe, it } from 'node:test';

@@ -1,4 +1,20 @@
-/** Nothing false and nothing unseen gets into the record: scanners, parts, outages, corrections. */
+/**
+ * Nothing false and nothing unseen gets into the record: scanners, parts, outages, corrections.
+ *
+ * Tried, and held here:
+ * - Touch the verdict, scan `A25`, `SN-00017`, or let a gauge type `-25.013`: a note, nothing stored; a scan of
+ *   letters and figures is the part
+ * - Scan `SN-1` into *Part*, measure, scan `SN-2` into it: `SN-2`; no tap is needed at all
+ * - Kill the service, type 20 values with three rejects, start it: each judged when it is typed; *20 stored: 17
+ *   good, 3 reject* until it is touched
+ * - 25.05 for 25 H7, then `30 k6` or the next part: *Measure SN-2*; the verdict names part and size
+ * - Storage denied or damaged; `#/gauge/%E0%A4%A`: works, and forgets
+ * - A wrong part, noticed a shift later: *Correct* at the station and among the parts, value or part
+ * - A gauge that ends its values with Tab: two values
+ * - A gauge types while the page asks for a key: a value
+ * - A station three hours ahead, a value at once: by the clock of the service
+ * - The service tells its time three seconds late: where both clocks may be right, they are
+ */
 
 import assert from 'node:assert/strict';
 import { afterEach, beforeEach, describe, it } from 'node:test';

@@ -1,4 +1,14 @@
-/** Control charts: of one characteristic, and of all of them. */
+/**
+ * Control charts: of one characteristic, and of all of them.
+ *
+ * Tried, and held here:
+ * - Fit and Trend with one answer a second late, another chosen meanwhile: the last choice counts
+ * - Trend while two stations measure two sizes: stays at the size shown first
+ * - 60,000 old values, 100 asked for: the newest, one request
+ * - Trend in eight tabs: one stream for all tabs, none for a hidden one
+ * - Trend, then Gauge before it has loaded: a view that was left changes nothing
+ * - Trend: a drawing's limits; a new characteristic; the service back again: offered, at once, taken back
+ */
 
 import assert from 'node:assert/strict';
 import fs from 'node:fs';

@@ -1,4 +1,10 @@
-/** Every word of the page is in the reader's language: texts by code, and nothing that slips past the tables of texts. */
+/**
+ * Every word of the page is in the reader's language: texts by code, and nothing that slips past the tables of
+ * texts.
+ *
+ * Tried, and held here:
+ * - Any refusal or finding in German, Dutch, Italian: every code in four languages
+ */
 
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
