@@ -12,10 +12,12 @@ const TEXTS = {
   it: () => [import('./lang/it_codes.js'), import('./lang/it.js')],
 };
 
-/** Of a view that comes when it is opened: its own texts. */
+/** Texts that come with the views that are opened later. */
 const LATER = {
   plans: { en: () => import('./lang/plans_en.js'), de: () => import('./lang/plans_de.js'), nl: () => import('./lang/plans_nl.js'), it: () => import('./lang/plans_it.js') },
+  desk: { en: () => import('./lang/desk_en.js'), de: () => import('./lang/desk_de.js'), nl: () => import('./lang/desk_nl.js'), it: () => import('./lang/desk_it.js') },
 };
+const TEXTS_OF = { plans: 'plans', overview: 'desk', trend: 'desk', programs: 'desk', gauges: 'desk', style: 'desk' };
 const opened = new Set();
 
 let words = en;
@@ -32,7 +34,7 @@ function preferred() {
 const locale = () => (language === 'en' ? 'en-GB' : language);
 
 export async function loadLanguage(wanted = preferred()) {
-  const texts = await Promise.all([...TEXTS[wanted](), ...[...opened].map((view) => LATER[view][wanted]())]);
+  const texts = await Promise.all([...TEXTS[wanted](), ...[...opened].map((group) => LATER[group][wanted]())]);
   words = Object.assign({}, en, ...texts.map((text) => text.default));
   language = wanted;
   document.documentElement.lang = wanted;
@@ -40,8 +42,9 @@ export async function loadLanguage(wanted = preferred()) {
 
 /** The texts of a view that has some of its own. */
 export async function textsOf(view) {
-  if (!LATER[view] || opened.has(view)) return;
-  opened.add(view);
+  const group = TEXTS_OF[view];
+  if (!group || opened.has(group)) return;
+  opened.add(group);
   await loadLanguage(language);
 }
 

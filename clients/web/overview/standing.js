@@ -7,12 +7,12 @@ import { countVerdicts } from '../trend/series.js';
 /** So many of the newest values of each. */
 export const LAST = 100;
 
-/** {count, verdicts, ppk: {value, lower, upper} or undefined, stable: undefined where the values tell nothing} */
+/** {records: the newest last, count, verdicts, ppk: {value, lower, upper} or undefined, stable: undefined where the values tell nothing} */
 export async function standingOf(filter, signal) {
   const { measurements } = await getJson(url(['measurements'], { ...filter, last: LAST }), { signal });
   const figures = hasSpread(measurements) ? await figuresOf(filter, signal) : null;
   return {
-    count: measurements.length, verdicts: countVerdicts(measurements.map((record) => ({ record }))),
+    records: measurements, count: measurements.length, verdicts: countVerdicts(measurements.map((record) => ({ record }))),
     ppk: figures?.ppk?.value == null ? undefined : figures.ppk, stable: figures?.stable,
   };
 }

@@ -1,4 +1,4 @@
-/** Every characteristic of a part number or a machine, the worst first, as the values come in. */
+/** Every characteristic of a part number or a machine, the worst first, as the values come in: a list, parts by characteristic, or small charts. */
 
 import { getJson, url } from '../api.js';
 import { field, h, refill } from '../dom.js';
@@ -6,11 +6,14 @@ import { follow } from '../events.js';
 import { FilterBar } from '../filter_bar.js';
 import { explain, number, t } from '../i18n.js';
 import { Latest } from '../latest.js';
+import { HeatMap } from '../overview/heat_map.js';
 import { bySeverity, isDoubtful, LAST, standingOf } from '../overview/standing.js';
+import { Wall } from '../overview/wall.js';
 import { fragment, go } from '../route.js';
 import { FEWEST } from '../trend/figures.js';
 import { verdictShape, VERDICTS } from '../verdict.js';
 
+const LOOKS = ['list', 'heat', 'wall'];
 const HEAD = ['field.characteristic', 'trend.count', 'trend.verdict', 'overview.index', 'overview.process'];
 /** Many events make one reading. */
 const GATHER_MS = 500;
@@ -25,6 +28,13 @@ export function mount(main, route) {
   const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('view.overview') },
     h('table', h('thead', h('tr', HEAD.map((name) => h('th', { scope: 'col' }, t(name))))), rows));
   const empty = h('p.empty', { hidden: true }, t('trend.empty'));
+  let look = LOOKS.includes(route.options.look) ? route.options.look : LOOKS[0];
+  const looks = h('div.switch', { role: 'group', 'aria-label': t('overview.look') }, LOOKS.map((name) =>
+    h('button', { type: 'button', 'aria-pressed': String(name === look), onclick: () => choose(name) }, t(`overview.look.${name}`))));
+  const heat = new HeatMap(leaving.signal, () => bar.options);
+  const wall = new Wall(() => bar.options);
+  const places = { list: table, heat: heat.element, wall: wall.element };
+  for (const place of Object.values(places)) place.hidden = true;
   let standings = new Map();
   let changed = new Set();
   let timer = 0;
@@ -32,7 +42,8 @@ export function mount(main, route) {
 
   main.replaceChildren(h('div.desk.overview', h('h1.unseen', { tabindex: -1 }, t('view.overview')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, field(t('plan.label'), plan), bar.element),
-    note, h('p.aside', t('overview.what', { count: LAST, fewest: FEWEST })), h('p.actions', h('a.to-gauges', { href: '#/gauges' }, t('gauges.link'))), empty, table));
+    h('div.line.looks', looks, h('a.to-gauges', { href: '#/gauges' }, t('gauges.link'))),
+    note, h('p.aside', t('overview.what', { count: LAST, fewest: FEWEST })), empty, Object.values(places)));
 
   async function offer() {
     bar.offer(leaving.signal);
@@ -49,10 +60,19 @@ export function mount(main, route) {
     return groups.map(({ characteristic }) => characteristic).filter(Boolean);
   }
 
+  const remembered = () => go({ view: 'overview', options: { plan: plan.value, look: look === LOOKS[0] ? '' : look, ...bar.options } }, { refine: true });
+
+  function choose(name) {
+    look = name;
+    [...looks.children].forEach((button, i) => button.setAttribute('aria-pressed', LOOKS[i] === look));
+    remembered();
+    draw();
+  }
+
   const load = () => { reading = read(); return reading; };
 
   async function read() {
-    go({ view: 'overview', options: { plan: plan.value, ...bar.options } }, { refine: true });
+    remembered();
     table.toggleAttribute('data-settled', false);
     try {
       await latest.run(async (signal) => {
@@ -72,8 +92,10 @@ export function mount(main, route) {
   function draw() {
     const sorted = [...standings].sort(([, one], [, other]) => bySeverity(one, other));
     empty.hidden = sorted.length > 0;
-    table.hidden = !sorted.length;
-    refill(rows, sorted.map(([name, standing]) => row(name, standing)));
+    for (const [name, place] of Object.entries(places)) place.hidden = name !== look || !sorted.length;
+    if (look === 'heat') heat.show(sorted);
+    else if (look === 'wall') wall.show(sorted);
+    else refill(rows, sorted.map(([name, standing]) => row(name, standing)));
     table.toggleAttribute('data-settled', true);
   }
 

@@ -45,11 +45,11 @@ describe('the style sheets', () => {
 
   const VIEWS = {
     'gauge?plan=4711-A&part_id=SN-1': '.tiles-of-plan li', 'fit/25H7/g6': '.zones', 'trend?characteristic=bore-A': '.control-chart',
-    overview: '.scroll[data-settled]', parts: '.records tbody tr', tables: '.grid tbody tr', plans: '.plans-there tbody tr', 'plans/4711-A': '.editor .characteristic', connections: '.connections form',
+    overview: '.scroll[data-settled]', 'overview?look=heat': '.heat .picture .cell', 'overview?look=wall': '.wall .spark', parts: '.records tbody tr', tables: '.grid tbody tr', plans: '.plans-there tbody tr', 'plans/4711-A': '.editor .characteristic', connections: '.connections form',
     gauges: '.study-grid input',
   };
   for (const [view, drawn] of Object.entries(VIEWS)) {
-    it(`hide nothing of ${view.split('?')[0]}`, async () => {
+    it(`hide nothing of ${view}`, async () => {
       const page = await open(browser, daemon, `#/${view}`);
       await page.waitForSelector(drawn);
       assert.deepEqual(await hidden(page), []);

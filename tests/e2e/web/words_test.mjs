@@ -52,7 +52,7 @@ describe('the words', () => {
   /** A page whose German is ⟦marked⟧, so that whatever is not marked did not come from the tables of texts. */
   async function openMarked(fragment) {
     const page = await open(browser, daemon, '', { locale: 'en-GB' });
-    for (const file of ['de', 'de_codes', 'plans_de']) {
+    for (const file of ['de', 'de_codes', 'plans_de', 'desk_de']) {
       const marked = Object.fromEntries(Object.entries(await textsOf(file)).map(([name, text]) => [name, `⟦${text}⟧`]));
       await page.route(`**/lang/${file}.js`, (route) => route.fulfill({ contentType: 'text/javascript', body: `export default ${JSON.stringify(marked)}` }));
     }
@@ -99,6 +99,13 @@ describe('the words', () => {
       await page.keyboard.press('ArrowLeft');
     }],
     'the overview': ['#/overview', (page) => page.waitForSelector('.overview [data-settled]')],
+    'the map of parts': ['#/overview?look=heat', async (page) => {
+      await page.waitForSelector('.heat .picture .cell');
+      await page.focus('.heat .picture');
+      await page.keyboard.press('ArrowLeft');
+      await page.click('.heat summary');
+    }],
+    'the small charts': ['#/overview?look=wall', (page) => page.waitForSelector('.wall .spark')],
     'the parts': ['#/parts?order=WO-17', (page) => page.waitForSelector('.records tbody tr')],
     'a part': ['#/parts?part_id=SN-7', (page) => page.waitForSelector('.records tbody tr')],
     'the programs': ['#/programs/nc_prog/82.h', async (page) => {
