@@ -87,7 +87,7 @@ struct Choice {
       if (word == *text) return to = value, true;
       names += (names.empty() ? "" : " ") + std::string(word);
     }
-    fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} is {}", name, api::listed(names)));
+    fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} must be one of: {}", name, api::listed(names)));
     return false;
   }
 };

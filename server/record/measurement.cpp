@@ -42,15 +42,14 @@ std::optional<RecordName> parse_id(char prefix, std::string_view text, const Ori
   const Counted what = prefix == kRunPrefix    ? Counted::Run
                        : prefix == kNotePrefix ? Counted::Note
                                                : Counted::Measurement;
-  const auto origin =
-      origins.number(text.substr(std::min(dash + 1, text.size())), *number, what);
+  const auto origin = origins.number(text.substr(std::min(dash + 1, text.size())), *number, what);
   if (!origin) return std::nullopt;
   return RecordName{.origin = *origin, .number = *number};
 }
 
 Error unknown_run(std::string_view text) {
   return {ErrorCode::RunUnknown,
-          "there is no run '" + std::string(first_characters(text, 40)) + "'"};
+          "run not found: '" + std::string(first_characters(text, 40)) + "'"};
 }
 
 }  // namespace
@@ -208,7 +207,7 @@ std::string corrector_id_text(const Measurement& m) {
 Result<RecordName> parse_measurement_id(std::string_view text, const Origins& origins) {
   if (const auto name = parse_id(kMeasurementPrefix, text, origins)) return *name;
   return Error{ErrorCode::MeasurementUnknown,
-               "there is no measurement '" + std::string(first_characters(text, 40)) + "'"};
+               "measurement not found: '" + std::string(first_characters(text, 40)) + "'"};
 }
 
 Result<std::int64_t> parse_own_run_id(std::string_view text, const Origins& origins) {

@@ -89,11 +89,10 @@ Result<iso286::FitDesignation> read_fit(std::string_view hole, std::string_view 
       is_bore ? std::string(hole.substr(0, at)) + "H7" : std::string(hole), is_ring ? "h6" : shaft);
   if ((is_bore && is_ring) ||
       (!fit && (is_bore || is_ring) && fit.error().code == ErrorCode::FitMalformed)) {
-    return Error{
-        ErrorCode::FitMalformed,
-        fmt::format("'{}/{}' is no fit of a bearing, which fits a shaft or a housing: write "
-                    "25 ISO 492-P6/k6 or 52 H7/ISO 492-P6",
-                    first_characters(hole, 40), first_characters(shaft, 40))};
+    return Error{ErrorCode::FitMalformed,
+                 fmt::format("unknown fit of a bearing '{}/{}': write 25 ISO 492-P6/k6 (shaft) or "
+                             "52 H7/ISO 492-P6 (housing)",
+                             first_characters(hole, 40), first_characters(shaft, 40))};
   }
   if (!fit && is_bore && fit.error().code == ErrorCode::DesignationMalformed) {
     return Error{ErrorCode::DesignationMalformed,

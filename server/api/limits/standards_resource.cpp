@@ -108,9 +108,8 @@ Result<http::Response> rows(const http::Request& request, const iso286::Toleranc
     for (const Standard& other : standards::all()) {
       known += fmt::format("{}{}", known.empty() ? "" : ", ", other.name);
     }
-    return Error{ErrorCode::NotFound,
-                 fmt::format("there are no numbers of '{}': there are those of {}",
-                             first_characters(name, 40), known)};
+    return Error{ErrorCode::NotFound, fmt::format("unknown standard '{}'; known standards: {}",
+                                                  first_characters(name, 40), known)};
   }
   const auto size = request.length("size_mm");
   const auto only = request.text("table");
@@ -130,7 +129,7 @@ Result<http::Response> rows(const http::Request& request, const iso286::Toleranc
   json.end_array().end_object();
   if (!has_table) {
     return Error{ErrorCode::QueryInvalid,
-                 fmt::format("{} has no table '{}': GET /v1/standards names them", name,
+                 fmt::format("unknown table of {}: '{}'; GET /v1/standards lists them", name,
                              first_characters(*only, 40)),
                  "table"};
   }

@@ -104,7 +104,7 @@ Result<http::Response> verdict(const http::Request& request,
   if (!limits) return limits.error();
   if (const auto feature = request.text("feature"); feature && *feature != word(limits->feature)) {
     return Error{ErrorCode::QueryInvalid,
-                 fmt::format("{} is of a {}: leave feature out", *request.text("designation"),
+                 fmt::format("{} belongs to a {}: remove feature", *request.text("designation"),
                              word(limits->feature)),
                  "feature"};
   }
@@ -124,7 +124,7 @@ Result<http::Response> verdict(const http::Request& request,
   if (given && kind == gauging::DecisionRule::Kind::Simple) {
     return Error{ErrorCode::QueryUnused,
                  "rule simple does not use uncertainty_um: give rule=guard_band or "
-                 "rule=conformance, or leave it out",
+                 "rule=conformance, or remove it",
                  "uncertainty_um"};
   }
   const RuleWords words{.kind = *kind,

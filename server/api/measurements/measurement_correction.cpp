@@ -137,16 +137,16 @@ std::optional<std::string_view> read_reason(const JsonValue& body, FieldErrors& 
   if (reason == nullptr) return wrong(ErrorCode::FieldMissing, "reason is required");
   if (!reason->is(JsonValue::Kind::String)) {
     return wrong(ErrorCode::FieldType,
-                 fmt::format("reason takes a string, not {}", name_of(reason->kind)));
+                 fmt::format("reason must be a string; got {}", name_of(reason->kind)));
   }
   const std::string_view text = reason->text;
   if (text.size() > kLongestReason) {
     return wrong(ErrorCode::FieldTooLong,
-                 fmt::format("reason takes at most {} bytes", kLongestReason));
+                 fmt::format("reason must have at most {} bytes", kLongestReason));
   }
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos ||
       text.find('\0') != std::string_view::npos) {
-    return wrong(ErrorCode::FieldInvalid, "reason says why the measurement is corrected");
+    return wrong(ErrorCode::FieldInvalid, "reason of the correction is required");
   }
   return text;
 }
@@ -158,7 +158,7 @@ Result<MeasurementBatch> decode(const std::shared_ptr<const Sources>& sources,
   const JsonValue& body = sources->body;
   if (!body.is(JsonValue::Kind::Object)) {
     errors.add(ErrorCode::FieldType, "",
-               fmt::format("a correction is an object, not {}", name_of(body.kind)));
+               fmt::format("a correction must be an object; got {}", name_of(body.kind)));
     return *errors.take();
   }
   const auto reason = read_reason(body, errors);
@@ -188,8 +188,8 @@ Result<MeasurementBatch> decode(const std::shared_ptr<const Sources>& sources,
 void correct(const SharedPosting& posting, const app::Measurement& original) {
   if (original.source == app::Source::Simulation) {
     return posting->responder.fail({ErrorCode::MeasurementSimulated,
-                                    "a simulated measurement takes no correction: correct "
-                                    "its program or setup and run it again"});
+                                    "a simulated measurement cannot be corrected: correct its "
+                                    "program or setup, and run it again"});
   }
   const auto tables = posting->services.tables.tables();
   if (!tables) return posting->responder.fail(tables.error());

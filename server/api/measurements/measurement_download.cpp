@@ -29,7 +29,7 @@ Result<aqdef::DfqOptions> options_of(const http::Request& request, std::string_v
   aqdef::DfqOptions options;
   if (const auto name = request.text("time_zone")) {
     if (media_type == kQifType) {
-      return Error{ErrorCode::QueryInvalid, "time_zone is of format=dfq or xlsx", "time_zone"};
+      return Error{ErrorCode::QueryInvalid, "time_zone is for format=dfq and xlsx", "time_zone"};
     }
     auto zone = sheet::TimeZone::load(*name);
     if (!zone) return Error{ErrorCode::QueryInvalid, zone.error().message, "time_zone"};
@@ -41,7 +41,7 @@ Result<aqdef::DfqOptions> options_of(const http::Request& request, std::string_v
     const auto text = request.text(name);
     if (!text) continue;
     if (media_type != kDfqType) {
-      return Error{ErrorCode::QueryInvalid, fmt::format("{} is of format=dfq", name), name};
+      return Error{ErrorCode::QueryInvalid, fmt::format("{} is for format=dfq", name), name};
     }
     *into = *text;
     if (const auto checked = aqdef::check_text(field, *text); !checked) {
@@ -59,8 +59,8 @@ Result<std::unique_ptr<MeasurementFile>> make_file(Download& download) {
 
 Error too_many(const std::string& matching, const std::string& most) {
   return {ErrorCode::QueryInvalid,
-          fmt::format("{} match, and a file of this format holds {}: choose fewer by from and to, "
-                      "or take csv",
+          fmt::format("{} match, and a file of this format has at most {}: select fewer by from "
+                      "and to, or use csv",
                       matching, most),
           "format"};
 }

@@ -22,7 +22,7 @@ class WrittenFile final : public MeasurementFile {
     const auto added = add_one_(writer_, measurement);
     if (added) return {};
     return Error{ErrorCode::QueryInvalid,
-                 fmt::format("a {} cannot hold {}: {}; leave it out by a filter, or take csv",
+                 fmt::format("a {} cannot contain {}: {}; exclude it by a filter, or use csv",
                              name_, app::measurement_id_text(measurement.id, measurement.origin),
                              added.error().message),
                  "format"};
@@ -31,8 +31,7 @@ class WrittenFile final : public MeasurementFile {
   Result<std::string> finish() override {
     if (!writer_.is_empty()) return writer_.text();
     return Error{ErrorCode::QueryInvalid,
-                 fmt::format("no measurement matches, and a {} without one is none", name_),
-                 "format"};
+                 fmt::format("no measurement matches: a {} needs one or more", name_), "format"};
   }
 
  private:

@@ -97,7 +97,7 @@ Result<Cursor> cursor_of(const Services& services, const http::Request& request)
       return Cursor{.after = after->number, .as_of = as_of->number, .record = {}};
     }
   }
-  return Error{ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"};
+  return Error{ErrorCode::CursorInvalid, "after must be the `next` of an earlier page"};
 }
 
 /// All measurements that match, read page by page while they are sent.
@@ -215,7 +215,7 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
   if (const auto text = text_of("run_id")) {
     const auto run = services.measurements.parse_run(*text);
     if (!run) {
-      return Error{ErrorCode::QueryInvalid, "run_id is the id of a run", named("run_id")};
+      return Error{ErrorCode::QueryInvalid, "run_id must be the id of a run", named("run_id")};
     }
     query.run_id = *run;
     query.source.reset();  // what a run stores is no gauge's
@@ -253,8 +253,8 @@ void list_measurements(const Services& services, const http::Request& request,
   query->newest_first = request.text("sort") == "newest";
   if (const auto last = request.integer("last")) {
     if (limit || request.text("after")) {
-      return responder.fail({ErrorCode::QueryInvalid,
-                             "last is a list of one page: leave limit and after out", "last"});
+      return responder.fail(
+          {ErrorCode::QueryInvalid, "last is a list of one page: remove limit and after", "last"});
     }
     query->last = static_cast<std::size_t>(*last);
   }

@@ -147,8 +147,7 @@ std::vector<Warning> warnings_of(const app::Measurement& m) {
       *m.standard_uncertainty * 10 > tolerance) {
     warnings.push_back({"uncertainty.large",
                         fmt::format("uncertainty_um of {} is above a tenth of the tolerance of {} "
-                                    "um, and rule simple does not see it: use guard_band or "
-                                    "conformance",
+                                    "um, and rule simple ignores it: use guard_band or conformance",
                                     format_um(*m.standard_uncertainty), format_um(tolerance))});
   }
   if (m.has_unknown_gauge) {
@@ -159,8 +158,8 @@ std::vector<Warning> warnings_of(const app::Measurement& m) {
   }
   if (m.has_blocked_gauge) {
     warnings.push_back(
-        {"gauge.blocked", fmt::format("gauge '{}' was blocked when it measured this: measure again "
-                                      "with another, or record its calibration",
+        {"gauge.blocked", fmt::format("gauge '{}' was blocked at the time of measuring: measure "
+                                      "again with another gauge, or record its calibration",
                                       m.gauge.value_or(""))});
   }
   if (m.calibration_due) {

@@ -37,7 +37,7 @@ Result<app::Note> read_note(std::string_view text) {
   NoteOrder order;
   read_body(*body, "", errors, order);
   if (errors.empty() && !order.note.says_something()) {
-    errors.add(ErrorCode::FieldMissing, "/cause", "a note has a cause, a measure or a text");
+    errors.add(ErrorCode::FieldMissing, "/cause", "a note must have a cause, a measure or a text");
   }
   if (auto error = errors.take()) return *std::move(error);
   return std::move(order.note);
@@ -91,12 +91,12 @@ struct Entries {
       const std::string at = pointer_to(fields.at(name), i);
       if (!item.is(JsonValue::Kind::String)) {
         errors.add(ErrorCode::FieldType, at,
-                   fmt::format("an entry is a string, not {}", name_of(item.kind)));
+                   fmt::format("an entry must be a string; got {}", name_of(item.kind)));
         continue;
       }
       NoteText{}.check(errors, at, item.text);
       if (!texts.insert(item.text).second) {
-        errors.add(ErrorCode::FieldConflict, at, "this entry stands here before");
+        errors.add(ErrorCode::FieldConflict, at, "this entry is a repetition");
       }
     }
     return true;

@@ -115,7 +115,7 @@ Result<void> plan_part(const std::vector<NamedDocument>& plans,
     if (plan.name == name) break;
   }
   if (named && fitting.empty()) {
-    return Error{ErrorCode::QueryInvalid, fmt::format("there is no plan '{}'", name), "plan"};
+    return Error{ErrorCode::QueryInvalid, fmt::format("plan not found: '{}'", name), "plan"};
   }
   if (fitting.size() != 1) return {};
   part.plan = fitting.front().first;

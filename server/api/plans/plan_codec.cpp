@@ -40,7 +40,8 @@ void read_text(FieldReader& reader, std::string_view name, std::size_t longest) 
 void read_own_fields(FieldReader& reader, std::set<std::string>& names) {
   const auto name = reader.text("name");
   check_length(reader, "name", name, kLongestText);
-  if (name && name->empty()) reader.report(ErrorCode::FieldInvalid, "name", "a name is not empty");
+  if (name && name->empty())
+    reader.report(ErrorCode::FieldInvalid, "name", "name must not be empty");
   if (name && !names.insert(*name).second) {
     reader.report(ErrorCode::FieldConflict, "name",
                   "another characteristic of the plan has this name");
@@ -86,7 +87,7 @@ void read_characteristics(const JsonValue& list, const BatchContext& context, Fi
                           FieldErrors& errors) {
   if (list.items.empty() || list.items.size() > kMostCharacteristics) {
     plan.report(ErrorCode::FieldInvalid, "characteristics",
-                fmt::format("a plan has 1 to {} characteristics", kMostCharacteristics));
+                fmt::format("a plan must have 1 to {} characteristics", kMostCharacteristics));
     return;
   }
   std::set<std::string> names;
@@ -148,7 +149,7 @@ Result<std::string> read_plan(const JsonValue& body, std::string_view part,
   if (body.is(JsonValue::Kind::Object)) {
     const auto named = plan.optional_text("part");
     if (named && *named != part) {
-      plan.report(ErrorCode::FieldConflict, "part", "the path names another part number");
+      plan.report(ErrorCode::FieldConflict, "part", "part must be the part number of the path");
     }
     read_text(plan, "name", kLongestText);
     if (plan.has("drawing")) {

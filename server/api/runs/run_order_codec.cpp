@@ -46,7 +46,7 @@ struct LanguageForm {
       return true;
     }
     fields.report(ErrorCode::FieldInvalid, name,
-                  "language takes english, german, dutch, italian or polish");
+                  "language must be one of: english, german, dutch, italian, polish");
     return false;
   }
 };
@@ -81,7 +81,7 @@ struct Parameters {
       auto read = read_value(value);
       if (!read) {
         errors.add(value.is(Kind::Number) ? ErrorCode::NumberOutOfRange : ErrorCode::FieldType,
-                   pointer, fmt::format("{} takes a number or a string within its range", name));
+                   pointer, fmt::format("{} must be a number or a string within its range", name));
         continue;
       }
       interpreter::ParameterValue given{*parameter, *std::move(read)};
@@ -105,7 +105,7 @@ struct ParameterNames {
     if (names == nullptr) return false;
     if (names->items.size() > kMost) {
       fields.report(ErrorCode::FieldInvalid, of,
-                    fmt::format("{} takes at most {} names", of, kMost));
+                    fmt::format("{} must have at most {} names", of, kMost));
     }
     for (std::size_t i = 0; i < std::min(names->items.size(), kMost); ++i) {
       const JsonValue& item = names->items[i];
@@ -116,7 +116,7 @@ struct ParameterNames {
         fields.errors().add(item.is(Kind::String) ? parameter.error().code : ErrorCode::FieldType,
                             pointer_to(fields.at(of), i),
                             item.is(Kind::String) ? parameter.error().message
-                                                  : "takes names of parameters: \"Q5\"");
+                                                  : "must be names of parameters such as \"Q5\"");
       }
     }
     return true;
@@ -130,7 +130,8 @@ struct Subject : Text {
     if (!Text::read(fields, name, to)) return false;
     const bool has_nul = to.find('\0') != std::string::npos;
     if (has_nul) {
-      fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} holds a NUL character", name));
+      fields.report(ErrorCode::FieldInvalid, name,
+                    fmt::format("{} must not contain a NUL character", name));
     }
     return !has_nul;
   }
@@ -160,7 +161,7 @@ struct Contacts {
     if (array == nullptr) return false;
     if (array->items.size() > kMostContacts) {
       fields.report(ErrorCode::FieldInvalid, name,
-                    fmt::format("{} takes at most {} contacts", name, kMostContacts));
+                    fmt::format("{} must have at most {} contacts", name, kMostContacts));
       return false;
     }
     for (std::size_t i = 0; i < array->items.size(); ++i) {
@@ -169,7 +170,7 @@ struct Contacts {
       if (!point && !item.is(Kind::Null)) {
         fields.errors().add(
             ErrorCode::FieldType, pointer_to(fields.at(name), i),
-            "a contact is [X, Y, Z] of the ball's centre, or null where nothing was touched");
+            "a contact must be [X, Y, Z] of the ball's centre, or null if nothing was touched");
       }
       to.push_back({.ball_centre = point});
     }
@@ -183,7 +184,7 @@ void members(auto& v, interpreter::RunLimits& limits) {
   v.optional("blocks", limits.blocks, Integer{1, kMostBlocks}, "Executed");
   double seconds = limits.time.count();
   v.optional("seconds", seconds,
-             Number{0, kMostSeconds, Number::Ends::OpenBelow, "takes more than 0 and at most 60"},
+             Number{0, kMostSeconds, Number::Ends::OpenBelow, "must be above 0 and at most 60"},
              "Of computing, above 0; machining time has no limit");
   limits.time = std::chrono::duration<double>(seconds);
 }

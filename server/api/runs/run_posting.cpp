@@ -102,15 +102,15 @@ void replay(const SharedPosting& posting, app::Answer kept) {
       posting->services.runs.parse_id(location.substr(std::min(kRuns.size(), location.size())));
   if (!id) {
     return posting->responder.fail(
-        {ErrorCode::StorageCorrupt, "the answer kept under this Idempotency-Key names no run"});
+        {ErrorCode::StorageCorrupt, "this Idempotency-Key belongs to a request that is not a run"});
   }
   posting->services.runs.find(
       *id, [posting, kept = std::move(kept)](Result<app::StoredRun> run) mutable {
         if (!run) return posting->responder.fail(run.error());
         if (run->report.empty()) {
-          return posting->responder.fail({ErrorCode::IdempotencyInProgress,
-                                          "the first request with this Idempotency-Key is still "
-                                          "running; try again soon"});
+          return posting->responder.fail(
+              {ErrorCode::IdempotencyInProgress,
+               "the first request with this Idempotency-Key is still running: try again soon"});
         }
         kept.content_type = "application/json";
         kept.body = std::move(run->report);
@@ -121,9 +121,9 @@ void replay(const SharedPosting& posting, app::Answer kept) {
 /// The problem document with the findings of the check.
 http::Response invalid_program(const http::Request& request, const std::string& program,
                                const std::vector<klartext::Diagnostic>& diagnostics) {
-  http::Response response = problem(
-      {ErrorCode::ProgramInvalid, program + " or a program that it calls has errors"},
-      std::nullopt, request);
+  http::Response response =
+      problem({ErrorCode::ProgramInvalid, program + " or a program that it calls has errors"},
+              std::nullopt, request);
   auto& body = std::get<std::string>(response.body);
   body.pop_back();
   body += ",\"diagnostics\":";

@@ -165,7 +165,7 @@ void list_runs(const Services& services, const http::Request& request, http::Res
     const auto id = services.runs.parse_id(*cursor);
     if (!id) {
       return responder.fail(
-          {ErrorCode::CursorInvalid, "after takes the cursor of a page before, its `next`"});
+          {ErrorCode::CursorInvalid, "after must be the `next` of an earlier page"});
     }
     after = *id;
   }

@@ -55,7 +55,7 @@ void read_actions(const JsonValue& parent, const std::string& parent_pointer,
   const std::string pointer = pointer_to(parent_pointer, member);
   if (!object->is(Kind::Object) || object->members.size() > kMostActions) {
     errors.add(ErrorCode::FieldType, pointer,
-               fmt::format("takes an object of at most {} numbers", kMostActions));
+               fmt::format("must be an object of at most {} numbers", kMostActions));
     return;
   }
   for (const auto& [name, value] : object->members) {
@@ -63,7 +63,7 @@ void read_actions(const JsonValue& parent, const std::string& parent_pointer,
     const auto number = number_of(name);
     if (!number) {
       errors.add(ErrorCode::FieldInvalid, where,
-                 fmt::format("is named by a number from 0 to {}", kLargestNumber));
+                 fmt::format("must have a number from 0 to {}", kLargestNumber));
     } else if (is_known(*number)) {
       errors.add(ErrorCode::FieldInvalid, where,
                  fmt::format("{} is the control's own and cannot be replaced", *number));
@@ -102,7 +102,7 @@ void read_path(const JsonValue& setup, const std::string& pointer, std::string_v
   if (written == nullptr) return;
   const std::string where = pointer_to(pointer, member);
   if (!written->is(Kind::String)) {
-    errors.add(ErrorCode::FieldType, where, "takes a text such as TNC:\\logs");
+    errors.add(ErrorCode::FieldType, where, "must be a text such as TNC:\\logs");
     return;
   }
   auto path = interpreter::ControlPath::parse(written->text + std::string(added));
@@ -119,7 +119,7 @@ bool read_numbers(const JsonValue& array, const std::string& pointer, std::span<
                   bool are_lengths, FieldErrors& errors) {
   if (array.items.size() != to.size()) {
     errors.add(ErrorCode::FieldInvalid, pointer,
-               fmt::format("{} numbers are wanted, not {}", to.size(), array.items.size()));
+               fmt::format("must be {} numbers; got {}", to.size(), array.items.size()));
     return false;
   }
   // The elements as members of an object, whose names are then the tokens of their pointers.
@@ -145,7 +145,7 @@ bool PointList::read(FieldReader& fields, std::string_view name,
     std::array<double, 3> point{};
     if (!item.is(JsonValue::Kind::Array)) {
       fields.errors().add(ErrorCode::FieldType, pointer,
-                          fmt::format("an array is wanted, not {}", name_of(item.kind)));
+                          fmt::format("must be an array; got {}", name_of(item.kind)));
     } else if (read_numbers(item, pointer, point, true, fields.errors())) {
       to.push_back({point[0], point[1], point[2]});
     }

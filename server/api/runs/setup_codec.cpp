@@ -136,7 +136,7 @@ struct FeatureForm {
     });
     if (is_known || errors.has(pointer) || errors.has(pointer_to(pointer, "type"))) return;
     errors.add(ErrorCode::FieldInvalid, pointer_to(pointer, "type"),
-               fmt::format("type takes {}", listed(words)));
+               fmt::format("type must be one of: {}", listed(words)));
   }
 };
 

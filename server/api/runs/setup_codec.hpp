@@ -82,7 +82,7 @@ struct SomeOf : std::array<std::string_view, size> {
                              : this->end();
       if (found == this->end()) {
         fields.report(ErrorCode::FieldInvalid, name,
-                      fmt::format("{} takes a list of \"{}\"", name,
+                      fmt::format("{} must be a list of \"{}\"", name,
                                   fmt::join(this->begin(), this->end(), "\", \"")));
         return false;
       }

@@ -44,8 +44,9 @@ Result<std::string> name_to_write(const KindOfDocument& kind, const http::Reques
            (!kind.names_with_slashes && (c == '/' || c == '\\'));
   });
   if (!name.empty() && name.size() <= kind.longest_name && printable) return name;
-  return Error{ErrorCode::PathMalformed, fmt::format("the {} of {} has {}", parameter_name(kind),
-                                                     kind.one, names_allowed(kind))};
+  return Error{ErrorCode::PathMalformed,
+               fmt::format("the {} of {} must have {}", parameter_name(kind), kind.one,
+                           names_allowed(kind))};
 }
 
 http::Response written(bool created, std::string answer, std::string_view tag) {

@@ -53,9 +53,7 @@ std::optional<std::string_view> token_of(const http::Request& request) {
   return std::nullopt;
 }
 
-Error invalid_key() {
-  return {ErrorCode::KeyInvalid, "this key is not valid: it is unknown or was revoked"};
-}
+Error invalid_key() { return {ErrorCode::KeyInvalid, "the key is unknown or revoked"}; }
 
 /// A page of another site whose name was made to resolve to this machine addresses it by that name,
 /// and every write of a page has an Origin. An address is no such name, nor is one without a dot:
@@ -95,13 +93,13 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
   if (is_foreign && request.allowed_origin().empty()) {
     return Error{ErrorCode::OriginRefused,
                  "a page of " + std::string(first_characters(*origin, 200)) +
-                     " may not write here; if it is yours, start with --allow-origin"};
+                     " may not write here: if it is your origin, start with --allow-origin"};
   }
 
   const Access access = access_of(route, request);
   if (access == Access::Public) return std::optional<http::Response>();
   if (request.is_health_only()) {
-    return Error{ErrorCode::Forbidden, "this port answers /livez and /readyz alone"};
+    return Error{ErrorCode::Forbidden, "this port answers only /livez and /readyz"};
   }
   const auto token = token_of(request);
   std::optional<app::KnownCaller> caller;
@@ -124,7 +122,7 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
   if (!caller) {
     if (token) return invalid_key();
     return Error{ErrorCode::Unauthenticated,
-                 "send a key: `Authorization: Bearer fg_…`; an administrator makes one with "
+                 "send a key: `Authorization: Bearer fg_…`; an administrator creates keys with "
                  "`fitgauged key create`"};
   }
   const app::Role needed = role_for(access);

@@ -18,8 +18,9 @@ using metrology::Subgroups;
 bool is_decimal(const JsonValue& value) { return value.is(Kind::Number) || value.is(Kind::String); }
 
 void report_type(const JsonValue& value, std::string pointer, FieldErrors& errors) {
-  errors.add(ErrorCode::FieldType, std::move(pointer),
-             fmt::format("a number or a string with one is wanted, not {}", name_of(value.kind)));
+  errors.add(
+      ErrorCode::FieldType, std::move(pointer),
+      fmt::format("must be a number, or a string with a number; got {}", name_of(value.kind)));
 }
 
 void read_items(const JsonValue& array, const std::string& pointer, Decimals& to,
@@ -38,10 +39,10 @@ void add_exact(const JsonValue& value, const std::string& pointer, Decimals& to,
                FieldErrors& errors) {
   if (!is_decimal(value)) return report_type(value, pointer, errors);
   if (value.is(Kind::String) && value.text.find_first_of("eE") != std::string::npos) {
-    errors.add(ErrorCode::NumberMalformed, pointer,
-               fmt::format("'{}' has an exponent: a string holds a plain decimal, as in 25.013; an "
-                           "exponent stands in a JSON number alone",
-                           first_characters(value.text, 40)));
+    errors.add(
+        ErrorCode::NumberMalformed, pointer,
+        fmt::format("'{}' has an exponent: write a plain decimal such as 25.013, or a JSON number",
+                    first_characters(value.text, 40)));
     return;
   }
   if (const auto added = to.add(value.text); !added) {
@@ -82,14 +83,14 @@ bool ExactGroups::read(FieldReader& fields, std::string_view name, Groups& to) c
     const std::string place = pointer_to(pointer, i);
     if (!group.is(Kind::Array)) {
       errors.add(ErrorCode::FieldType, place,
-                 fmt::format("an array of values is wanted, not {}", name_of(group.kind)));
+                 fmt::format("must be an array of values; got {}", name_of(group.kind)));
       continue;
     }
     read_items(group, place, to.values, errors);
     to.ends.push_back(to.values.size());
   }
   if (array->items.empty()) {
-    errors.add(ErrorCode::StatisticsTooFew, pointer, "there is no group of values");
+    errors.add(ErrorCode::StatisticsTooFew, pointer, "give one group of values or more");
   }
   return true;
 }
@@ -106,11 +107,13 @@ bool ExactSubgroups::read(FieldReader& fields, std::string_view name, Subgroups&
   const metrology::GroupedCounts counts = groups.counts();
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i].size() == size && size > 1) continue;
-    errors.add(size > 1 ? ErrorCode::StatisticsUnbalanced : ErrorCode::StatisticsTooFew,
-               pointer_to(fields.at(name), i),
-               size > 1 ? fmt::format("subgroups have one size: {} values here, {} in the first",
-                                      counts[i].size(), size)
-                        : "a subgroup has two values or more; send single ones as values");
+    errors.add(
+        size > 1 ? ErrorCode::StatisticsUnbalanced : ErrorCode::StatisticsTooFew,
+        pointer_to(fields.at(name), i),
+        size > 1
+            ? fmt::format("all subgroups must have the same size: {} values here, {} in the first",
+                          counts[i].size(), size)
+            : "a subgroup must have two values or more; send single values as values");
     return false;
   }
   to = {.values = std::move(groups.values), .size = size};

@@ -38,7 +38,7 @@ struct Due {
     const bool is_due = parse_due(to).has_value();
     if (!is_due) {
       fields.report(ErrorCode::TimeMalformed, name,
-                    fmt::format("{} is a date, 2027-03-31, or an RFC 3339 time", name));
+                    fmt::format("{} must be a date such as 2027-03-31, or an RFC 3339 time", name));
     }
     return is_due;
   }
@@ -169,7 +169,7 @@ void list_calibrations(const Services& services, const http::Request& request,
         json.end_array().end_object();
         if (!is_known) {
           return shared->fail(
-              {ErrorCode::GaugeUnknown, fmt::format("there is no gauge in use '{}'", gauge)});
+              {ErrorCode::GaugeUnknown, fmt::format("gauge in use not found: '{}'", gauge)});
         }
         shared->answer({200, "application/json", std::move(body)});
       });

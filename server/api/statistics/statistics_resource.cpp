@@ -93,7 +93,7 @@ struct Rules {
     for (const JsonValue& item : array->items) {
       const int rule = item.text.size() == 1 ? item.text[0] - '0' : 0;
       if (!item.is(JsonValue::Kind::Number) || rule < 1 || rule > metrology::ZoneRules::kCount) {
-        fields.report(ErrorCode::FieldInvalid, name, "rules are of 1, 2, 3 and 4");
+        fields.report(ErrorCode::FieldInvalid, name, "rules must be of 1, 2, 3 and 4");
         return false;
       }
       to.add(rule);
@@ -115,7 +115,7 @@ void members(auto& v, ChartOrder& order) {
   v.optional("phase1", plan.phase1, "The points the limits are taken from");
   v.optional("centre", plan.centre, "Known");
   v.optional("standard_deviation", plan.standard_deviation,
-             PositiveExact{ErrorCode::FieldInvalid, "a known standard deviation is above 0"},
+             PositiveExact{ErrorCode::FieldInvalid, "a known standard deviation must be above 0"},
              "Known, of single values; above 0");
   v.optional("lambda", plan.lambda, Number{metrology::kLeastLambda, 1}, "Of ewma");
   v.optional("reference_value", plan.reference_value, Number{kLeast, 10},
@@ -166,7 +166,7 @@ struct Sizes {
       const bool is_number = item.is(JsonValue::Kind::Number);
       if (!is_number && !item.is(JsonValue::Kind::String)) {
         fields.errors().add(ErrorCode::FieldType, pointer,
-                            fmt::format("a size in mm is wanted, not {}", name_of(item.kind)));
+                            fmt::format("must be a size in mm; got {}", name_of(item.kind)));
         continue;
       }
       const auto size =

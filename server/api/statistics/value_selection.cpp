@@ -17,14 +17,12 @@ constexpr int kDecimalsOfMm = 6;  // a nanometre in mm
 
 Error none_selected() {
   return {ErrorCode::StatisticsTooFew,
-          "no stored value matches; look at what GET /v1/measurements lists with these filters"};
+          "no stored value matches: check the list of GET /v1/measurements with these filters"};
 }
 
 Error unbalanced(std::string what) {
   return {ErrorCode::StatisticsUnbalanced,
-          std::move(what) +
-              "; narrow the selection, or take the values one by one with "
-              "subgroups=ignore"};
+          std::move(what) + "; narrow the selection, or use single values with subgroups=ignore"};
 }
 
 }  // namespace
@@ -84,8 +82,7 @@ Result<void> ValueSelection::add(const app::MeasuredRun& run) {
   const Limits limits{run.lower_limit, run.upper_limit};
   if (!limits.lower && !limits.upper) {
     return Error{ErrorCode::LimitsNone,
-                 fmt::format("{} has no limits, which figures are against: select values that were "
-                             "judged, by verdict or characteristic",
+                 fmt::format("{} has no limits: select judged values, by verdict or characteristic",
                              app::measurement_id_text(run.values.front().id, run.origin))};
   }
   if (!limits_) limits_ = limits;
@@ -104,8 +101,8 @@ Result<void> ValueSelection::add(const app::MeasuredRun& run) {
   if (!ungrouped_) join(*run.subgroup, run.values.size());
   if (bytes_ + ids_.bytes() + counts_.size() * sizeof(Wide) > most_bytes_) {
     return Error{ErrorCode::StatisticsTooMany,
-                 fmt::format("more than {} values match, which is what one figure takes: narrow "
-                             "the selection, by from and to for instance",
+                 fmt::format("more than {} values match, the most for one figure: narrow the "
+                             "selection, for example by from and to",
                              counts_.size())};
   }
   if (counts_.empty())
@@ -208,7 +205,7 @@ Result<SelectedValues> ValueSelection::by_subgroup() && {
   }
   if (size < 2) {
     return Error{ErrorCode::StatisticsTooFew,
-                 "each subgroup has one value; take the values one by one with subgroups=ignore"};
+                 "each subgroup has one value: use single values with subgroups=ignore"};
   }
   std::vector<std::size_t> ends(names_.size());
   for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = i * size;

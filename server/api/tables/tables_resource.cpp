@@ -64,11 +64,11 @@ void answer_change(const std::shared_ptr<http::Responder>& responder, int status
 Result<std::string> column_name(const http::Request& request) {
   const std::string_view name = *request.text("name");
   if (iso286::is_class_name(name)) return std::string(name);
-  return Error{ErrorCode::PathMalformed,
-               fmt::format("'{}' is no name of a column: that is a letter and up to 15 letters, "
-                           "digits or underscores",
-                           name),
-               "name"};
+  return Error{
+      ErrorCode::PathMalformed,
+      fmt::format("the name must be a letter and up to 15 letters, digits or underscores; got '{}'",
+                  name),
+      "name"};
 }
 
 void put_column(const Services& services, Feature feature, const http::Request& request,

@@ -71,7 +71,7 @@ Result<std::optional<std::string>> idempotency_key(const http::Request& request)
       std::all_of(key.begin(), key.end(), [](char c) { return c >= ' ' && c <= '~'; });
   if (key.empty() || key.size() > kLongest || !visible) {
     return Error{ErrorCode::IdempotencyKeyInvalid,
-                 "an Idempotency-Key has 1 to 255 visible ASCII characters"};
+                 "Idempotency-Key must have 1 to 255 visible ASCII characters"};
   }
   return std::optional(std::string(key));
 }

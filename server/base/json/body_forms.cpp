@@ -30,7 +30,7 @@ bool Word::read(FieldReader& fields, std::string_view name, std::string& to) con
   auto given = fields.text(name);
   if (!given) return false;
   if (*given != word) {
-    fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} is {}", name, word));
+    fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} must be {}", name, word));
   }
   to = *std::move(given);
   return to == word;
@@ -76,7 +76,7 @@ std::optional<std::size_t> find_word(FieldReader& fields, std::string_view name,
   const auto found = std::find(words.begin(), words.end(), *given);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
   fields.report(ErrorCode::FieldInvalid, name,
-                fmt::format("{} takes \"{}\"", name, fmt::join(words, "\" or \"")));
+                fmt::format("{} must be \"{}\"", name, fmt::join(words, "\" or \"")));
   return std::nullopt;
 }
 

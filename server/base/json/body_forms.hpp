@@ -268,7 +268,7 @@ struct Words {
     const auto found = std::find(words.begin(), words.end(), *given);
     if (found == words.end()) {
       const std::string wanted = listed(fmt::format("{}", fmt::join(words, " ")));
-      fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} is {}", name, wanted));
+      fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} must be one of: {}", name, wanted));
       return false;
     }
     to = static_cast<E>(found - words.begin());

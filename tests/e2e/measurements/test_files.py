@@ -124,7 +124,7 @@ class Files(DaemonTest):
         self.daemon.measure([{"designation": "25 H7", "measured_mm": 25.01, "order": "x" * 21}])
         identity = self.daemon.stored()[0]["id"]
         for query, words in (("format=dfq", f"a DFQ cannot hold {identity}: K0053"), ("format=dfq&part_id=nobody", "no measurement matches"),
-                             ("format=dfq&time_zone=Mars", "time_zone"), ("format=xlsx&part_number=1", "part_number is of format=dfq"),
+                             ("format=dfq&time_zone=Mars", "time_zone"), ("format=xlsx&part_number=1", "part_number is for format=dfq"),
                              ("format=dfq&part_number=" + "x" * 100, "K1001")):
             answer = self.download(query, 400)
             self.assert_problem(answer, 400, "query.invalid")
@@ -136,7 +136,7 @@ class Files(DaemonTest):
         self.daemon.measure({"designation": "25 H7", "measured_mm": 25.01})
         for form in ("xlsx", "dfq"):
             answer = self.download("format=" + form, 400)
-            self.assertIn("100001 measurements match, and a file of this format holds 100000", answer.text)
+            self.assertIn("100001 measurements match, and a file of this format has at most 100000", answer.text)
 
     def test_of_long_records_fewer_are_held(self):
         """What is made of them is held in memory: 10,000 as long as these take 60 MB, and a QIF of them 130."""
