@@ -2,7 +2,7 @@
 
 import { h, s } from './dom.js';
 import { boundsOf, nmFromMm, nmFromUm, mmText, umText } from './exact.js';
-import { number, t } from './i18n.js';
+import { has, number, t } from './i18n.js';
 
 export const VERDICTS = ['good', 'rework', 'reject', 'indeterminate'];
 
@@ -41,8 +41,9 @@ export function distanceText(record) {
   return t(`distance.${distance > 0 ? 'below' : 'above'}.${limit}`, { um: number(umText(Math.abs(distance))) });
 }
 
+const measureText = (measure) => (has(`measure.${measure}`) ? t(`measure.${measure}`) : measure);
 /** "Insert worn → Insert changed · after the break" */
-export const noteText = ({ cause, measure, text }) => [[cause, measure].filter(Boolean).join(' → '), text].filter(Boolean).join(' · ');
+export const noteText = ({ cause, measure, text }) => [[cause, measure && measureText(measure)].filter(Boolean).join(' → '), text].filter(Boolean).join(' · ');
 
 /** "25.000 to 25.021 mm" with equally many decimals. */
 export function limitsText(limits) {

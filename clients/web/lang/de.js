@@ -51,6 +51,8 @@ export default {
   'reaction.take': 'Übernehmen',
   'note.cause': 'Ursache',
   'note.measure': 'Maßnahme',
+  'measure.set aside': 'beiseitegelegt',
+  'measure.counted again': 'wieder gezählt',
   'note.refused': 'Die Notiz wurde nicht gespeichert: {reason}',
   'note.add': 'Notiz',
   'note.add_this': 'Notiz zu {mm} mm von {part}',

@@ -51,6 +51,8 @@ export default {
   'reaction.take': 'Take',
   'note.cause': 'Cause',
   'note.measure': 'Measure',
+  'measure.set aside': 'set aside',
+  'measure.counted again': 'counted again',
   'note.refused': 'The note was not stored: {reason}',
   'note.add': 'Note',
   'note.add_this': 'Add a note to {mm} mm of {part}',

@@ -51,6 +51,8 @@ export default {
   'reaction.take': 'Conferma',
   'note.cause': 'Causa',
   'note.measure': 'Provvedimento',
+  'measure.set aside': 'messo da parte',
+  'measure.counted again': 'contato di nuovo',
   'note.refused': 'La nota non è stata salvata: {reason}',
   'note.add': 'Nota',
   'note.add_this': 'Nota a {mm} mm di {part}',

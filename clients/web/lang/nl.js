@@ -51,6 +51,8 @@ export default {
   'reaction.take': 'Overnemen',
   'note.cause': 'Oorzaak',
   'note.measure': 'Maatregel',
+  'measure.set aside': 'opzijgezet',
+  'measure.counted again': 'weer meegeteld',
   'note.refused': 'De notitie is niet opgeslagen: {reason}',
   'note.add': 'Notitie',
   'note.add_this': 'Notitie bij {mm} mm van {part}',

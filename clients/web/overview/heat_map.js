@@ -3,6 +3,7 @@
 import { h, refill, s } from '../dom.js';
 import { dateTime, t } from '../i18n.js';
 import { fragment } from '../route.js';
+import { asideOf } from '../trend/aside.js';
 import { pointOf } from '../trend/series.js';
 import { distanceText, measuredText, verdictMark, verdictShape, VERDICTS } from '../verdict.js';
 
@@ -84,7 +85,7 @@ export class HeatMap {
     const y = HEAD + row * CELL.height;
     const box = { x: x + 1, y: y + 1, width: this.cell - 2, height: CELL.height - 2 };
     const isHere = this.#at && this.#at.row === row && this.#at.part === this.parts[column].name;
-    return s('g', { class: isHere ? 'cell here' : 'cell', 'data-verdict': record ? record.verdict ?? 'unjudged' : 'none' },
+    return s('g', { class: isHere ? 'cell here' : 'cell', 'data-verdict': record ? (asideOf(record) ? 'aside' : record.verdict ?? 'unjudged') : 'none' },
       s('rect', box), record && mark(record, box), isHere && s('rect.ring', box));
   }
 
@@ -116,7 +117,7 @@ export class HeatMap {
     if (!part || !name) return refill(this.said, h('p.aside', t('heat.pick')));
     const record = part.values.get(name);
     const links = [h('a', { href: fragment({ view: 'parts', options: { part_id: part.name } }) }, part.name), h('a', { href: fragment({ view: 'trend', options: { ...this.options(), characteristic: name } }) }, name)];
-    return refill(this.said, h('div.line', links, record ? [verdictMark(record.verdict), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)), h('span.aside', dateTime(new Date(record.measured_at)))]
+    return refill(this.said, h('div.line', links, record ? [verdictMark(record.verdict), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)), asideOf(record) && h('span.aside', `${t('aside.mark')}: ${asideOf(record).cause}`), h('span.aside', dateTime(new Date(record.measured_at)))]
       : h('span', t('heat.none'))));
   }
 
@@ -137,6 +138,7 @@ export class HeatMap {
 /** A good value is a bar at its place between the limits, darker towards them; another its verdict. */
 function mark(record, { x, y, width, height }) {
   const place = placeOf(record);
+  if (asideOf(record)) return s('path.aside-mark', { d: `M${x + 6} ${y + 8}l${width - 12} ${height - 16}m0 ${16 - height}l${12 - width} ${height - 16}` });
   if (record.verdict && record.verdict !== 'good') {
     const shape = verdictShape(record.verdict);
     for (const [name, value] of Object.entries({ x: x + (width - 20) / 2, y: y + (height - 20) / 2, width: 20, height: 20 })) shape.setAttribute(name, value);

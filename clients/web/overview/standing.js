@@ -1,18 +1,21 @@
 /** How a characteristic stands: its newest values, their verdicts, and what the service computes of them. */
 
 import { getJson, url } from '../api.js';
-import { FEWEST } from '../trend/figures.js';
-import { countVerdicts } from '../trend/series.js';
+import { capability, FEWEST } from '../trend/figures.js';
+import { isCounted } from '../trend/phases.js';
+import { countVerdicts, pointOf } from '../trend/series.js';
 
 /** So many of the newest values of each. */
 export const LAST = 100;
 
-/** {records: the newest last, count, verdicts, ppk: {value, lower, upper} or undefined, stable: undefined where the values tell nothing} */
+/** {records: the newest last, count: of those not set aside, verdicts, ppk: {value, lower, upper} or undefined, stable: undefined where the values tell nothing} */
 export async function standingOf(filter, signal) {
-  const { measurements } = await getJson(url(['measurements'], { ...filter, last: LAST }), { signal });
-  const figures = hasSpread(measurements) ? await figuresOf(filter, signal) : null;
+  const { measurements } = await getJson(url(['measurements'], { ...filter, last: LAST, notes: 'shown' }), { signal });
+  const points = measurements.map(pointOf);
+  const counted = points.filter(isCounted);
+  const figures = hasSpread(counted.map(({ record }) => record)) ? await (counted.length < points.length ? capability(counted, null, signal) : figuresOf(filter, signal)) : null;
   return {
-    records: measurements, count: measurements.length, verdicts: countVerdicts(measurements.map((record) => ({ record }))),
+    records: measurements, count: counted.length, verdicts: countVerdicts(counted),
     ppk: figures?.ppk?.value == null ? undefined : figures.ppk, stable: figures?.stable,
   };
 }

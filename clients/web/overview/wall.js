@@ -3,6 +3,7 @@
 import { h, refill, s } from '../dom.js';
 import { number, t } from '../i18n.js';
 import { fragment } from '../route.js';
+import { asideOf } from '../trend/aside.js';
 import { pointOf, rangeOf } from '../trend/series.js';
 import { measuredText, verdictMark, verdictShape } from '../verdict.js';
 import { isDoubtful } from './standing.js';
@@ -48,7 +49,8 @@ export class Wall {
   }
 
   #card(name, standing) {
-    const { records, ppk } = standing;
+    const { ppk } = standing;
+    const records = standing.records.filter((record) => !asideOf(record));
     const last = records.at(-1);
     return h('li.sheet', { 'data-verdict': last?.verdict },
       h('div.line', h('h2', h('a', { href: fragment({ view: 'trend', options: { ...this.options(), characteristic: name } }) }, name)),

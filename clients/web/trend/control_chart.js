@@ -7,6 +7,7 @@ import { number, signed, t, time } from '../i18n.js';
 import { brush } from './brush.js';
 import { histogram } from './histogram.js';
 import { axes, coloursOf, DENSE, inSight, marked, stepped } from './plot.js';
+import { isCounted } from './phases.js';
 import { eventsOf, rangeOf } from './series.js';
 
 const TOP = 22;
@@ -40,6 +41,8 @@ const MARKS = {
   reject: 'M-3-7H3L7-3V3L3 7H-3L-7 3V-3z',
 };
 const RING = 'M-9 0a9 9 0 1 0 18 0a9 9 0 1 0-18 0';
+/** A value that is set aside. */
+const CROSS = 'M-6-6L6 6M-6 6L6-6';
 const DOT = 'M-2.5 0a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0';
 
 export const umOf = (value) => number(umText(Math.round(value * 100) * 10));
@@ -64,8 +67,10 @@ export class ControlChart {
     this.events = eventsOf(points);
     const [own, spread] = chart?.charts ?? [];
     const beside = width >= WIDE && HISTOGRAM;
-    const control = own ? [own.upper_limit, own.lower_limit].map((value) => value * NM_PER_UM) : [];
-    this.range = rangeOf(points, [...control, ...singles.map(({ deviation }) => deviation)]);
+    this.phases = chart?.phases ?? [];
+    const control = (own ? [own, ...this.phases.flatMap(({ charts }) => charts?.[0] ?? [])] : []).flatMap((one) => [one.upper_limit, one.lower_limit]).map((value) => value * NM_PER_UM);
+    const counted = points.filter(isCounted);
+    this.range = rangeOf(counted.length ? counted : points, [...control, ...singles.map(({ deviation }) => deviation)]);
     this.inside = width - beside - LEFT - RIGHT - 2 * INSET;
     const inner = VALUES + (spread ? GAP + SPREAD : 0);
     const height = TOP + inner + AXIS;
@@ -83,11 +88,11 @@ export class ControlChart {
       scales: { x: { time: false }, nm: { range: [high - (high - low) * inner / VALUES, high] }, spread: { range: [0, spreads.most * inner / SPREAD] } },
       axes: [this.#timeAxis(), ...spreads.axes, ...values.axes],
       series: [{}, ...series.map(({ data: _, ...look }) => ({ points: { show: false }, ...look }))],
-      hooks: { draw: [() => this.#drawOver()] },
+      hooks: { drawAxes: [() => this.#drawPhases()], draw: [() => this.#drawOver()] },
     }, [points.map((_, i) => i), ...series.map(({ data }) => data)]);
     brush(this.plot, { onPick, onStretch });
     this.element = h('div.control-chart', { role: 'img' }, this.plot.root,
-      beside && histogram(singles, this.range, { width: beside, height, top: TOP, bottom: TOP + VALUES }));
+      beside && singles.length > 0 && histogram(singles, this.range, { width: beside, height, top: TOP, bottom: TOP + VALUES }));
     figure.replaceChildren(this.element);
   }
 
@@ -110,7 +115,8 @@ export class ControlChart {
     this.row = row;
     this.firsts = firstsOf(rules);
     this.beyond = points.flatMap(({ deviation }, i) => (deviation > range.high || deviation < range.low ? [i] : []));
-    const of = (verdict) => points.flatMap(({ record }, i) => (record.verdict === verdict ? [i] : []));
+    const of = (verdict) => points.flatMap((point, i) => (point.record.verdict === verdict && isCounted(point) ? [i] : []));
+    const aside = points.flatMap((point, i) => (isCounted(point) ? [] : [i]));
     const sides = points[0].members ? [] : ['upper', 'lower'].filter((side) => Number.isFinite(range[side]));
     const limits = [range.upper, range.lower].filter(Number.isFinite);
     const target = limits.length === 2 ? [(range.upper + range.lower) / 2] : [];
@@ -122,6 +128,7 @@ export class ControlChart {
         marked(row, RING, this.firsts, dots, { stroke: colours.ink, width: 1.75 }),
         ...Object.entries(MARKS).map(([verdict, shape]) => marked(row, shape, of(verdict), dots, {
           always: verdict !== 'good', fill: colours[verdict], stroke: verdict === 'rework' ? colours.ink : colours.sheet })),
+        marked(row, CROSS, aside, dots, { stroke: colours.soft, width: 2 }),
       ],
       axes: [
         ...(own ? this.#controlLines('nm', own, NM_PER_UM, (range.high - range.low) / VALUES) : []),
@@ -134,10 +141,11 @@ export class ControlChart {
 
   #spreads(own) {
     const { points, colours, dots } = this;
-    const most = own.points.reduce((greatest, value) => Math.max(greatest, value), Math.max(own.upper_limit, 1e-6));
-    // The first value has no range: the row begins one later.
-    const row = { scale: 'spread', data: [...Array(points.length - own.points.length).fill(null), ...own.points] };
-    const outside = row.data.flatMap((value, i) => (value > own.upper_limit ? [i] : []));
+    const uppers = this.phases.flatMap(({ charts }) => charts?.[1]?.upper_limit ?? []);
+    const most = [...own.points, ...uppers].reduce((greatest, value) => Math.max(greatest, value), Math.max(own.upper_limit, 1e-6));
+    const row = { scale: 'spread', data: own.points };
+    const limitAt = (i) => this.phases.find(({ from, to }) => i >= from && i <= to)?.charts?.[1].upper_limit ?? own.upper_limit;
+    const outside = row.data.flatMap((value, i) => (value !== null && value > limitAt(i) ? [i] : []));
     return {
       most,
       series: [
@@ -158,7 +166,8 @@ export class ControlChart {
     const values = named.map(({ value }) => value);
     const free = named.filter(({ value }, i) => values.slice(0, i).every((other) => Math.abs(other - value) > APART.control * perPixel));
     const { focus } = this.colours;
-    return [line(scale, values.slice(0, 1), focus, 1.25), line(scale, values.slice(1), focus, 1.25, [6, 4]),
+    const [centres, bounds] = this.phases.length > 1 ? [[], []] : [values.slice(0, 1), values.slice(1)];
+    return [line(scale, centres, focus, 1.25), line(scale, bounds, focus, 1.25, [6, 4]),
       axis({ scale, side: 1, splits: free.map(({ value }) => value), values: free.map(({ name, value }) => `${name} ${umOf(value / unit)}`) })];
   }
 
@@ -174,6 +183,36 @@ export class ControlChart {
       scale: 'x', size: AXIS, space: APART.time * dots, splits: undefined, values: (plot, splits) => splits.map(label),
       border: { show: true, stroke: colours.line, width: dots },
     });
+  }
+
+  /** The lines of each phase over its own values, and where it begins. */
+  #drawPhases() {
+    const { plot, plot: { ctx, bbox }, dots, colours, phases } = this;
+    if (phases.length < 2) return;
+    const size = dots * uPlot.pxRatio;
+    const { min, max } = plot.scales.x;
+    ctx.save();
+    Object.assign(ctx, { strokeStyle: colours.focus, fillStyle: colours.soft, lineWidth: 1.25 * size, font: plot.axes[0].font[0], textAlign: 'left', textBaseline: 'alphabetic' });
+    const stroke = (dash, ...paths) => {
+      ctx.setLineDash(dash.map((length) => length * size));
+      for (const path of paths) ctx.stroke(new Path2D(path));
+    };
+    phases.forEach(({ from, to, charts }, number) => {
+      if (to < min || from > max) return;
+      const [left, right] = [Math.max(from - 0.5, min), Math.min(to + 0.5, max)].map((at) => plot.valToPos(at, 'x', true));
+      const across = (value, scale) => { const y = plot.valToPos(value, scale, true); return `M${left} ${y}H${right}`; };
+      const of = (own, scale, unit) => {
+        stroke([], across(own.centre * unit, scale));
+        stroke([6, 4], ...[own.upper_limit, scale === 'nm' ? own.lower_limit : null].filter((value) => value !== null).map((value) => across(value * unit, scale)));
+      };
+      if (charts) of(charts[0], 'nm', NM_PER_UM);
+      if (charts?.[1]) of(charts[1], 'spread', 1);
+      if (from > 0 && from > min) {
+        stroke([2, 4], `M${left} ${bbox.top}V${bbox.top + bbox.height}`);
+        ctx.fillText(String(number + 1), left + 4 * size, bbox.top - 4 * size);
+      }
+    });
+    ctx.restore();
   }
 
   /** The numbers of the rules broken, the letters of what was done, and where the point stands that was picked. */

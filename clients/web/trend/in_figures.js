@@ -15,6 +15,7 @@ const deviation = (nm) => `${signed(umText(Math.round(nm)))} µm`;
 export function inFigures(points, chart, onPick) {
   const [own, spread] = chart?.charts ?? [];
   const { upper, lower, members } = points.at(-1);
+  const phases = chart?.phases ?? [];
   const limits = { 'trend.upper_limit': upper, 'trend.lower_limit': lower };
   const broken = rulesAt(chart);
   const shown = [...broken].slice(-MOST).reverse();
@@ -25,6 +26,11 @@ export function inFigures(points, chart, onPick) {
       Object.entries(limits).filter(([, nm]) => !members && Number.isFinite(nm)).map(([name, nm]) => row(t(name), deviation(nm))),
       own && [row(t('trend.upper_control'), `${umOf(own.upper_limit)} µm`), row(t('trend.centre'), `${umOf(own.centre)} µm`), row(t('trend.lower_control'), `${umOf(own.lower_limit)} µm`)],
       spread && [row(`${SPREADS[spread.name]}: ${t('trend.upper_control')}`, `${umOf(spread.upper_limit)} µm`), row(`${SPREADS[spread.name]}: ${t('trend.centre')}`, `${umOf(spread.centre)} µm`)])),
+    phases.length > 1 && h('div.wide', { tabindex: 0, role: 'region', 'aria-label': t('phases.title') }, h('table', h('caption', t('phases.title')),
+      h('thead', h('tr', ['phases.phase', 'phases.begins', 'trend.count', 'trend.lower_control', 'trend.centre', 'trend.upper_control'].map((name) => h('th', { scope: 'col' }, t(name))))),
+      h('tbody', phases.map(({ from, why, record, count, charts }, i) => row(h('button.quiet', { type: 'button', onclick: () => onPick(from) }, `${i + 1} · ${pointName(from)}`),
+        why.map((cause) => t(`phases.why.${cause}`, { tool: record.tool ?? '', um: signed(String(record.offset_um ?? '')) })).join(', '), String(count),
+        ...['lower_limit', 'centre', 'upper_limit'].map((line) => (charts ? `${umOf(charts[0][line])} µm` : '–'))))))),
     broken.size > 0 && h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('trend.points_broken') }, h('table',
       h('caption', broken.size > MOST ? t('trend.newest_of', { shown: MOST, count: broken.size }) : t('trend.points_broken')),
       h('thead', h('tr', ['trend.point', 'trend.deviation_of', 'trend.rules_broken', 'trend.time'].map((name) => h('th', { scope: 'col' }, t(name))))),

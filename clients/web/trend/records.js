@@ -5,12 +5,13 @@ import { umText } from '../exact.js';
 import { dateTime, signed, t } from '../i18n.js';
 import { fragment } from '../route.js';
 import { distanceText, measuredText, noteText, verdictMark } from '../verdict.js';
+import { asideOf } from './aside.js';
 
 const ROWS = 12;
 const HEAD = ['trend.verdict', 'trend.value', 'trend.distance', 'field.part_id', 'trend.time'];
 
-/** The record of one point, or those that its mean is of. @param broken the numbers of the rules it breaks, if any */
-export function pointDetail({ record, members, deviation }, broken) {
+/** The record of one point, or those that its mean is of. @param broken the numbers of the rules it breaks, if any; @param onAside takes a record that is to be set aside, or counted again */
+export function pointDetail({ record, members, deviation }, broken, onAside) {
   const marks = broken && h('span.stability.doubt', t('trend.broken', { rules: [...broken].join(', ') }));
   if (members) {
     return h('div.line', verdictMark(record.verdict), h('strong', `x̄ = ${signed(umText(Math.round(deviation)))} µm`), h('span', record.subgroup),
@@ -21,7 +22,8 @@ export function pointDetail({ record, members, deviation }, broken) {
     h('span.aside', [record.characteristic, record.machine, record.tool, record.operator, record.gauge, dateTime(new Date(record.measured_at))].filter(Boolean).join(' · ')),
     record.confirmed && h('span.aside', t('confirmed.mark')),
     record.correction_of !== undefined && h('span.aside', t('trend.corrected')),
-    (record.notes ?? []).map((one) => h('span', noteText(one))), marks);
+    (record.notes ?? []).map((one) => h('span', noteText(one))), marks,
+    h('button.quiet', { type: 'button', onclick: () => onAside(record) }, t(asideOf(record) ? 'aside.back' : 'aside.set')));
 }
 
 /** The last values, the newest first. */
@@ -29,6 +31,6 @@ export function lastRows(points) {
   return h('table', h('caption', t('recent.title')),
     h('thead', h('tr', HEAD.map((name) => h('th', { scope: 'col' }, t(name))))),
     h('tbody', points.slice(-ROWS).reverse().map(({ record }) => h('tr',
-      h('td', verdictMark(record.verdict)), h('td', `${measuredText(record)} mm`), h('td', distanceText(record)),
+      h('td', verdictMark(record.verdict)), h('td', `${measuredText(record)} mm`, asideOf(record) && h('span.aside', ` ${t('aside.mark')}`)), h('td', distanceText(record)),
       h('td', record.part_id ?? ''), h('td', dateTime(new Date(record.measured_at)))))));
 }

@@ -2,6 +2,7 @@
 
 import { nmFromUm } from '../exact.js';
 import { VERDICTS } from '../verdict.js';
+import { isNoted } from './aside.js';
 
 /** Values farther out than this many tolerances are drawn at the edge. */
 const FARTHEST = 3;
@@ -50,7 +51,7 @@ export function meanPoint(members) {
 
 /** What may have been done at a value. A mean has what was done at any of its values. */
 export const EVENTS = ['note', 'correction'];
-const HAS = { note: ({ notes }) => notes?.length > 0, correction: (record) => record.correction_of !== undefined };
+const HAS = { note: isNoted, correction: (record) => record.correction_of !== undefined };
 
 /** {index: names of events}, in order. */
 export const eventsOf = (points) => new Map(points.map(({ record, members }, i) => [i, EVENTS.filter((name) =>

@@ -11,16 +11,17 @@ const INDICES = ['cp', 'cpk', 'pp', 'ppk'];
 
 const tile = (shape, term, value, hint) => h('div', h('dt', shape, term), h('dd', value), hint && h('dd.hint', hint));
 
-export function countTiles(points) {
+export function countTiles(points, aside = 0) {
   const counts = countVerdicts(points);
   const { mean, deviation } = statisticsOf(points);
   const um = (nm) => `${signed(umText(Math.round(nm / 10) * 10))} µm`;
   return [
     ...VERDICTS.filter((verdict) => verdict !== 'indeterminate' || counts[verdict])
       .map((verdict) => tile(verdictShape(verdict), t(`verdict.${verdict}`), String(counts[verdict]))),
-    tile(null, t('trend.mean'), um(mean)),
+    aside > 0 && tile(null, t('aside.tile'), String(aside)),
+    tile(null, t('trend.mean'), points.length ? um(mean) : '–'),
     tile(null, t('trend.deviation'), Number.isFinite(deviation) ? um(deviation).replace('+', '') : '–'),
-  ];
+  ].filter(Boolean);
 }
 
 /** The indices with their 95 % interval and n. Never green: grey, and with the reason, while they mean little. */
@@ -34,7 +35,7 @@ export function capabilityTiles(figures, points, chart, drawn = points) {
       const interval = lower != null && upper != null && t('trend.interval', { lower: index(lower), upper: index(upper) });
       return tile(null, name.replace('c', 'C').replace(/^p/, 'P'), index(value), interval);
     })),
-    h('p', { class: doubt ? 'stability doubt' : 'stability' }, doubt || t('trend.stable', { count: drawn.flatMap((point) => point.members ?? point).length })),
+    h('p', { class: doubt ? 'stability doubt' : 'stability' }, doubt || t('trend.stable', { count: points.length })),
   ];
 }
 

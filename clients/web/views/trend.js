@@ -8,13 +8,15 @@ import { FilterBar } from '../filter_bar.js';
 import { explain, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { go } from '../route.js';
+import { asideList, askAside } from '../trend/aside.js';
 import { Boxes } from '../trend/boxes.js';
 import { ChartPlace } from '../trend/chart_place.js';
 import { rulesAt } from '../trend/control_chart.js';
-import { capability, controlChart } from '../trend/figures.js';
+import { capability } from '../trend/figures.js';
 import { HeldValues } from '../trend/held_values.js';
 import { inFigures } from '../trend/in_figures.js';
 import { nextOffset, offsetTiles } from '../trend/next_offset.js';
+import { CAUSES, chartOfPhases, isCounted, phasesOf } from '../trend/phases.js';
 import { lastRows, pointDetail } from '../trend/records.js';
 import { eventsOf, meanPoint, pointOf, subgroupsOf } from '../trend/series.js';
 import { capabilityTiles, countTiles } from '../trend/tiles.js';
@@ -40,6 +42,7 @@ export function mount(main, route) {
   const count = select('count', () => { values.count = Number(count.value); load(); });
   const kind = select('kind', () => { frozen = null; chart.picked = null; compute(); });
   const rules = RULES.map((rule) => h('input', { type: 'checkbox', value: rule, checked: (options.rules ?? '1234').includes(rule), onchange: () => compute() }));
+  const phases = CAUSES.map((cause) => h('input', { type: 'checkbox', value: cause, checked: (options.phases ?? '').split(',').includes(cause), onchange: () => compute() }));
   const freeze = h('button', { type: 'button', onclick: () => toggleFrozen() });
   const chart = new ChartPlace({ leaving: leaving.signal, onDrawn: () => tell() });
   const tiles = h('dl.tiles');
@@ -48,6 +51,7 @@ export function mount(main, route) {
   const detail = h('div.detail', { role: 'status' });
   const boxes = new Boxes(options.boxes ?? '', () => remembered());
   const figured = h('details.in-figures', { hidden: true });
+  const aside = h('section.sheet.aside-values', { hidden: true });
   const note = h('p.note', { role: 'alert' });
   const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('recent.title') });
   const offered = new Set();
@@ -66,8 +70,9 @@ export function mount(main, route) {
       field(t('job.designation'), designation), field(t('trend.count'), count), kindField, bar.element),
     note, h('div.sums', tiles, indices),
     h('div.sheet', chart.element, chart.stretch.element, detail, boxes.element, figured,
-      h('div.line.rules', h('span.label', t('trend.rules')), rules.map((input, i) => h('label.choice', input, h('span', t(`trend.rule.${RULES[i]}`)))), freeze)),
-    offset, table));
+      h('div.line.rules', h('span.label', t('trend.rules')), rules.map((input, i) => h('label.choice', input, h('span', t(`trend.rule.${RULES[i]}`)))), freeze),
+      h('div.line.rules.phases', h('span.label', t('phases.new')), phases.map((input, i) => h('label.choice', input, h('span', t(`phases.${CAUSES[i]}`)))))),
+    aside, offset, table));
 
   /** The characteristics there are; what the URL names is offered even when nothing has it yet. */
   async function offer() {
@@ -92,30 +97,37 @@ export function mount(main, route) {
     }
   }
 
+  const chosenPhases = () => phases.filter((input) => input.checked).map(({ value }) => value);
   const chosenRules = () => rules.filter((input) => input.checked).map((input) => Number(input.value));
 
   /** Asks the service for the figures of what is shown, then draws both together. */
   async function compute() {
     const points = values.shown.map(pointOf);
-    const found = subgroupsOf(points);
+    const counted = points.filter(isCounted);
+    const found = subgroupsOf(counted);
     // Without subgroups there is nothing to choose.
     kindField.hidden = found.groups.length < 2;
     const groups = kindField.hidden || kind.value === 'i_mr' ? null : found.groups;
-    const charted = { kind: groups ? kind.value : 'i_mr', groups, rules: chosenRules(), frozen };
+    const drawn = groups ? groups.map(meanPoint) : points;
+    // Limits that are frozen are those of every value.
+    const phased = phasesOf(drawn, frozen ? [] : chosenPhases());
+    const { from } = phased.at(-1);
+    const newest = drawn.slice(from).flatMap((point) => point.members ?? (isCounted(point) ? point : []));
+    const charted = { kind: groups ? kind.value : 'i_mr', rules: chosenRules(), frozen };
     try {
-      const answers = await computing.run((signal) => (points.length
-        ? Promise.all([controlChart(points, charted, signal), capability(points, groups, signal)]) : [null, null]));
+      const answers = await computing.run((signal) => (newest.length
+        ? Promise.all([chartOfPhases(drawn, phased, charted, signal), capability(newest, groups?.slice(from) ?? null, signal)]) : [null, null]));
       if (!answers) return;
       figures = { chart: answers[0], indices: answers[1] };
-      propose(points);
+      propose(points.length === counted.length ? points : []);
       left = groups ? found.left : 0;
-      draw(points, groups ? groups.map(meanPoint) : points);
+      draw(points, drawn, counted, phased.length > 1 ? { from, values: newest } : null);
     } catch (problem) {
       note.textContent = explain(problem);
     }
   }
 
-  /** What the setter types next: of one characteristic on one machine, with limits that are the same for all values. */
+  /** What the setter types next: of one characteristic on one machine, with limits that are the same for all values, none of them set aside. */
   async function propose(points) {
     const isOne = figures.indices && new Set(points.map(({ record }) => record.machine)).size === 1;
     const found = await proposing.run((signal) => (isOne ? nextOffset(values.query, signal) : null)).catch(() => null);
@@ -129,13 +141,13 @@ export function mount(main, route) {
       view: 'trend',
       options: {
         characteristic: values.characteristic, designation: values.size, count: values.count, ...bar.options, kind: kind.value === 'i_mr' ? '' : kind.value,
-        rules: chosenRules().join(''), boxes: boxes.by, ...(frozen && { centre: frozen.centre, sd: frozen.standard_deviation }),
+        rules: chosenRules().join(''), phases: chosenPhases().join(), boxes: boxes.by, ...(frozen && { centre: frozen.centre, sd: frozen.standard_deviation }),
       },
     }, { refine: true });
   }
 
-  /** @param points the values one by one; @param drawn the same, or the means of their subgroups */
-  function draw(points, drawn) {
+  /** @param points the values one by one; @param drawn the same, or the means of their subgroups; @param counted those not set aside; @param newest {from, values}: the newest phase, where there are several */
+  function draw(points, drawn, counted, newest) {
     refill(designation, [...new Set([...values.sizes, values.size].filter(Boolean))].sort()
       .map((name) => option(name, designationText(name).replace('Ø ', ''), name === values.size)));
     designation.value = values.size;
@@ -143,17 +155,20 @@ export function mount(main, route) {
     freeze.disabled = !figures.chart && !frozen;
     freeze.textContent = t(frozen ? 'trend.thaw' : 'trend.freeze');
     figured.hidden = !points.length;
-    boxes.show(points);
+    boxes.show(counted);
+    refill(aside, asideList(points, (index) => chart.goTo(drawn === points ? index : drawn.findIndex((one) => one.members?.includes(points[index]))), setAside));
+    aside.hidden = counted.length === points.length;
     if (!points.length) {
       chart.clear(t('trend.empty'));
       for (const place of [tiles, indices, detail, figured, table]) place.replaceChildren();
       told = null;
       return;
     }
-    chart.show({ points: drawn, singles: points, chart: figures.chart });
+    chart.show({ points: drawn, singles: counted, chart: figures.chart });
     refill(figured, inFigures(drawn, figures.chart, (index) => chart.goTo(index)));
-    tiles.replaceChildren(...countTiles(points));
-    indices.replaceChildren(...capabilityTiles(figures.indices, points, figures.chart, drawn));
+    tiles.replaceChildren(...countTiles(counted, points.length - counted.length));
+    const own = newest && figures.chart && { ...figures.chart, violations: figures.chart.violations.filter(({ index }) => index >= newest.from) };
+    indices.replaceChildren(...capabilityTiles(figures.indices, newest?.values ?? counted, own ?? figures.chart, drawn), ...(newest ? [h('p.aside', t('phases.newest', { count: newest.values.length }))] : []));
     table.replaceChildren(lastRows(points));
   }
 
@@ -163,12 +178,27 @@ export function mount(main, route) {
     if (told?.picked === picked && told.shown === shown) return;
     told = { picked, shown };
     refill(detail, picked === null ? h('p.aside', [left && t('trend.left_out', { count: left }), priceText(), eventsOf(shown.points).size > 0 && t('trend.events')].filter(Boolean).join(' '))
-      : pointDetail(shown.points[picked], rulesAt(shown.chart).get(picked)));
+      : pointDetail(shown.points[picked], rulesAt(shown.chart).get(picked), setAside));
   }
 
   /** What the rules cost: points to a false alarm. */
   const priceText = () => (figures.chart?.average_run_length
     ? t('trend.price', { points: String(Math.round(figures.chart.average_run_length)) }) : t('trend.pick'));
+
+  /** Sets a value aside, or counts it again; the note is shown at once. */
+  async function setAside(record) {
+    const stored = await askAside(record);
+    if (stored) noted(stored);
+  }
+
+  /** A note that is stored, here or elsewhere, beside a value that is shown. */
+  function noted(stored) {
+    const record = values.shown.find(({ id }) => id === stored.measurement_id);
+    if (!record || record.notes?.some(({ id }) => id === stored.id)) return;
+    record.notes = [...(record.notes ?? []), stored];
+    told = null;
+    computeSoon();
+  }
 
   function toggleFrozen() {
     const own = figures.chart?.charts[0];
@@ -185,6 +215,7 @@ export function mount(main, route) {
 
   function arrived(event) {
     if (event.type === 'resync') return catchUp();
+    if (event.type === 'note.added') return noted(JSON.parse(event.data));
     if (event.type !== 'measurement.recorded') return null;
     const record = JSON.parse(event.data);
     note.textContent = '';

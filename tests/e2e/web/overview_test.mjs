@@ -52,7 +52,7 @@ describe('the overview', () => {
     for (const size of SIZES) {
       await page.setViewportSize(size);
       await page.waitForFunction((width) => document.querySelector('.heat svg').getBoundingClientRect().right <= width, size.width);
-      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+      await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth);
       await picture(page, `overview-heat-${size.width}`, { fullPage: true });
     }
     await page.setViewportSize(SIZES[0]);
@@ -75,7 +75,7 @@ describe('the overview', () => {
     assert.deepEqual(await findings(page), []);
     for (const size of SIZES) {
       await page.setViewportSize(size);
-      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+      await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth);
       await picture(page, `overview-wall-${size.width}`, { fullPage: true });
     }
     await page.click('.looks >> text=List');
@@ -87,7 +87,7 @@ describe('the overview', () => {
   it('fits 1024 in Italian', async () => {
     const page = await open(browser, daemon, '#/overview?machine=M1&look=heat', { viewport: { width: 1024, height: 768 }, locale: 'it-IT' });
     await page.waitForSelector('.heat .picture .cell');
-    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth);
     await picture(page, 'overview-heat-it', { fullPage: true });
     await close(page);
   });

@@ -1,0 +1,64 @@
+/**
+ * Values set aside: a note with the measure `set aside` and a reason says so, one with `counted again` takes it back; the newest of
+ * them counts. Figures leave out what is set aside, charts and lists show it.
+ */
+
+import { url } from '../api.js';
+import { field, h } from '../dom.js';
+import { dateTime, t } from '../i18n.js';
+import { orderOf } from '../parts/order.js';
+import { measuredText, verdictMark } from '../verdict.js';
+
+const [ASIDE, COUNTED] = ['set aside', 'counted again'];
+const decides = ({ measure }) => measure === ASIDE || measure === COUNTED;
+const LONGEST = 200;
+
+/** The note that sets a record aside, or undefined. */
+export function asideOf({ notes = [] }) {
+  const last = notes.filter(decides).at(-1);
+  return last?.measure === ASIDE ? last : undefined;
+}
+
+/** Whether a record has another note than these. */
+export const isNoted = ({ notes = [] }) => notes.some((note) => !decides(note));
+
+/** Asks for the reason and stores it; resolves to the note, or to null. */
+export function askAside(record) {
+  const isBack = asideOf(record) !== undefined;
+  const input = (name) => h('input', { type: 'text', name, maxlength: LONGEST, autocomplete: 'off', spellcheck: 'false' });
+  const [reason, operator] = ['reason', 'operator'].map(input);
+  const why = h('p.note', { role: 'alert' });
+  let stored = null;
+  function send(event) {
+    event.preventDefault();
+    const cause = reason.value.trim();
+    if (!cause) why.textContent = t('aside.why');
+    else order({ cause, measure: isBack ? COUNTED : ASIDE, ...(operator.value.trim() && { operator: operator.value.trim() }) });
+  }
+  const dialog = h('dialog', { 'aria-labelledby': 'aside-title' }, h('form', { novalidate: true, onsubmit: send },
+    h('h2', { id: 'aside-title' }, t(isBack ? 'aside.back_title' : 'aside.title', { mm: measuredText(record), part: record.part_id ?? t('part.none') })),
+    h('p', t('aside.rule')), field(t('correct.reason'), reason), field(t('field.operator'), operator), why,
+    h('p.actions', h('button.primary', { type: 'submit' }, t(isBack ? 'aside.back' : 'aside.set')), h('button', { type: 'button', onclick: () => dialog.close('') }, t('confirm.cancel')))));
+  const order = orderOf(dialog, url(['measurements', record.id, 'notes']), why, 'noted', (note) => { stored = note; });
+  document.body.append(dialog);
+  dialog.showModal();
+  return new Promise((resolve) => {
+    dialog.addEventListener('close', () => {
+      dialog.remove();
+      resolve(stored);
+    });
+  });
+}
+
+/** What is set aside among the points, the newest first. @param onGo takes the index of one; @param onBack a record */
+export function asideList(points, onGo, onBack) {
+  const found = points.map(({ record }, index) => ({ record, index, note: asideOf(record) })).filter(({ note }) => note).reverse();
+  if (!found.length) return [];
+  const head = ['trend.verdict', 'trend.value', 'field.part_id', 'correct.reason', 'field.operator', 'trend.time'].map((name) => h('th', { scope: 'col' }, t(name)));
+  return [h('h2', t('aside.list', { count: found.length })), h('p.aside', t('aside.rule')),
+    h('div.wide', { tabindex: 0, role: 'region', 'aria-label': t('aside.list', { count: found.length }) }, h('table', h('thead', h('tr', head, h('td'))),
+      h('tbody', found.map(({ record, index, note }) => h('tr', h('td', verdictMark(record.verdict)), h('th', { scope: 'row' }, h('button.quiet', { type: 'button', onclick: () => onGo(index) }, `${measuredText(record)} mm`)),
+        h('td', record.part_id ?? ''), h('td', note.cause), h('td', note.operator ?? note.caller ?? ''), h('td', dateTime(new Date(note.received_at))),
+        h('td', h('button.quiet', { type: 'button', 'aria-label': t('aside.back_this', { mm: measuredText(record), part: record.part_id ?? t('part.none') }), onclick: () => onBack(record) }, t('aside.back')))))))),
+  ];
+}
