@@ -86,10 +86,12 @@ constexpr CycleParameter kParameters[] = {
     length(218, "Length of the 1st side"),
     length(219, "Length of the 2nd side, or width of the slot"),
     length(220, "Corner radius"),
+    length(222, "Diameter of the blank"),
     length(223, "Diameter of the circle"),
     angle(224, "Angle of rotation"),
     coordinate(225, "Starting point in the main axis"),
     coordinate(226, "Starting point in the secondary axis"),
+    coordinate(227, "Starting point in the tool axis"),
     coordinate(237, "Spacing in the main axis"),
     coordinate(238, "Spacing in the secondary axis"),
     coordinate(239, "Thread pitch"),
@@ -144,16 +146,21 @@ constexpr CycleParameter kParameters[] = {
     angle(378, "Stepping angle"),
     length(379, "Deepened starting point, below the surface"),
     feed(385, "Feed rate for finishing", 500),
+    coordinate(386, "End point in the tool axis"),
+    choice(389, "Strategy: 0 meander outside, 1 meander within, 2 line by line", 0, 2, 2),
     choice(395, "Depth reference: 0 tip, 1 shoulder", 0, 1),
     choice(301, "Move to clearance height: 0 no, 1 yes", 0, 1),
     plain(403, "Factor of the speed for retraction", 0.0001, 10, 1),
     plain(401, "Factor of the feed", 0, 100, 100),
-    feed(426, "Feed or direction of the spindle for entry", 5),
+    length(424, "Length of the 1st side of the blank"),
+    length(425, "Length of the 2nd side of the blank"),
+    choice(426, "Spindle for entry and retraction: 3 M3, 4 M4, 5 M5", 3, 5, 5),
     plain(427, "Speed for entry and retraction", 0, kLongest, 20),
     plain(428, "Speed for drilling", 0, kLongest, 500),
     plain(429, "Coolant on", 0, 999, 8),
     plain(430, "Coolant off", 0, 999, 9),
     coordinate(435, "Dwell depth"),
+    choice(437, "Starting point: 0 right of the stud, 1 to 4 its corners", 0, 4),
     choice(438, "Reference of the finishing: -1 to 2", -1, 32767, -1),
     choice(439, "Feed reference: 0 centre, 1 to 3 cutting edge", 0, 3),
     length(404, "Fine roughing strategy"),
@@ -209,6 +216,13 @@ constexpr auto k225 =
 constexpr auto k240 = pick({200, 343, 201, 344, 206, 211, 203, 204, 341, 342, 395});
 constexpr auto k241 = pick({200, 201, 206, 211, 203, 204, 379, 253, 208, 426, 427, 428, 429, 430,
                             435, 401, 202, 212, 205});
+constexpr auto k232 = [] {
+  auto all = pick({389, 225, 226, 227, 386, 218, 219, 202, 369, 370, 207, 385, 253, 200, 357, 204});
+  for (CycleParameter& side : all) {
+    if (side.id == q(218) || side.id == q(219)) side.range.min = -kLongest;
+  }
+  return all;
+}();
 constexpr auto k251 = pick({215, 218, 219, 220, 368, 224, 367, 207, 351, 201, 202,
                             369, 206, 338, 200, 203, 204, 370, 366, 385, 439});
 constexpr auto k252 =
@@ -217,6 +231,10 @@ constexpr auto k253 = pick({215, 218, 219, 368, 374, 367, 207, 351, 201, 202, 36
                             203, 204, 366, 385, 439});
 constexpr auto k254 = pick({215, 219, 368, 375, 367, 216, 217, 376, 248, 378, 377, 207,
                             351, 201, 202, 369, 206, 338, 200, 203, 204, 366, 385, 439});
+constexpr auto k256 = pick({218, 424, 219, 425, 220, 368, 224, 367, 207, 351, 201,
+                            202, 206, 200, 203, 204, 370, 437, 215, 369, 338, 385});
+constexpr auto k257 =
+    pick({223, 222, 368, 207, 351, 201, 202, 206, 200, 203, 204, 370, 376, 215, 369, 338, 385});
 constexpr auto k262 = pick({335, 239, 201, 355, 253, 351, 200, 203, 204, 207, 512});
 constexpr auto k263 =
     pick({335, 239, 201, 356, 253, 351, 200, 357, 358, 359, 203, 204, 254, 207, 512});
@@ -233,6 +251,10 @@ constexpr std::string_view kPocketText =
 constexpr std::string_view kNoClearing =
     "Clearing the inside and the way of plunging (Q366, Q370): the tool plunges vertically beside "
     "the contour.";
+constexpr std::string_view kStudText =
+    "At each depth Q202 a half circle from beside the blank onto the contour, rounds no further "
+    "from each other than Q370 times the tool's radius, and a half circle back. The allowances "
+    "stay when only roughing (Q215 = 1), and in a block without Q215.";
 constexpr std::string_view kThreadText =
     "Helix at the pitch, entered and left through the centre: one turn at the depth in 263 and "
     "264, the whole depth downwards in 265, by Q355 in 262 and 267; the countersinking of 263 to "
@@ -325,12 +347,29 @@ constexpr MachiningCycle kCycles[] = {
     in_q(225, "ENGRAVING", Shape::Engraving, k225,
          "The tool goes to the depth where the text begins.",
          "The strokes and the places of the characters: the font is the control's."),
+    in_q(232, "FACE MILLING", Shape::FaceMilling, k232,
+         "Lanes along the main axis, evenly spaced by at most Q370 times the tool's radius, the "
+         "last one up to the edge; equal infeeds of at most Q202, the last one of Q369 at Q385. "
+         "Each infeed goes through the lanes in reverse. With Q389 = 1 the next lane is reached "
+         "at Q207, else at Q253.",
+         "A tooth radius R2, which makes the lanes of the control narrower."),
     in_q(240, "CENTERING", Shape::Drilling, k240, kDrillingText),
-    in_q(241, "SINGLE-LIP D.H.DRLNG", Shape::Drilling, k241, kDrillingText),
+    in_q(241, "SINGLE-LIP D.H.DRLNG", Shape::Drilling, k241,
+         "Entry to the deepened starting point and retraction at the speed Q427, the spindle by "
+         "Q426; drilling at Q428 with coolant (Q429, Q430); beyond the dwell depth Q435 at Q401 "
+         "percent of the feed. Infeeds dwell (Q211) without retraction. Then speed, spindle and "
+         "coolant are as before.",
+         "M functions other than M8 and M9 in Q429 and Q430."),
     in_q(251, "RECTANGULAR POCKET", Shape::RectangularPocket, k251, kPocketText, kNoClearing),
     in_q(252, "CIRCULAR POCKET", Shape::CircularPocket, k252, kPocketText, kNoClearing),
     in_q(253, "SLOT MILLING", Shape::Slot, k253, kPocketText, kNoClearing),
     in_q(254, "CIRCULAR SLOT", Shape::CircularSlot, k254, kPocketText, kNoClearing),
+    in_q(256, "RECTANGULAR STUD", Shape::RectangularStud, k256, kStudText,
+         "Q437: every stud is approached 2 mm to the right of the blank. Finishing as a step of "
+         "its own (Q338, Q385)."),
+    in_q(257, "CIRCULAR STUD", Shape::CircularStud, k257, kStudText,
+         "Finishing as a step of its own (Q338, Q385). The tool comes from 2 mm beside the blank "
+         "at Q376."),
     in_q(262, "THREAD MILLING", Shape::ThreadMilling, k262, kThreadText),
     in_q(263, "THREAD MLLNG/CNTSNKG", Shape::ThreadMilling, k263, kThreadText),
     in_q(264, "THREAD DRILLNG/MLLNG", Shape::ThreadMilling, k264, kThreadText),

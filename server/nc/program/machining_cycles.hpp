@@ -20,6 +20,9 @@ enum class MachiningShape : std::uint8_t {
   CircularPocket,     ///< 5, 252
   Slot,               ///< 3, 253
   CircularSlot,       ///< 254
+  RectangularStud,    ///< 256
+  CircularStud,       ///< 257
+  FaceMilling,        ///< 232
   ThreadMilling,      ///< 262 to 267
   Engraving,          ///< 225
   PolarPattern,       ///< 220: runs the cycle before it at each of its points

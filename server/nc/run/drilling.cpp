@@ -41,19 +41,40 @@ class Drilling {
 
   NcResult<void> run() {
     if (auto done = cycle_.start(); !done) return done;
+    const machine::Modes before = motion_.state().modes;
+    if (auto done = set_spindle(before, false); !done) return done;
     if (cycle_.value(379) != 0) {
       const double above = begin_ - down_ * cycle_.value(200);
       if (auto done = motion_.to_height(above, cycle_.feed(253)); !done) return done;
     }
+    if (auto done = set_spindle(before, true); !done) return done;
     if (auto done = cut(); !done) return done;
     if (auto done = motion_.dwell(cycle_.value(211)); !done) return done;
+    if (auto done = set_spindle(before, false); !done) return done;
     if (auto done = motion_.to_height(heights_.clearance, cycle_.retraction()); !done) return done;
+    if (auto done = motion_.set_modes(before); !done) return done;
     return cycle_.leave();
   }
 
  private:
   bool is_pecking() const {
-    return number_ == 1 || number_ == 200 || number_ == 203 || number_ == 241 || is_universal();
+    return number_ == 1 || number_ == 200 || number_ == 203 || is_single_lip() || is_universal();
+  }
+  bool is_single_lip() const { return number_ == 241; }
+  /// 241 drills at Q428 with coolant (Q429); it enters and leaves at Q427, the spindle by Q426.
+  NcResult<void> set_spindle(machine::Modes modes, bool drills) {
+    using machine::SpindleState;
+    if (!is_single_lip()) return {};
+    modes.spindle_rpm = cycle_.value(drills ? 428 : 427);
+    modes.coolant =
+        drills ? modes.coolant || cycle_.value(429) == 8 : modes.coolant && cycle_.value(430) != 9;
+    if (drills) return motion_.set_modes(modes);
+    const bool is_reversed = modes.spindle == SpindleState::CounterClockwise;
+    modes.spindle = cycle_.value(426) == 3   ? SpindleState::Clockwise
+                    : cycle_.value(426) == 4 ? SpindleState::CounterClockwise
+                    : is_reversed            ? SpindleState::StoppedAfterM4
+                                             : SpindleState::StoppedAfterM3;
+    return motion_.set_modes(modes);
   }
   /// Stops above what is drilled by Q258 and breaks the chip each Q257.
   bool is_universal() const { return number_ == 205 || number_ == 264; }
@@ -79,6 +100,10 @@ class Drilling {
       if (auto done = plunge(reached, next); !done) return done;
       reached = next;
       if (reached == heights_.bottom) break;
+      if (is_single_lip()) {
+        if (auto done = motion_.dwell(cycle_.value(211)); !done) return done;
+        continue;
+      }
       if (number_ == 203 && breaks_left > 0) {
         breaks_left -= 1;
         if (auto done = break_chip(reached); !done) return done;
@@ -99,7 +124,16 @@ class Drilling {
       if (auto done = motion_.to_height(at, cycle_.feed(206)); !done) return done;
       if (auto done = break_chip(at); !done) return done;
     }
-    return motion_.to_height(to, cycle_.feed(206));
+    if (!is_single_lip() || cycle_.value(435) == 0) return motion_.to_height(to, cycle_.feed(206));
+    // Beyond the dwell depth at Q401 percent of the feed.
+    const double slows_at = heights_.surface + down_ * std::abs(cycle_.value(435));
+    const bool is_short = (to - slows_at) * down_ <= 0;
+    if ((from - slows_at) * down_ < 0) {
+      auto done = motion_.to_height(is_short ? to : slows_at, cycle_.feed(206));
+      if (done && !is_short) done = motion_.dwell(cycle_.value(211));
+      if (!done || is_short) return done;
+    }
+    return motion_.to_height(to, feed_of(cycle_.value(206) * cycle_.value(401) / 100));
   }
 
   NcResult<void> break_chip(double reached) {

@@ -25,11 +25,14 @@ Heights heights_of(const MachiningDefinition& definition, const ToolMotion& moti
     heights.surface = heights.clearance - std::abs(definition.value(200));
     heights.second = heights.clearance;
   } else {
-    heights.surface = definition.value(203);
+    const bool is_face = definition.cycle->shape == MachiningShape::FaceMilling;
+    heights.surface = definition.value(is_face ? 227 : 203);
     heights.clearance = heights.surface + definition.value(200);
     heights.second = std::max(heights.clearance, heights.surface + definition.value(204));
   }
-  heights.bottom = heights.surface + depth(definition, motion.state().active_tool());
+  heights.bottom = definition.cycle->shape == MachiningShape::FaceMilling
+                       ? definition.value(386)
+                       : heights.surface + depth(definition, motion.state().active_tool());
   return heights;
 }
 
@@ -69,6 +72,10 @@ NcResult<void> ToolMotion::arc(Vec2 centre, Vec2 end, double sweep_deg, double h
 NcResult<void> ToolMotion::dwell(double seconds) {
   if (auto allowed = budget_.check(); !allowed) return allowed;
   return seconds > 0 ? checked(machine_.dwell(seconds)) : NcResult<void>();
+}
+
+NcResult<void> ToolMotion::set_modes(const machine::Modes& modes) {
+  return modes == state().modes ? NcResult<void>() : checked(machine_.set_modes(modes));
 }
 
 Vec2 ToolMotion::point() const { return plane_.project(machine_.position().linear); }
@@ -118,6 +125,9 @@ NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definit
     case MachiningShape::CircularPocket: return mill_circle(cycle);
     case MachiningShape::Slot: return mill_slot(cycle);
     case MachiningShape::CircularSlot: return mill_circular_slot(cycle);
+    case MachiningShape::RectangularStud: return mill_rectangular_stud(cycle);
+    case MachiningShape::CircularStud: return mill_circular_stud(cycle);
+    case MachiningShape::FaceMilling: return mill_face(cycle);
     case MachiningShape::ThreadMilling: return mill_thread(cycle);
     case MachiningShape::Engraving: return engrave(cycle);
     case MachiningShape::Contour: return mill_contours(channel, cycle);

@@ -27,6 +27,7 @@ class ToolMotion {
                      const machine::Feed& feed);
   /// Nothing for 0.
   NcResult<void> dwell(double seconds);
+  NcResult<void> set_modes(const machine::Modes& modes);
 
   Vec2 point() const;
   double height() const;
@@ -45,10 +46,10 @@ class Channel;
 
 /// The heights of a cycle along the tool axis.
 struct Heights {
-  double surface = 0;    ///< Q203
+  double surface = 0;    ///< Q203, of 232 Q227
   double clearance = 0;  ///< Q200 above it
   double second = 0;     ///< Q204 above it, or the clearance where that is higher
-  double bottom = 0;     ///< Q201 below it
+  double bottom = 0;     ///< Q201 below it, of 232 Q386
 };
 
 /// What one execution of a cycle works with.
@@ -83,7 +84,13 @@ NcResult<void> mill_circle(Machining& cycle);
 NcResult<void> mill_slot(Machining& cycle);
 NcResult<void> mill_circular_slot(Machining& cycle);
 NcResult<void> mill_thread(Machining& cycle);
+NcResult<void> mill_rectangular_stud(Machining& cycle);
+NcResult<void> mill_circular_stud(Machining& cycle);
 NcResult<void> engrave(Machining& cycle);
+
+// face_milling.cpp
+/// 232. @errors 1002 the tool has no radius, 1016 the end point lies above the starting point.
+NcResult<void> mill_face(Machining& cycle);
 
 // contour_pocket.cpp
 /// 21 to 24. @errors 1017 without cycles 14 and 20.

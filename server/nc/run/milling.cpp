@@ -56,11 +56,10 @@ struct Outline {
   Vec2 at(Vec2 point) const { return origin + turned(point, rotation_deg); }
 };
 
-/// A rectangle of half sides `a`, `b` and corner radius `corner`, beginning at the middle of its
-/// right side.
+/// A rectangle of half sides `a`, `b` and corner radius `corner`, from and to the middle of its
+/// right side; `turn`: 1 counter-clockwise, -1 clockwise.
 NcResult<void> go_around(Machining& cycle, const Outline& outline, double a, double b,
-                         double corner, double height) {
-  const double turn = turn_inside(cycle);
+                         double corner, double height, double turn) {
   ToolMotion& motion = cycle.motion;
   const Feed feed = cycle.feed(207);
   if (auto done = motion.to_point(outline.at({a, 0}), feed); !done) return done;
@@ -80,8 +79,16 @@ NcResult<void> go_around(Machining& cycle, const Outline& outline, double a, dou
       return done;
     }
   }
-  if (auto done = motion.to_point(outline.at({a, 0}), feed); !done) return done;
-  return motion.to_point(outline.origin, feed);
+  return motion.to_point(outline.at({a, 0}), feed);
+}
+
+/// A pocket or slot: back to its middle after each round.
+NcResult<void> mill_inside(Machining& cycle, const Outline& outline, double a, double b,
+                           double corner) {
+  return at_each_depth(cycle, outline.origin, [&](double depth) {
+    auto done = go_around(cycle, outline, a, b, corner, depth, turn_inside(cycle));
+    return done ? cycle.motion.to_point(outline.origin, cycle.feed(207)) : done;
+  });
 }
 
 NcResult<void> full_circle(Machining& cycle, Vec2 centre, double radius, double height) {
@@ -118,6 +125,35 @@ NcResult<void> off_circle(Machining& cycle, Vec2 centre, double turn, double hei
                           const Feed& feed) {
   const Vec2 middle = (centre + cycle.motion.point()) * 0.5;
   return cycle.motion.arc(middle, centre, std::copysign(180, turn), height, feed);
+}
+
+/// What a stud keeps at its side: blocks without Q215 are of controls that leave the allowance.
+double stud_allowance(const Machining& cycle) {
+  return cycle.definition.gives(215) ? side_allowance(cycle) : cycle.value(368);
+}
+
+/// The rounds of a stud whose blank is larger by `excess` on each side. `point(part, beside)`
+/// begins the round that leaves this part of the excess, `around(part, depth)` goes along it.
+template <class Point, class Around>
+NcResult<void> mill_outside(Machining& cycle, double excess, const Point& point,
+                            const Around& around) {
+  constexpr double kBeside = 2;  // mm beside the blank, the control's own
+  const double step = cycle.value(370) * cycle.motion.tool_radius();
+  if (step <= 0) return does_not_fit(1002, cycle.motion.tool_radius());
+  if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
+  const double turn = turn_inside(cycle);
+  const double rounds = std::max(1.0, std::ceil(excess / step - tolerance::kSamePoint));
+  const Feed feed = cycle.feed(207);
+  const Vec2 start = point(1, kBeside);
+  if (auto done = cycle.motion.to_point(start, Feed::rapid()); !done) return done;
+  return at_each_depth(cycle, start, [&](double depth) -> NcResult<void> {
+    auto done = onto_circle(cycle, start, point((rounds - 1) / rounds, 0), turn, depth, feed);
+    for (double left = rounds - 1; done && left >= 0; --left) {
+      done = cycle.motion.to_point(point(left / rounds, 0), feed);
+      if (done) done = around(left / rounds, depth);
+    }
+    return done ? off_circle(cycle, start, turn, depth, feed) : done;
+  });
 }
 
 /// One helical path of a thread from `from` to `to`.
@@ -206,9 +242,7 @@ NcResult<void> mill_rectangle(Machining& cycle) {
   Outline outline{cycle.motion.point(), cycle.value(224)};
   outline.origin = outline.at(rectangle_centre(cycle, cycle.value(218) / 2, cycle.value(219) / 2));
   const double corner = std::clamp(cycle.value(220) - inset, 0.0, std::min(a, b));
-  return at_each_depth(cycle, outline.origin, [&](double depth) {
-    return go_around(cycle, outline, a, b, corner, depth);
-  });
+  return mill_inside(cycle, outline, a, b, corner);
 }
 
 NcResult<void> mill_circle(Machining& cycle) {
@@ -238,9 +272,7 @@ NcResult<void> mill_slot(Machining& cycle) {
   if (cycle.definition.cycle->descriptor.dotted) along = half_length - cycle.motion.tool_radius();
   Outline outline{cycle.motion.point(), cycle.value(374)};
   outline.origin = outline.at({along, 0});
-  return at_each_depth(cycle, outline.origin, [&](double depth) {
-    return go_around(cycle, outline, reach + radius, radius, radius, depth);
-  });
+  return mill_inside(cycle, outline, reach + radius, radius, radius);
 }
 
 NcResult<void> mill_circular_slot(Machining& cycle) {
@@ -326,6 +358,47 @@ NcResult<void> mill_thread(Machining& cycle) {
     if (auto done = motion.to_point(centre, Feed::rapid()); !done) return done;
   }
   return cycle.leave();
+}
+
+NcResult<void> mill_rectangular_stud(Machining& cycle) {
+  const double left = stud_allowance(cycle);
+  const double reach = cycle.motion.tool_radius() + left;
+  const Vec2 half{cycle.value(218) / 2, cycle.value(219) / 2};
+  const Vec2 excess = Vec2{cycle.value(424) / 2, cycle.value(425) / 2} - half;
+  if (excess.x < 0 || excess.y < 0)
+    return nc_error(1098, "Q424 is less than Q218, or Q425 than Q219");
+  Outline outline{cycle.motion.point(), cycle.value(224)};
+  outline.origin = outline.at(rectangle_centre(cycle, half.x, half.y));
+  const auto sides = [&](double part) {
+    return half + Vec2{reach, reach} +
+           Vec2{std::max(0.0, excess.x - left) * part, std::max(0.0, excess.y - left) * part};
+  };
+  return mill_outside(
+      cycle, std::max(excess.x, excess.y) - left,
+      [&](double part, double beside) {
+        return outline.at({sides(part).x + beside, 0});
+      },
+      [&](double part, double depth) {
+        const Vec2 side = sides(part);
+        const double corner = std::min({cycle.value(220) + reach, side.x, side.y});
+        return go_around(cycle, outline, side.x, side.y, corner, depth, -turn_inside(cycle));
+      });
+}
+
+NcResult<void> mill_circular_stud(Machining& cycle) {
+  if (cycle.value(222) < cycle.value(223)) return nc_error(1036);
+  const double left = stud_allowance(cycle);
+  const double excess = std::max(0.0, (cycle.value(222) - cycle.value(223)) / 2 - left);
+  const Vec2 centre = cycle.motion.point();
+  const double angle = std::max(0.0, cycle.value(376));  // -1: where the control likes
+  const auto point = [&](double part, double beside) {
+    const double finished = cycle.value(223) / 2 + left + cycle.motion.tool_radius();
+    return centre + polar(finished + part * excess + beside, angle);
+  };
+  return mill_outside(cycle, excess, point, [&](double part, double depth) {
+    return cycle.motion.arc(centre, point(part, 0), turn_inside(cycle) * -360, depth,
+                            cycle.feed(207));
+  });
 }
 
 NcResult<void> engrave(Machining& cycle) {

@@ -79,6 +79,24 @@ TEST_CASE("205 and 241 begin at the deepened starting point, Q200 above it at Q2
               "L Z-40 F150", "L Z+2 FMAX"});
 }
 
+TEST_CASE("studs and faces name what cannot be milled") {
+  Workshop mill;
+  const std::string depth = " Q207=500 Q201=-5 Q202=5 Q206=150 Q200=2 Q203=+0 Q204=20 ";
+  const auto error = [&](const std::string& cycle) {
+    mill.path("CYCL DEF " + cycle + "\nCYCL CALL");
+    return mill.last.messages.empty() ? 0 : mill.last.messages.back().number;
+  };
+  CHECK(error("257 STUD Q223=30 Q222=30 Q370=1" + depth) == 0);
+  CHECK(error("257 STUD Q223=30 Q222=29.9999 Q370=1" + depth) == 1036);
+  CHECK(error("256 STUD Q218=60 Q424=60 Q219=40 Q425=39 Q370=1" + depth) == 1098);
+  CHECK(error("256 STUD Q218=60 Q424=60 Q219=40 Q425=40 Q370=1 Q207=500 Q201=+5") == 1012);
+  CHECK(error("232 FACE Q227=0 Q386=0 Q218=10 Q219=10") == 0);  // the control does not run it
+  CHECK(error("232 FACE Q227=0 Q386=1 Q218=10 Q219=10") == 1016);
+  mill.setup.machine.tools.back().row.r = 0;
+  CHECK(error("257 STUD Q223=30 Q222=40 Q370=1" + depth) == 1002);
+  CHECK(error("232 FACE Q227=1 Q386=0 Q218=10 Q219=10") == 1002);
+}
+
 const std::string kThread = " Q335=20 Q239=+1.5 Q201=-6 Q253=750 Q200=2 Q203=+0 Q204=0 Q207=200 ";
 
 /// The helices of a thread.

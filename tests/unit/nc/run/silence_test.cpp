@@ -179,7 +179,7 @@ TEST_CASE("a hole by its countersink names the point angle") {
 
 TEST_CASE("a cycle of HEIDENHAIN that is not there is called that") {
   Workshop control;
-  control.program("CYCL DEF 257 CIRCULAR STUD Q223=50\nTCH PROBE 586 X Q1=2");
+  control.program("CYCL DEF 275 TROCHOIDAL SLOT Q223=50\nTCH PROBE 586 X Q1=2");
   const auto findings = control.diagnostics();
   REQUIRE(findings.size() == 2);
   CHECK(findings[0].message.find("a cycle of HEIDENHAIN") != std::string::npos);
