@@ -78,29 +78,13 @@ std::string_view MeasurementCsv::entry(int first_field, int second_field,
 Result<std::string_view> MeasurementCsv::time_of(std::string_view text) {
   text = trim(text);
   if (text == last_time_) return std::string_view(last_instant_);
-  const auto wall = sheet::parse_wall_time(text);
-  if (!wall) {
-    const auto instant = parse_rfc3339(text);
-    if (!instant) {
-      return Error{kMalformed, fmt::format("has the time '{}': write 20.11.2026/08:00:00",
-                                           first_characters(text, 40))};
-    }
-    last_instant_ = text;
-  } else {
-    if (!options_.zone) {
-      return Error{
-          kMalformed,
-          fmt::format("has the time '{}' without an offset: name the time zone of its clock "
-                      "(time_zone)",
-                      first_characters(text, 40))};
-    }
-    const auto instant = options_.zone->instant(*wall);
-    if (!instant) {
-      return Error{kMalformed, fmt::format("has the time '{}', and {}", first_characters(text, 40),
-                                           instant.error().message)};
-    }
-    last_instant_ = format_rfc3339(*instant);
+  auto instant = sheet::instant_text(text, options_.zone);
+  if (!instant) return Error{kMalformed, instant.error().message};
+  if (*instant == text && !parse_rfc3339(text)) {
+    return Error{kMalformed, fmt::format("has the time '{}': write 20.11.2026/08:00:00",
+                                         first_characters(text, 40))};
   }
+  last_instant_ = *std::move(instant);
   last_time_ = text;
   return std::string_view(last_instant_);
 }
@@ -213,13 +197,7 @@ Result<void> MeasurementCsv::append_value(const ValueSet& set_of, const Value& v
     return at_line(value.line, taken.error().message);
   }
   take_comment(set_of, value, prepared);
-  for (std::size_t place = 0; place < row_.size(); ++place) {
-    if (place > 0) rows += ';';
-    const auto append =
-        place >= kPartId && place <= kSubgroup ? sheet::append_csv_text : sheet::append_csv_cell;
-    append(rows, row_[place], sheet::CsvSeparator::Semicolon);
-  }
-  rows += '\n';
+  sheet::append_row(rows, row_);
   return {};
 }
 

@@ -179,12 +179,6 @@ Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, 
                                               field.number, field.number));
     }
     if (of_field != set.values.end()) return false;
-    if (description_.characteristic(field.index) == nullptr) {
-      return at_line(line.number,
-                     fmt::format("has a value of characteristic {}, which no line above "
-                                 "describes",
-                                 field.index));
-    }
     Value& value = *set.values.room_for(1);
     value = {.characteristic = field.index, .line = line.number};
     set.values.add_up_to(&value + 1);

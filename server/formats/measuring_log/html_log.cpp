@@ -94,15 +94,12 @@ std::vector<std::string> cells_of(const Element& row) {
 }
 
 /// `… on 20-11-2026 at 6:05:04`
-std::optional<LocalTime> time_of(std::string_view heading) {
+std::optional<sheet::WallTime> time_of(std::string_view heading) {
   const std::size_t at = heading.rfind(" at ");
   if (at == std::string_view::npos) return std::nullopt;
   const std::size_t on = heading.rfind(' ', at - 1);
-  LocalTime time;
-  const bool is_read = on != std::string_view::npos &&
-                       read_date(trim(heading.substr(on + 1, at - on - 1)), time) &&
-                       read_time(trim(heading.substr(at + 4)), time);
-  return is_read ? std::optional(time) : std::nullopt;
+  if (on == std::string_view::npos) return std::nullopt;
+  return read_clock(trim(heading.substr(on + 1, at - on - 1)), trim(heading.substr(at + 4)));
 }
 
 /// What stands above the first section of a page.
@@ -141,7 +138,6 @@ class HtmlReader {
 };
 
 void HtmlReader::spoil(std::size_t at, std::string why) {
-  constexpr std::size_t kMostUnread = 100;
   if (!is_spoiled_ && reading_.unread.size() < kMostUnread) {
     reading_.unread.push_back({line_of(at), std::move(why)});
   }

@@ -50,22 +50,6 @@ std::optional<int> take_number(std::string_view& text) {
   return value;
 }
 
-/// Three numbers and the one character between them.
-std::optional<std::array<int, 3>> three_numbers(std::string_view text,
-                                                std::string_view separators) {
-  std::array<int, 3> numbers{};
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (i > 0) {
-      if (text.empty() || !has(separators, text.substr(0, 1))) return std::nullopt;
-      text.remove_prefix(1);
-    }
-    const auto number = take_number(text);
-    if (!number) return std::nullopt;
-    numbers.at(i) = *number;
-  }
-  return text.empty() ? std::optional(numbers) : std::nullopt;
-}
-
 bool is_outside(int cycle) { return cycle == 422 || cycle == 424 || cycle == 426; }
 
 }  // namespace
@@ -134,26 +118,11 @@ Role role_of(Quantity quantity, int cycle) {
   return is_outside(cycle) || cycle == 427 ? Role::Shaft : Role::Hole;
 }
 
-bool read_date(std::string_view text, LocalTime& time) {
-  const auto numbers = three_numbers(text, "-./");
-  if (!numbers) return false;
-  const auto [day, month, year] = *numbers;
-  if (day < 1 || day > 31 || month < 1 || month > 12 || year < 1970 || year > 2200) return false;
-  time.day = day;
-  time.month = month;
-  time.year = year;
-  return true;
-}
-
-bool read_time(std::string_view text, LocalTime& time) {
-  const auto numbers = three_numbers(text, ":");
-  if (!numbers) return false;
-  const auto [hour, minute, second] = *numbers;
-  if (hour > 23 || minute > 59 || second > 59) return false;
-  time.hour = hour;
-  time.minute = minute;
-  time.second = second;
-  return true;
+std::optional<sheet::WallTime> read_clock(std::string_view date, std::string_view time) {
+  std::string text(date);
+  std::replace_if(text.begin(), text.end(), [](char c) { return c == '-' || c == '/'; }, '.');
+  const bool has_seconds = std::count(time.begin(), time.end(), ':') == 2;
+  return has_seconds ? sheet::parse_wall_time(text.append(" ").append(time)) : std::nullopt;
 }
 
 std::optional<Length> read_length(std::string_view digits, bool inch) {

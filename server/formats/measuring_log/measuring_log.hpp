@@ -8,20 +8,9 @@
 #include <vector>
 
 #include "base/length.hpp"
+#include "formats/sheet/time_zone.hpp"
 
 namespace fitgauge::log_reader {
-
-/// The control's date and time of day; it says no time zone.
-struct LocalTime {
-  int year = 0;
-  int month = 0;
-  int day = 0;
-  int hour = 0;
-  int minute = 0;
-  int second = 0;
-
-  friend bool operator==(const LocalTime&, const LocalTime&) = default;
-};
 
 /// What being out of tolerance means.
 enum class Role : std::uint8_t {
@@ -47,7 +36,7 @@ struct LogValue {
 struct MeasuringLog {
   int cycle = 0;
   std::string program{};
-  std::optional<LocalTime> time{};
+  std::optional<sheet::WallTime> time{};  ///< of the control's clock
   bool inch = false;
   std::vector<LogValue> values{};  ///< in the order of the log
   std::string text{};              ///< of this log alone, as it was fetched
@@ -57,6 +46,9 @@ struct Unread {
   std::size_t line = 0;  ///< from 1
   std::string why{};
 };
+
+/// More are not told.
+inline constexpr std::size_t kMostUnread = 100;
 
 /// All that a file tells.
 struct Reading {
@@ -107,10 +99,8 @@ bool is_angle(std::string_view label);
 std::string name_of(Quantity quantity, int cycle);
 Role role_of(Quantity quantity, int cycle);
 
-/// `30-06-2005`, `30.06.2005`, `30/06/2005`
-bool read_date(std::string_view text, LocalTime& time);
-/// `6:55:04`
-bool read_time(std::string_view text, LocalTime& time);
+/// @param date `30-06-2005`, `30.06.2005`, `30/06/2005`. @param time `6:55:04`
+std::optional<sheet::WallTime> read_clock(std::string_view date, std::string_view time);
 
 /// A length of a log: in mm, or in inch to the nearest nanometre.
 std::optional<Length> read_length(std::string_view digits, bool inch);

@@ -8,11 +8,10 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "formats/sheet/text_encoding.hpp"
 
 namespace fitgauge::log_reader {
 namespace {
-
-constexpr std::size_t kMostUnreadOfPattern = 100;
 
 /// As the fields of a measurement go, with the control's date and time of day.
 constexpr std::array<std::string_view, 19> kFields{
@@ -23,25 +22,6 @@ constexpr std::array<std::string_view, 19> kFields{
 
 Error invalid(std::size_t line, std::string_view what) {
   return {ErrorCode::ConfigInvalid, fmt::format("line {}: {}", line, what)};
-}
-
-/// Without blanks at its ends, and with one where there are several.
-std::string squeezed(std::string_view text) {
-  std::string out;
-  for (const char c : trim(text)) {
-    const char plain = c == '\t' ? ' ' : c;
-    if (plain != ' ' || !out.ends_with(' ')) out += plain;
-  }
-  return out;
-}
-
-/// The next line, which is taken away, without its end.
-std::string_view take_text_line(std::string_view& rest) {
-  const std::size_t end = std::min(rest.find('\n'), rest.size());
-  std::string_view line = rest.substr(0, end);
-  rest.remove_prefix(std::min(end + 1, rest.size()));
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
 }
 
 }  // namespace
@@ -74,7 +54,7 @@ Result<void> Pattern::take_constant(std::string_view line, std::size_t number) {
 }
 
 Result<void> Pattern::take_line(std::string_view text, std::size_t number) {
-  const std::string line = squeezed(text);
+  const std::string line = sheet::squeezed(text);
   lines_.emplace_back();
   std::string_view rest = line;
   bool after_field = false;
@@ -104,7 +84,7 @@ Result<Pattern> Pattern::parse(std::string_view text) {
   Pattern pattern;
   bool below = false;
   for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::string_view line = trim(take_text_line(text));
+    const std::string_view line = trim(sheet::take_text_line(text));
     if (line.empty() || (!below && line.starts_with('#'))) continue;
     if (!below && line == "---") {
       below = true;
@@ -153,12 +133,12 @@ PatternReading Pattern::read(std::string_view bytes) const {
     result = {constants_, {}};
   };
   for (std::size_t number = 1; !rest.empty(); ++number) {
-    const std::string line = squeezed(take_text_line(rest));
+    const std::string line = sheet::squeezed(sheet::take_text_line(rest));
     if (line.empty()) continue;
     Fields fields;
     if (!matches(lines_[at], line, fields)) {
       if (at == 0 || !matches(lines_.front(), line, fields = {})) continue;
-      if (reading.unread.size() < kMostUnreadOfPattern) {
+      if (reading.unread.size() < kMostUnread) {
         reading.unread.push_back(
             {begun,
              fmt::format("the result that begins here lacks line {} of its pattern", at + 1)});

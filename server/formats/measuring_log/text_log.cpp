@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "formats/measuring_log/measuring_log.hpp"
+#include "formats/sheet/text_encoding.hpp"
 
 namespace fitgauge::log_reader {
 namespace {
@@ -24,9 +25,7 @@ bool is_number(std::string_view text) {
          text.find_first_not_of("0123456789.,") == std::string_view::npos;
 }
 
-/// More values than any cycle has, and more findings than anyone reads.
-constexpr std::size_t kMostEntries = 100;
-constexpr std::size_t kMostUnreadLines = 100;
+constexpr std::size_t kMostEntries = 100;  ///< more than any cycle has
 
 /// A line of dashes, stars or the like, and nothing else.
 bool is_rule(std::string_view line) {
@@ -57,9 +56,8 @@ class TextReader {
   bool is_spoiled_ = false;
   bool has_stray_ = false;
   MeasuringLog log_;
-  LocalTime time_;
-  bool has_date_ = false;
-  bool has_time_ = false;
+  std::string date_;
+  std::string time_;
   Section section_ = Section::Head;
   Entries entries_;
   Entry waiting_;  ///< a label whose number stands on the next line
@@ -70,16 +68,17 @@ void TextReader::begin(int cycle) {
     spoil(0, fmt::format("the log of cycle {} has no end before the next one", log_.cycle));
   }
   is_inside_ = true;
-  is_spoiled_ = has_date_ = has_time_ = false;
+  is_spoiled_ = false;
   log_ = MeasuringLog{.cycle = cycle};
-  time_ = LocalTime();
+  date_.clear();
+  time_.clear();
   section_ = Section::Head;
   entries_ = Entries();
   waiting_ = Entry();
 }
 
 void TextReader::spoil(std::size_t line, std::string why) {
-  if (!is_spoiled_ && reading_.unread.size() < kMostUnreadLines) {
+  if (!is_spoiled_ && reading_.unread.size() < kMostUnread) {
     reading_.unread.push_back({line, std::move(why)});
   }
   is_spoiled_ = true;
@@ -155,11 +154,11 @@ void TextReader::take_line(std::string_view line, std::string_view lower, std::s
 
 void TextReader::take_head(std::string_view label, std::string_view value, std::size_t number) {
   if (label == "date" || label == "datum") {
-    has_date_ = read_date(value, time_);
-    if (!has_date_) spoil(number, fmt::format("'{}' is no date", value));
+    date_ = value;
+    if (!read_clock(date_, "0:00:00")) spoil(number, fmt::format("'{}' is no date", value));
   } else if (label == "time" || label == "uhrzeit" || label == "zeit") {
-    has_time_ = read_time(value, time_);
-    if (!has_time_) spoil(number, fmt::format("'{}' is no time of day", value));
+    time_ = value;
+    if (!read_clock("1.1.2000", time_)) spoil(number, fmt::format("'{}' is no time of day", value));
   } else if (label.find("program") != std::string_view::npos) {
     log_.program = value;
   } else if (label.find("inch") != std::string_view::npos) {
@@ -224,7 +223,7 @@ void TextReader::end() {
   if (limits != 2 * static_cast<std::size_t>(judged)) {
     spoil(0, fmt::format("the log of cycle {} has limits of no actual value", log_.cycle));
   }
-  if (has_date_ && has_time_) log_.time = time_;
+  log_.time = read_clock(date_, time_);
   if (!is_spoiled_) reading_.logs.push_back(std::move(log_));
 }
 
@@ -240,12 +239,8 @@ Reading read_text_logs(std::string_view bytes) {
   std::string_view rest = converted.empty() ? bytes : converted;
   TextReader reader;
   for (std::size_t number = 1; !rest.empty(); ++number) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    std::string_view line = rest.substr(0, end);
-    const bool is_whole = end < rest.size();
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    reader.take(line, number, is_whole);
+    const bool is_whole = rest.find('\n') != std::string_view::npos;
+    reader.take(sheet::take_text_line(rest), number, is_whole);
   }
   return std::move(reader).finish();
 }

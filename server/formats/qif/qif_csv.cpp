@@ -60,7 +60,6 @@ class QifRows::Converter {
   void fill(std::size_t place, std::string_view text) {
     if (fields_.at(place).empty()) fields_.at(place) = text;
   }
-  void append_row(std::string& out) const;
 
   const Definitions definitions_;
   const QifOptions options_;
@@ -148,24 +147,9 @@ Result<void> QifRows::Converter::read_value(const Element& element, std::uint32_
 }
 
 Result<void> QifRows::Converter::read_time(const Element& element, std::uint32_t line) {
-  std::string text = element.text("TimeStamp");
-  if (text.empty()) return {};
-  const auto wall = sheet::parse_wall_time(text);
-  if (wall && !options_.zone) {
-    return aqdef::at_line(line,
-                          fmt::format("has the time '{}' without an offset: name the time zone "
-                                      "of its clock (time_zone)",
-                                      first_characters(text, 40)));
-  }
-  if (wall) {
-    const auto instant = options_.zone->instant(*wall);
-    if (!instant) {
-      return aqdef::at_line(
-          line, fmt::format("has the time '{}', and {}", text, instant.error().message));
-    }
-    text = format_rfc3339(*instant);
-  }
-  fields_[aqdef::kMeasuredAt] = std::move(text);
+  auto instant = sheet::instant_text(element.text("TimeStamp"), options_.zone);
+  if (!instant) return aqdef::at_line(line, instant.error().message);
+  fields_[aqdef::kMeasuredAt] = *std::move(instant);
   return {};
 }
 
@@ -221,17 +205,6 @@ Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t 
   return true;
 }
 
-void QifRows::Converter::append_row(std::string& out) const {
-  for (std::size_t place = 0; place < fields_.size(); ++place) {
-    if (place > 0) out += ';';
-    const auto append = place >= aqdef::kPartId && place <= aqdef::kSubgroup
-                            ? sheet::append_csv_text
-                            : sheet::append_csv_cell;
-    append(out, fields_.at(place), sheet::CsvSeparator::Semicolon);
-  }
-  out += '\n';
-}
-
 Result<bool> QifRows::Converter::append(std::string& out, std::vector<std::uint32_t>& lines) {
   for (;;) {
     const auto more = reader_.next();
@@ -250,7 +223,7 @@ Result<bool> QifRows::Converter::append(std::string& out, std::vector<std::uint3
                                               options_.most_rows));
     }
     const auto before = static_cast<std::ptrdiff_t>(out.size());
-    append_row(out);
+    sheet::append_row(out, fields_);
     // A text may have line ends.
     const auto ends = std::count(out.begin() + before, out.end(), '\n');
     lines.insert(lines.end(), static_cast<std::size_t>(ends), line);

@@ -39,19 +39,9 @@ std::optional<aqdef::LengthUnit> unit_of_factor(std::string_view factor) {
 }  // namespace
 
 void set_field(Fields& fields, std::string_view name, std::string_view text) {
-  const auto& names = sheet::kMeasurementFields;
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) fields.at(static_cast<std::size_t>(found - names.begin())) = text;
+  const std::size_t place = aqdef::place_of(name);
+  if (place < fields.size()) fields.at(place) = text;
 }
-
-namespace {
-
-bool is_field(std::string_view name) {
-  const auto& names = sheet::kMeasurementFields;
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-}  // namespace
 
 void Definitions::take(std::string_view list, const Element& element) {
   const std::string id = element.attribute("id");
@@ -63,7 +53,8 @@ void Definitions::take(std::string_view list, const Element& element) {
     item.device = element.text("MeasurementDeviceIds/Id");
     item.part_feature = element.text("FeatureItemIds/Id");
     for (auto& [name, text] : element.named_attributes()) {
-      if (is_field(name)) item.attributes.emplace_back(std::move(name), std::move(text));
+      if (aqdef::place_of(name) < aqdef::kNames.size())
+        item.attributes.emplace_back(std::move(name), std::move(text));
     }
   } else if (list == "CharacteristicNominals") {
     nominals_[id] = {.definition = element.text("CharacteristicDefinitionId"),

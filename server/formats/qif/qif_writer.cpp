@@ -27,16 +27,6 @@ std::string_view inspection_word(Status status) {
   return is_open ? "UNKNOWN" : word(status);
 }
 
-/// The text as a token: no blanks around it, and single ones inside.
-std::string token(std::string_view text) {
-  std::string out;
-  for (const char c : trim(text)) {
-    const char plain = c == '\t' || c == '\n' || c == '\r' ? ' ' : c;
-    if (plain != ' ' || !out.ends_with(' ')) out += plain;
-  }
-  return out;
-}
-
 std::string tolerance(const OutgoingValue& value) {
   if (!value.upper && !value.lower) return "<NonTolerance>MEASURED</NonTolerance>";
   std::string out = "<Tolerance>";
@@ -114,7 +104,7 @@ std::uint32_t QifWriter::item_of(const OutgoingValue& value) {
       "<{0}CharacteristicNominal id=\"{1}\"><CharacteristicDefinitionId>{2}"
       "</CharacteristicDefinitionId>{3}</{0}CharacteristicNominal>\n",
       kind, first + 1, first, nominal);
-  const std::string plain = token(name);
+  const std::string plain = sheet::squeezed(name);
   Texts of_item;
   if (plain != name) of_item.emplace_back("characteristic", name);
   item_texts_ += fmt::format(

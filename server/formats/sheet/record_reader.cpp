@@ -85,9 +85,11 @@ Result<void> RecordReader::fill() {
   room_.erase(0, at_);
   at_ = 0;
   if (room_.size() > kLongestRecord) {
-    return at_table_line(
-        ErrorCode::CsvMalformed, line_,
-        fmt::format("begins a row of more than {} KiB: is a quote open?", kLongestRecord >> 10));
+    const bool is_table = separator_ != kNone;
+    return at_table_line(ErrorCode::CsvMalformed, line_,
+                         fmt::format("{} more than {} KiB: is {}?",
+                                     is_table ? "begins a row of" : "has", kLongestRecord >> 10,
+                                     is_table ? "a quote open" : "it NDJSON"));
   }
   const auto more = input_.append(room_);
   if (!more) return more.error();
@@ -186,32 +188,14 @@ Result<NdjsonRows> NdjsonRows::open(const Read& first, Read again, Encoding enco
 }
 
 Result<bool> NdjsonRows::append(std::string& rows) {
-  const auto at_this = [this](ErrorCode code, std::string_view what) {
-    return Error{code, fmt::format("line {} {}", line_, what), fmt::format("line {}", line_)};
-  };
-  std::size_t end = room_.find('\n', at_);
-  while (end == std::string::npos && !is_at_end_) {
-    room_.erase(0, std::exchange(at_, 0));
-    if (room_.size() > kLongestLine) {
-      return at_this(ErrorCode::CsvMalformed,
-                     fmt::format("has more than {} KiB: is it NDJSON?", kLongestLine >> 10));
-    }
-    const std::size_t looked = room_.size();
-    const auto more = input_.append(room_);
-    if (!more) return more.error();
-    is_at_end_ = !*more;
-    end = room_.find('\n', looked);
-  }
-  if (at_ == room_.size()) return false;
-  const bool is_ended = end != std::string::npos;
-  const std::string_view line =
-      std::string_view(room_).substr(at_, is_ended ? end - at_ : std::string::npos);
-  if (const auto given = append_as_given(rows, line); !given) {
-    return at_this(given.error().code, given.error().message);
-  }
-  if (is_ended) rows += '\n';
-  at_ += line.size() + (is_ended ? 1U : 0U);
-  ++line_;
+  const auto line = lines_.peek_line();
+  if (!line) return line.error();
+  if (lines_.is_at_end()) return false;
+  const std::size_t number = lines_.line();
+  if (const auto given = append_as_given(rows, *line); !given)
+    return at_table_line(given.error().code, number, given.error().message);
+  lines_.pass_line(*line);
+  if (lines_.line() > number) rows += '\n';
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/csv.hpp"
 #include "base/result.hpp"
 #include "formats/sheet/text_encoding.hpp"
 #include "record/measurement_row_fields.hpp"
@@ -58,6 +59,17 @@ static_assert(kMeasuredAt < kNames.size() && kPartId < kSubgroup);
 
 namespace fitgauge::sheet {
 
+/// Appends a line of CSV of all kMeasurementFields; those that people write cannot be formulas.
+template <class Fields>
+void append_row(std::string& rows, const Fields& fields) {
+  for (std::size_t place = 0; place < fields.size(); ++place) {
+    if (place > 0) rows += ';';
+    const bool is_text = place >= aqdef::kPartId && place <= aqdef::kSubgroup;
+    (is_text ? append_csv_text : append_csv_cell)(rows, fields[place], CsvSeparator::Semicolon);
+  }
+  rows += '\n';
+}
+
 /// Appends the next rows of a source; a source whose rows are not at their lines in its file tells
 /// those.
 /// @param source has append(rows), or append(rows, lines)
@@ -96,6 +108,7 @@ class RecordReader {
  public:
   static constexpr std::size_t kMostCells = 1000;
   static constexpr std::size_t kLongestRecord = std::size_t{1} << 20;
+  static constexpr char kNone = '\n';  ///< separator of what is read by lines alone
 
   explicit RecordReader(Utf8Input input) : input_(std::move(input)) {}
 
@@ -154,8 +167,6 @@ bool is_ndjson(std::string_view file_name);
 /// error.
 class NdjsonRows {
  public:
-  static constexpr std::size_t kLongestLine = std::size_t{1} << 20;
-
   /// @param first and again as for Utf8Input. @errors TextEncoding
   static Result<NdjsonRows> open(const Read& first, Read again, Encoding encoding);
 
@@ -164,13 +175,11 @@ class NdjsonRows {
   Result<bool> append(std::string& rows);
 
  private:
-  explicit NdjsonRows(Utf8Input input) : input_(std::move(input)) {}
+  explicit NdjsonRows(Utf8Input input) : lines_(std::move(input)) {
+    lines_.set_separator(RecordReader::kNone);
+  }
 
-  Utf8Input input_;
-  std::string room_{};  ///< read, and taken up to `at_`
-  std::size_t at_ = 0;
-  std::size_t line_ = 1;
-  bool is_at_end_ = false;
+  RecordReader lines_;
 };
 
 }  // namespace fitgauge::sheet

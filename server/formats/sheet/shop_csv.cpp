@@ -133,23 +133,9 @@ const std::string* ShopRows::Converter::cell(const Record& record, std::string_v
 
 Result<std::string> ShopRows::Converter::measured_at(const Record& record,
                                                      std::string_view text) const {
-  text = bare(text);
-  const auto wall = parse_wall_time(text);
-  if (!wall) return std::string(text);  // with an offset, or wrong: the reader of fields says so
-  if (!options_.zone) {
-    return at_table_line(
-        ErrorCode::TimeMalformed, record.line,
-        fmt::format("has the time '{}' without an offset: name the time zone of its "
-                    "clock (time_zone)",
-                    first_characters(text, 40)));
-  }
-  const auto instant = options_.zone->instant(*wall);
-  if (!instant) {
-    return at_table_line(ErrorCode::TimeMalformed, record.line,
-                         fmt::format("has the time '{}', and {}", first_characters(text, 40),
-                                     instant.error().message));
-  }
-  return format_rfc3339(*instant);
+  auto instant = instant_text(bare(text), options_.zone);  // the reader of fields checks others
+  if (!instant) return at_table_line(ErrorCode::TimeMalformed, record.line, instant.error().message);
+  return instant;
 }
 
 Result<void> ShopRows::Converter::convert_row(const Record& record, std::string& rows) {

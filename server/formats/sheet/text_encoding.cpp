@@ -110,6 +110,24 @@ void append_utf8(std::string& out, std::uint32_t point) {
   }
 }
 
+std::string squeezed(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool is_blank = c == ' ' || c == '\t' || c == '\n' || c == '\r';
+    if (!is_blank) out += c;
+    if (is_blank && !out.empty() && out.back() != ' ') out += ' ';
+  }
+  return std::string(trim(out));
+}
+
+std::string_view take_text_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
 std::optional<Encoding> encoding_from_word(std::string_view word) {
   constexpr std::array<std::pair<std::string_view, Encoding>, 6> kWords = {
       {{"auto", Encoding::Detected},

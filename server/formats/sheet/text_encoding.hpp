@@ -37,6 +37,11 @@ std::optional<Encoding> encoding_from_word(std::string_view word);
 /// @param point a code point that is no surrogate
 void append_utf8(std::string& out, std::uint32_t point);
 
+/// Without blanks and line ends at its ends, and with one blank where there are several.
+std::string squeezed(std::string_view text);
+/// The next line, without its end, from the front of a text.
+std::string_view take_text_line(std::string_view& text);
+
 /// The text as UTF-8 without a byte-order mark. Detected: what its mark says; UTF-16 where every
 /// second byte of the beginning is 0; UTF-8 where it is valid; else Windows-1252. UTF-16 without a
 /// mark is read in the order that its beginning shows, else little-endian.

@@ -142,7 +142,7 @@ std::optional<WallTime> parse_wall_time(std::string_view text) {
   const std::chrono::year_month_day date{std::chrono::year(static_cast<int>(year)),
                                          std::chrono::month(static_cast<unsigned>(*month)),
                                          std::chrono::day(static_cast<unsigned>(day))};
-  if (!date.ok() || year < 1900) return std::nullopt;
+  if (!date.ok() || year < 1900 || year > 2261) return std::nullopt;  // as a Timestamp holds
   if (!take(text, 'T') && !take(text, '/') && !take(text, ' ')) return std::nullopt;
   while (take(text, ' ')) {
   }
@@ -306,6 +306,20 @@ Result<Timestamp> TimeZone::instant(const WallTime& time) const {
   }
   return Error{ErrorCode::TimeMalformed,
                "the clock of the time zone has skipped this time, as it went forward"};
+}
+
+Result<std::string> instant_text(std::string_view text, const std::optional<TimeZone>& zone) {
+  const auto wall = parse_wall_time(text);
+  if (!wall) return std::string(text);
+  const std::string has = fmt::format("has the time '{}'", first_characters(text, 40));
+  if (!zone) {
+    return Error{
+        ErrorCode::TimeMalformed,
+        has + " without an offset: name the time zone of its clock (time_zone)"};
+  }
+  const auto instant = zone->instant(*wall);
+  if (!instant) return Error{ErrorCode::TimeMalformed, has + ", and " + instant.error().message};
+  return format_rfc3339(*instant);
 }
 
 Timestamp TimeZone::shown(Timestamp time) const {

@@ -15,6 +15,8 @@ namespace fitgauge::sheet {
 struct WallTime {
   std::int64_t seconds = 0;  ///< since 1970-01-01 00:00:00 on that clock
   std::int64_t nanoseconds = 0;
+
+  friend bool operator==(const WallTime&, const WallTime&) = default;
 };
 
 /// `2026-11-20 08:00:00`, `2026-11-20T08:00`, `20.11.2026 08:00:00.25`, `20.11.2026/08:00:00`: the
@@ -64,5 +66,9 @@ class TimeZone {
   std::vector<Change> changes_;
   std::optional<Rule> rule_;  ///< after the last change
 };
+
+/// A wall time as an instant in UTC; a text that is none stays as it is.
+/// @param zone none: a wall time is refused. @errors TimeMalformed: `has the time '…' …`.
+Result<std::string> instant_text(std::string_view text, const std::optional<TimeZone>& zone);
 
 }  // namespace fitgauge::sheet

@@ -17,7 +17,6 @@ namespace fitgauge::connections {
 namespace {
 
 using app::Measurement;
-using log_reader::LocalTime;
 using log_reader::LogValue;
 using log_reader::MeasuringLog;
 using log_reader::PatternResult;
@@ -28,14 +27,9 @@ constexpr std::size_t kLongestText = 200;
 constexpr std::size_t kLongestComment = 2000;
 
 /// A control's clock shows the time of the zone this service is in.
-Timestamp instant(const LocalTime& local) {
+Timestamp instant(const sheet::WallTime& shown) {
   std::tm time{};
-  time.tm_year = local.year - 1900;
-  time.tm_mon = local.month - 1;
-  time.tm_mday = local.day;
-  time.tm_hour = local.hour;
-  time.tm_min = local.minute;
-  time.tm_sec = local.second;
+  ::gmtime_r(&shown.seconds, &time);
   time.tm_isdst = -1;
   return Timestamp{std::int64_t{std::mktime(&time)} * kNanosecondsPerSecond};
 }
@@ -183,13 +177,12 @@ Result<void> judge_by_drawing(Measurement& measurement, const Fields& fields) {
 Result<void> take_time(Measurement& measurement, CollectedLog& log, const Fields& fields) {
   log.has_time = fields.has("date") && fields.has("time");
   if (!log.has_time) return {};
-  LocalTime local;
-  if (!log_reader::read_date(fields.text("date"), local) ||
-      !log_reader::read_time(fields.text("time"), local)) {
+  const auto shown = log_reader::read_clock(fields.text("date"), fields.text("time"));
+  if (!shown) {
     return field_error(fmt::format("date and time must be DD-MM-YYYY and H:MM:SS; got '{} {}'",
                                    fields.text("date"), fields.text("time")));
   }
-  measurement.measured_at = instant(local);
+  measurement.measured_at = instant(*shown);
   return {};
 }
 
