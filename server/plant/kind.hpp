@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/statistics/next_offset.hpp"
 #include "plant/log_follower.hpp"
 #include "plant/plant.hpp"
 #include "plant/settings.hpp"
@@ -16,7 +17,8 @@ namespace fitgauge::connections {
 template <class V>
 void event_members(V& v, FollowerOptions& options) {
   v.optional("events", options.events,
-             SomeOf{{kRecorded, "run.finished", "table.changed", "note.added"}},
+             SomeOf{{kRecorded, "run.finished", "table.changed", "note.added", api::kOffsetChanged,
+                     api::kOffsetFailed}},
              "Events that are sent; measurement.recorded when absent");
 }
 

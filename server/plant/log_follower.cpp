@@ -20,10 +20,13 @@ struct Page {
   app::ListPage end{};
 };
 
+/// @param see is called for each that matches the filter but for its verdict
+template <class See>
 Result<Page> read_page(app::MeasurementService& service, const LogFilter& filter,
-                       std::int64_t after, std::size_t limit) {
+                       std::int64_t after, std::size_t limit, const See& see) {
   Page page;
   const auto add = [&](const app::Measurement& measurement) {
+    see(measurement);
     if (filter.takes(measurement))
       page.measurements.push_back(std::make_unique<app::KeptMeasurement>(measurement));
   };
@@ -42,7 +45,7 @@ Result<app::EventService::StoredPage> read_event_page(app::EventService& service
 
 /// How many measurements the log has.
 Result<std::int64_t> end_of_log(app::MeasurementService& service) {
-  const auto page = read_page(service, {}, 0, 1);
+  const auto page = read_page(service, {}, 0, 1, [](const auto&) {});
   if (!page) return page.error();
   return page->end.as_of;
 }
@@ -50,6 +53,7 @@ Result<std::int64_t> end_of_log(app::MeasurementService& service) {
 }  // namespace
 
 std::string event_text(const OutgoingEvent& event) {
+  if (!event.name.empty()) return event.name;
   return fmt::format("e{}-{}", event.id, event.history);
 }
 
@@ -134,6 +138,7 @@ void LogFollower::run(bool& has_begun, const std::stop_token& stop) {
       }
       cannot_read_ = !has_read;
       if (pause_.count() == 0) deliver(stop);
+      find_offsets(stop);
     });
     const bool is_saved = save(false);
     show();
@@ -175,10 +180,10 @@ Result<void> LogFollower::read_events() {
   }
   if (page->events.empty()) return {};
   const std::int64_t last = page->events.back().id;
-  std::erase_if(page->events, [this](const OutgoingEvent& event) {
+  std::erase_if(page->events, [this](const app::EventService::Stored& event) {
     return options_.events.find(event.type) == options_.events.end();
   });
-  pending_events_ = std::move(page->events);
+  for (auto& event : page->events) pending_events_.push_back({std::move(event)});
   // What is not asked for is dealt with.
   if (pending_events_.empty()) {
     progress_.event = last;
@@ -195,7 +200,11 @@ Result<void> LogFollower::read() {
     take_log_end(*end);
     return {};
   }
-  auto page = read_page(log, options_.filter, read_to_, kPage);
+  const bool finds_offsets =
+      options_.events.contains(api::kOffsetChanged) || options_.events.contains(api::kOffsetFailed);
+  auto page = read_page(log, options_.filter, read_to_, kPage, [&](const app::Measurement& m) {
+    if (finds_offsets && m.characteristic) made_.emplace(m.characteristic, m.machine);
+  });
   if (!page) return page.error();
   std::move(page->measurements.begin(), page->measurements.end(), std::back_inserter(pending_));
   take_log_end(page->end.as_of);
@@ -206,6 +215,34 @@ Result<void> LogFollower::read() {
     is_dirty_ = true;
   }
   return {};
+}
+
+void LogFollower::find_offsets(const std::stop_token& stop) {
+  constexpr std::size_t kMostTold = 10'000;
+  if (!pending_.empty() || !pending_events_.empty() || read_to_ < log_end_) return;
+  if (told_.size() > kMostTold) told_.clear();
+  while (!made_.empty() && !stop.stop_requested()) {
+    const Made& made = *made_.begin();
+    api::OffsetOrder order{options_.filter.query};
+    order.query.history = false;
+    order.query.newest_first = true;
+    order.query.texts[app::kOfCharacteristic] = made.first;
+    order.query.texts[app::kOfMachine] = made.second;
+    auto news = wait_for_result<api::OffsetNews>([&](auto done) {
+      order.find_news(plant_.measurements, plant_.gauges, std::move(done));
+    });
+    if (!news) return;  // the next round finds them
+    const bool is_new = std::exchange(told_[made], news->told) != news->told;
+    made_.erase(made_.begin());
+    if (!is_new || !options_.events.contains(news->event) || news->newest.empty()) continue;
+    OutgoingEvent event;
+    event.type = news->event;
+    event.payload = std::move(news->data);
+    event.at = plant_.clock.now();
+    event.name = "c" + news->newest.substr(1);
+    pending_events_.push_back(std::move(event));
+    events_behind_ = read_to_;
+  }
 }
 
 void LogFollower::take_log_end(std::int64_t end) {
@@ -220,7 +257,8 @@ bool LogFollower::has_events() const {
 void LogFollower::deliver_events(const std::stop_token& stop) {
   begin_attempt();
   const Delivery delivery = outlet_->deliver_events(pending_events_, stop);
-  if (delivery.dealt_with > 0) progress_.event = pending_events_[delivery.dealt_with - 1].id;
+  if (delivery.dealt_with > 0 && pending_events_.front().name.empty())
+    progress_.event = pending_events_[delivery.dealt_with - 1].id;
   pending_events_.erase(pending_events_.begin(),
                         pending_events_.begin() + static_cast<std::ptrdiff_t>(delivery.dealt_with));
   if (pending_events_.empty()) events_behind_ = 0;

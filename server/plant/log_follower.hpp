@@ -4,12 +4,14 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/json/body_forms.hpp"
@@ -66,7 +68,9 @@ Result<void> move_back(Progress& progress, const ReplayOrder& order, const Plant
 using Outgoing = std::unique_ptr<const app::KeptMeasurement>;
 
 /// An event that is no measurement, on its way out.
-using OutgoingEvent = app::EventService::Stored;
+struct OutgoingEvent : app::EventService::Stored {
+  std::string name{};  ///< its id on the outside, if it is stored nowhere
+};
 
 /// The id of such an event on the outside.
 std::string event_text(const OutgoingEvent& event);
@@ -150,6 +154,8 @@ class LogFollower final : public Worker {
   Result<void> read();
   /// Reads the events that come next, if there is room.
   Result<void> read_events();
+  /// Finds what is new of the offsets of the values that were read, when these are dealt with.
+  void find_offsets(const std::stop_token& stop);
   void take_log_end(std::int64_t end);
   void deliver(const std::stop_token& stop);
   /// Whether events go out now: when all measurements that were stored before them are dealt with.
@@ -176,6 +182,10 @@ class LogFollower final : public Worker {
   std::int64_t log_end_ = 0;  ///< of the log, when it was read last
   std::vector<Outgoing> pending_;
   std::vector<OutgoingEvent> pending_events_;
+  /// A characteristic and its machine.
+  using Made = std::pair<std::optional<std::string>, std::optional<std::string>>;
+  std::set<Made> made_;                ///< of the values since their offsets were found
+  std::map<Made, std::string> told_;   ///< of these offsets
   std::int64_t events_behind_ = 0;  ///< the measurement they come behind; 0: none is pending
   std::chrono::seconds pause_{0};   ///< before the next attempt; 0: the last went well
   bool repeats_at_once_ = false;    ///< a refusal: the last attempt went well

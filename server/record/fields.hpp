@@ -249,5 +249,9 @@ inline constexpr auto kTextFilters = [] {
   }
   return names;
 }();
+inline constexpr auto kOfCharacteristic = static_cast<std::size_t>(
+    std::ranges::find(kTextFilters, "characteristic") - kTextFilters.begin());
+inline constexpr auto kOfMachine =
+    static_cast<std::size_t>(std::ranges::find(kTextFilters, "machine") - kTextFilters.begin());
 
 }  // namespace fitgauge::app

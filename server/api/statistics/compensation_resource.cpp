@@ -7,6 +7,7 @@
 #include "api/handlers.hpp"
 #include "api/measurements/measurement_listing.hpp"
 #include "api/service/commit_stream.hpp"
+#include "api/statistics/next_offset.hpp"
 #include "api/wire/event_text.hpp"
 #include "api/wire/formulas.hpp"
 #include "api/wire/problem.hpp"
@@ -24,7 +25,6 @@ using metrology::CompensationState;
 constexpr std::size_t kMostParts = 500;
 constexpr double kNanometresOfUm = 1000;
 constexpr double kMillionths = 1e6;
-constexpr double kUsualCost = 0.1;
 constexpr int kFirstOfServer = 500;
 
 /// The newest values of one characteristic, from the newest on.
@@ -88,7 +88,31 @@ struct CorrectedParts {
   }
 };
 
+/// What the values have in common.
+struct Selected {
+  std::optional<std::string> characteristic{};
+  std::optional<std::string> machine{};
+};
+Selected selected_by(const app::MeasurementQuery& query) {
+  return {query.texts.at(app::kOfCharacteristic), query.texts.at(app::kOfMachine)};
+}
+void members(auto& v, const Selected& of) {
+  v.optional("characteristic", of.characteristic, "That was asked for");
+  v.optional("machine", of.machine, "That was asked for");
+}
+
+struct Failure {
+  Selected of{};
+  Error error;
+};
+void members(auto& v, const Failure& failure) {
+  members(v, failure.of);
+  v.member("code", id(failure.error.code));
+  v.member("detail", std::string_view(failure.error.message));
+}
+
 struct Proposal {
+  Selected of{};
   Compensation found{};
   std::size_t values = 0;
 };
@@ -96,6 +120,7 @@ void members(auto& v, const Proposal& proposal) {
   constexpr double kCoverage = 1.96;
   const Compensation& c = proposal.found;
   const double reach = kCoverage * c.offset_uncertainty;
+  members(v, proposal.of);
   v.member("state", c.state, Words{CompensationState::Unstable});
   v.member("reason", c.reason, "Of the state, in a sentence");
   v.member("offset_um", c.offset, "Brings the size of the next part to the target");
@@ -123,31 +148,28 @@ Result<Proposal> proposal_of(CorrectedParts& read, double cost) {
     return Error{ErrorCode::QueryInvalid, "the target lies on a limit", "target_mm"};
   }
   std::reverse(read.parts.begin(), read.parts.end());
-  Proposal proposal{metrology::propose_offset(read.parts, half, cost), read.parts.size()};
+  Proposal proposal{.found = metrology::propose_offset(read.parts, half, cost),
+                    .values = read.parts.size()};
   if (read.is_unfit)
     proposal.found = {.reason =
                           "the gauge of the last value is overdue for calibration or blocked"};
   return proposal;
 }
 
-/// Of what a request asks for the offset.
-struct OffsetOrder {
-  app::MeasurementQuery query{};
-  std::optional<Length> target{};
-  double cost = kUsualCost;
-
-  /// @param done gets the id of the newest value with its proposal, on a storage thread
-  template <class Done>
-  void find(const Services& services, Done done) const {
-    const auto read = std::make_shared<CorrectedParts>(
-        CorrectedParts{.gauges = services.gauges.book(), .target = target});
-    services.measurements.list(
-        query, 0, kMostParts, [read](const app::Measurement& value) { read->add(value); },
-        [read, cost = cost, done = std::move(done)](const Result<app::ListPage>& page) {
-          done(page ? proposal_of(*read, cost) : Result<Proposal>(page.error()), read->newest);
-        });
-  }
-};
+/// @param done gets the proposal and the id of the newest value, on a storage thread
+template <class Done>
+void find_offset(const OffsetOrder& order, app::MeasurementService& measurements,
+                 const GaugesInUse& gauges, Done done) {
+  const auto read = std::make_shared<CorrectedParts>(
+      CorrectedParts{.gauges = gauges.book(), .target = order.target});
+  measurements.list(
+      order.query, 0, kMostParts, [read](const app::Measurement& value) { read->add(value); },
+      [read, order, done = std::move(done)](const Result<app::ListPage>& page) {
+        auto found = page ? proposal_of(*read, order.cost) : Result<Proposal>(page.error());
+        if (found) found->of = selected_by(order.query);
+        done(std::move(found), read->newest);
+      });
+}
 
 /// Tells the proposal at its beginning, and again whenever its state is another; in its place why
 /// the values give none, for as long as they do not.
@@ -157,37 +179,21 @@ class OffsetStream final : public CommitStream {
       : CommitStream(services.events), services_(services), order_(std::move(order)) {}
 
  private:
-  /// The state, or the text of why there is none.
-  using Told = std::pair<std::optional<CompensationState>, std::string>;
-
-  static std::string failure_json(const Error& error) {
-    std::string text;
-    JsonWriter(text)
-        .begin_object()
-        .member("code", id(error.code))
-        .member("detail", std::string_view(error.message))
-        .end_object();
-    return text;
-  }
-
   void read() override {
-    order_.find(services_, [self = std::static_pointer_cast<OffsetStream>(shared_from_this())](
-                               const Result<Proposal>& found, const std::string& newest) {
-      if (!found && status_of(found.error().code) >= kFirstOfServer) return self->fail();
-      const Told told =
-          found ? Told{found->found.state, {}} : Told{{}, failure_json(found.error())};
-      std::string piece;
-      if (std::exchange(self->told_, told) != told) {
-        append_event(piece, found ? "compensation.changed" : "compensation.failed", newest,
-                     found ? body_json(*found) : told.second);
-      }
-      self->took(std::move(piece));
-    });
+    order_.find_news(services_.measurements, services_.gauges,
+                     [self = std::static_pointer_cast<OffsetStream>(shared_from_this())](
+                         const Result<OffsetNews>& news) {
+                       if (!news) return self->fail();
+                       std::string piece;
+                       if (std::exchange(self->told_, news->told) != news->told)
+                         append_event(piece, news->event, news->newest, news->data);
+                       self->took(std::move(piece));
+                     });
   }
 
   const Services& services_;
   const OffsetOrder order_;
-  Told told_{};  ///< of the one thread that reads at a time
+  std::string told_{};  ///< of the one thread that reads at a time
 };
 
 void propose(const Services& services, const http::Request& request, http::Responder responder) {
@@ -198,15 +204,30 @@ void propose(const Services& services, const http::Request& request, http::Respo
   if (const auto given = request.integer("cost"))
     order.cost = static_cast<double>(*given) / kMillionths;
   const bool streams = request.response_type() == kEventStreamType;
-  order.find(services, [&services, order, streams, answer = answer_by(share(std::move(responder)))](
-                           const Result<Proposal>& found, const std::string&) {
+  const auto give = [&services, order, streams, answer = answer_by(share(std::move(responder)))](
+                        const Result<Proposal>& found, const std::string&) {
     if (found && streams)
       return answer(event_response(std::make_shared<OffsetStream>(services, order)));
     answer(json_response(found ? Result<std::string>(body_json(*found)) : found.error()));
-  });
+  };
+  find_offset(order, services.measurements, services.gauges, give);
 }
 
 }  // namespace
+
+void OffsetOrder::find_news(app::MeasurementService& measurements, const GaugesInUse& gauges,
+                            std::function<void(Result<OffsetNews>)> done) const {
+  find_offset(*this, measurements, gauges,
+              [of = selected_by(query), done = std::move(done)](const Result<Proposal>& found,
+                                                                const std::string& newest) {
+                if (!found && status_of(found.error().code) >= kFirstOfServer)
+                  return done(found.error());
+                OffsetNews news{.event = found ? kOffsetChanged : kOffsetFailed, .newest = newest};
+                news.data = found ? body_json(*found) : body_json(Failure{of, found.error()});
+                news.told = found ? word(found->found.state) : std::string_view(news.data);
+                done(std::move(news));
+              });
+}
 
 void add_compensation_routes(std::vector<http::Route>& routes, const Services& services) {
   auto parameters = measurement_filter_parameters();

@@ -325,7 +325,7 @@ class Stored(DaemonTest):
             odd = self.daemon.get("/v1/measurements?characteristic=torn&last=1").json["measurements"][0]["id"]
             refused = self.daemon.get("/v1/measurements/compensation?characteristic=torn").json
             self.assertEqual(self.told(events, "torn"), ("compensation.failed", {
-                "code": "limits.mixed", "detail": refused["detail"]}))
+                "characteristic": "torn", "code": "limits.mixed", "detail": refused["detail"]}))
             self.store("torn", self.about(0, 1))  # it fails as before, which is not told again
             corrected = self.daemon.post(f"/v1/measurements/{odd}/corrections",
                                          {**DRAWING, "measured_mm": 74.0004, "reason": "of another drawing"})

@@ -60,17 +60,20 @@ class Publishing(Mqtt):
     def test_runs_and_tables_go_to_a_topic_of_their_own(self):
         broker, daemon = self.broker(), self.daemon()
         seen = broker.subscribe()
-        self.connect(daemon, broker.port, events=["measurement.recorded", "run.finished", "table.changed"], events_topic="plant-events/4")
+        self.connect(daemon, broker.port, events=["measurement.recorded", "run.finished", "table.changed", "compensation.changed"],
+                     events_topic="plant-events/4")
         measured = self.store(daemon, [1])[0]
         daemon.request("PUT", "/v1/files/p.h", b"0 BEGIN PGM p MM\n1 Q1 = 1\n2 END PGM p MM\n")
         run = daemon.post("/v1/runs?wait=1", {"program": "p.h"}).json
         daemon.request("PUT", "/v1/tables/shaft/classes/press2", {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": 3}]})
         events = lambda: [m for m in seen.messages if m.topic.startswith("plant-events/")]
-        wait_for(lambda: len(events()) == 2, lambda: self.state(daemon))
+        wait_for(lambda: len(events()) == 3, lambda: self.state(daemon))
         self.assertEqual(self.ids(seen), [measured])
-        self.assertEqual([(m.topic, m.qos, m.retain) for m in events()],
-                         [("plant-events/4/run.finished", 1, False), ("plant-events/4/table.changed", 1, False)])
-        finished, changed = (json.loads(m.payload) for m in events())
+        kinds = ["compensation.changed", "run.finished", "table.changed"]
+        told = sorted(events(), key=lambda m: m.topic)
+        self.assertEqual([(m.topic, m.qos, m.retain) for m in told], [(f"plant-events/4/{kind}", 1, False) for kind in kinds])
+        offset, finished, changed = (json.loads(m.payload) for m in told)
+        self.assertEqual((offset["id"], offset["data"]["state"], offset["data"]["machine"]), ("c" + measured[1:], "wait", "M3"))
         self.assertEqual((finished["data"]["id"], changed["data"]["tolerance_class"]), (run["id"], "press2"))
         self.assertEqual(len({finished["id"], changed["id"]}), 2)
 

@@ -143,6 +143,58 @@ class Webhooks(Receivers):
         bad = daemon.request("PUT", "/v1/connections/bad", {"kind": "webhook", "url": receiver.url, "secrets": SECRETS, "events": ["run.began"]})
         self.assertEqual((bad.status, bad.json["errors"][0]["pointer"]), (422, "/events"))
 
+    def make(self, daemon, level_um, count, characteristic="bore", machine="M1", **more):
+        """Parts about a level from the middle of 25 H7. Returns the id of the last."""
+        scatter = (0.9, -1.1, 0.4, -0.2, 1.2, -0.7, -0.9, 0.3, 0.6, -0.5)
+        rows = [{"designation": "25 H7", "measured_mm": f"{25.0105 + (level_um + scatter[i % 10]) / 1000:.4f}", "part_id": f"P{i}",
+                 "characteristic": characteristic, "machine": machine, "tool": "T1", **more} for i in range(count)]
+        stored = daemon.measure(rows, {"Prefer": "return=representation"})
+        self.assertEqual(stored.status, 201, stored)
+        return stored.json["measurements"][-1]["id"]
+
+    def test_offsets_are_told_for_each_machine_when_their_state_is_another(self):
+        receiver, other, daemon = self.receiver(), self.receiver(), self.daemon()
+        self.make(daemon, 0, 20)  # before the connection: their offset comes with the next value
+        offsets = ["compensation.changed", "compensation.failed"]
+        self.connect(daemon, receiver, events=offsets, filter={"verdict": ["reject"]})
+        self.connect(daemon, other, name="other", events=["measurement.recorded", offsets[0]], filter={"machine": "M2"})
+
+        def next_told(state, newest, machine="M1"):
+            receiver.wait(lambda: len(receiver.events) == len(told) + 1)
+            request = receiver.events[-1]
+            event = request["event"]
+            told.append((event["type"], request["headers"]["webhook-id"]))
+            self.assertEqual(told[-1], (offsets[state == "limits.mixed"], "c" + newest[1:]))
+            self.assertEqual([event["data"][name] for name in ("characteristic", "machine")], ["bore", machine])
+            self.assertEqual(event["data"].get("state", event["data"].get("code")), state)
+            self.assertEqual(request["headers"]["webhook-signature"], signature(SECRETS[0], request["headers"], request["body"]))
+            return event["data"]
+
+        told = []
+        next_told("wait", self.make(daemon, 0, 1))
+        moved = next_told("propose", self.make(daemon, 8, 6))
+        self.assertEqual(moved, daemon.get("/v1/measurements/compensation?characteristic=bore&machine=M1").json)
+        next_told("wait", self.make(daemon, 0, 1, machine="M2"), "M2")
+        self.wait_for_kept_position(daemon, 28)
+        daemon.kill()
+        daemon.start()
+        # What was told is not kept: the state comes again with the next value, and is that of M1 alone.
+        next_told("propose", self.make(daemon, 8, 1))
+        next_told("limits.mixed", self.make(daemon, 0, 1, designation="25 H8"))
+        other.wait(lambda: len(other.events) == 2)
+        self.assertEqual([request["event"]["type"] for request in other.events], ["measurement.recorded", "compensation.changed"])
+        self.assertEqual(self.state(daemon)["behind"], 0)
+
+    def test_an_offset_that_nobody_takes_comes_again_and_measurements_without_a_characteristic_have_none(self):
+        answers = [503, 204]
+        receiver, daemon = self.receiver(lambda event: answers.pop(0) if answers else 204), self.daemon()
+        self.connect(daemon, receiver, events=["compensation.changed"])
+        self.store(daemon, range(3))
+        newest = self.make(daemon, 8, 10)
+        receiver.wait(lambda: receiver.events)
+        self.assertEqual([request["headers"]["webhook-id"] for request in receiver.attempts], ["c" + newest[1:]] * 2)
+        self.assertEqual(receiver.attempts[0]["body"], receiver.attempts[1]["body"])
+
     def test_events_go_on_where_they_stood_after_a_kill_and_what_is_refused_is_a_dead_letter(self):
         refused = []
 

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "service/measurements/gauges_in_use.hpp"
+#include "service/measurements/measurement_service.hpp"
+
+namespace fitgauge::api {
+
+/// What readers of events learn of the next offset of some values.
+struct OffsetNews {
+  std::string_view event{};  ///< kOffsetChanged or kOffsetFailed
+  std::string data{};        ///< JSON: the proposal, or why there is none
+  std::string told{};        ///< the same as long as it is no news: the state, or the failure
+  std::string newest{};      ///< id of the newest value; empty: there is none
+};
+inline constexpr std::string_view kOffsetChanged = "compensation.changed";
+inline constexpr std::string_view kOffsetFailed = "compensation.failed";
+
+/// Of what values the next offset is found.
+struct OffsetOrder {
+  app::MeasurementQuery query{};   ///< newest_first
+  std::optional<Length> target{};  ///< none: the middle of the limits
+  double cost = 0.1;               ///< of a correction, in parts
+
+  /// @param done is called on a storage thread. @errors those of storage.
+  void find_news(app::MeasurementService& measurements, const GaugesInUse& gauges,
+                 std::function<void(Result<OffsetNews>)> done) const;
+};
+
+}  // namespace fitgauge::api
