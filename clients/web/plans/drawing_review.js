@@ -4,19 +4,19 @@ import { h, refill } from '../dom.js';
 import { sizeText } from '../gauge/plan.js';
 import { explain, t } from '../i18n.js';
 import { limitsSaid } from './characteristic.js';
-import { findPlan, writePlan } from './plan_store.js';
-import { compare, planOf } from './revision.js';
+import { findPlan, readDrawing, writePlan } from './plan_store.js';
+import { planOf, rowsOf } from './revision.js';
 
 const ASK_MS = 300;
 
 export class DrawingReview {
-  /** @param file its name; @param on {onStored, onDraft, onCancel} */
+  /** @param file that was read; @param on {onStored, onDraft, onCancel} */
   constructor(drawing, file, on) {
-    Object.assign(this, { drawing, on });
+    Object.assign(this, { drawing, file, on });
     this.refused = new Set();
     this.byHand = new Map();
     this.part = h('input', { type: 'text', name: 'drawing-part', required: true, maxlength: 200, autocomplete: 'off', spellcheck: 'false', oninput: () => this.#partTyped() });
-    this.part.value = drawing.part || file.replace(/\.[^.]+$/, '');
+    this.part.value = drawing.part || file.name.replace(/\.[^.]+$/, '');
     this.against = h('p.against', { role: 'status' });
     this.note = h('p.note', { role: 'alert' });
     this.storing = h('button.primary', { type: 'submit' });
@@ -29,7 +29,7 @@ export class DrawingReview {
         ['plans.member.name', 'drawing.size', 'drawing.limits', 'plans.member.kind', 'drawing.state'].map((name) => h('th', { scope: 'col' }, t(name))))), this.rows));
     this.kept = h('p.aside');
     this.element = h('form.sheet.review', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#store(); } },
-      h('h2.title', { tabindex: -1 }, t('drawing.title', { name: file })),
+      h('h2.title', { tabindex: -1 }, t('drawing.title', { name: file.name })),
       h('div.line.of-part', h('label.field', h('span.label', t('plans.part')), this.part),
         h('p.actions', this.storing, this.editing, h('button', { type: 'button', onclick: () => on.onCancel() }, t('drawing.cancel')))),
       this.against, this.note, h('div.sides', h('section', this.readTitle, this.table, this.kept), this.#notRead()));
@@ -64,12 +64,13 @@ export class DrawingReview {
     this.note.textContent = '';
     try {
       const { plan, tag } = part ? await findPlan(part) : { plan: null, tag: null };
+      const drawing = plan ? await readDrawing(this.file, part) : this.drawing;
       if (part !== this.#number) return;
       this.typed = false;
-      Object.assign(this, { plan, tag, found: compare(this.drawing, plan) });
+      Object.assign(this, { plan, tag, found: rowsOf(drawing, plan) });
       this.refused.clear();
     } catch (problem) {
-      Object.assign(this, { plan: null, tag: null, found: compare(this.drawing, null) });
+      Object.assign(this, { plan: null, tag: null, found: rowsOf(this.drawing, null) });
       this.note.textContent = explain(problem);
     }
     this.#draw();

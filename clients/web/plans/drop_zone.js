@@ -1,9 +1,9 @@
 /** The place for drawings and tables: a file is dropped anywhere on the view, or chosen. */
 
-import { request } from '../api.js';
 import { h } from '../dom.js';
 import { explain, t } from '../i18n.js';
 import { DrawingReview } from './drawing_review.js';
+import { readDrawing } from './plan_store.js';
 import { planOfRows, rowsOfText } from './plan_table.js';
 import { rowsOfWorkbook } from './workbook.js';
 
@@ -81,8 +81,7 @@ export class DropZone {
   }
 
   async #drawing(file) {
-    const drawing = await (await request('POST', '/v1/drawings', { body: file, headers: { 'Content-Type': 'model/step' } })).json();
-    const review = new DrawingReview(drawing, file.name, {
+    const review = new DrawingReview(await readDrawing(file), file, {
       onStored: (part, count) => { this.#close(); this.on.onStored(part, count); }, onCancel: () => this.#close(),
       onDraft: (plan, tag) => { this.#close(); this.on.onDrawing(plan, tag); },
     });

@@ -1,4 +1,4 @@
-/** The plans of the service: list, read, store with the state that was read, delete. */
+/** The plans of the service and their drawings: list, read, store with the state that was read, delete. */
 
 import { get, getJson, request, url } from '../api.js';
 
@@ -15,6 +15,10 @@ export const findPlan = (part) => readPlan(part).catch((problem) => {
   if (problem.status === 404) return { plan: null, tag: null };
   throw problem;
 });
+
+/** What the service reads of a STEP file; with a part, compared with its plan. */
+export const readDrawing = async (file, part) =>
+  (await request('POST', url(['drawings'], { part }), { body: file, headers: { 'Content-Type': 'model/step' } })).json();
 
 /** @param tag of the state that was read; null: there was none; undefined: whatever stands there. @returns the new tag */
 export async function writePlan(part, plan, tag) {

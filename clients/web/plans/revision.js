@@ -1,4 +1,4 @@
-/** A drawing held against the plan of its part: what is new, what has other limits, what is gone, and the plan that comes of it. */
+/** A drawing beside the plan of its part, as the service has compared them: the rows, and the plan that comes of them. */
 
 import { kindOf } from './sizes.js';
 
@@ -11,25 +11,28 @@ export function characteristicOf({ name, nominal_mm, tolerance_class: of, upper_
 
 /** What a drawing says of a characteristic; people say the rest. */
 const DRAWN = ['name', 'designation', 'nominal_mm', 'tolerance_class', 'upper_um', 'lower_um', 'feature', 'quantity', 'count', 'entity'];
-const limitsOf = (one) => [(one.designation ?? `${one.nominal_mm}${one.tolerance_class ?? ''}`).replace(/\s/g, ''), one.upper_um, one.lower_um, one.feature].join(' ');
 const givenBy = (people) => Object.fromEntries(Object.entries(people ?? {}).filter(([member]) => !DRAWN.includes(member)));
 
 /**
- * @param drawing of the service; @param plan of the part, or null
+ * @param drawing of the service, compared with the plan; @param plan of the part, or null
  * @returns {rows: [{state, name, one, before, kind, remarks}], kept}: `state` is added, changed, same or gone; `kept` were typed by hand
  */
-export function compare(drawing, plan) {
+export function rowsOf(drawing, plan) {
   const known = new Map((plan?.characteristics ?? []).map((one) => [one.name, one]));
+  const { gone = [], changed = [] } = drawing.compared ?? {};
+  const other = new Set(changed.map(({ name }) => name));
   const drawn = drawing.sizes.map((size) => {
     const before = known.get(size.name);
-    const one = { ...characteristicOf(size), ...givenBy(before) };
-    const state = !before ? 'added' : limitsOf(before) === limitsOf(one) ? 'same' : 'changed';
-    return { state, name: size.name, one, before, kind: kindOf(size), remarks: size.remarks };
+    known.delete(size.name);
+    const state = !before ? 'added' : other.has(size.name) ? 'changed' : 'same';
+    return { state, name: size.name, one: { ...characteristicOf(size), ...givenBy(before) }, before, kind: kindOf(size), remarks: size.remarks };
   });
-  const names = new Set(drawn.map(({ name }) => name));
-  const left = [...known.values()].filter(({ name }) => !names.has(name));
-  const gone = left.filter(({ entity }) => entity !== undefined).map((one) => ({ state: 'gone', name: one.name, one, before: one, kind: kindOf(one), remarks: [] }));
-  return { rows: [...drawn, ...gone], kept: left.filter(({ entity }) => entity === undefined) };
+  const rest = gone.filter((name) => known.has(name)).map((name) => {
+    const one = known.get(name);
+    known.delete(name);
+    return { state: 'gone', name, one, before: one, kind: kindOf(one), remarks: [] };
+  });
+  return { rows: [...drawn, ...rest], kept: [...known.values()] };
 }
 
 /** The plan of the rows that are taken: of those that are not, what was there before stays. */

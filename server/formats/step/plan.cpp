@@ -31,6 +31,15 @@ std::string limits_of(const JsonValue& characteristic) {
   return limits;
 }
 
+/// The same for the same limits, however they are written: 25 g6 and 25g6.
+std::string limits_key(const JsonValue& characteristic) {
+  const auto text = [&](std::string_view name) { return characteristic.member(name).text; };
+  std::string size(text("designation"));
+  if (size.empty()) size = fmt::format("{}{}", text("nominal_mm"), text("tolerance_class"));
+  std::erase(size, ' ');
+  return fmt::format("{} {} {} {}", size, text("upper_um"), text("lower_um"), text("feature"));
+}
+
 void write_size(JsonWriter& json, const DrawnSize& size, const JsonValue* before) {
   const auto has_modifier = [&size](std::string_view word) {
     return std::any_of(size.modifiers.begin(), size.modifiers.end(),
@@ -111,7 +120,7 @@ Result<DrawnPlan> plan_of(const Drawing& drawing, std::string_view part, const J
     const JsonValue* other = find(known, name);
     if (other == nullptr)
       compared.added.push_back(name);
-    else if (limits_of(*other) != limits_of(one))
+    else if (limits_key(*other) != limits_key(one))
       compared.changed.push_back({name, limits_of(*other), limits_of(one)});
   }
   return plan;
