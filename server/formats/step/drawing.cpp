@@ -57,24 +57,15 @@ constexpr std::array kEntities = {
     Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION_WITH_PLACEHOLDER", Group::Callout},
     Entity{"PRODUCT", Group::Product},
     Entity{"DRAUGHTING_CALLOUT", Group::Note},
-    Entity{"ANGULARITY_TOLERANCE"},
-    Entity{"CIRCULAR_RUNOUT_TOLERANCE"},
-    Entity{"COAXIALITY_TOLERANCE"},
-    Entity{"CONCENTRICITY_TOLERANCE"},
-    Entity{"CYLINDRICITY_TOLERANCE"},
-    Entity{"FLATNESS_TOLERANCE"},
-    Entity{"LINE_PROFILE_TOLERANCE"},
-    Entity{"PARALLELISM_TOLERANCE"},
-    Entity{"PERPENDICULARITY_TOLERANCE"},
-    Entity{"POSITION_TOLERANCE"},
-    Entity{"ROUNDNESS_TOLERANCE"},
-    Entity{"STRAIGHTNESS_TOLERANCE"},
-    Entity{"SURFACE_PROFILE_TOLERANCE"},
-    Entity{"SYMMETRY_TOLERANCE"},
-    Entity{"TOTAL_RUNOUT_TOLERANCE"},
-    Entity{"GEOMETRIC_TOLERANCE"},
-    Entity{"SURFACE_TEXTURE_REPRESENTATION"},
-};
+    Entity{"ANGULARITY_TOLERANCE"}, Entity{"CIRCULAR_RUNOUT_TOLERANCE"},
+    Entity{"COAXIALITY_TOLERANCE"}, Entity{"CONCENTRICITY_TOLERANCE"},
+    Entity{"CYLINDRICITY_TOLERANCE"}, Entity{"FLATNESS_TOLERANCE"},
+    Entity{"LINE_PROFILE_TOLERANCE"}, Entity{"PARALLELISM_TOLERANCE"},
+    Entity{"PERPENDICULARITY_TOLERANCE"}, Entity{"POSITION_TOLERANCE"},
+    Entity{"ROUNDNESS_TOLERANCE"}, Entity{"STRAIGHTNESS_TOLERANCE"},
+    Entity{"SURFACE_PROFILE_TOLERANCE"}, Entity{"SYMMETRY_TOLERANCE"},
+    Entity{"TOTAL_RUNOUT_TOLERANCE"}, Entity{"GEOMETRIC_TOLERANCE"},
+    Entity{"SURFACE_TEXTURE_REPRESENTATION"}};
 
 /// `flatness tolerance`: an entity in words.
 std::string in_words(std::string_view entity) {
@@ -147,6 +138,7 @@ class Walker {
     for (auto& each : links_) std::stable_sort(each.begin(), each.end(), by_first);
     each({Group::Product}, [&](auto id, const Entity& entity) {
       to_.part = seen_.empty() ? text_in(file_, id, entity.name, 0) : std::string();
+      to_.part.resize(first_characters(to_.part, kLongestName).size());
       seen_.insert(id);
     });
     each({Group::Size, Group::Location, Group::Angle}, [&](auto id, const Entity& entity) {
@@ -216,10 +208,13 @@ class Walker {
     return name.empty() ? in_words(entity) : name;
   }
   std::string unique(std::string name) {
-    constexpr std::size_t kLongestName = 180;
-    name = first_characters(name, kLongestName);
-    const int count = ++names_[name];
-    return count == 1 ? name : unique(fmt::format("{} ({})", name, count));
+    name.resize(first_characters(name, kLongestName).size());
+    std::string free = name;
+    for (int& count = names_[name]; ++count > 1;) {
+      free = fmt::format("{} ({})", name, count);
+      if (names_.try_emplace(free, 1).second) break;
+    }
+    return free;
   }
 
   std::vector<std::uint32_t> faces_of(std::uint32_t aspect) {
@@ -258,6 +253,14 @@ class Walker {
     if (!found.nominal)
       return found.is_angle ? "an angle is not gauged here"
                             : "the file has no value of it: take it from the drawing";
+    if (upper && lower && *upper < *lower) {
+      size.remarks.push_back(fmt::format(
+          "upper limit {} mm, lower limit {} mm in the file: the order is wrong there",
+          format_mm(*upper), format_mm(*lower)));
+      std::swap(upper, lower);
+    }
+    if (upper && upper == lower)
+      return fmt::format("both limits are {} mm: the file lacks a tolerance", format_mm(*upper));
     if (upper) found.upper = *upper - *found.nominal;
     if (lower) found.lower = *lower - *found.nominal;
     return {};
@@ -292,6 +295,7 @@ class Walker {
         std::string grade = text_of(fit[2]);
         if (ascii_upper(grade).starts_with("IT")) grade.erase(0, 2);
         found.class_name = std::string(trim(text_of(fit[0]))) + std::string(trim(grade));
+        found.class_name.resize(first_characters(found.class_name, kLongestClass).size());
         found.zone = iso286::feature_from_word(ascii_lower(trim(text_of(fit[1]))));
       }
       const auto range = record_of(file_, each, "TOLERANCE_VALUE", id);
@@ -375,6 +379,12 @@ class Walker {
     if (std::string why = take_values(id, found, size); !why.empty()) return why;
     size.nominal = *found.nominal;
     if (std::string why = take_tolerances(id, found, size); !why.empty()) return why;
+    const Length least = size.nominal + std::min(Length(), found.lower.value_or(Length()));
+    if (!gauging::is_signed(size.quantity) && least <= Length()) {
+      return fmt::format("{} mm, {} {} µm: a {} is above 0, a sign is wrong in the file",
+                         format_mm(size.nominal), signed_um(found.upper), signed_um(found.lower),
+                         word(size.quantity));
+    }
     for (const std::string_view word : {"theoretical", "auxiliary", "basic", "reference"}) {
       if (std::find(size.modifiers.begin(), size.modifiers.end(), word) != size.modifiers.end()) {
         return fmt::format("{} mm is {}: it has no limits", format_mm(size.nominal), word);
@@ -413,6 +423,8 @@ class Walker {
 
   static constexpr std::size_t kMostLinks = std::size_t{2} << 20;
   static constexpr std::size_t kMostListed = 20'000;
+  static constexpr std::size_t kLongestName = 180;  ///< of 200, so that a number fits behind it
+  static constexpr std::size_t kLongestClass = 64;
 
   const Part21& file_;
   const iso286::ToleranceTables& tables_;

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <utility>
 
 #include "base/allowance.hpp"
 #include "formats/sheet/text_encoding.hpp"
@@ -87,8 +89,9 @@ std::string text_of(const Parameter& parameter) {
 double number_of(const Parameter& parameter) {
   const std::string_view digits = parameter.text.substr(parameter.text.starts_with('+') ? 1 : 0);
   double number = 0;
-  std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  return number;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  const bool is_tiny = digits.find("E-") != std::string_view::npos;
+  return read.ec == std::errc::result_out_of_range && !is_tiny ? HUGE_VAL : number;
 }
 
 /// The one pass over a whole file.

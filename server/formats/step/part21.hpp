@@ -36,7 +36,7 @@ struct Record {
 
 /// The text of a string parameter as UTF-8, without its controls; empty for another parameter.
 std::string text_of(const Parameter& parameter);
-/// The nearest double of a number; 0 of another parameter.
+/// The nearest double of a number, or infinity; 0 of another parameter.
 double number_of(const Parameter& parameter);
 
 /// Reads what is known to be well-formed, since Part21::read has seen it. Refers to the text, which

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "record/verdict_codec.hpp"
 
 namespace fitgauge::step {
 namespace {
@@ -37,7 +38,11 @@ std::vector<Parameter> record_of(const Part21& file, std::uint32_t id, std::stri
 std::string text_in(const Part21& file, std::uint32_t id, std::string_view name, std::size_t at,
                     std::uint32_t from) {
   const auto all = record_of(file, id, name, from);
-  return at < all.size() ? std::string(trim(text_of(all[at]))) : std::string();
+  // Many may have the same long text.
+  constexpr std::size_t kLongestText = 1000;
+  std::string text = at < all.size() ? std::string(trim(text_of(all[at]))) : std::string();
+  text.resize(first_characters(text, kLongestText).size());
+  return text;
 }
 
 std::vector<std::uint32_t> references_in(const Part21& file, const Parameter& in) {
@@ -95,8 +100,8 @@ Value Values::read(std::uint32_t id, std::uint32_t from, int deep) {
   if (found.unit == 0) return found;
   const auto length = [&](double number) -> std::optional<Length> {
     const auto read = Length::nearest_mm(number * found.unit);
-    if (read && *read <= kLongest && *read >= -kLongest) return *read;
-    file_.fail(id, fmt::format("#{} is a length beyond 1000 km: export the file again", id));
+    if (read && *read <= api::kLargestMeasured && *read >= -api::kLargestMeasured) return *read;
+    file_.fail(id, fmt::format("#{} is a length beyond 100 km: export the file again", id));
     return std::nullopt;
   };
   found.exact = found.length = length(found.number);

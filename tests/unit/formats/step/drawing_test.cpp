@@ -168,6 +168,47 @@ TEST_CASE("signs and orders of deviations are read or named, never guessed") {
   CHECK(slot("0.", "0.") == "not read");
 }
 
+TEST_CASE("a size that is not above 0 and limits in the wrong order are named") {
+  const auto read = [](std::string_view entity, std::string_view what, std::string_view by) {
+    const auto drawing = read_drawing(replaced(housing(), what, by), tables());
+    REQUIRE(drawing.has_value());
+    for (const DrawnSize& size : drawing->sizes) {
+      if (size.entity == entity)
+        return fmt::format("{} {}", limits_of(size), fmt::join(size.remarks, ", "));
+    }
+    for (const NotRead& other : drawing->not_read) {
+      if (other.entity == entity) return other.why;
+    }
+    return std::string();
+  };
+  CHECK(read("#130", "LENGTH_MEASURE(8.)", "LENGTH_MEASURE(-8.)") ==
+        "-8 mm, 0 -36 µm: a width is above 0, a sign is wrong in the file");
+  CHECK(read("#130", "LENGTH_MEASURE(8.)", "LENGTH_MEASURE(0.036)").find("a sign is wrong") !=
+        std::string::npos);
+  CHECK(read("#170", "'upper limit',LENGTH_MEASURE(40.1)", "'upper limit',LENGTH_MEASURE(39.8)") ==
+        "40 -100 -200 distance - upper limit 39.8 mm, lower limit 39.9 mm in the file: the order "
+        "is wrong there");
+  CHECK(read("#170", "'upper limit',LENGTH_MEASURE(40.1)", "'upper limit',LENGTH_MEASURE(39.9)") ==
+        "both limits are 39.9 mm: the file lacks a tolerance");
+  std::string below = replaced(housing(), "LENGTH_MEASURE(40.),", "LENGTH_MEASURE(-40.),");
+  below = replaced(std::move(below), "LENGTH_MEASURE(40.1)", "LENGTH_MEASURE(-39.9)");
+  CHECK(read_drawing(replaced(below, "LENGTH_MEASURE(39.9)", "LENGTH_MEASURE(-40.1)"), tables())
+            ->sizes[4]
+            .nominal == Length::millimetres(-40));
+}
+
+TEST_CASE("names are bounded, and unique however long they are") {
+  std::string text = replaced(housing(), R"('Bore \X2\00D8\X0\ A')", fmt::format("'{:x>5000}'", ""));
+  text = replaced(std::move(text), "#190=ANGULAR",
+                  "#98=DRAUGHTING_MODEL_ITEM_ASSOCIATION('','',#120,$,#114);#99=DRAUGHTING_MODEL_"
+                  "ITEM_ASSOCIATION('','',#180,$,#114);#190=ANGULAR");
+  const auto drawing = read_drawing(text, tables());
+  REQUIRE(drawing.has_value());
+  CHECK(drawing->sizes[0].name == fmt::format("{:x>180}", ""));
+  CHECK(drawing->sizes[1].name == fmt::format("{:x>180} (2)", ""));
+  CHECK(drawing->not_read[0].name == fmt::format("{:x>1000}", ""));
+}
+
 TEST_CASE("a file that is cut anywhere is an error with its line") {
   const std::string& whole = housing();
   REQUIRE(error_of(whole).empty());
@@ -190,7 +231,9 @@ TEST_CASE("what a file may not have is an error with its line") {
   CHECK(error_of(replaced(housing(), "AP242_", "IFC4_")).find("line 6: FILE_SCHEMA is not") !=
         std::string::npos);
   CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(8.)", "LENGTH_MEASURE(8.E30)"))
-            .find("1000 km") != std::string::npos);
+            .find("100 km") != std::string::npos);
+  CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(8.)", "LENGTH_MEASURE(8.E400)"))
+            .find("100 km") != std::string::npos);
   CHECK(error_of(housing() + "more").starts_with("line "));
   for (const std::string_view bad :
        {"#1=A(1E5);\n", "#1=A(,);\n", "#1=A('x);\n", "#1=A(.T);\n", "#1=A(B());\n", "#1=a();\n",
