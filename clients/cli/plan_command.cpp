@@ -1,42 +1,12 @@
 #include "cli/plan_command.hpp"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-
-#include <cerrno>
-#include <system_error>
-
-#include "base/folder.hpp"
+#include "base/mapped_file.hpp"
 #include "cli/address.hpp"
 #include "cli/limits_commands.hpp"
 #include "formats/step/plan.hpp"
 
 namespace fitgauge::cli {
 namespace {
-
-/// The bytes of a file where the kernel has them: a file of 200 MB is not copied.
-class MappedFile {
- public:
-  explicit MappedFile(const std::string& path) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    struct stat status {};
-    if (file.get() < 0 || ::fstat(file.get(), &status) != 0 || status.st_size == 0) return;
-    size_ = static_cast<std::size_t>(status.st_size);
-    bytes_ = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file.get(), 0);
-  }
-  MappedFile(const MappedFile&) = delete;
-  MappedFile& operator=(const MappedFile&) = delete;
-  ~MappedFile() {
-    if (is_mapped()) ::munmap(bytes_, size_);
-  }
-  bool is_mapped() const { return bytes_ != MAP_FAILED; }
-  std::string_view text() const { return {static_cast<const char*>(bytes_), size_}; }
-
- private:
-  void* bytes_ = MAP_FAILED;
-  std::size_t size_ = 0;
-};
 
 Failure local(const std::string& file, std::string_view why) {
   return {ExitCode::LocalFile, fmt::format("{}: {}", file, why)};
@@ -97,11 +67,11 @@ Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing,
 }  // namespace
 
 Outcome<ExitCode> run_plan_from(const Context& context, const PlanOptions& options) {
-  const MappedFile file(options.file);
-  if (!file.is_mapped()) return local(options.file, std::generic_category().message(errno));
+  const auto file = MappedFile::open(options.file);
+  if (!file) return local(options.file, file.error().message);
   const auto tables = iso286::ToleranceTables::make(iso286::compiled_in_tables(), {});
   if (!tables) return Failure(ExitCode::Defect, tables.error().message);
-  const auto drawing = step::read_drawing(file.text(), *tables);
+  const auto drawing = step::read_drawing(file->text(), *tables);
   if (!drawing) return local(options.file, drawing.error().message);
   print(context, *drawing);
   return options.part.empty() ? ExitCode::Good : store(context, *drawing, options);

@@ -55,6 +55,7 @@ http::ServerOptions server_options(const Config& config,
   options.io_threads = static_cast<unsigned>(config.io_threads);
   // Beyond these a client gets 503 rather than no answer.
   options.max_connections = static_cast<std::size_t>(allow_connections(config.max_connections));
+  options.spool_folder = config.data;
   options.tls = tls_options(config);
   options.allowed_origins = config.allow_origin;
   return options;

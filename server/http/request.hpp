@@ -11,6 +11,7 @@
 
 #include "base/clock.hpp"
 #include "base/length.hpp"
+#include "base/mapped_file.hpp"
 
 namespace fitgauge::http {
 
@@ -64,7 +65,9 @@ class Request {
   std::optional<Timestamp> time(std::string_view name) const;
 
   /// The decoded body; empty when there is none. kBodyPadding bytes after its end are readable.
-  std::string_view body() const { return body_; }
+  std::string_view body() const { return body_.text; }
+  /// The same, on disk if its route spools.
+  const FileText& file_body() const { return body_; }
   static constexpr std::size_t kBodyPadding = 64;
   /// The body's media type in lower case without parameters; empty when the request names none.
   std::string_view media_type() const { return media_type_; }
@@ -127,7 +130,7 @@ class Request {
   const Route* route_ = nullptr;
   std::string_view path_;
   std::string_view query_;
-  std::string_view body_;
+  FileText body_;
   std::string_view response_type_;
   std::string media_type_;
   std::vector<std::optional<ArgumentValue>> arguments_;  ///< parallel to the route's parameters

@@ -70,7 +70,8 @@ struct BodyRules {
   /// Lower case, without parameters; empty takes any or none. Charset may only be UTF-8.
   std::vector<std::string> media_types{};
   std::size_t limit = std::size_t{1} << 20;  ///< bytes, after decompression
-  std::string when_too_large{};              ///< what to do instead, behind "…: "
+  bool spools = false;           ///< one above 1 MiB goes to disk: Request::file_body()
+  std::string when_too_large{};  ///< what to do instead, behind "…: "
   std::string schema{};                      ///< of its JSON form, by name
 };
 

@@ -35,7 +35,7 @@ Result<CheckedDocument> check_plan(const Services& services, const std::string& 
   return CheckedDocument{.text = *std::move(plan)};
 }
 
-Result<step::Drawing> drawing_of(const Services& services, std::string_view text) {
+Result<step::Drawing> drawing_of(const Services& services, const FileText& text) {
   const auto tables = services.tables.tables();
   if (!tables) return tables.error();
   return step::read_drawing(text, **tables, kMostInstances);
@@ -55,7 +55,7 @@ Result<step::DrawnPlan> drawn_plan(const Services& services, const step::Drawing
 }
 
 Result<CheckedDocument> check_drawn(const Services& services, const std::string& part,
-                                    std::string_view text) {
+                                    const FileText& text) {
   const auto drawing = drawing_of(services, text);
   if (!drawing) return drawing.error();
   std::string stored;
@@ -69,7 +69,7 @@ Result<CheckedDocument> check_drawn(const Services& services, const std::string&
 }
 
 Result<http::Response> drawing_answer(const Services& services, const http::Request& request) {
-  auto drawing = drawing_of(services, request.body());
+  auto drawing = drawing_of(services, request.file_body());
   if (!drawing) return drawing.error();
   if (const auto part = request.text("part"); part && !drawing->sizes.empty()) {
     std::string stored;
@@ -128,6 +128,7 @@ void add_plans_routes(std::vector<http::Route>& routes, const Services& services
       .body = {.use = http::BodyUse::Required,
                .media_types = {std::string(kStep)},
                .limit = kLongestDrawing,
+               .spools = true,
                .when_too_large = "`fitgauge plan from FILE` reads larger drawings"},
       .access = "viewer",
       .operation = "readDrawing",

@@ -98,8 +98,10 @@ void put(const Services& services, const KindOfDocument& kind, const http::Reque
   const SharedResponder shared = share(std::move(responder));
   const bool is_other = !kind.other_type.empty() && request.media_type() == kind.other_type;
   JobPool& pool = kind.is_figure || is_other ? services.jobs.figures : services.jobs.orders;
-  pool.run([&services, &request, check = is_other ? kind.check_other : kind.check,
-            name = *name] { return check(services, name, request.body()); },
+  pool.run([&services, &kind, &request, is_other, name = *name] {
+             return is_other ? kind.check_other(services, name, request.file_body())
+                             : kind.check(services, name, request.body());
+           },
            [&services, &kind, &request, name = *name, shared](Result<CheckedDocument> checked) {
              if (!checked) return shared->fail(checked.error());
              write(services, kind, name, *std::move(checked), request, shared);
@@ -224,6 +226,7 @@ void add_document_routes(std::vector<http::Route>& routes, const Services& servi
   if (!kind.other_type.empty()) {
     routes.back().body.media_types.emplace_back(kind.other_type);
     routes.back().body.limit = kind.longest_other;
+    routes.back().body.spools = true;
   }
   add_precondition_parameters(routes.back().parameters);
   routes.push_back({

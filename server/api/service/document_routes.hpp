@@ -56,7 +56,8 @@ struct KindOfDocument {
   // A second form of a body: its media type, its most bytes and its check, which computes.
   std::string_view other_type{};
   std::size_t longest_other = 0;
-  Check check_other{};
+  Result<CheckedDocument> (*check_other)(const Services& services, const std::string& name,
+                                         const FileText& body) = nullptr;
   /// Runs after a change was stored and before it is answered; null: nothing.
   void (*changed)(const Services& services, std::function<void(Result<void>)> done) = nullptr;
 };

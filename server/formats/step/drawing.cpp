@@ -438,14 +438,16 @@ class Walker {
 
 }  // namespace
 
-Result<Drawing> read_drawing(std::string_view text, const iso286::ToleranceTables& tables,
+Result<Drawing> read_drawing(const FileText& text, const iso286::ToleranceTables& tables,
                              std::size_t most_instances) {
   const auto file = Part21::read(text, kNames, most_instances);
   if (!file) return file.error();
   Drawing drawing;
   Walker(*file, tables, drawing).walk();
   if (file->error()) return *file->error();
-  drawing.digest = to_hex(sha256(text));
+  Sha256 digest;
+  text.each_stretch(text.text.size(), [&](std::string_view part) { digest.update(part); });
+  drawing.digest = to_hex(digest.finish());
   return drawing;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/json/body_forms.hpp"
+#include "base/mapped_file.hpp"
 #include "formats/step/part21.hpp"
 #include "metrology/gauging/gauge.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
@@ -106,10 +107,10 @@ void members(auto& v, const Drawing& drawing) {
   v.optional("compared", drawing.compared, "With the plan of the part; absent if there is none");
 }
 
-/// @param text a whole file; lengths are converted to mm and rounded to the nearest nanometre
+/// @param text a whole file, read a stretch at a time if it is mapped; lengths are converted to mm and rounded to the nearest nanometre
 /// @param tables of the classes that the file names
 /// @errors DrawingMalformed with the line: the file is none, is cut, or contradicts itself.
-Result<Drawing> read_drawing(std::string_view text, const iso286::ToleranceTables& tables,
+Result<Drawing> read_drawing(const FileText& text, const iso286::ToleranceTables& tables,
                              std::size_t most_instances = Part21::kMostInstances);
 
 }  // namespace fitgauge::step

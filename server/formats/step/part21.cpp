@@ -176,7 +176,7 @@ class Part21Scanner {
   bool signatures() {
     while (!lexer_.is_at_end()) {
       if (!expect("SIGNATURE")) return false;
-      const std::size_t end = file_.text_.find("ENDSEC", lexer_.at());
+      const std::size_t end = file_.text_.text.find("ENDSEC", lexer_.at());
       if (end == std::string_view::npos) return lexer_.fail("a signature has no ENDSEC");
       lexer_.go_to(end);
       if (!expect("ENDSEC")) return false;
@@ -205,7 +205,9 @@ class Part21Scanner {
       return lexer_.fail(fmt::format(
           "more than {} instances stand here: the command line reads larger files", most_));
     }
-    file_.instances_.push_back({name.id, static_cast<std::uint32_t>(lexer_.at())});
+    const std::size_t at = lexer_.at();
+    file_.instances_.push_back({name.id, static_cast<std::uint32_t>(at)});
+    if (at - let_go_ > FileText::kStretch) file_.text_.let_go(std::exchange(let_go_, at), at);
     const bool is_complex = lexer_.take('(');
     do {
       std::string_view entity;
@@ -222,14 +224,15 @@ class Part21Scanner {
   Lexer lexer_;
   const std::size_t most_;
   std::size_t records_ = 0;
+  std::size_t let_go_ = 0;
   std::unordered_map<std::string_view, std::size_t> places_;
 };
 
-Result<Part21> Part21::read(std::string_view text, std::span<const std::string_view> names,
+Result<Part21> Part21::read(const FileText& text, std::span<const std::string_view> names,
                             std::size_t most_instances) {
   Part21 file;
   file.text_ = text;
-  if (text.size() > std::numeric_limits<std::uint32_t>::max()) {
+  if (text.text.size() > std::numeric_limits<std::uint32_t>::max()) {
     return Error{ErrorCode::DrawingMalformed,
                  "the file has more than 4294967295 bytes: export a part of it"};
   }
@@ -276,6 +279,9 @@ std::vector<Record> Part21::records(std::uint32_t id, std::uint32_t from) const 
     fail(from, fmt::format("#{} refers to #{}, which is missing: export the file again", from, id));
     return found;
   }
+  // Far from each other, and pages are mapped some at a time.
+  constexpr std::size_t kBetween = 256;
+  if (++records_ % kBetween == 0) text_.let_go(0, text_.text.size());
   Lexer lexer(text_);
   lexer.go_to(instance->at);
   const bool is_complex = lexer.take('(');

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/mapped_file.hpp"
 #include "base/result.hpp"
 
 // A STEP file as text: ISO 10303-21, editions 2 and 3, read strictly and in one pass. What stands
@@ -50,7 +51,7 @@ class Part21 {
 
   /// @param names of the records that of_name() gives
   /// @errors DrawingMalformed with the line, what is wrong there and what to do.
-  static Result<Part21> read(std::string_view text, std::span<const std::string_view> names,
+  static Result<Part21> read(const FileText& text, std::span<const std::string_view> names,
                              std::size_t most_instances = kMostInstances);
 
   /// The instances with a record of that name, in the order of the file.
@@ -76,10 +77,11 @@ class Part21 {
   const Instance* find(std::uint32_t id) const;
   bool walk(std::string_view text) const;
 
-  std::string_view text_;
+  FileText text_;
   std::deque<Instance> instances_;  // by id; grows without a second copy
   std::vector<std::vector<std::uint32_t>> by_name_;
-  mutable std::size_t walked_ = 0;  ///< bytes read again
+  mutable std::size_t walked_ = 0;   ///< bytes read again
+  mutable std::size_t records_ = 0;  ///< of them
   mutable std::optional<Error> error_;
 };
 

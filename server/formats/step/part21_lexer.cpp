@@ -17,7 +17,7 @@ bool is_white(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 bool Lexer::fail(std::string_view message) {
   if (error_) return false;
   const bool is_cut = is_at_end();
-  error_ = error_at(text_, std::min(at_, text_.size()),
+  error_ = error_at(file_, std::min(at_, text_.size()),
                     is_cut ? fmt::format("the file ends here, {}: export or send it again", message)
                            : fmt::format("{}: export the file again", message));
   return false;

@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/mapped_file.hpp"
 #include "base/text.hpp"
 #include "formats/step/part21.hpp"
 
 namespace fitgauge::step {
 
 /// An error at a place of the text, with its line.
-inline Error error_at(std::string_view text, std::size_t at, std::string_view message) {
-  const auto line =
-      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+inline Error error_at(const FileText& text, std::size_t at, std::string_view message) {
+  std::ptrdiff_t line = 1;
+  text.each_stretch(at, [&line](std::string_view part) {
+    line += std::count(part.begin(), part.end(), '\n');
+  });
   return {ErrorCode::DrawingMalformed, fmt::format("line {}: {}", line, message),
           fmt::format("line {}", line)};
 }
@@ -21,7 +24,7 @@ inline Error error_at(std::string_view text, std::size_t at, std::string_view me
 /// The tokens of a text, each checked as it is passed.
 class Lexer {
  public:
-  explicit Lexer(std::string_view text) : text_(text) {}
+  explicit Lexer(const FileText& text) : file_(text), text_(text.text) {}
 
   std::size_t at() const { return at_; }
   void go_to(std::size_t at) { at_ = at; }
@@ -59,6 +62,7 @@ class Lexer {
   bool reference(Parameter& to);
   std::size_t digits();
 
+  FileText file_;
   std::string_view text_;
   std::size_t at_ = 0;
   std::optional<Error> error_;

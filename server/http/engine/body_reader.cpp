@@ -16,9 +16,10 @@ void BodyReader::start(const Plan& plan) {
 
 void BodyReader::clear() {
   data_.reset();
+  spooled_ = MappedFile();
   gunzip_.reset();
   share_ = ByteShare();
-  size_ = capacity_ = discarded_ = 0;
+  size_ = capacity_ = discarded_ = let_go_ = 0;
 }
 
 BodyReader::Outcome BodyReader::reserve(std::size_t size) {
@@ -44,10 +45,16 @@ BodyReader::Outcome BodyReader::hold(std::size_t capacity, ByteBudget& budget) {
     }
     share = ByteShare(budget, capacity);
   }
+  const std::size_t size = capacity + Request::kBodyPadding;
+  const bool spools =
+      plan_.spools && capacity > BodyBudgets::kPart && !budgets_.spool_folder.empty();
+  auto spooled = spools ? MappedFile::unnamed(budgets_.spool_folder, size) : MappedFile();
+  if (!spooled) return Outcome::DiskFull;
   // Not value-initialised: a page is touched when the bytes come that fill it.
-  std::unique_ptr<char[]> grown(new char[capacity + Request::kBodyPadding]);
-  if (size_ > 0) std::memcpy(grown.get(), data_.get(), size_);
+  std::unique_ptr<char[]> grown(spooled->bytes() == nullptr ? new char[size] : nullptr);
+  if (size_ > 0) std::memcpy(grown ? grown.get() : spooled->bytes(), data(), size_);
   data_ = std::move(grown);
+  spooled_ = *std::move(spooled);
   share_ = std::move(share);
   capacity_ = capacity;
   return Outcome::Ok;
@@ -64,8 +71,8 @@ BodyReader::Outcome BodyReader::add(std::string_view& piece) {
     const Outcome outcome = grow(size_ + piece.size());
     if (outcome != Outcome::Ok) return outcome;
   }
-  std::memcpy(data_.get() + size_, piece.data(), piece.size());
-  size_ += piece.size();
+  std::memcpy(data() + size_, piece.data(), piece.size());
+  added(piece.size());
   piece = {};
   return Outcome::Ok;
 }
@@ -94,7 +101,7 @@ BodyReader::Outcome BodyReader::add_decoded(std::string_view& piece) {
       discarded_ += step.produced;
       if (discarded_ > plan_.limit) return Outcome::TooLarge;
     } else {
-      size_ += step.produced;
+      added(step.produced);
     }
   }
   return Outcome::Ok;

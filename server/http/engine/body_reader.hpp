@@ -6,10 +6,12 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include "base/gzip.hpp"
+#include "base/mapped_file.hpp"
 
 namespace fitgauge::http {
 
@@ -74,20 +76,21 @@ struct BodyBudgets {
 
   ByteBudget wholes;
   ByteBudget parts{16 * kPart};
+  std::string spool_folder{};  ///< of bodies that need not stay in memory; empty: they do
 
   std::size_t used() const { return wholes.used() + parts.used(); }
   bool is_short() const { return wholes.is_short() || parts.is_short(); }
 };
 
-/// Gathers one request's body in memory: decodes gzip, holds the limit after decompression and
-/// takes what is more than kFree from the budgets. Used by one thread. After TooLarge or Malformed
-/// only clear() may follow.
+/// Gathers one request's body in memory, or on disk if it spools and has more than kPart: decodes
+/// gzip, holds the limit after decompression and takes what is more than kFree from the budgets.
+/// Used by one thread. After TooLarge, Malformed or DiskFull only clear() may follow.
 class BodyReader {
  public:
   /// What every body may use without asking: small requests never wait.
   static constexpr std::size_t kFree = std::size_t{16} << 10;
 
-  enum class Outcome { Ok, NoBudget, TooLarge, Malformed };
+  enum class Outcome { Ok, NoBudget, TooLarge, Malformed, DiskFull };
 
   explicit BodyReader(BodyBudgets& budgets) : budgets_(budgets) {}
   BodyReader(const BodyReader&) = delete;
@@ -97,6 +100,7 @@ class BodyReader {
     std::size_t limit = 0;
     bool gzip = false;
     bool discard = false;  ///< count and decode only
+    bool spools = false;
 
     /// Whether what comes is kept as it is.
     bool is_verbatim() const { return !gzip && !discard; }
@@ -111,13 +115,18 @@ class BodyReader {
   Outcome add(std::string_view& piece);
 
   /// Room for bytes that need no decoding, to be filled and then announced by `added`.
-  std::span<char> room() const { return {data_.get() + size_, capacity_ - size_}; }
-  void added(std::size_t count) { size_ += count; }
+  std::span<char> room() const { return {data() + size_, capacity_ - size_}; }
+  void added(std::size_t count) {
+    size_ += count;
+    if (size_ - let_go_ < FileText::kStretch) return;
+    bytes().let_go(let_go_, size_);
+    let_go_ = size_;
+  }
 
   /// The body has ended: Malformed when its coding has not.
   Outcome finish() const;
 
-  std::string_view bytes() const { return {data_.get(), size_}; }
+  FileText bytes() const { return {{data(), size_}, spooled_.bytes() != nullptr}; }
   /// After NoBudget: the budget that lacked the bytes.
   ByteBudget& lacking() const { return *lacking_; }
   /// Another body waits for bytes that this one holds.
@@ -129,13 +138,16 @@ class BodyReader {
   Outcome add_decoded(std::string_view& piece);
   Outcome grow(std::size_t size);
   Outcome hold(std::size_t capacity, ByteBudget& budget);
+  char* data() const { return spooled_.bytes() != nullptr ? spooled_.bytes() : data_.get(); }
 
   BodyBudgets& budgets_;
   ByteBudget* lacking_ = nullptr;
   Plan plan_;
   ByteShare share_;  // outlives the bytes
   std::unique_ptr<char[]> data_;
+  MappedFile spooled_;  // in place of data_
   std::size_t size_ = 0;
+  std::size_t let_go_ = 0;
   std::size_t capacity_ = 0;
   std::size_t discarded_ = 0;
   std::optional<Gunzip> gunzip_;

@@ -34,7 +34,7 @@ bool Connection::begin_body() {
   const BodyReader::Plan plan = exchange_.body_plan();
   body_left_ = static_cast<std::size_t>(head_.content_length.value_or(0));
   if (!head_.chunked && plan.is_verbatim() && input_.unread().size() >= body_left_) {
-    exchange_.set_body(input_.unread().substr(0, body_left_));
+    exchange_.set_body({input_.unread().substr(0, body_left_)});
     input_.advance(body_left_);
     received_ += body_left_;
     run_handler();
@@ -105,6 +105,10 @@ bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
       refuse({400, ErrorCode::RequestMalformed,
               "the body must be a gzip stream; check Content-Encoding"});
       return true;
+    case BodyReader::Outcome::DiskFull:
+      refuse({503, ErrorCode::StorageUnavailable,
+              "the disk of the data folder is too full for the body: free some, then send it again"});
+      return true;
   }
   return false;
 }
@@ -112,7 +116,7 @@ bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
 std::size_t Connection::bytes_waited_for() const {
   if (phase_ != Phase::Budget) return 0;
   return std::max(static_cast<std::size_t>(head_.content_length.value_or(0)),
-                  body_.bytes().size() + 1);
+                  body_.bytes().text.size() + 1);
 }
 
 void Connection::retry_budget() {

@@ -38,7 +38,7 @@ void Exchange::clear() {
   head_ = nullptr;
   request_.route_ = nullptr;
   request_.head_ = nullptr;
-  request_.path_ = request_.query_ = request_.body_ = request_.response_type_ = {};
+  request_.body_ = request_.path_ = request_.query_ = request_.response_type_ = {};
   request_.given_id_ = request_.allowed_origin_ = {};
   codings_ = {};
   request_.media_type_.clear();
@@ -337,7 +337,7 @@ Refusal Exchange::body_too_large() const {
 
 BodyReader::Plan Exchange::body_plan() const {
   const BodyRules& rules = request_.route_->body;
-  return {.limit = rules.limit, .gzip = gzip_, .discard = rules.use == BodyUse::None};
+  return {.limit = rules.limit, .gzip = gzip_, .discard = rules.use == BodyUse::None, .spools = rules.spools};
 }
 
 AnswerForm Exchange::form(bool keep_alive) const {

@@ -38,9 +38,9 @@ class Exchange {
   /// The client waits for 100 (Continue) before it sends the body.
   bool wants_continue() const { return wants_continue_; }
   /// @param body with what Request::kBodyPadding asks for behind it, unless it is empty.
-  void set_body(std::string_view body) {
+  void set_body(const FileText& body) {
     static constexpr char kNothing[Request::kBodyPadding]{};
-    request_.body_ = body.empty() ? std::string_view(kNothing, 0) : body;
+    request_.body_ = body.text.empty() ? FileText(std::string_view(kNothing, 0)) : body;
   }
 
   bool is_synchronous() const {

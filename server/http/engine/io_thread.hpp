@@ -101,7 +101,7 @@ struct ServerShared {
       : options(std::move(given)),
         routes(std::move(table)),
         hooks(std::move(callbacks)),
-        budgets{.wholes = ByteBudget(options.body_budget)} {}
+        budgets{.wholes = ByteBudget(options.body_budget), .spool_folder = options.spool_folder} {}
 
   const ServerOptions options;
   const RouteTable routes;

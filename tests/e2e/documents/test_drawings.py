@@ -1,10 +1,15 @@
 """Drawings: the sizes of a STEP file, and the plan that is made of it."""
 
+import gzip
 import hashlib
+import os
+import pathlib
+import re
 import unittest
 
 from support.cli import ClientTest
 from support.daemon import ROOT, SANITIZED
+from support.waiting import wait_for
 
 HOUSING = (ROOT / "tests/fuzz/corpus/step/housing.stp").read_bytes()
 STEP = {"Content-Type": "model/step"}
@@ -28,7 +33,7 @@ class Drawings(ClientTest):
         self.assert_problem(self.daemon.request("GET", "/v1/plans/read"), 404, "plan.unknown")
 
     def test_what_is_no_drawing_is_refused_with_its_line(self):
-        for body in (b"", b"ISO-10303-21;", HOUSING[:-40], HOUSING.replace(b"AP242_", b"IFC4_")):
+        for body in (b"", b"ISO-10303-21;", HOUSING[:-40], HOUSING.replace(b"AP242_", b"IFC4_"), HOUSING.replace(b"MEASURE(0.),#5", b"MEASURE(0.),#9")):
             for method, path in (("POST", "/v1/drawings"), ("PUT", "/v1/plans/no")):
                 problem = self.daemon.request(method, path, body, STEP)
                 self.assert_problem(problem, 400, "drawing.malformed")
@@ -51,15 +56,34 @@ class Drawings(ClientTest):
             self.assertIn(b"67108864 bytes", answer.read())
 
     @unittest.skipIf(SANITIZED, "a sanitizer keeps what was freed")
-    def test_the_largest_drawing_is_held_once_and_eight_bytes_an_instance(self):
-        head, tail = b"ISO-10303-21;HEADER;FILE_SCHEMA(('AP242_'));ENDSEC;DATA;\n", b"ENDSEC;END-ISO-10303-21;"
-        rows = b"".join(b"#%07d=A('%045d');\n" % (i, i) for i in range(1, 1_048_576))
+    def test_the_largest_drawing_stays_on_disk_and_takes_eight_bytes_an_instance(self):
+        head, tail = HOUSING.replace(b"#", b"#3000000").split(b"DATA;\n")
+        head += b"DATA;\n"
+        rows = b"".join(b"#%07d=A('%013d');\n" % (i, i) for i in range(1, 2_000_000))
         drawing = head + rows + b" " * ((64 << 20) - len(head) - len(rows) - len(tail)) + tail
         self.assertEqual(len(drawing), 64 << 20)
-        idle = self.daemon.memory("VmRSS")
         read = self.daemon.request("POST", "/v1/drawings", drawing, STEP)
-        self.assertEqual((read.status, read.json["sizes"]), (200, []))
-        self.assertLess(self.daemon.memory("VmHWM") - idle, 80 << 20)
+        self.assertEqual((read.status, len(read.json["sizes"]), read.json["digest"]), (200, 5, hashlib.sha256(drawing).hexdigest()))
+        packed = self.daemon.request("PUT", "/v1/plans/large", gzip.compress(drawing, 1), {**STEP, "Content-Encoding": "gzip"})
+        self.assertEqual((packed.status, len(packed.json["added"])), (201, 5), packed)
+        cut = self.daemon.request("POST", "/v1/drawings", drawing[:-9], STEP)
+        self.assertRegex(cut.json["detail"], r"^line 2\d{6}: the file ends here")
+        self.assertLess(self.daemon.memory("VmHWM"), 120 << 20)
+
+    def test_a_drawing_on_disk_has_no_name_and_goes_with_the_service(self):
+        names = sorted(os.listdir(self.daemon.data))
+        connection = self.daemon.connect()
+        self.addCleanup(connection.close)
+        connection.putrequest("POST", "/v1/drawings")
+        for field in (*STEP.items(), ("Content-Length", str(64 << 20))):
+            connection.putheader(*field)
+        connection.endheaders(b" " * (8 << 20))
+        maps = pathlib.Path(f"/proc/{self.daemon.process.pid}/maps")
+        wait_for(lambda: re.search(rf"{re.escape(str(self.daemon.data))}/\S+ \(deleted\)", maps.read_text()), "a file on disk")
+        self.assertEqual(sorted(os.listdir(self.daemon.data)), names)
+        self.daemon.kill()
+        self.daemon.start()
+        self.assertEqual(sorted(os.listdir(self.daemon.data)), names)
 
     def test_a_revision_says_what_it_changed_and_keeps_what_people_gave(self):
         first = self.put("4711-A", HOUSING)

@@ -94,6 +94,16 @@ class FullDisk(FaultTest):
         self.assertEqual([" ".join(word for word in ("error", "info", "full", "SQLite code", "ok") if word in line)
                           for line in health], ["error full SQLite code", "info ok"], health)
 
+    def test_a_drawing_for_which_the_disk_has_no_room_is_refused_and_leaves_nothing(self):
+        daemon = self.make_daemon(data=self.folder / "data").start()
+        step = {"Content-Type": "model/step"}
+        free = os.statvfs(self.folder).f_bfree
+        for size in (64 << 20, 60 << 20):
+            self.assert_unavailable(daemon.request("POST", "/v1/drawings", b" " * size, step), "disk", "full")
+        self.assertEqual(daemon.request("POST", "/v1/drawings", b" " * (4 << 20), step).status, 400)
+        self.assertEqual(os.statvfs(self.folder).f_bfree, free)
+        self.wait_until_stored(daemon)
+
     def test_a_start_on_a_full_disk_says_so(self):
         with open(self.folder / "ballast", "wb", buffering=0) as file:
             try:
