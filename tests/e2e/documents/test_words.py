@@ -11,6 +11,7 @@ BANNED = re.compile(r"\b(any more|no longer|whoever|whatever|(?:is|are) told|rej
                     r"inspection certificates?|own columns?|columns? of the shop)\b", re.IGNORECASE)
 # The words themselves stand in the first two; the others are for developers.
 LEFT_OUT = {"STYLE.md", "glossary.md", "ARCHITECTURE.md", "api.md", "cycles.md"}
+GENERATED = {"api", "cycles"}  # folders; their texts are those of the program
 
 
 def found(text):
@@ -22,7 +23,7 @@ class Words(unittest.TestCase):
     def test_documents(self):
         for path in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "clients").glob("*/README.md"),
                      *(ROOT / "docs/man").glob("*.[18]")]:
-            if path.name not in LEFT_OUT:
+            if path.name not in LEFT_OUT and path.parent.name not in GENERATED:
                 with self.subTest(path.relative_to(ROOT)):
                     self.assertEqual(found(path.read_text(encoding="utf-8")), [])
 
