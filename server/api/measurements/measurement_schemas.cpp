@@ -90,7 +90,7 @@ schema::Fields record_fields() {
        "Of a cycle: standard deviation of the diameter over that of a touch"},
       {"form_um", schema::null_or(schema::number()),
        "Of a cycle: the form that its points show; null where they are too few"},
-      {"caller", schema::text(), "The name of the key that stored it"},
+      {"caller", schema::text(), "Name of the key that stored the record"},
       {"run_id", schema::text(), "Of a simulation: the run"},
       {"cycle", schema::count(), "Of a simulation: the measuring cycle"},
       {"correction_of", schema::text(), "The id of the record it corrects"},
