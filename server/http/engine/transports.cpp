@@ -1,8 +1,10 @@
 #include "http/engine/transports.hpp"
 
 #include <fmt/format.h>
-#include <openssl/ssl.h>
+#include <openssl/err.h>
 
+#include <algorithm>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -16,6 +18,9 @@ namespace ssl = asio::ssl;
 /// Out of file descriptors, say: the clients wait in the kernel's queue meanwhile.
 constexpr auto kRetry = std::chrono::milliseconds(100);
 
+/// Bytes of one call of OpenSSL, which counts in int.
+constexpr std::size_t kMostAtOnce = 1 << 20;
+
 }  // namespace
 
 Result<std::shared_ptr<ssl::context>> load_tls(const TlsOptions& options) {
@@ -27,7 +32,9 @@ Result<std::shared_ptr<ssl::context>> load_tls(const TlsOptions& options) {
                  file};
   };
   SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
-  SSL_CTX_set_mode(context->native_handle(), SSL_MODE_RELEASE_BUFFERS);
+  SSL_CTX_set_mode(context->native_handle(), SSL_MODE_RELEASE_BUFFERS |
+                                                 SSL_MODE_ENABLE_PARTIAL_WRITE |
+                                                 SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
   SSL_CTX_set_options(context->native_handle(), SSL_OP_NO_RENEGOTIATION);
   context->use_certificate_chain_file(options.certificate_file, error);
   if (error) return fail("certificate", options.certificate_file);
@@ -48,42 +55,75 @@ Result<std::shared_ptr<ssl::context>> load_tls(const TlsOptions& options) {
   return context;
 }
 
+TlsConnection::TlsConnection(IoThread& thread, Peer peer, Socket socket,
+                             const std::shared_ptr<ssl::context>& context)
+    : Connection(thread, std::move(peer)),
+      socket_(std::move(socket)),
+      session_(SSL_new(context->native_handle()), &SSL_free) {
+  if (session_ == nullptr) throw std::bad_alloc();
+  socket_.non_blocking(true);
+  SSL_set_fd(session_.get(), socket_.native_handle());
+}
+
+template <class Step, class Done>
+void TlsConnection::drive(Step step, Done done) {
+  ERR_clear_error();
+  const int result = step(session_.get());
+  const int reason = SSL_get_error(session_.get(), result);
+  if (reason == SSL_ERROR_WANT_READ || reason == SSL_ERROR_WANT_WRITE) {
+    const auto ready = reason == SSL_ERROR_WANT_READ ? Socket::wait_read : Socket::wait_write;
+    return socket_.async_wait(
+        ready, [this, self = shared_from_this(), step, done](const error_code& error) {
+          if (error) return done(error, 0);
+          drive(step, done);
+        });
+  }
+  const bool done_well = result > 0;
+  asio::post(socket_.get_executor(), [self = shared_from_this(), done, done_well, result] {
+    done(done_well ? error_code() : asio::error::eof,
+         done_well ? static_cast<std::size_t>(result) : 0);
+  });
+}
+
 void TlsConnection::start() {
-  stream_.async_handshake(ssl::stream_base::server,
-                          [this, self = shared_from_this()](const error_code& error) {
-                            if (error) return close();
-                            begin();
-                          });
+  drive([](SSL* session) { return SSL_accept(session); },
+        [this](const error_code& error, std::size_t) { error ? close() : begin(); });
 }
 
 void TlsConnection::read_some(std::span<char> room) {
-  stream_.async_read_some(
-      asio::buffer(room.data(), room.size()),
-      [this, self = shared_from_this()](const error_code& error, std::size_t count) {
-        on_read(error, count);
-      });
+  drive(
+      [room](SSL* session) {
+        return SSL_read(session, room.data(), static_cast<int>(std::min(room.size(), kMostAtOnce)));
+      },
+      [this](const error_code& error, std::size_t count) { on_read(error, count); });
 }
 
 bool TlsConnection::has_unread() const noexcept {
   error_code ignored;
-  return stream_.lowest_layer().available(ignored) > 0;
+  return SSL_has_pending(session_.get()) == 1 || socket_.available(ignored) > 0;
 }
 
 void TlsConnection::write_some(std::string_view bytes) {
-  stream_.async_write_some(
-      asio::buffer(bytes.data(), bytes.size()),
-      [this, self = shared_from_this()](const error_code& error, std::size_t count) {
-        on_write(error, count);
-      });
+  drive(
+      [bytes](SSL* session) {
+        return SSL_write(session, bytes.data(),
+                         static_cast<int>(std::min(bytes.size(), kMostAtOnce)));
+      },
+      [this](const error_code& error, std::size_t count) { on_write(error, count); });
 }
 
 void TlsConnection::end_gracefully() {
-  stream_.async_shutdown([this, self = shared_from_this()](const error_code&) { close(); });
+  drive(
+      [](SSL* session) {
+        const int sent = SSL_shutdown(session);
+        return sent == 0 ? SSL_shutdown(session) : sent;
+      },
+      [this](const error_code&, std::size_t) { close(); });
 }
 
 void TlsConnection::close_socket() noexcept {
   error_code ignored;
-  stream_.lowest_layer().close(ignored);
+  socket_.close(ignored);
 }
 
 void PlainConnection::read_some(std::span<char> room) {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <openssl/ssl.h>
+
 #include <boost/asio/ssl/context.hpp>
-#include <boost/asio/ssl/stream.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/result.hpp"
@@ -20,14 +22,13 @@ namespace fitgauge::http {
 /// @errors ConfigInvalid naming the file that cannot be used.
 Result<std::shared_ptr<asio::ssl::context>> load_tls(const TlsOptions& options);
 
-/// A connection over TLS 1.2 or later.
+/// A connection over TLS 1.2 or later. OpenSSL works on the socket itself: Asio's stream keeps 68
+/// KB of buffers for each connection, also for one that never ends its handshake. The program must
+/// ignore SIGPIPE.
 class TlsConnection final : public Connection {
  public:
   TlsConnection(IoThread& thread, Peer peer, Socket socket,
-                std::shared_ptr<asio::ssl::context> context)
-      : Connection(thread, std::move(peer)),
-        context_(std::move(context)),
-        stream_(std::move(socket), *context_) {}
+                const std::shared_ptr<asio::ssl::context>& context);
 
   void start() override;
 
@@ -39,8 +40,13 @@ class TlsConnection final : public Connection {
   void end_gracefully() override;
   void close_socket() noexcept override;
 
-  std::shared_ptr<asio::ssl::context> context_;
-  asio::ssl::stream<Socket> stream_;
+  /// Calls `step` again each time the socket is ready, until OpenSSL waits no more. `done` gets the
+  /// error and the bytes, never inside drive().
+  template <class Step, class Done>
+  void drive(Step step, Done done);
+
+  Socket socket_;
+  std::unique_ptr<SSL, decltype(&SSL_free)> session_;
 };
 
 /// A connection over TCP alone. Owns the socket, which is non-blocking.

@@ -4,9 +4,12 @@ import pathlib
 import random
 import selectors
 import socket
+import ssl
+import tempfile
 import unittest
 
-from support.daemon import SANITIZED, Daemon
+from support.certificates import certificate
+from support.daemon import SANITIZED, Daemon, trust
 from support.waiting import PATIENCE
 
 PART = {"designation": "25 H7", "measured_mm": 25.013}
@@ -126,6 +129,44 @@ class IdleConnections(ConnectionTest):
             connection.sendall(request)
             self.assertTrue(read_head(connection).startswith(b"HTTP/1.1 200"))
         self.assertLess((daemon.memory("VmRSS") - before) / len(sockets), 8192)
+
+
+class HalfHandshakes(ConnectionTest):
+    @unittest.skipIf(SANITIZED, "the memory of the release is measured")
+    def test_each_needs_at_most_40_kilobytes(self):
+        daemon = self.start_tls()
+        session, hello = ssl.create_default_context(), ssl.MemoryBIO()
+        with self.assertRaises(ssl.SSLWantReadError):
+            session.wrap_bio(ssl.MemoryBIO(), hello, server_hostname="localhost").do_handshake()
+        hello = hello.read()
+        for name, sent in (("a begin", hello[:3]), ("all but the last byte", hello[:-1]), ("no answer", hello)):
+            with self.subTest(name):
+                self.send(daemon, 100, sent)  # what is allocated once is not theirs
+                before = daemon.memory("VmRSS")
+                self.send(daemon, 1000, sent)
+                self.assertLess((daemon.memory("VmRSS") - before) / 1000, 40 << 10)
+
+    def start_tls(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        chain, key = certificate(pathlib.Path(folder.name), "localhost", 1)
+        raise_own_limit()
+        daemon = Daemon("--tls-cert", chain, "--tls-key", key)
+        self.addCleanup(daemon.cleanup)
+        daemon.tls = trust(chain)
+        return daemon.start()
+
+    def send(self, daemon, count, sent):
+        """Each has reached the service when one that came later is answered."""
+        for connection in self.connect(daemon, count):
+            connection.sendall(sent)
+        with socket.create_connection(("127.0.0.1", daemon.port), timeout=PATIENCE) as last:
+            last.sendall(b"no handshake")
+            try:
+                while last.recv(4096):
+                    pass
+            except ConnectionResetError:
+                pass
 
 
 class FileLimit(ConnectionTest):
