@@ -1,12 +1,9 @@
 #include "db/postgres/connection.hpp"
 
 #include <fmt/format.h>
-#include <postgresql/libpq-fe.h>
 
 #include <array>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 
 #include "db/postgres/prepared.hpp"
 #include "db/store/stores.hpp"

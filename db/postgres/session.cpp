@@ -4,8 +4,6 @@
 
 #include <stdexcept>
 
-#include "db/store/stores.hpp"
-
 namespace fitgauge::store::postgres {
 namespace {
 

@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "db/sql/index_nodes.hpp"
-#include "db/store/tuple_statistics.hpp"
-
 namespace fitgauge::store {
 namespace {
 

@@ -1,7 +1,8 @@
 #include "db/sql/writer_engine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <exception>
 #include <iterator>
 
 #include "db/store/stores.hpp"
@@ -18,8 +19,6 @@ constexpr int kShare = 15;
 /// After commits, and without any.
 constexpr milliseconds kLookInterval{200};
 constexpr milliseconds kQuietInterval{60'000};
-
-using std::chrono::milliseconds;
 
 constexpr milliseconds kProbeInterval{1'000};
 /// Jobs that are waiting when a transaction has taken so long go into the next one.
@@ -320,6 +319,35 @@ void Writer::end(const IdempotentRequest& request) { engine_.end(request); }
 Error Writer::in_progress() {
   return {ErrorCode::IdempotencyInProgress,
           "the first request with this Idempotency-Key is still running: try again soon"};
+}
+
+std::optional<Timestamp> Retention::time(const SteadyTime& clock, const Stores& stores) {
+  const bool has_held = clock.held >= std::chrono::hours(24);
+  if (has_begun_ && !has_held) return time_;
+  const std::optional<Timestamp> newest = stores.measurements.newest_received_at();
+  has_begun_ = true;
+  if (newest) {
+    time_ = std::min(*newest, clock.time);
+  } else if (has_held) {
+    time_ = clock.time;
+  }
+  return time_;
+}
+
+void Retention::deleted(std::int64_t keys, std::int64_t runs) {
+  keys_ += keys;
+  runs_ += runs;
+}
+
+std::optional<std::string> Retention::report(std::chrono::nanoseconds now, bool more) {
+  const bool is_soon = reported_ && now - *reported_ < std::chrono::hours(1);
+  if (keys_ + runs_ == 0 || more || is_soon) return std::nullopt;
+  std::string sentence = fmt::format(
+      "deleted {} idempotency keys and {} finished runs with their files: expired at {}", keys_,
+      runs_, time_ ? format_rfc3339(*time_) : "");
+  keys_ = runs_ = 0;
+  reported_ = now;
+  return sentence;
 }
 
 }  // namespace fitgauge::store

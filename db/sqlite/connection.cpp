@@ -6,10 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdint>
-#include <utility>
 
-#include "db/sqlite/data_directory.hpp"
 #include "db/store/canonical_digest.hpp"
 #include "db/store/stores.hpp"
 

@@ -3,8 +3,6 @@
 #include <SQLiteCpp/Backup.h>
 #include <fmt/format.h>
 
-#include <optional>
-#include <string>
 #include <system_error>
 #include <utility>
 

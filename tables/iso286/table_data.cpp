@@ -2,8 +2,6 @@
 
 #include <stdexcept>
 
-#include "tables/iso286/compiled_in_csv.hpp"
-
 namespace fitgauge::iso286 {
 namespace {
 

@@ -82,4 +82,9 @@ std::vector<Error> compare_with_compiled_in(const TableData& data);
 /// @errors TableRowsInvalid; `details` has one entry a finding, `where` its JSON pointer.
 Result<void> check_custom_column(const CustomColumn& column);
 
+/// The files of tables/data, byte for byte. Sizes are in mm, deviations and tolerances in µm.
+extern const std::string_view kItGradesCsv;
+extern const std::string_view kHoleFundamentalDeviationsCsv;
+extern const std::string_view kShaftFundamentalDeviationsCsv;
+
 }  // namespace fitgauge::iso286

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "tables/iso286/derivation.hpp"
-#include "tables/iso286/table_data.hpp"
 
 namespace fitgauge::iso286 {
 namespace {

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "base/text.hpp"
-#include "tables/standards/standard.hpp"
 
 namespace fitgauge::standards {
 namespace {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <stdexcept>
 #include <utility>
 
 #include "base/digest.hpp"
-#include "tables/standards/compiled_in_csv.hpp"
 
 namespace fitgauge::standards {
 namespace {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -80,5 +79,8 @@ std::span<const Standard> all();
 
 /// Null where there is none of this name.
 const Standard* find(std::string_view name);
+
+/// A file of tables/data/standards, byte for byte: `iso2768_linear`. Empty where there is none.
+std::string_view compiled_in_csv(std::string_view name);
 
 }  // namespace fitgauge::standards

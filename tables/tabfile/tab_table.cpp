@@ -7,7 +7,6 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
-#include <optional>
 
 #include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"

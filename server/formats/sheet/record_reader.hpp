@@ -12,7 +12,7 @@
 #include "base/csv.hpp"
 #include "base/result.hpp"
 #include "formats/sheet/text_encoding.hpp"
-#include "record/measurement_row_fields.hpp"
+#include "record/measurement_row_reader.hpp"
 
 namespace fitgauge::sheet {
 

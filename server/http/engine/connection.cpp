@@ -1,7 +1,6 @@
 #include "http/engine/connection.hpp"
 
 #include <algorithm>
-#include <utility>
 #include <variant>
 
 namespace fitgauge::http {

@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "http/engine/request_head.hpp"
-#include "http/engine/route_tree.hpp"
 #include "http/field_list.hpp"
 
 namespace fitgauge::http {

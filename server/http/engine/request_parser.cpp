@@ -6,7 +6,6 @@
 #include <exception>
 
 #include "base/text.hpp"
-#include "http/engine/request_head.hpp"
 
 namespace fitgauge::http {
 
