@@ -6,7 +6,7 @@
 
 #include "cli/context.hpp"
 #include "cli/json_object.hpp"
-#include "record/measurement_row_fields.hpp"
+#include "record/measurement_row_reader.hpp"
 
 namespace fitgauge::cli {
 

@@ -14,16 +14,17 @@ namespace sql {
 class Connection;
 }
 
-/// The codes are stored: never change one, never use one again.
+/// What is kept as a text under a name. The codes are stored: never change one, never use one
+/// again.
 enum class DocumentKind : std::uint8_t {
   Uncertainty = 1,
   GaugeInUse = 2,
   Setup = 3,
   Plan = 4,
   Connection = 5,
-  ConnectionProgress = 6,
+  ConnectionProgress = 6,  ///< how far the connection of that name has come
   Catalogue = 7,
-  Calibration = 8,
+  Calibration = 8,  ///< of a gauge in use, named by app::calibration_name()
 };
 constexpr DocumentKind last_of(DocumentKind) { return DocumentKind::Calibration; }
 

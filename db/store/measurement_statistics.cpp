@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
-#include <cstring>
 
 namespace fitgauge::store {
 namespace {

@@ -30,6 +30,14 @@ inline auto answer_by(SharedResponder shared) {
   };
 }
 
+/// The same of a result that `make` makes the response of.
+template <class Make>
+auto answer_with(http::Responder responder, Make make) {
+  return [answer = answer_by(share(std::move(responder))), make = std::move(make)](auto found) {
+    found ? answer(make(*std::move(found))) : answer(found.error());
+  };
+}
+
 /// 200 with a JSON text.
 inline Result<http::Response> json_response(Result<std::string> body) {
   if (!body) return body.error();

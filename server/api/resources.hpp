@@ -142,7 +142,10 @@ inline std::string feature_words() { return schema::words({"hole", "shaft"}); }
 inline std::string rule_words() { return schema::words({"simple", "guard_band", "conformance"}); }
 inline std::string source_words() { return schema::words({"gauge", "simulation"}); }
 
-/// Gives each schema that has none an example, made of its members and of the examples it names.
+/// What examples.json says.
+extern const std::string_view kExamples;
+/// Gives each schema its example: that of examples.json, else one of its members and of the
+/// examples it names.
 void add_examples(Schemas& schemas);
 
 /// The OpenAPI 3.1 document of the routes. @param of_plant as make_schemas

@@ -7,7 +7,6 @@
 #include <sys/time.h>
 
 #include <chrono>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -199,7 +198,8 @@ Result<int> run_key_list(const Config& config) {
   if (!entries) return entries.error();
   for (const app::KeyEntry& entry : *entries) {
     std::cout << fmt::format(
-        "{}\t{}\tcreated {}{}{}\n", entry.name, word(entry.role), format_rfc3339(entry.created_at),
+        "{}\t{}\tcreated {}{}{}\n", entry.name, app::word(entry.role),
+        format_rfc3339(entry.created_at),
         entry.expires_at ? "\texpires " + format_rfc3339(*entry.expires_at) : std::string(),
         entry.revoked_at ? "\trevoked " + format_rfc3339(*entry.revoked_at) : std::string());
   }

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <ctime>
 #include <iterator>
-#include <memory>
 #include <optional>
 
 #include "api/wire/request_facts.hpp"

@@ -1,4 +1,5 @@
 #include "api/handlers.hpp"
+#include "api/resources.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/json_writer.hpp"
 #include "plant/connections.hpp"
@@ -15,13 +16,8 @@ std::string_view state_word(const ConnectionState& connection) {
   return connection.last_success_at ? "ok" : "waiting";
 }
 
-void write_time(JsonWriter& json, std::string_view name, const std::optional<Timestamp>& time) {
-  json.key(name);
-  if (time) {
-    json.value(format_rfc3339(*time));
-  } else {
-    json.null();
-  }
+std::optional<std::string> text_of(const std::optional<Timestamp>& time) {
+  return time ? std::optional(format_rfc3339(*time)) : std::nullopt;
 }
 
 /// The members of its settings, which stand beside those of its state.
@@ -57,21 +53,17 @@ Result<void> write_connection(JsonWriter& json, const ConnectionState& connectio
       .member("read_only", connection.is_read_only);
   if (auto written = write_settings(json, connection); !written) return written;
   json.member("state", state_word(connection));
-  write_time(json, "last_attempt_at", connection.last_attempt_at);
-  write_time(json, "last_success_at", connection.last_success_at);
-  write_time(json, "attempt_began_at", connection.attempt_began_at);
+  json.member("last_attempt_at", text_of(connection.last_attempt_at));
+  json.member("last_success_at", text_of(connection.last_success_at));
+  json.member("attempt_began_at", text_of(connection.attempt_began_at));
   json.key("lag_s");
   if (const auto nanoseconds = lag(connection, now)) {
     json.fixed(static_cast<double>(*nanoseconds) / 1e9, 3);
   } else {
     json.null();
   }
-  json.key("last_error");
-  if (connection.last_error.empty()) {
-    json.null();
-  } else {
-    json.value(connection.last_error);
-  }
+  json.member("last_error",
+              connection.last_error.empty() ? std::nullopt : std::optional(connection.last_error));
   if (connection.is_outgoing) write_progress(json, connection);
   for (const ConnectionCounter& counter : kConnectionCounters) {
     json.member(counter.name, connection.*counter.value);
@@ -160,16 +152,14 @@ Result<http::Response> replay(Connections& all, const http::Request& request) {
 }  // namespace
 
 void add_connections_routes(std::vector<http::Route>& routes, Connections& all) {
-  const http::Parameter name{.name = "name",
-                             .place = http::ParameterPlace::Path,
-                             .description = "1 to 63 letters, digits, - and _"};
+  const std::size_t others = routes.size();
+  const http::Parameter name = api::path_parameter("name", "1 to 63 letters, digits, - and _");
   routes.push_back({
       .pattern = "/v1/connections",
       .handler = [&all](const http::Request&) { return list(all); },
       .summary = "The connections: state, lag, last error and counts",
       .access = "viewer",
       .operation = "listConnections",
-      .tag = "connections",
       .outcomes = {{.meaning = "By name", .schema = "Connections"}},
   });
   routes.push_back({
@@ -179,7 +169,6 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
       .parameters = {name},
       .access = "viewer",
       .operation = "getConnection",
-      .tag = "connections",
       .outcomes = {{.meaning = "As it is now", .schema = "Connection"}},
       .refusals = {404},
   });
@@ -190,14 +179,10 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
       .summary = "Store a connection and start it",
       .description = "One of the configuration file is 409 `connection.read_only`.",
       .parameters = {name},
-      .body = {.use = http::BodyUse::Required,
-               .media_types = {"application/json"},
-               .schema = "ConnectionOrder"},
+      .body = api::json_body("ConnectionOrder"),
       .access = "admin",
       .operation = "putConnection",
-      .tag = "connections",
-      .outcomes = {{.meaning = "The connection is replaced and continues at its position",
-                    .schema = "Connection"},
+      .outcomes = {{.meaning = "It is replaced and goes on where it stood", .schema = "Connection"},
                    {.status = 201, .meaning = "It is new", .schema = "Connection"}},
       .refusals = {409},
   });
@@ -209,7 +194,6 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
       .parameters = {name},
       .access = "admin",
       .operation = "deleteConnection",
-      .tag = "connections",
       .outcomes = {{.status = 204, .meaning = "It is gone"}},
       .refusals = {404, 409},
   });
@@ -222,7 +206,6 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
       .parameters = {name},
       .access = "admin",
       .operation = "testConnection",
-      .tag = "connections",
       .outcomes = {{.meaning = "What was found", .schema = "ConnectionTest"}},
       .refusals = {404},
   });
@@ -234,15 +217,13 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
       .description = "Events go out again with their ids: a receiver that knows them by "
                      "their ids ignores what it has.",
       .parameters = {name},
-      .body = {.use = http::BodyUse::Required,
-               .media_types = {"application/json"},
-               .schema = "ConnectionReplay"},
+      .body = api::json_body("ConnectionReplay"),
       .access = "admin",
       .operation = "replayConnection",
-      .tag = "connections",
       .outcomes = {{.meaning = "It sends again", .schema = "Connection"}},
       .refusals = {404},
   });
+  for (std::size_t i = others; i < routes.size(); ++i) routes[i].tag = "connections";
 }
 
 }  // namespace fitgauge::connections

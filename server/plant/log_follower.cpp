@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "base/thread.hpp"
-
 namespace fitgauge::connections {
 namespace {
 

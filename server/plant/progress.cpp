@@ -87,7 +87,7 @@ Result<std::optional<std::int64_t>> first_row_from(Timestamp time, const Plant& 
   app::MeasurementQuery query;
   query.source.reset();
   query.history = true;
-  query.received_from = time;
+  query.received_from_ns = time.nanoseconds;
   std::optional<std::int64_t> first;
   const auto listed = wait_for_result<app::ListPage>([&](auto done) {
     plant.measurements.list(

@@ -120,11 +120,7 @@ void members(V& v, LogFilter& filter) {
   }
   v.optional("verdict", filter.verdicts,
              SomeOf{{"good", "rework", "reject", "indeterminate", "unjudged"}}, "One of these");
-  using From = LogFilter::From;
-  v.optional(
-      "source", filter.from,
-      Choice<From>{{{"gauge", From::Gauge}, {"simulation", From::Simulation}, {"all", From::All}}},
-      "gauge when absent");
+  v.optional("source", filter.from, Choice{"gauge", "simulation", "all"}, "gauge when absent");
 }
 
 bool LogFilter::takes(const app::Measurement& measurement) const {
@@ -136,8 +132,8 @@ std::string FilterForm::schema(api::Side side) const { return api::schema_of<Log
 bool FilterForm::read(api::FieldReader& fields, std::string_view name, LogFilter& to) const {
   if (!api::Object<LogFilter>{}.read(fields, name, to)) return false;
   to.query.source = std::nullopt;
-  if (to.from == LogFilter::From::Gauge) to.query.source = app::Source::Gauge;
-  if (to.from == LogFilter::From::Simulation) to.query.source = app::Source::Simulation;
+  if (to.from == LogFilter::From::Gauge) to.query.source = store::Source::Gauge;
+  if (to.from == LogFilter::From::Simulation) to.query.source = store::Source::Simulation;
   return true;
 }
 

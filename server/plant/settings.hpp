@@ -48,49 +48,28 @@ inline Error invalid_field(std::string message) {
 }
 
 /// A whole number, or so many seconds.
-struct Within {
-  std::int64_t least;
-  std::int64_t most;
+struct Within : api::Integer {
+  static constexpr bool kHasDefault = false;
+};
 
-  std::string schema(api::Side) const { return api::schema::integer(least, most); }
+struct Truth : api::Flag {
+  static constexpr bool kHasDefault = false;
+};
+
+/// One of a few words, for the values of a type from 0.
+template <std::size_t size>
+struct Choice : api::OneOf<size> {
+  static constexpr bool kHasDefault = false;
+
   template <class T>
   bool read(api::FieldReader& fields, std::string_view name, T& to) const {
-    const auto given = fields.integer(name, least, most);
-    if (given) to = static_cast<T>(*given);
-    return given.has_value();
+    const auto found = api::find_listed(fields, name, *this);
+    if (found) to = static_cast<T>(*found);
+    return found.has_value();
   }
 };
-
-struct Truth {
-  std::string schema(api::Side) const { return api::schema::boolean(); }
-  bool read(api::FieldReader& fields, std::string_view name, bool& to) const {
-    to = fields.boolean_or(name, to);
-    return true;
-  }
-};
-
-/// One of a few words, each with its value.
-template <class T>
-struct Choice {
-  std::vector<std::pair<std::string_view, T>> words;
-
-  std::string schema(api::Side) const {
-    std::vector<std::string_view> names;
-    for (const auto& [word, value] : words) names.push_back(word);
-    return api::schema::words(names);
-  }
-  bool read(api::FieldReader& fields, std::string_view name, T& to) const {
-    const auto text = fields.text(name);
-    if (!text) return false;
-    std::string names;
-    for (const auto& [word, value] : words) {
-      if (word == *text) return to = value, true;
-      names += (names.empty() ? "" : " ") + std::string(word);
-    }
-    fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} must be one of: {}", name, api::listed(names)));
-    return false;
-  }
-};
+template <class... Words>
+Choice(Words...) -> Choice<sizeof...(Words)>;
 
 /// A list of at least one of these words.
 struct SomeOf {

@@ -57,14 +57,8 @@ Error unknown_run(std::string_view text) {
 std::string_view word(Source source) { return source == Source::Gauge ? "gauge" : "simulation"; }
 
 std::string_view word(LimitsBasis basis) {
-  switch (basis) {
-    case LimitsBasis::Iso286: return "iso286";
-    case LimitsBasis::Custom: return "custom";
-    case LimitsBasis::Explicit: return "explicit";
-    case LimitsBasis::Standard: return "standard";
-    case LimitsBasis::None: return "none";
-  }
-  return "";
+  constexpr std::string_view kWords[] = {"iso286", "custom", "explicit", "standard", "none"};
+  return kWords[static_cast<std::size_t>(basis)];
 }
 
 std::optional<Source> source_from_word(std::string_view text) {

@@ -6,7 +6,6 @@
 
 #include "base/length.hpp"
 #include "base/text.hpp"
-#include "record/measurement_row_fields.hpp"
 
 namespace fitgauge::api {
 namespace {

@@ -14,6 +14,13 @@
 
 namespace fitgauge::app {
 
+/// An origin as ids end with it: hexadecimal digits.
+inline constexpr std::size_t kDigitsOfOrigin = 16;
+inline bool is_origin_digits(std::string_view text) {
+  return text.size() == kDigitsOfOrigin &&
+         text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 /// The kinds of things with ids; each is counted by itself.
 enum class Counted : std::uint8_t { Measurement, Run, Event, Note };
 

@@ -60,38 +60,37 @@ void put_file(const Services& services, const http::Request& request, http::Resp
   const std::string location = href(path->text());
   services.files.write(
       *std::move(path), request.body(), caller_text(request), precondition_of(request),
-      [location, shared = share(std::move(responder))](Result<app::FileService::Written> written) {
-        if (!written) return shared->fail(written.error());
-        http::Response response(written->created ? 201 : 200);
-        response.with("Location", location).with("ETag", etag(written->revision));
-        shared->answer(std::move(response));
-      });
+      answer_with(std::move(responder), [location](const app::FileService::Written& written) {
+        return http::Response(written.created ? 201 : 200)
+            .with("Location", location)
+            .with("ETag", etag(written.revision));
+      }));
 }
 
 void get_file(const Services& services, const http::Request& request, http::Responder responder) {
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
-  services.files.read(
-      *std::move(path), [if_match = preconditions_of(request).if_match,
-                         shared = share(std::move(responder))](Result<app::DiskFile> file) {
-        if (!file) return shared->fail(file.error());
-        const std::string tag = etag(file->revision);
-        if (!Preconditions{.if_match = if_match}.hold(tag)) return shared->fail(other_state());
-        http::Response response = foreign_bytes("application/octet-stream", std::move(file->bytes));
-        response.etag = tag;
-        shared->answer(std::move(response));
-      });
+  services.files.read(*std::move(path),
+                      answer_with(std::move(responder),
+                                  [if_match = preconditions_of(request).if_match](
+                                      app::DiskFile file) -> Result<http::Response> {
+                                    const std::string tag = etag(file.revision);
+                                    if (!Preconditions{.if_match = if_match}.hold(tag))
+                                      return other_state();
+                                    http::Response response = foreign_bytes(
+                                        "application/octet-stream", std::move(file.bytes));
+                                    response.etag = tag;
+                                    return response;
+                                  }));
 }
 
 void delete_file(const Services& services, const http::Request& request,
                  http::Responder responder) {
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
-  services.files.remove(*std::move(path), caller_text(request), precondition_of(request),
-                        [shared = share(std::move(responder))](const Result<bool>& removed) {
-                          if (!removed) return shared->fail(removed.error());
-                          shared->answer(http::Response(204));
-                        });
+  services.files.remove(
+      *std::move(path), caller_text(request), precondition_of(request),
+      answer_with(std::move(responder), [](bool) { return http::Response(204); }));
 }
 
 }  // namespace
@@ -115,11 +114,10 @@ void list_files(const Services& services, const http::Request& request, http::Re
   std::string prefix(request.text("prefix").value_or(""));
   std::replace(prefix.begin(), prefix.end(), '/', '\\');
   if (!ascii_iequals(prefix.substr(0, kDrive.size()), kDrive)) prefix.insert(0, kDrive);
-  services.files.list(std::move(prefix), [shared = share(std::move(responder))](
-                                             Result<std::vector<app::DiskFile>> files) {
-    if (!files) return shared->fail(files.error());
-    shared->answer({200, "application/json", body_json(FilesAnswer{*std::move(files)})});
-  });
+  services.files.list(std::move(prefix),
+                      answer_with(std::move(responder), [](std::vector<app::DiskFile> files) {
+                        return json_response(body_json(FilesAnswer{std::move(files)}));
+                      }));
 }
 
 Result<http::Response> act_on(app::RunService& runs, const ControlPath& path, bool formats,
@@ -161,9 +159,7 @@ const http::Parameter kPath =
 }  // namespace
 
 void add_file_schemas(Schemas& schemas) {
-  schemas.push_back(answer_schema<FilesAnswer>(
-      "Files", R"({"files":[{"path":"TNC:\\nc_prog\\bore.h","href":"/v1/files/nc_prog/bore.h",)"
-               R"("size":214,"modified_at":"2026-11-20T07:00:00Z"}]})"));
+  schemas.push_back(answer_schema<FilesAnswer>("Files"));
   add_diagnostic_schemas(schemas);
 }
 

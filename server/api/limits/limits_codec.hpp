@@ -12,7 +12,7 @@ namespace fitgauge::api {
 
 /// Reads a designation of ISO 286, or of another standard that there are numbers of.
 /// @errors those of iso286::parse_designation and standards::limits_of.
-Result<app::DesignationQuery> parse_designation(std::string_view text);
+Result<store::DesignationFilter> parse_designation(std::string_view text);
 
 /// Writes the members of the limits object, without its braces, so that a verdict can go on after
 /// them.

@@ -1,6 +1,11 @@
-#include "api/resources.hpp"
+#include <fmt/format.h>
 
 #include "api/limits/limits_codec.hpp"
+#include "api/resources.hpp"
+#include "api/statistics/computation.hpp"
+#include "api/wire/formulas.hpp"
+#include "metrology/statistics/fit_analysis.hpp"
+#include "metrology/statistics/limit_gauge.hpp"
 #include "tables/iso286/tolerance_class.hpp"
 
 namespace fitgauge::api {
@@ -42,6 +47,151 @@ Result<http::Response> limits_of_query(const http::Request& request,
   return limits_response(*size, *request.text("tolerance_class"), tables);
 }
 
+struct NewSizes {
+  Length upper{};
+  Length lower{};
+};
+void members(auto& v, const NewSizes& sizes) {
+  v.member("upper_mm", sizes.upper, Millimetres{}, "New");
+  v.member("lower_mm", sizes.lower, Millimetres{}, "New");
+}
+
+struct GoGauge {
+  NewSizes sizes{};
+  Length wear_limit{};
+};
+void members(auto& v, const GoGauge& gauge) {
+  members(v, gauge.sizes);
+  v.member("wear_limit_mm", gauge.wear_limit, Millimetres{}, "Worn out");
+}
+
+struct LimitGaugeAnswer {
+  std::string designation{};
+  iso286::Feature feature{};
+  Length upper_limit{};
+  Length lower_limit{};
+  GoGauge go{};
+  NewSizes no_go{};
+};
+void members(auto& v, const LimitGaugeAnswer& answer) {
+  constexpr std::string_view kNote =
+      "the tables of the later editions, ISO 1938-1:2015 and 2026, are not public";
+  constexpr OneOf<2> kKinds{"plug", "ring or snap"};
+  v.member("designation", answer.designation);
+  formula_members(v, kKinds.of(answer.feature));
+  v.member("scheme", metrology::kLimitGaugeScheme, "The standard of the values");
+  v.member("note", kNote, "On other editions");
+  v.member("kind", answer.feature, kKinds);
+  v.member("upper_limit_mm", answer.upper_limit, Millimetres{}, "Of the workpiece");
+  v.member("lower_limit_mm", answer.lower_limit, Millimetres{}, "Of the workpiece");
+  v.member("go", answer.go);
+  v.member("no_go", answer.no_go);
+}
+
+Result<http::Response> gauge(const http::Request& request, const iso286::ToleranceTables& tables) {
+  const auto designation = iso286::parse_designation(*request.text("designation"));
+  if (!designation) return designation.error();
+  const auto limits = tables.limits_of_size(designation->nominal_size, designation->class_name);
+  if (!limits) return limits.error();
+  const auto made = metrology::limit_gauge(*limits, designation->class_name);
+  if (!made) return made.error();
+  const LimitGaugeAnswer answer{
+      .designation = designation_text(designation->nominal_size.length(), designation->class_name),
+      .feature = limits->feature,
+      .upper_limit = limits->upper_limit(),
+      .lower_limit = limits->lower_limit(),
+      .go = {{made->go.upper, made->go.lower}, made->go_wear_limit},
+      .no_go = {made->no_go.upper, made->no_go.lower}};
+  return tagged_json(body_json(answer), etag_of(tables));
+}
+
+// The forms of sizes, moduli and roughness.
+constexpr double kLargest = 1e9;
+constexpr Number kAboveZero{0, kLargest, Number::Ends::OpenBelow, "is above 0 and at most 1e9"};
+constexpr Number kFromZero{0, kLargest, Number::Ends::Closed, "is at least 0 and at most 1e9"};
+
+void material_members(auto& v, metrology::PressedPart& part) {
+  v.optional("youngs_modulus_mpa", part.youngs_modulus_mpa, kAboveZero);
+  v.optional("poisson_ratio", part.poisson_ratio, Number{0, 0.5});
+  v.optional("rz_um", part.rz_um, kFromZero, "Roughness, pressed flat in part");
+}
+
+struct HubOrder {
+  metrology::PressedPart part{};
+};
+void members(auto& v, HubOrder& hub) {
+  v.member("outer_diameter_mm", hub.part.other_diameter_mm, kAboveZero);
+  material_members(v, hub.part);
+}
+
+struct ShaftOrder {
+  metrology::PressedPart part{};
+};
+void members(auto& v, ShaftOrder& shaft) {
+  v.optional("inner_diameter_mm", shaft.part.other_diameter_mm, kFromZero, "0: solid");
+  material_members(v, shaft.part);
+}
+
+struct PressFitOrder {
+  metrology::PressFit fit{};
+  HubOrder hub{};
+  ShaftOrder shaft{};
+  double least = 0;
+  double most = 0;
+};
+void members(auto& v, PressFitOrder& order) {
+  v.member("joint_diameter_mm", order.fit.joint_diameter_mm, kAboveZero);
+  v.member("length_mm", order.fit.length_mm, kAboveZero);
+  v.optional("friction", order.fit.friction, kAboveZero, "Along the joint");
+  v.member("hub", order.hub);
+  v.member("shaft", order.shaft);
+  v.optional("min_interference_um", order.least, kFromZero);
+  v.member("max_interference_um", order.most, kFromZero);
+  v.check([&order](FieldReader& fields) {
+    if (order.least <= order.most) return;
+    fields.report(ErrorCode::FieldInvalid, "min_interference_um",
+                  "min_interference_um is above max_interference_um");
+  });
+}
+
+struct Pressed {
+  double interference = 0;
+  metrology::Pressure made{};
+};
+void members(auto& v, const Pressed& pressed) {
+  v.member("interference_um", pressed.interference, Finite{});
+  v.member("effective_interference_um", pressed.made.effective_um, Finite{},
+           "Less what the roughness takes");
+  v.member("pressure_mpa", pressed.made.pressure_mpa, Finite{}, "In the joint");
+  v.member("hub_stress_mpa", pressed.made.hub_stress_mpa, Finite{},
+           "Equivalent stress in the bore (von Mises)");
+  v.member("shaft_stress_mpa", pressed.made.shaft_stress_mpa, Finite{}, "Likewise");
+  v.member("axial_force_n", pressed.made.axial_force_n, Finite{}, "At which it slips");
+  v.member("torque_nm", pressed.made.torque_nm, Finite{}, "At which it slips");
+}
+
+struct PressFitAnswer {
+  Pressed least{};
+  Pressed most{};
+};
+void members(auto& v, const PressFitAnswer& answer) {
+  v.member("method", std::string_view("Lame, DIN 7190-1:2017, elastic, plane stress"));
+  formula_members(v, "press_fit");
+  v.member("at_min_interference", answer.least);
+  v.member("at_max_interference", answer.most);
+}
+
+Result<std::string> press_fit(const JsonValue& body) {
+  auto order = read_whole<PressFitOrder>(body);
+  if (!order) return order.error();
+  order->fit.hub = order->hub.part;
+  order->fit.shaft = order->shaft.part;
+  const auto least = metrology::press(order->fit, order->least);
+  const auto most = metrology::press(order->fit, order->most);
+  if (!least || !most) return at_member("hub", least ? most.error() : least.error());
+  return body_json(PressFitAnswer{{order->least, *least}, {order->most, *most}});
+}
+
 }  // namespace
 
 void add_limits_routes(std::vector<http::Route>& routes,
@@ -79,6 +229,37 @@ void add_limits_routes(std::vector<http::Route>& routes,
       .outcomes = {{.meaning = "The limits", .schema = "Limits"}},
       .refusals = {404, 422},
   });
+}
+
+void add_gauges_routes(std::vector<http::Route>& routes,
+                       const std::shared_ptr<ResponseCache>& cache) {
+  routes.push_back({
+      .pattern = "/v1/gauges/{designation}",
+      .handler = ResponseCache::cached(cache, gauge),
+      .summary = "GO and NO-GO sizes of the limit gauges of a designation",
+      .description = "New and worn, by ISO/R 1938:1971: holes of IT6 to IT16, shafts of IT5 to "
+                     "IT16, up to 500 mm.",
+      .parameters = {path_parameter("designation", "Size and class: 25H7")},
+      .access = "open",
+      .operation = "getLimitGauge",
+      .outcomes = {{.meaning = "The gauges", .schema = "LimitGauge"}},
+      .refusals = {404, 422},
+  });
+}
+
+void add_press_fits_routes(std::vector<http::Route>& routes, const Services& services) {
+  routes.push_back(route_of(services, {.pattern = "/v1/press-fits",
+                                       .compute = press_fit,
+                                       .summary = "Pressure, stress and slip of a press fit",
+                                       .operation = "computePressFit",
+                                       .reads = "PressFitOrder",
+                                       .answers = "PressFit"}));
+}
+
+void add_gauges_schemas(Schemas& schemas) {
+  schemas.push_back(answer_schema<LimitGaugeAnswer>("LimitGauge"));
+  schemas.push_back(order_schema<PressFitOrder>("PressFitOrder"));
+  schemas.push_back(answer_schema<PressFitAnswer>("PressFit"));
 }
 
 }  // namespace fitgauge::api

@@ -24,10 +24,9 @@ void checkpoint(const Services& services, const http::Request&, http::Responder 
   if constexpr (!of_changes) {
     responder.answer(text_response(services.log.head()->note, "no-store"));
   } else {
-    services.log.changes_head([shared = share(std::move(responder))](Result<std::string> note) {
-      if (!note) return shared->fail(note.error());
-      shared->answer(text_response(*std::move(note), "no-store"));
-    });
+    services.log.changes_head(answer_with(std::move(responder), [](std::string note) {
+      return text_response(std::move(note), "no-store");
+    }));
   }
 }
 
@@ -39,15 +38,12 @@ void keys(const Services& services, const http::Request&, http::Responder respon
 
 template <bool of_changes>
 void tile(const Services& services, const http::Request& request, http::Responder responder) {
-  services.log.tile(
-      *request.text("path"), of_changes,
-      [shared = share(std::move(responder))](Result<app::LogService::TileBytes> tile) {
-        if (!tile) return shared->fail(tile.error());
-        http::Response response(200, "application/octet-stream", std::move(tile->bytes));
-        response.with("Cache-Control",
-                      tile->is_full ? "private, max-age=31536000, immutable" : "no-cache");
-        shared->answer(std::move(response));
-      });
+  services.log.tile(*request.text("path"), of_changes,
+                    answer_with(std::move(responder), [](app::LogService::TileBytes tile) {
+                      return http::Response(200, "application/octet-stream", std::move(tile.bytes))
+                          .with("Cache-Control",
+                                tile.is_full ? "private, max-age=31536000, immutable" : "no-cache");
+                    }));
 }
 
 std::string proof_json(const app::LogService::Proof& proof) {
@@ -62,12 +58,10 @@ std::string proof_json(const app::LogService::Proof& proof) {
 void prove(const Services& services, const http::Request& request, http::Responder responder) {
   const auto id = services.measurements.parse_id(*request.text("id"));
   if (!id) return responder.fail(id.error());
-  services.log.prove(
-      *id, [shared = share(std::move(responder))](const Result<app::LogService::Proof>& proof) {
-        if (!proof) return shared->fail(proof.error());
-        shared->answer(http::Response(200, "application/json", proof_json(*proof))
-                           .with("Cache-Control", "no-store"));
-      });
+  services.log.prove(*id, answer_with(std::move(responder), [](const auto& proof) {
+    return http::Response(200, "application/json", proof_json(proof))
+        .with("Cache-Control", "no-store");
+  }));
 }
 
 /// A tree's head, keys and tiles.
@@ -136,23 +130,21 @@ std::optional<std::int64_t> time_of(const http::Request& request, std::string_vi
 
 void list_changes(const Services& services, const http::Request& request,
                   http::Responder responder) {
-  services.log.changes(
-      {.kind = text_of(request, "kind"),
-       .name = text_of(request, "name"),
-       .from_ns = time_of(request, "from"),
-       .to_ns = time_of(request, "to")},
-      request.integer("after").value_or(0), request.integer("limit").value_or(100),
-      [shared = share(std::move(responder))](const Result<store::ChangesStore::Page>& page) {
-        if (!page) return shared->fail(page.error());
-        shared->answer({200, "application/json", json_object([&page](JsonWriter& json) {
-                          json.key("changes").begin_array();
-                          for (const store::Change& change : page->changes)
-                            json.raw(app::change_json(change));
-                          json.end_array().key("next");
-                          page->has_more ? json.value(std::to_string(page->changes.back().id))
+  services.log.changes({.kind = text_of(request, "kind"),
+                        .name = text_of(request, "name"),
+                        .from_ns = time_of(request, "from"),
+                        .to_ns = time_of(request, "to")},
+                       request.integer("after").value_or(0), request.integer("limit").value_or(100),
+                       answer_with(std::move(responder), [](const auto& page) {
+                         return json_response(json_object([&page](JsonWriter& json) {
+                           json.key("changes").begin_array();
+                           for (const store::Change& change : page.changes)
+                             json.raw(app::change_json(change));
+                           json.end_array().key("next");
+                           page.has_more ? json.value(std::to_string(page.changes.back().id))
                                          : json.null();
-                        })});
-      });
+                         }));
+                       }));
 }
 
 }  // namespace

@@ -99,23 +99,18 @@ void add_intake_routes(std::vector<http::Route>& routes, const Services& service
       .outcomes = {{.meaning = "All of it is durable: the log's head here", .schema = "LogHead"}},
       .refusals = {403, 409, 422},
   });
+}
 
-}  // namespace fitgauge::api
-
-}  // namespace fitgauge::api
-
-namespace fitgauge::api {
 namespace {
 
 void get_revisions(const Services& services, const http::Request& request,
                    http::Responder responder) {
-  services.revisions.read(
-      request.text("station").value_or(""), std::string(request.text("after").value_or("")),
-      [shared = share(std::move(responder))](const Result<app::RevisionPage>& page) {
-        if (!page) return shared->fail(page.error());
-        shared->answer(http::Response(200, "application/json", revisions_text(*page))
-                           .with("Cache-Control", "no-store"));
-      });
+  services.revisions.read(request.text("station").value_or(""),
+                          std::string(request.text("after").value_or("")),
+                          answer_with(std::move(responder), [](const auto& page) {
+                            return http::Response(200, "application/json", revisions_text(page))
+                                .with("Cache-Control", "no-store");
+                          }));
 }
 
 }  // namespace

@@ -72,7 +72,8 @@ std::string summary_json(std::string_view group_by, std::span<const app::Measure
       write_verdict_counts(json, group.verdicts);
       json.key("mean_mm").raw(group.mean_mm);
       json.key("standard_deviation_mm").raw(group.standard_deviation_mm.value_or("null"));
-      json.member_mm("min_mm", group.min).member_mm("max_mm", group.max).end_object();
+      json.member_mm("min_mm", Length::nanometres(group.min_nm));
+      json.member_mm("max_mm", Length::nanometres(group.max_nm)).end_object();
     }
     json.end_array();
   });

@@ -115,7 +115,7 @@ Result<std::string> make_bytes(Download& download) {
     const auto page = add_page(download, **file, download.limit.value_or(kRowsAtOnce));
     if (!page) return page.error();
     if (download.limit || !page->next) return (*file)->finish();
-    download.query.as_of = page->as_of;
+    download.query.as_of_id = page->as_of;
     download.query.after.reset();
     download.after = *page->next;
   }

@@ -122,7 +122,7 @@ class MeasurementStream final : public http::BodyStream,
           if (!page) return sink->fail();
           if (!page->next) return sink->finish(std::move(*piece));
           self->after_ = *page->next;
-          self->query_.as_of = page->as_of;
+          self->query_.as_of_id = page->as_of;
           self->query_.after.reset();
           sink->put(std::move(*piece));
         });
@@ -217,21 +217,29 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
     if (!run) {
       return Error{ErrorCode::QueryInvalid, "run_id must be the id of a run", named("run_id")};
     }
-    query.run_id = *run;
+    query.run_id = run->number;
+    query.run_origin = run->origin;
     query.source.reset();  // what a run stores is no gauge's
   }
   if (const auto verdict = text_of("verdict")) {
-    query.verdict = gauging::verdict_from_word(*verdict);
+    query.verdict = app::code_of<store::Verdict>(*gauging::verdict_from_word(*verdict));
   }
   // `all` is no source, so that the filter is off.
-  if (const auto source = text_of("source")) query.source = app::source_from_word(*source);
-  query.from = request.time(named("from"));
-  query.to = request.time(named("to"));
-  query.received_from = request.time(named("received_from"));
-  query.received_to = request.time(named("received_to"));
+  if (const auto text = text_of("source")) {
+    const auto source = app::source_from_word(*text);
+    query.source = source ? std::optional(app::code_of<store::Source>(*source)) : std::nullopt;
+  }
+  const auto time_of = [&](std::string_view name) {
+    const auto time = request.time(named(name));
+    return time ? std::optional(time->nanoseconds) : std::nullopt;
+  };
+  query.from_ns = time_of("from");
+  query.to_ns = time_of("to");
+  query.received_from_ns = time_of("received_from");
+  query.received_to_ns = time_of("received_to");
   if (const auto cause = text_of("cause")) query.cause.emplace(*cause);
-  query.noted_from = request.time(named("notes_from"));
-  query.noted_to = request.time(named("notes_to"));
+  query.noted_from_ns = time_of("notes_from");
+  query.noted_to_ns = time_of("notes_to");
   if (const auto confirmed = text_of("confirmed")) query.confirmed = *confirmed == "true";
   query.history = text_of("history") == "all";
   return query;
@@ -245,7 +253,7 @@ void list_measurements(const Services& services, const http::Request& request,
   const auto limit = request.integer("limit");
   auto query = measurement_query(services, request);
   if (!query) return responder.fail(query.error());
-  query->as_of = cursor->as_of;
+  query->as_of_id = cursor->as_of;
   query->after = cursor->record;
   const auto notes = request.text("notes");
   query->shows_notes = notes.has_value();

@@ -1,20 +1,11 @@
 #include "api/resources.hpp"
-#include "record/measurement_row_fields.hpp"
+#include "record/measurement_row_reader.hpp"
 #include "service/measurements/measurement_service.hpp"
 
 namespace fitgauge::api {
 namespace {
 
 using schema::Others;
-
-constexpr std::string_view kRecord =
-    R"({"basis":"iso286","characteristic":"bore-A","designation":"25 H7","deviation_um":13,)"
-    R"("excess_um":0,"feature":"hole","id":"m1-5f0c9a3e77d21b40","lower_deviation_um":0,)"
-    R"("lower_limit_mm":25,"measured_at":"2026-11-20T07:00:00Z","measured_mm":25.013,)"
-    R"("nominal_mm":25,"part_id":"SN-0001","received_at":"2026-11-20T07:00:01.25Z",)"
-    R"("rule":"simple","size_range_mm":{"over":18,"up_to":30},"source":"gauge",)"
-    R"("table_revision":"1-f0a85b3a","tolerance_class":"H7","tolerance_um":21,)"
-    R"("upper_deviation_um":21,"upper_limit_mm":25.021,"verdict":"good"})";
 
 std::string given_json(const RowField& field) {
   switch (field.kind) {
@@ -139,17 +130,13 @@ schema::Fields group_fields() {
 }
 
 void add_request_schemas(Schemas& schemas) {
-  constexpr std::string_view kNew =
-      R"({"designation":"25 H7","measured_mm":25.013,"part_id":"SN-0001","characteristic":"bore-A",)"
-      R"("measured_at":"2026-11-20T08:00:00+01:00"})";
-  schemas.push_back({"NewMeasurement", schema::object(given_fields(), Others::Refused, kNew)});
+  schemas.push_back({"NewMeasurement", schema::object(given_fields(), Others::Refused)});
   schemas.push_back(
       {"NewMeasurements", schema::any_of({schema::ref("NewMeasurement"),
                                           schema::array(schema::ref("NewMeasurement"), 1)})});
   const schema::Fields reason = {
       {"reason", schema::text(app::kLongestComment), "Why it is corrected"}};
-  schemas.push_back({"Correction", schema::object(reason + given_fields(), Others::Refused,
-                                                  R"({"measured_mm":25.012,"reason":"misread"})")});
+  schemas.push_back({"Correction", schema::object(reason + given_fields(), Others::Refused)});
 }
 
 }  // namespace
@@ -158,8 +145,7 @@ void add_measurement_schemas(Schemas& schemas) {
   add_request_schemas(schemas);
   const schema::Fields notes = {
       {"notes", schema::array(schema::ref("Note")), "Of lists with notes=shown", false}};
-  schemas.push_back({"Measurement", schema::object(record_fields() + notes + warnings_field(),
-                                                   Others::Allowed, kRecord)});
+  schemas.push_back({"Measurement", schema::object(record_fields() + notes + warnings_field())});
   schemas.push_back(
       {"Proof",
        schema::object({{"index", schema::count(), "Of the leaf, from 0"},
@@ -227,15 +213,11 @@ void add_measurement_schemas(Schemas& schemas) {
                        {"measurements", schema::array(schema::ref("Measurement")), ""}})});
   schemas.push_back(
       {"Accepted",
-       schema::object(
-           schema::Fields{{"accepted", schema::count(), "How many were stored"},
-                          {"first_id", schema::text(), ""},
-                          {"last_id", schema::text(), ""},
-                          {"verdicts", schema::ref("VerdictCounts"), ""}} +
-               warnings_field(),
-           Others::Allowed,
-           R"({"accepted":3,"first_id":"m2-5f0c9a3e77d21b40","last_id":"m4-5f0c9a3e77d21b40",)"
-           R"("verdicts":{"good":2,"rework":0,"reject":1,"indeterminate":0}})")});
+       schema::object(schema::Fields{{"accepted", schema::count(), "How many were stored"},
+                                     {"first_id", schema::text(), ""},
+                                     {"last_id", schema::text(), ""},
+                                     {"verdicts", schema::ref("VerdictCounts"), ""}} +
+                      warnings_field())});
   schemas.push_back(
       {"Measurements",
        schema::object(
@@ -252,14 +234,9 @@ void add_measurement_schemas(Schemas& schemas) {
   schemas.push_back({"SummaryGroup", schema::object(group_fields())});
   schemas.push_back(
       {"Summary",
-       schema::object(
-           formula_fields() + schema::Fields{{"groups", schema::array(schema::ref("SummaryGroup")),
-                                              "By the value of the field that group_by names"}},
-           Others::Allowed,
-           R"({"formula":"…","clause":"NIST/SEMATECH e-Handbook, 1.3.5","groups":[{"characteristic":"bore-A","count":3,)"
-           R"("verdicts":{"good":2,"rework":0,"reject":1,"indeterminate":0},)"
-           R"("mean_mm":25.0151,"standard_deviation_mm":0.005551576,)"
-           R"("min_mm":25.0108,"max_mm":25.0215}]})")});
+       schema::object(formula_fields() +
+                      schema::Fields{{"groups", schema::array(schema::ref("SummaryGroup")),
+                                      "By the value of the field that group_by names"}})});
 }
 
 }  // namespace fitgauge::api

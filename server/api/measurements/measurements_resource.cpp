@@ -21,23 +21,18 @@ void find_measurement(const Services& services, const http::Request& request,
   auto body = std::make_shared<std::string>();
   services.measurements.find(
       *id, [body](const app::Measurement& measurement) { app::append_record(*body, measurement); },
-      [body, responder = share(std::move(responder))](const Result<std::int64_t>& found) {
-        if (!found) return responder->fail(found.error());
-        responder->answer({200, "application/json", std::move(*body)});
-      });
+      answer_with(std::move(responder),
+                  [body](std::int64_t) { return json_response(std::move(*body)); }));
 }
 
 void summarise(const Services& services, const http::Request& request, http::Responder responder) {
   const auto query = measurement_query(services, request);
   if (!query) return responder.fail(query.error());
   const std::string_view group_by = request.text("group_by").value_or("characteristic");
-  services.measurements.summary(
-      *query, group_by,
-      [group_by,
-       responder = share(std::move(responder))](Result<std::vector<app::MeasurementGroup>> groups) {
-        if (!groups) return responder->fail(groups.error());
-        responder->answer({200, "application/json", summary_json(group_by, *groups)});
-      });
+  services.measurements.summary(*query, group_by,
+                                answer_with(std::move(responder), [group_by](const auto& groups) {
+                                  return json_response(summary_json(group_by, groups));
+                                }));
 }
 
 std::vector<http::Parameter> posting_parameters(std::vector<http::Parameter> parameters = {}) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <set>
 
 #include "api/handlers.hpp"
@@ -65,11 +64,9 @@ void post_note(const Services& services, const http::Request& request, http::Res
 void list_notes(const Services& services, const http::Request& request, http::Responder responder) {
   const auto id = services.measurements.parse_id(*request.text("id"));
   if (!id) return responder.fail(id.error());
-  services.measurements.list_notes(
-      *id, [shared = share(std::move(responder))](const Result<std::vector<app::Note>>& notes) {
-        if (!notes) return shared->fail(notes.error());
-        shared->answer({200, "application/json", body_json(NotesAnswer{*notes})});
-      });
+  services.measurements.list_notes(*id, answer_with(std::move(responder), [](const auto& notes) {
+    return json_response(body_json(NotesAnswer{notes}));
+  }));
 }
 
 /// The form of the entries of a catalogue: each once, so that a choice is one.
@@ -136,16 +133,10 @@ http::Parameter measurement_parameter() {
 }  // namespace
 
 void add_note_schemas(Schemas& schemas) {
-  schemas.push_back(order_schema<NoteOrder>(
-      "NewNote", R"({"cause":"Insert worn","measure":"Insert changed","operator":"Kim"})"));
-  schemas.push_back(answer_schema<app::Note>(
-      "Note",
-      R"({"id":"n1-5f0c9a3e77d21b40","measurement_id":"m1-5f0c9a3e77d21b40","cause":"Insert worn",)"
-      R"("measure":"Insert changed","operator":"Kim","received_at":"2026-11-20T07:00:01.25Z"})"));
+  schemas.push_back(order_schema<NoteOrder>("NewNote"));
+  schemas.push_back(answer_schema<app::Note>("Note"));
   schemas.push_back(answer_schema<NotesAnswer>("Notes"));
-  schemas.push_back(order_schema<Catalogue>("Catalogue", R"({"causes":["Insert worn",)"
-                                                         R"("Part clamped askew"],"measures":[)"
-                                                         R"("Insert changed","Part scrapped"]})"));
+  schemas.push_back(order_schema<Catalogue>("Catalogue"));
   schemas.push_back(names_schema("Catalogues", "catalogues"));
 }
 

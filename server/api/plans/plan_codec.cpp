@@ -108,11 +108,6 @@ std::string stored_text(const JsonValue& body, std::string_view part) {
 using schema::Fields;
 using schema::Others;
 
-constexpr std::string_view kExample =
-    R"({"part":"4711-A","name":"Bearing housing","characteristics":[)"
-    R"({"name":"bore-A","designation":"25 H7","gauge":"G-07","reaction":"Stop, tell the setter"},)"
-    R"({"name":"journal-C","designation":"30 k6","subgroup_size":5,"frequency":"each hour"}]})";
-
 Fields characteristic_fields() {
   return Fields{{"name", schema::text(200), "What a measurement says as its characteristic"}} +
          schema::optional({
@@ -193,10 +188,9 @@ void add_plan_schemas(Schemas& schemas) {
   schemas.push_back(
       {"PlanOrder", schema::object(Fields{{"part", schema::text(200), "As in the path", false}} +
                                        name + characteristics,
-                                   Others::Refused, kExample)});
+                                   Others::Refused)});
   schemas.push_back({"Plan", schema::object(Fields{{"part", schema::text(200), "As in the path"}} +
-                                                name + characteristics,
-                                            Others::Allowed, kExample)});
+                                            name + characteristics)});
   schemas.push_back(
       {"Plans",
        schema::object({{"plans",
@@ -205,10 +199,7 @@ void add_plan_schemas(Schemas& schemas) {
                              {"name", schema::text(), "", false},
                              {"characteristics", schema::count(), "How many"},
                              {"modified_at", schema::time(), "When it was stored, in UTC"}})),
-                        "By part number"}},
-                      Others::Allowed,
-                      R"({"plans":[{"part":"4711-A","name":"Bearing housing","characteristics":2,)"
-                      R"("modified_at":"2026-11-20T07:00:00Z"}]})")});
+                        "By part number"}})});
 }
 
 }  // namespace fitgauge::api

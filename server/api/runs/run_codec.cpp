@@ -327,21 +327,13 @@ std::string diagnostics_json(const std::vector<klartext::Diagnostic>& diagnostic
 }
 
 void add_diagnostic_schemas(Schemas& schemas) {
-  schemas.push_back(answer_schema<klartext::Diagnostic>(
-      "Diagnostic",
-      R"({"severity":"error","code":"nc.label_unknown","message":"label 5 is not defined",)"
-      R"("program":"TNC:\\nc_prog\\bore.h","line":3,"column":1,"block":2,"source":"2 CALL LBL 5"})"));
+  schemas.push_back(answer_schema<klartext::Diagnostic>("Diagnostic"));
   schemas.push_back(answer_schema<DiagnosticsAnswer>("Diagnostics"));
 }
 
 void add_run_schemas(Schemas& schemas) {
   schemas.push_back(run_order_schema());
-  schemas.push_back(answer_schema<RunAnswer>(
-      "Run", R"({"id":"r1","status":"completed","program":"TNC:\\nc_prog\\bore.h",)"
-             R"("created_at":"2026-11-20T07:00:00Z","finished_at":"2026-11-20T07:00:00.02Z",)"
-             R"("blocks_executed":4,"verdict":"good","parameters":{"Q153":25.013},)"
-             R"("screen":[],"files":[],"tables":[],"messages":[],"measurements":[],)"
-             R"("active_preset":1,"presets":[],"machining_time_s":12.4,"setup_seed":1})"));
+  schemas.push_back(answer_schema<RunAnswer>("Run"));
   schemas.push_back(answer_schema<RunListAnswer>("RunList"));
   schemas.push_back({"RunParameters", ParameterValues{}.schema(Side::Answer)});
   schemas.push_back(answer_schema<FinishedAnswer>("RunFinished"));

@@ -247,11 +247,7 @@ Result<void> put_setup_in_place(JsonValue& body, const FindSetup& find_setup, Fi
 
 }  // namespace
 
-NamedSchema run_order_schema() {
-  return order_schema<RunOrderBody>("RunOrder",
-                                    R"({"program":"TNC:\\nc_prog\\8255\\8255.h",)"
-                                    R"("setup":"m3","parameters":{"Q1":25,"QS1":"H7"}})");
-}
+NamedSchema run_order_schema() { return order_schema<RunOrderBody>("RunOrder"); }
 
 Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup,
                                        const app::ControlTables& tables) {

@@ -36,20 +36,14 @@ void with_run_json(const Services& services, const http::Request& request,
     const std::string json = unfinished_run_json(*active);
     if (!active->is_being_stored()) return answer(responder, answer_of(json));
   }
-  services.runs.find(
-      *id, [answer_of, shared = share(std::move(responder))](Result<app::StoredRun> run) {
-        if (!run) return shared->fail(run.error());
-        answer(*shared,
-               answer_of(run->report.empty() ? unfinished_run_json(*run) : std::move(run->report)));
-      });
-}
-
-http::Response json_response(std::string json) {
-  return {200, "application/json", std::move(json)};
+  services.runs.find(*id, answer_with(std::move(responder), [answer_of](app::StoredRun run) {
+    return answer_of(run.report.empty() ? unfinished_run_json(run) : std::move(run.report));
+  }));
 }
 
 void get_run(const Services& services, const http::Request& request, http::Responder responder) {
-  with_run_json(services, request, std::move(responder), json_response);
+  with_run_json(services, request, std::move(responder),
+                [](std::string run) { return json_response(std::move(run)); });
 }
 
 void get_parameters(const Services& services, const http::Request& request,
@@ -66,10 +60,9 @@ void get_request(const Services& services, const http::Request& request,
                  http::Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
-  services.runs.find(*id, [shared = share(std::move(responder))](Result<app::StoredRun> run) {
-    if (!run) return shared->fail(run.error());
-    shared->answer(json_response(std::move(run->request)));
-  });
+  services.runs.find(*id, answer_with(std::move(responder), [](app::StoredRun run) {
+    return json_response(std::move(run.request));
+  }));
 }
 
 /// What a browser may show as it is; everything else is text.
@@ -83,12 +76,10 @@ void get_run_file(const Services& services, const http::Request& request,
                   http::Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
-  services.runs.file(
-      *id, std::string(*request.text("name")),
-      [shared = share(std::move(responder))](Result<app::RunService::File> file) {
-        if (!file) return shared->fail(file.error());
-        shared->answer(foreign_bytes(media_type_of(file->path), std::move(file->bytes)));
-      });
+  services.runs.file(*id, std::string(*request.text("name")),
+                     answer_with(std::move(responder), [](app::RunService::File file) {
+                       return foreign_bytes(media_type_of(file.path), std::move(file.bytes));
+                     }));
 }
 
 /// A trace, unpacked while it is sent: the text of a long one is 50 MB.
@@ -116,30 +107,27 @@ void get_trace(const Services& services, const http::Request& request, http::Res
   if (!id) return responder.fail(id.error());
   const bool csv = wants_csv(request);
   const bool packed = !csv && request.prefers_gzip();
-  services.runs.trace(*id, [csv, packed,
-                            shared = share(std::move(responder))](Result<app::TraceReader> trace) {
-    if (!trace) return shared->fail(trace.error());
+  services.runs.trace(*id, answer_with(std::move(responder), [csv, packed](app::TraceReader trace) {
     const char* const type = csv ? "text/csv; charset=utf-8; header=present" : "application/json";
-    if (auto bytes = packed ? trace->take_packed() : std::nullopt) {
-      return shared->answer(http::Response(200, type, *std::move(bytes))
-                                .with("Content-Encoding", "gzip")
-                                .with("Vary", "Accept"));
+    if (auto bytes = packed ? trace.take_packed() : std::nullopt) {
+      return http::Response(200, type, *std::move(bytes))
+          .with("Content-Encoding", "gzip")
+          .with("Vary", "Accept");
     }
-    const http::StreamedBody body{std::make_shared<TraceStream>(*std::move(trace), csv)};
-    shared->answer(http::Response(200, type, body).with("Vary", "Accept"));
-  });
+    const http::StreamedBody body{std::make_shared<TraceStream>(std::move(trace), csv)};
+    return http::Response(200, type, body).with("Vary", "Accept");
+  }));
 }
 
 void get_events(const Services& services, const http::Request& request, http::Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());
   const auto last = last_event_id(request);
-  services.runs.follow(
-      *id, [last, shared = share(std::move(responder))](Result<app::RunService::Followed> run) {
-        if (!run) return shared->fail(run.error());
-        if (run->active) return shared->answer(run_events(std::move(run->active), last));
-        answer(*shared, finished_run_events(run->stored.report, last));
-      });
+  services.runs.follow(*id,
+                       answer_with(std::move(responder), [last](app::RunService::Followed run) {
+                         return run.active ? run_events(std::move(run.active), last)
+                                           : finished_run_events(run.stored.report, last);
+                       }));
 }
 
 /// Answers when the run has ended, so that its status tells whether it was in time.
@@ -171,14 +159,12 @@ void list_runs(const Services& services, const http::Request& request, http::Res
   }
   services.runs.list(std::move(query), after,
                      static_cast<std::size_t>(request.integer("limit").value_or(kRunsOfAPage)),
-                     [&services, &request,
-                      shared = share(std::move(responder))](Result<app::RunService::Page> page) {
-                       if (!page) return shared->fail(page.error());
-                       const std::string next = page->next ? services.runs.cursor(*page->next) : "";
-                       http::Response response = json_response(run_page_json(*page, next));
-                       if (page->next) response.with("Link", next_link(request, next));
-                       shared->answer(std::move(response));
-                     });
+                     answer_with(std::move(responder), [&services, &request](const auto& page) {
+                       const std::string next = page.next ? services.runs.cursor(*page.next) : "";
+                       auto response = json_response(run_page_json(page, next));
+                       if (page.next) response->with("Link", next_link(request, next));
+                       return response;
+                     }));
 }
 
 const http::Parameter kId = path_parameter("id", "As the run names it");

@@ -151,10 +151,6 @@ inline constexpr Nested kWorkpieceForm{
 
 namespace {
 
-constexpr std::string_view kSetupExample =
-    R"({"workpiece":{"features":[{"type":"block","min_mm":[0,0,-40],"max_mm":[100,80,0]},)"
-    R"({"type":"bore","center_mm":[50,40],"diameter_mm":25.013}]}})";
-
 /// What does not make sense together, unless a field that was refused already is why.
 void check(const machine::Setup& setup, const std::string& pointer, FieldErrors& errors) {
   const auto valid = machine::validate(setup);
@@ -208,8 +204,8 @@ void add_setup_schemas(Schemas& schemas) {
   });
   schemas.push_back({"Feature", schema::any_of(features)});
   add_nested(kWorkpieceForm, machine::Setup{});
-  schemas.push_back(order_schema<machine::Setup>("Setup", kSetupExample));
-  schemas.push_back(names_schema("Setups", "setups", "m3"));
+  schemas.push_back(order_schema<machine::Setup>("Setup"));
+  schemas.push_back(names_schema("Setups", "setups"));
 }
 
 machine::Setup decode_setup(const JsonValue& body, const std::string& pointer,

@@ -169,17 +169,12 @@ Result<void> describe_by_name(JsonWriter& json, const app::NamedDocument& docume
   return {};
 }
 
-NamedSchema names_schema(std::string name, std::string_view member, std::string_view example) {
+NamedSchema names_schema(std::string name, std::string_view member) {
   const std::string document =
       schema::object({{"name", schema::text(), "As in the path"},
                       {"modified_at", schema::time(), "When it was stored, in UTC"}});
-  std::string list = schema::object(
-      {{std::string(member), schema::array(document), "By name"}}, schema::Others::Allowed,
-      example.empty() ? ""
-                      : fmt::format(R"({{"{}":[{{"name":"{}","modified_at":)"
-                                    R"("2026-11-20T07:00:00Z"}}]}})",
-                                    member, example));
-  return {std::move(name), std::move(list)};
+  return {std::move(name),
+          schema::object({{std::string(member), schema::array(document), "By name"}})};
 }
 
 void add_document_routes(std::vector<http::Route>& routes, const Services& services,

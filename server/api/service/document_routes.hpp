@@ -67,7 +67,7 @@ Error at_budget(const Error& error);
 
 /// The schema of a list of names and times: the answer of a kind that is described by its name.
 /// @param example a name; empty: none
-NamedSchema names_schema(std::string name, std::string_view member, std::string_view example = {});
+NamedSchema names_schema(std::string name, std::string_view member);
 
 /// @param kind is static.
 void add_document_routes(std::vector<http::Route>& routes, const Services& services,

@@ -126,10 +126,10 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
                  "`fitgauged key create`"};
   }
   const app::Role needed = role_for(access);
-  if (!may(caller->role, needed)) {
+  if (!app::may(caller->role, needed)) {
     return Error{ErrorCode::Forbidden, "the key " + caller->name + " is of a " +
-                                           std::string(word(caller->role)) + ", this needs " +
-                                           std::string(word(needed))};
+                                           std::string(app::word(caller->role)) + ", this needs " +
+                                           std::string(app::word(needed))};
   }
   return std::optional<http::Response>();
 }

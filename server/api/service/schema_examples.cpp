@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -13,45 +12,12 @@
 namespace fitgauge::api {
 namespace {
 
-/// Texts of members that a reader knows by them; others are their own name.
-constexpr std::string_view kTexts =
-    " designation=25 H7; tolerance_class=H7; hole_class=H7; shaft_class=g6; part_id=SN-0001; "
-    "part=4711-A;"
-    " characteristic=bore-A; order=WO-17; machine=M3; operator=Kim; gauge=G-07; tool=T30; "
-    "id=m1-5f0c9a3e77d21b40;"
-    " first_id=m1-5f0c9a3e77d21b40; last_id=m9-5f0c9a3e77d21b40; table_revision=1-f0a85b3a; "
-    "revision=1-f0a85b3a;"
-    " program=TNC:\\nc_prog\\8255\\8255.h; url=https://mes.example/hook; "
-    "calibration_due=2027-03-31; paths=TNC:\\logs\\*.TXT; from=2026-11-20T07:00:00Z;";
-
-/// Orders whose members depend on each other, so that no schema alone leads to one that is
-/// accepted.
-constexpr std::pair<std::string_view, std::string_view> kOrders[] = {
-    {"PressFitOrder",
-     R"({"joint_diameter_mm":50,"length_mm":40,"friction":0.1,"min_interference_um":20,"max_interference_um":40,)"
-     R"("hub":{"outer_diameter_mm":100,"youngs_modulus_mpa":210000,"poisson_ratio":0.3,"rz_um":4},)"
-     R"("shaft":{"inner_diameter_mm":10,"youngs_modulus_mpa":210000,"poisson_ratio":0.3,"rz_um":4}})"},
-    {"Groups", R"({"groups":[[25.01,25.012],[25.009,25.011,25.01]]})"},
-    {"CapabilityOrder", R"({"values":[25.01,25.012,25.009,25.011],"lower":25,"upper":25.021})"},
-    {"ChartOrder", R"({"kind":"i_mr","values":[25.01,25.012,25.009,25.011]})"},
-    {"Type1Order",
-     R"({"values":[25.0099,25.0101,25.01,25.0102],"reference":25.01,"tolerance":0.021})"},
-    {"VariationStudyOrder",
-     R"({"measurements":[{"part":"1","operator":"A","trial":1,"value":25.01},)"
-     R"({"part":"1","operator":"A","trial":2,"value":25.011},{"part":"2","operator":"A","trial":1,"value":25.015},)"
-     R"({"part":"2","operator":"A","trial":2,"value":25.015},{"part":"1","operator":"B","trial":1,"value":25.01},)"
-     R"({"part":"1","operator":"B","trial":2,"value":25.01},{"part":"2","operator":"B","trial":1,"value":25.016},)"
-     R"({"part":"2","operator":"B","trial":2,"value":25.015}]})"},
-    {"NewCalibration", R"({"from":"2026-03-31","due":"2027-03-31","certificate":"K-1"})"},
-    {"UncertaintyBudget",
-     R"({"contributions":[{"name":"repeatability","standard_uncertainty":0.5}]})"},
-};
-
 /// Writes a value that a schema takes, from the examples of the schemas that it names.
 class Example {
  public:
-  explicit Example(const std::map<std::string, JsonValue, std::less<>>& schemas)
-      : schemas_(schemas) {}
+  using Schemas = std::map<std::string, JsonValue, std::less<>>;
+  /// @param texts of members that a reader knows by them; others are their own name
+  Example(const Schemas& schemas, const JsonValue& texts) : schemas_(schemas), texts_(texts) {}
 
   void write(JsonWriter& json, const JsonValue& schema, std::string_view name) const {
     if (const JsonValue* named = schema.find("$ref")) {
@@ -105,31 +71,28 @@ class Example {
     json.end_object();
   }
 
-  static std::string_view text_of(const JsonValue& schema, std::string_view name) {
+  std::string_view text_of(const JsonValue& schema, std::string_view name) const {
     if (schema.find("format") != nullptr) return "2026-11-20T07:00:00Z";
-    const std::string key = fmt::format(" {}=", name);
-    const std::size_t at = kTexts.find(key);
-    if (at == std::string_view::npos)
-      return name.substr(0, static_cast<std::size_t>(bound(schema, "maxLength", 64)));
-    const std::string_view from = kTexts.substr(at + key.size());
-    return from.substr(0, from.find(';'));
+    if (const JsonValue* text = texts_.find(name)) return text->text;
+    return name.substr(0, static_cast<std::size_t>(bound(schema, "maxLength", 64)));
   }
 
-  const std::map<std::string, JsonValue, std::less<>>& schemas_;
+  const Schemas& schemas_;
+  const JsonValue& texts_;
 };
 
 }  // namespace
 
 void add_examples(Schemas& schemas) {
-  std::map<std::string, JsonValue, std::less<>> parsed;
+  const JsonValue examples = parse_json(kExamples).value();
+  Example::Schemas parsed;
   const auto give = [](NamedSchema& schema, std::string_view example) {
     schema.json.pop_back();
     schema.json.append(R"(,"examples":[)").append(example) += "]}";
   };
   for (NamedSchema& schema : schemas) {
-    const auto* const order =
-        std::ranges::find(kOrders, schema.name, [](const auto& each) { return each.first; });
-    if (order != std::end(kOrders)) give(schema, order->second);
+    const JsonValue* order = examples.member("schemas").find(schema.name);
+    if (order != nullptr) give(schema, json_text(*order));
     parsed.emplace(schema.name, parse_json(schema.json).value());
   }
   for (NamedSchema& schema : schemas) {
@@ -137,7 +100,7 @@ void add_examples(Schemas& schemas) {
     if (json.find("examples") != nullptr) continue;
     std::string example;
     JsonWriter writer(example);
-    Example(parsed).write(writer, json, "name");
+    Example(parsed, examples.member("texts")).write(writer, json, "name");
     give(schema, example);
   }
 }

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "base/json/field_reader.hpp"
 #include "base/json/json_writer.hpp"
@@ -113,10 +112,9 @@ class BodySchema {
   void check(const auto&) {}
 
   const schema::Fields& fields() const { return fields_; }
-  std::string json(std::string_view example = {}) const {
+  std::string json() const {
     using schema::Others;
-    return schema::object(fields_, side_ == Side::Order ? Others::Refused : Others::Allowed,
-                          example);
+    return schema::object(fields_, side_ == Side::Order ? Others::Refused : Others::Allowed);
   }
 
  private:
@@ -181,21 +179,21 @@ class BodyWriter {
 
 /// The schema of a body whose members `T` describes; they are described of a `T{}`.
 template <class T>
-std::string schema_of(Side side, std::string_view example = {}) {
+std::string schema_of(Side side) {
   T body{};
   BodySchema describe(side);
   members(describe, body);
-  return describe.json(example);
+  return describe.json();
 }
 
 /// A component of /openapi.json.
 template <class T>
-NamedSchema order_schema(std::string name, std::string_view example = {}) {
-  return {std::move(name), schema_of<T>(Side::Order, example)};
+NamedSchema order_schema(std::string name) {
+  return {std::move(name), schema_of<T>(Side::Order)};
 }
 template <class T>
-NamedSchema answer_schema(std::string name, std::string_view example = {}) {
-  return {std::move(name), schema_of<T>(Side::Answer, example)};
+NamedSchema answer_schema(std::string name) {
+  return {std::move(name), schema_of<T>(Side::Answer)};
 }
 
 /// Reads an object into a body; every bad member goes to the errors with its pointer.

@@ -80,4 +80,15 @@ std::optional<std::size_t> find_word(FieldReader& fields, std::string_view name,
   return std::nullopt;
 }
 
+std::optional<std::size_t> find_listed(FieldReader& fields, std::string_view name,
+                                       std::span<const std::string_view> words) {
+  const auto given = fields.text(name);
+  if (!given) return std::nullopt;
+  const auto found = std::find(words.begin(), words.end(), *given);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  fields.report(ErrorCode::FieldInvalid, name,
+                fmt::format("{} is {}", name, listed(fmt::format("{}", fmt::join(words, " ")))));
+  return std::nullopt;
+}
+
 }  // namespace fitgauge::api

@@ -145,10 +145,10 @@ struct Integer {
   std::int64_t most = std::numeric_limits<std::int64_t>::max();
 
   std::string schema(Side) const;
-  template <std::integral T>
+  template <class T>
   bool read(FieldReader& fields, std::string_view name, T& to) const {
     const auto given = fields.integer(name, least, most);
-    to = static_cast<T>(given.value_or(static_cast<std::int64_t>(to)));
+    if (given) to = static_cast<T>(*given);
     return given.has_value();
   }
   template <std::integral T>
@@ -229,6 +229,9 @@ struct Micrometres : Millimetres {
 /// @returns the place of a member's word; reports another word, or none.
 std::optional<std::size_t> find_word(FieldReader& fields, std::string_view name,
                                      std::span<const std::string_view> words);
+/// The same with the message `name is a, b or c`.
+std::optional<std::size_t> find_listed(FieldReader& fields, std::string_view name,
+                                       std::span<const std::string_view> words);
 
 /// One of some words, for the values of a type from 0.
 template <std::size_t size>
@@ -262,17 +265,9 @@ struct Words {
   }
   std::string schema(Side) const { return schema::words(all()); }
   bool read(FieldReader& fields, std::string_view name, E& to) const {
-    const auto given = fields.text(name);
-    if (!given) return false;
-    const auto words = all();
-    const auto found = std::find(words.begin(), words.end(), *given);
-    if (found == words.end()) {
-      const std::string wanted = listed(fmt::format("{}", fmt::join(words, " ")));
-      fields.report(ErrorCode::FieldInvalid, name, fmt::format("{} must be one of: {}", name, wanted));
-      return false;
-    }
-    to = static_cast<E>(found - words.begin());
-    return true;
+    const auto found = find_listed(fields, name, all());
+    if (found) to = static_cast<E>(*found);
+    return found.has_value();
   }
   void write(JsonWriter& json, E from) const { json.value(word(from)); }
 };

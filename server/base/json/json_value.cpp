@@ -174,15 +174,9 @@ std::string_view JsonValue::text_of(std::string_view name) const {
 }
 
 std::string_view name_of(JsonValue::Kind kind) {
-  switch (kind) {
-    case JsonValue::Kind::Null: return "null";
-    case JsonValue::Kind::Boolean: return "a boolean";
-    case JsonValue::Kind::Number: return "a number";
-    case JsonValue::Kind::String: return "a string";
-    case JsonValue::Kind::Array: return "an array";
-    case JsonValue::Kind::Object: return "an object";
-  }
-  return "";
+  constexpr std::string_view kNames[] = {"null",     "a boolean", "a number",
+                                         "a string", "an array",  "an object"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 Result<JsonValue> parse_json(std::string_view text, std::size_t most) {

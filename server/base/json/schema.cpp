@@ -83,7 +83,7 @@ std::string map(const std::string& value) {
   return fmt::format(R"({{"type":"object","additionalProperties":{}}})", value);
 }
 
-std::string object(const Fields& fields, Others others, std::string_view example) {
+std::string object(const Fields& fields, Others others) {
   std::vector<std::string> required;
   std::vector<std::string> properties;
   for (const Field& field : fields) {
@@ -99,7 +99,6 @@ std::string object(const Fields& fields, Others others, std::string_view example
   if (!required.empty()) json += R"(,"required":)" + list_of(required);
   json += fmt::format(R"(,"properties":{{{}}})", fmt::join(properties, ","));
   if (others == Others::Refused) json += R"(,"additionalProperties":false)";
-  if (!example.empty()) json.append(R"(,"examples":[)").append(example) += ']';
   return json + '}';
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -50,8 +49,7 @@ std::string array(const std::string& item);
 std::string array(const std::string& item, std::size_t least, std::size_t most = kAnyNumber);
 /// Any names, values of one kind.
 std::string map(const std::string& value);
-std::string object(const Fields& fields, Others others = Others::Allowed,
-                   std::string_view example = {});
+std::string object(const Fields& fields, Others others = Others::Allowed);
 /// At least one of them fits.
 std::string any_of(const std::vector<std::string>& schemas);
 std::string ref(std::string_view name);

@@ -8,7 +8,6 @@
 
 #include "base/digest.hpp"
 #include "base/json/json_value.hpp"
-#include "base/thread.hpp"
 #include "service/log/batch_text.hpp"
 
 namespace fitgauge::forwarder {

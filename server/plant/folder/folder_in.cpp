@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/inotify.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,7 +12,6 @@
 #include <span>
 #include <utility>
 
-#include "base/folder.hpp"
 #include "base/text.hpp"
 #include "base/thread.hpp"
 #include "http/request.hpp"

@@ -10,7 +10,7 @@
 #include "base/text.hpp"
 #include "plant/folder/folder_in.hpp"
 #include "plant/kind.hpp"
-#include "record/measurement_row_fields.hpp"
+#include "record/measurement_row_reader.hpp"
 
 namespace fitgauge::connections {
 namespace {
@@ -103,8 +103,8 @@ void members(V& v, FolderInOptions& options) {
              "Time zone of times without an offset, such as Europe/Berlin");
   v.optional("encoding", options.csv.encoding, By{0, read_encoding},
              "auto, utf-8, utf-16, windows-1252; auto when absent");
-  v.optional("other_columns", options.csv.leaves_out_others,
-             Choice<bool>{{{"refuse", false}, {"leave_out", true}}}, "refuse when absent");
+  v.optional("other_columns", options.csv.leaves_out_others, Choice{"refuse", "leave_out"},
+             "refuse when absent");
   v.optional("length_unit", options.length_unit, By{0, read_unit},
              "Unit of a DFQ without a unit: mm, inch");
   v.optional("interval_s", options.interval, Within{1, 3600},

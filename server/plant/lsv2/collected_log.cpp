@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <ctime>
 #include <map>
-#include <optional>
 
 #include "base/digest.hpp"
 #include "base/text.hpp"

@@ -14,8 +14,6 @@
 #include <new>
 #include <utility>
 
-#include "base/thread.hpp"
-
 namespace fitgauge::connections {
 namespace {
 

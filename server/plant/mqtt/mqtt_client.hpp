@@ -12,7 +12,6 @@
 #include <stop_token>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "base/thread.hpp"
 #include "plant/lsv2/link/link_socket.hpp"

@@ -64,23 +64,20 @@ std::string head(const Agent& agent, std::string_view kind, std::string_view mor
 }  // namespace
 
 Counts counts_of(const std::vector<app::MeasurementGroup>& groups) {
-  Counts counts;
+  Counts counts{};
   for (const app::MeasurementGroup& group : groups) {
-    const auto [good, rework, reject, indeterminate, unjudged] = group.verdicts;
-    counts.good += good;
-    counts.rework += rework;
-    counts.reject += reject;
-    counts.indeterminate += indeterminate;
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += group.verdicts[i];
   }
   return counts;
 }
 
 std::array<std::pair<std::string_view, std::int64_t>, 5> counts_by_item(const Counts& counts) {
-  return {{{"count1", counts.good + counts.rework + counts.reject + counts.indeterminate},
-           {"count2", counts.good},
-           {"count3", counts.reject},
-           {"count4", counts.rework},
-           {"count5", counts.indeterminate}}};
+  const auto [good, rework, reject, indeterminate, unjudged] = counts;
+  return {{{"count1", good + rework + reject + indeterminate},
+           {"count2", good},
+           {"count3", reject},
+           {"count4", rework},
+           {"count5", indeterminate}}};
 }
 
 std::string entry_of(const app::Measurement& measurement) {

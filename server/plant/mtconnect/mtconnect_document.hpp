@@ -5,7 +5,6 @@
 #include <bitset>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -73,12 +72,7 @@ struct Agent {
 };
 
 /// How many values were judged so, in all; counted for PART_COUNT.
-struct Counts {
-  std::int64_t good = 0;
-  std::int64_t rework = 0;
-  std::int64_t reject = 0;
-  std::int64_t indeterminate = 0;
-};
+using Counts = app::VerdictTally;
 
 Counts counts_of(const std::vector<app::MeasurementGroup>& groups);
 

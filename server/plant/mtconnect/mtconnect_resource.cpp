@@ -116,7 +116,7 @@ void keep_first(const Services& services, const SharedCurrent& current,
 
 void count_and_answer(const Services& services, const SharedCurrent& current) {
   app::MeasurementQuery counted;
-  counted.as_of = current->whole();
+  counted.as_of_id = current->whole();
   services.measurements.summary(
       counted, "tolerance_class",
       [current](const Result<std::vector<app::MeasurementGroup>>& groups) {
@@ -128,13 +128,13 @@ void count_and_answer(const Services& services, const SharedCurrent& current) {
 void read_current(const Services& services, const SharedCurrent& current) {
   app::MeasurementQuery whole;
   whole.newest_first = true;
-  whole.as_of = current->whole();
+  whole.as_of_id = current->whole();
   keep_first(services, current, whole, 0, &Current::newest, [current, &services] {
     const std::int64_t last = mtconnect::measurement_at(current->at);
     if (last == current->whole()) return count_and_answer(services, current);
     app::MeasurementQuery part;
     part.history = true;
-    part.as_of = last;
+    part.as_of_id = last;
     keep_first(services, current, part, last - 1, &Current::begun,
                [current, &services] { count_and_answer(services, current); });
   });

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <boost/asio/ip/address.hpp>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "base/text.hpp"

@@ -33,6 +33,13 @@ std::string lines_on_the_wire(std::string_view bytes) {
   return wire;
 }
 
+/// Accepted, or why it was not done.
+template <class Done>
+ControlResult<std::optional<Telegram>> accepted(const Done& done) {
+  if (!done) return done.error();
+  return encode(control_link::Accepted{});
+}
+
 std::uint32_t unix_time(Timestamp time) {
   return static_cast<std::uint32_t>(time.nanoseconds / 1'000'000'000);
 }
@@ -86,8 +93,7 @@ ControlConversation::Reply ControlConversation::reply(const MakeDirectory& reque
   if (auto may = needs_to_write(kFile); !may) return may.error();
   const auto directory = directory_path(request.path, directory_);
   if (!directory) return directory.error();
-  if (auto made = state_.disk.make_directory(*directory); !made) return made.error();
-  return encode(control_link::Accepted{});
+  return accepted(state_.disk.make_directory(*directory));
 }
 
 ControlConversation::Reply ControlConversation::reply(const DeleteDirectory& request) {
@@ -95,8 +101,7 @@ ControlConversation::Reply ControlConversation::reply(const DeleteDirectory& req
   const auto directory = directory_path(request.path, directory_);
   if (!directory) return directory.error();
   if (!state_.model.is_itnc && ascii_iequals(*directory, directory_)) return ControlError::InUse;
-  if (auto removed = state_.disk.remove_directory(*directory); !removed) return removed.error();
-  return encode(control_link::Accepted{});
+  return accepted(state_.disk.remove_directory(*directory));
 }
 
 ControlConversation::Reply ControlConversation::reply(const ReadFileInformation& request) {
@@ -120,8 +125,7 @@ ControlConversation::Reply ControlConversation::reply(const DeleteFile& request)
   if (auto may = needs_to_write(kFile); !may) return may.error();
   const auto path = file_path(request.path, directory_);
   if (!path) return path.error();
-  if (auto removed = state_.disk.remove(*path); !removed) return removed.error();
-  return encode(control_link::Accepted{});
+  return accepted(state_.disk.remove(*path));
 }
 
 ControlConversation::Reply ControlConversation::copy(const std::string& source,
@@ -131,9 +135,7 @@ ControlConversation::Reply ControlConversation::copy(const std::string& source,
   if (!from) return from.error();
   const auto to = file_path(target, directory_);
   if (!to) return to.error();
-  const auto done = moves ? state_.disk.rename(*from, *to) : state_.disk.copy(*from, *to);
-  if (!done) return done.error();
-  return encode(control_link::Accepted{});
+  return accepted(moves ? state_.disk.rename(*from, *to) : state_.disk.copy(*from, *to));
 }
 
 ControlConversation::Reply ControlConversation::reply(const CopyFile& request) {
@@ -176,8 +178,7 @@ ControlConversation::Reply ControlConversation::reply(const EndOfData&) {
   const auto written = state_.disk.write(receiving->path, bytes);
   transfer_ = std::monostate();
   if (!acknowledges_end_) return std::optional<Telegram>();
-  if (!written) return written.error();
-  return encode(control_link::Accepted{});
+  return accepted(written);
 }
 
 ControlConversation::Reply ControlConversation::reply(const Download& request) {
@@ -215,9 +216,7 @@ ControlConversation::Reply ControlConversation::dump_screen(const std::string& p
   if (auto may = needs_to_write(kFile); !may) return may.error();
   const auto file = file_path(path, directory_);
   if (!file) return file.error();
-  const auto written = state_.disk.write(*file, screen_dump(state_.machine.state()));
-  if (!written) return written.error();
-  return encode(control_link::Accepted{});
+  return accepted(state_.disk.write(*file, screen_dump(state_.machine.state())));
 }
 
 }  // namespace fitgauge::virtual_control

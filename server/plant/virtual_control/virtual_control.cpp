@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <future>
-
 #include "base/thread.hpp"
 
 namespace fitgauge::virtual_control {

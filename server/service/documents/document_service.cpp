@@ -15,33 +15,23 @@ namespace {
 
 /// What differs between the kinds.
 struct Facts {
-  store::DocumentKind stored;
   std::string_view noun;
   ErrorCode unknown;
 };
 
-Facts facts_of(DocumentKind kind) {
-  using Stored = store::DocumentKind;
-  switch (kind) {
-    case DocumentKind::Uncertainty:
-      return {Stored::Uncertainty, "uncertainty budget", ErrorCode::UncertaintyUnknown};
-    case DocumentKind::GaugeInUse:
-      return {Stored::GaugeInUse, "gauge in use", ErrorCode::GaugeUnknown};
-    case DocumentKind::Setup: return {Stored::Setup, "setup", ErrorCode::SetupUnknown};
-    case DocumentKind::Connection:
-      return {Stored::Connection, "connection", ErrorCode::ConnectionUnknown};
-    case DocumentKind::ConnectionProgress:
-      return {Stored::ConnectionProgress, "progress of a connection", ErrorCode::ConnectionUnknown};
-    case DocumentKind::Catalogue:
-      return {Stored::Catalogue, "catalogue", ErrorCode::CatalogueUnknown};
-    case DocumentKind::Calibration:
-      return {Stored::Calibration, "calibration", ErrorCode::GaugeUnknown};
-    case DocumentKind::Plan: break;
-  }
-  return {Stored::Plan, "plan", ErrorCode::PlanUnknown};
+const Facts& facts_of(DocumentKind kind) {
+  static constexpr Facts kFacts[] = {
+      {"uncertainty budget", ErrorCode::UncertaintyUnknown},
+      {"gauge in use", ErrorCode::GaugeUnknown},
+      {"setup", ErrorCode::SetupUnknown},
+      {"plan", ErrorCode::PlanUnknown},
+      {"connection", ErrorCode::ConnectionUnknown},
+      {"progress of a connection", ErrorCode::ConnectionUnknown},
+      {"catalogue", ErrorCode::CatalogueUnknown},
+      {"calibration", ErrorCode::GaugeUnknown},
+  };
+  return kFacts[static_cast<std::size_t>(kind) - 1];
 }
-
-store::DocumentKind stored_kind(DocumentKind kind) { return facts_of(kind).stored; }
 
 std::string called(DocumentKind kind, const std::string& name) {
   return fmt::format("{} '{}'", facts_of(kind).noun, name);
@@ -68,7 +58,7 @@ Result<void> check_owner(const store::Stores& stores, DocumentKind kind, const s
       kind != DocumentKind::Catalogue) {
     return {};
   }
-  const auto as = static_cast<store::RevisionKind>(stored_kind(kind));
+  const auto as = static_cast<store::RevisionKind>(kind);
   if (!stores.revisions.received(as, name)) return {};
   return centre_decides(called(kind, name));
 }
@@ -88,7 +78,7 @@ Result<void> check_free(const store::Stores& stores, DocumentKind kind, const st
   std::vector<std::string> users;
   for (const Use& use : kUses) {
     if (use.of != kind) continue;
-    for (const store::Document& document : stores.documents.list(stored_kind(use.by))) {
+    for (const store::Document& document : stores.documents.list(use.by)) {
       const auto body = parse_json(document.text);
       if (!body) continue;
       const auto names_it = [&](const JsonValue& each) { return each.text_of(use.member) == name; };
@@ -119,14 +109,14 @@ NamedDocument named_document(store::Document document) {
 
 Result<NamedDocument> find(const store::Stores& stores, DocumentKind kind,
                            const std::string& name) {
-  auto found = stores.documents.find(stored_kind(kind), name);
+  auto found = stores.documents.find(kind, name);
   if (!found) return unknown_document(kind, name);
   return named_document(*std::move(found));
 }
 
 Result<std::vector<NamedDocument>> all_of(const store::Stores& stores, DocumentKind kind) {
   std::vector<NamedDocument> documents;
-  for (store::Document& document : stores.documents.list(stored_kind(kind))) {
+  for (store::Document& document : stores.documents.list(kind)) {
     documents.push_back(named_document(std::move(document)));
   }
   return documents;
@@ -145,14 +135,13 @@ void DocumentService::write(Change change, Done<bool> done) {
   database_.writer().submit(
       [change = std::move(change), at = clock_.now().nanoseconds,
        has_centre = has_centre_](store::Stores& stores) -> Result<bool> {
-        const store::DocumentKind kind = stored_kind(change.kind);
         if (has_centre) {
           if (const auto own = check_owner(stores, change.kind, change.name); !own) {
             return own.error();
           }
         }
         const auto allowed = check_change(change.precondition, change.kind, change.name,
-                                          stores.documents.find(kind, change.name));
+                                          stores.documents.find(change.kind, change.name));
         if (!allowed) return allowed.error();
         if (change.uncertainty &&
             !stores.documents.find(store::DocumentKind::Uncertainty, *change.uncertainty)) {
@@ -162,7 +151,7 @@ void DocumentService::write(Change change, Done<bool> done) {
             !stores.documents.find(store::DocumentKind::GaugeInUse, *change.gauge)) {
           return unknown_document(DocumentKind::GaugeInUse, *change.gauge);
         }
-        return put_document(stores, {.kind = kind,
+        return put_document(stores, {.kind = change.kind,
                                      .name = change.name,
                                      .text = change.text,
                                      .modified_at_ns = at,
@@ -186,13 +175,13 @@ void DocumentService::remove(DocumentKind kind, std::string name, Precondition p
         if (has_centre) {
           if (const auto own = check_owner(stores, kind, name); !own) return own.error();
         }
-        const auto current = stores.documents.find(stored_kind(kind), name);
+        const auto current = stores.documents.find(kind, name);
         if (!current) return unknown_document(kind, name);
         if (const auto allowed = check_change(precondition, kind, name, current); !allowed) {
           return allowed.error();
         }
         if (const auto free = check_free(stores, kind, name); !free) return free.error();
-        return remove_document(stores, stored_kind(kind), name, at, caller);
+        return remove_document(stores, kind, name, at, caller);
       },
       std::move(done));
 }

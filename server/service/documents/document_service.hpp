@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
+#include "db/store/documents_store.hpp"
 
 namespace fitgauge::store {
 class Database;
@@ -16,17 +16,7 @@ class Database;
 
 namespace fitgauge::app {
 
-/// What is kept as a text under a name.
-enum class DocumentKind : std::uint8_t {
-  Uncertainty,
-  GaugeInUse,
-  Setup,
-  Plan,
-  Connection,
-  Catalogue,
-  ConnectionProgress,  ///< how far the connection of that name has come
-  Calibration,         ///< of a gauge in use, named by calibration_name()
-};
+using store::DocumentKind;
 
 /// The name of a gauge's calibration from a time on, and the gauge of such a name.
 std::string calibration_name(std::string_view gauge, Timestamp from);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <utility>
 
@@ -13,21 +15,11 @@ namespace fitgauge::app {
 namespace {
 
 constexpr std::chrono::seconds kReloadInterval{1};
-
-static_assert(kShortestToken == store::kShortestToken);
-static_assert(static_cast<int>(Role::Station) == static_cast<int>(store::Role::Station));
+constexpr std::array<std::string_view, 4> kRoles{"viewer", "operator", "admin", "station"};
 
 }  // namespace
 
-std::string_view word(Role role) {
-  switch (role) {
-    case Role::Viewer: return "viewer";
-    case Role::Operator: return "operator";
-    case Role::Admin: return "admin";
-    case Role::Station: return "station";
-  }
-  return "";
-}
+std::string_view word(Role role) { return kRoles.at(static_cast<std::size_t>(role) - 1); }
 
 bool may(Role role, Role needed) {
   switch (needed) {
@@ -40,10 +32,9 @@ bool may(Role role, Role needed) {
 }
 
 std::optional<Role> role_from_word(std::string_view text) {
-  for (const Role role : {Role::Viewer, Role::Operator, Role::Admin, Role::Station}) {
-    if (text == word(role)) return role;
-  }
-  return std::nullopt;
+  const auto found = std::find(kRoles.begin(), kRoles.end(), text);
+  if (found == kRoles.end()) return std::nullopt;
+  return static_cast<Role>(found - kRoles.begin() + 1);
 }
 
 void log_key(store::Stores& stores, const std::string& name, std::int64_t now_ns, bool is_made) {
@@ -51,7 +42,7 @@ void log_key(store::Stores& stores, const std::string& name, std::int64_t now_ns
   if (!key) return;
   store::Change change{.at_ns = now_ns, .kind = "key", .name = name};
   (is_made ? change.after : change.before) = api::json_object([&](api::JsonWriter& json) {
-    json.member("role", word(static_cast<Role>(key->role)));
+    json.member("role", word(key->role));
     if (key->expires_at_ns) json.member("expires_at", format_rfc3339({*key->expires_at_ns}));
   });
   log_change(stores, std::move(change));
@@ -96,7 +87,7 @@ void KeyService::tell_changes(const store::KeyRing& before, const store::KeyRing
     const auto expiry = key.expires_at_ns
                             ? ", expires " + format_rfc3339(Timestamp{*key.expires_at_ns})
                             : std::string();
-    tell_(event, fmt::format("{} ({}{})", key.name, word(static_cast<Role>(key.role)), expiry));
+    tell_(event, fmt::format("{} ({}{})", key.name, word(key.role), expiry));
   };
   for (const store::ApiKey& key : now.keys()) {
     if (before.find(key.id) == nullptr) tell("key_created", key);
@@ -111,7 +102,7 @@ std::optional<KnownCaller> KeyService::find(std::string_view token) const {
   const store::ApiKey* key = ring->find(token);
   if (key == nullptr) return std::nullopt;
   return KnownCaller{.name = key->name,
-                     .role = static_cast<Role>(key->role),
+                     .role = key->role,
                      .key = key->id,
                      .is_expired = key->is_expired(clock_.now().nanoseconds)};
 }
@@ -129,7 +120,7 @@ Result<std::string> KeyService::create(const std::string& name, Role role, std::
   if (token.empty()) token = store::new_token();
   const std::int64_t now = clock_.now().nanoseconds;
   const auto created = database_.writer().wait([&](store::Stores& stores) -> Result<store::ApiKey> {
-    auto key = stores.keys.create(name, static_cast<store::Role>(role), token, now,
+    auto key = stores.keys.create(name, role, token, now,
                                   expires ? std::optional(expires->nanoseconds) : std::nullopt);
     if (key) log_key(stores, name, now, true);
     return key;
@@ -170,7 +161,7 @@ Result<std::vector<KeyEntry>> KeyService::list() const {
     for (const store::ApiKey& key : stores.keys.list()) {
       KeyEntry& entry = entries.emplace_back();
       entry.name = key.name;
-      entry.role = static_cast<Role>(key.role);
+      entry.role = key.role;
       entry.created_at = {key.created_at_ns};
       if (key.revoked_at_ns) entry.revoked_at = Timestamp{*key.revoked_at_ns};
       if (key.expires_at_ns) entry.expires_at = Timestamp{*key.expires_at_ns};

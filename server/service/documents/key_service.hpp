@@ -12,6 +12,7 @@
 #include "base/clock.hpp"
 #include "base/result.hpp"
 #include "base/thread.hpp"
+#include "db/store/keys_store.hpp"
 
 namespace fitgauge::store {
 class Database;
@@ -21,12 +22,8 @@ struct Stores;
 
 namespace fitgauge::app {
 
-/// Characters of a token that an administrator chooses.
-inline constexpr std::size_t kShortestToken = 16;
-
-/// What a caller may do. An operator may do what a viewer may, an administrator everything; a
-/// station may read, and forward its log.
-enum class Role : std::uint8_t { Viewer = 1, Operator = 2, Admin = 3, Station = 4 };
+using store::kShortestToken;
+using store::Role;
 
 /// Whether `role` may do what `needed` may.
 bool may(Role role, Role needed);

@@ -49,14 +49,6 @@ class DraftDisk final : public interpreter::ControlDisk {
   const interpreter::ControlFile draft_;
 };
 
-}  // namespace fitgauge::app
-
-namespace fitgauge::store {
-class Database;
-}
-
-namespace fitgauge::app {
-
 /// A file of the control's disk.
 struct DiskFile {
   std::string path;           ///< TNC:\..., as it was last written

@@ -12,18 +12,9 @@ constexpr std::size_t kLongestEntry = 65'535;
 
 /// As lists of changes name the kind; empty: its changes are not logged.
 std::string_view word(store::DocumentKind kind) {
-  using Kind = store::DocumentKind;
-  switch (kind) {
-    case Kind::Uncertainty: return "budget";
-    case Kind::GaugeInUse: return "gauge";
-    case Kind::Calibration: return "calibration";
-    case Kind::Setup: return "setup";
-    case Kind::Plan: return "plan";
-    case Kind::Connection: return "connection";
-    case Kind::Catalogue: return "catalogue";
-    case Kind::ConnectionProgress: break;
-  }
-  return {};
+  constexpr std::string_view kWords[] = {"budget",     "gauge", "setup",     "plan",
+                                         "connection", "",      "catalogue", "calibration"};
+  return kWords[static_cast<std::size_t>(kind) - 1];
 }
 
 std::string shown_text(store::DocumentKind kind, const std::string& text) {

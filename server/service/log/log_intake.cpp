@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -13,24 +12,17 @@
 #include "service/log/log_reader.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/measurements/measurement_storage.hpp"
-#include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
 namespace fitgauge::app {
 namespace {
 
-constexpr std::size_t kDigitsOfOrigin = 16;
 constexpr std::size_t kDigitsOfName = 8;
 
 /// Whether a log of this name is of that origin: `fitgauge/NAME/` and its first eight digits.
 bool is_name_of(std::string_view name, std::string_view origin) {
   return name.starts_with("fitgauge/") &&
          name.ends_with(fmt::format("/{}", origin.substr(0, kDigitsOfName)));
-}
-
-bool is_digits(std::string_view text) {
-  const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
-  return text.size() == kDigitsOfOrigin && std::all_of(text.begin(), text.end(), is_digit);
 }
 
 Error invalid(std::size_t row, std::string_view what) {
@@ -69,7 +61,7 @@ struct LogIntake::Judged {
 };
 
 Result<LogIntake::Answer> LogIntake::take(const ForwardedBatch& batch) {
-  if (!is_digits(batch.origin) || batch.from < 1 || batch.rows.size() > kMostRows) {
+  if (!is_origin_digits(batch.origin) || batch.from < 1 || batch.rows.size() > kMostRows) {
     return Error{ErrorCode::RequestInvalid,
                  fmt::format("an origin has {} hexadecimal digits, a place counts from 1, and a "
                              "batch has at most {} rows",

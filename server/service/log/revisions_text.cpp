@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
 #include <utility>
 
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
+#include "record/origins.hpp"
 #include "record/record.hpp"
 #include "service/tables/custom_column.hpp"
 
 namespace fitgauge::api {
 namespace {
-
-constexpr std::size_t kDigitsOfOrigin = 16;
 
 void write_custom_columns(JsonWriter& json, const std::vector<iso286::CustomColumn>& columns) {
   json.key("columns").begin_array();
@@ -24,14 +22,14 @@ void write_custom_columns(JsonWriter& json, const std::vector<iso286::CustomColu
         .member("feature", word(column.feature))
         .member("tolerance_class", column.name)
         .key("rows");
-    write_custom_rows(json, column.rows);
+    List<iso286::CustomRow>{}.write(json, column.rows);
     json.end_object();
   }
   json.end_array();
 }
 
 void write_revision(JsonWriter& json, const app::Revision& revision) {
-  json.begin_object().member("number", revision.number).member("kind", word(revision.kind));
+  json.begin_object().member("number", revision.number).member("kind", app::word(revision.kind));
   if (!revision.name.empty()) json.member("name", revision.name);
   switch (revision.kind) {
     case app::RevisionKind::Tables:
@@ -40,7 +38,8 @@ void write_revision(JsonWriter& json, const app::Revision& revision) {
       break;
     case app::RevisionKind::Key:
       if (revision.is_removed) break;
-      json.member("role", word(revision.role)).member("token_sha256", to_hex(revision.token_hash));
+      json.member("role", app::word(revision.role))
+          .member("token_sha256", to_hex(revision.token_hash));
       if (revision.expires_at) json.member("expires_at", format_rfc3339(*revision.expires_at));
       break;
     case app::RevisionKind::Correction:
@@ -68,12 +67,7 @@ std::int64_t number_of(const JsonValue& json, std::string_view name) {
 
 Error unreadable(const app::Revision& revision) {
   return {ErrorCode::RequestInvalid, fmt::format("revision {} of the centre cannot be read: a {}",
-                                                 revision.number, word(revision.kind))};
-}
-
-bool is_digits(std::string_view text) {
-  const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
-  return text.size() == kDigitsOfOrigin && std::all_of(text.begin(), text.end(), is_digit);
+                                                 revision.number, app::word(revision.kind))};
 }
 
 Result<void> read_columns(const JsonValue& json, app::Revision& revision) {
@@ -86,11 +80,11 @@ Result<void> read_columns(const JsonValue& json, app::Revision& revision) {
     if (!feature || rows == nullptr) return unreadable(revision);
     JsonValue body{.kind = JsonValue::Kind::Object};
     body.members.emplace_back("rows", *rows);
-    auto read = decode_custom_rows(body);
+    auto read = read_whole<CustomRows>(body);
     if (!read) return read.error();
     revision.columns.push_back({.feature = *feature,
                                 .name = text_of(column, "tolerance_class"),
-                                .rows = *std::move(read)});
+                                .rows = std::move(read->rows)});
   }
   return {};
 }
@@ -121,7 +115,8 @@ Result<void> read_correction(const JsonValue& json, app::Revision& revision, Tex
   if (!record) return record.error();
   auto measurement = read_record(*record, texts);
   if (!measurement) return measurement.error();
-  if (!is_digits(measurement->origin) || !measurement->corrected_elsewhere || revision.place < 1) {
+  if (!app::is_origin_digits(measurement->origin) || !measurement->corrected_elsewhere ||
+      revision.place < 1) {
     return unreadable(revision);
   }
   revision.measurement = *measurement;
@@ -178,7 +173,8 @@ Result<std::unique_ptr<ReadRevisions>> read_revisions(std::string_view body) {
   read->page.position = text_of(*json, "position");
   read->page.more = is_true(*json, "more");
   const JsonValue* revisions = json->find("revisions");
-  if (!is_digits(read->page.origin) || read->page.position.empty() || revisions == nullptr) {
+  if (!app::is_origin_digits(read->page.origin) || read->page.position.empty() ||
+      revisions == nullptr) {
     return Error{ErrorCode::RequestInvalid, "this is no answer of a centre"};
   }
   for (const JsonValue& revision : revisions->items) {

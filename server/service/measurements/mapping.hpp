@@ -29,16 +29,6 @@ struct RowNames {
 RowNames row_names(const TableCatalog& tables, const Origins& origins);
 Measurement from_store(const store::MeasurementRow& row, const RowNames& names);
 
-/// Enumerations of the store count from 1, in the order of those of the service.
-template <class Code, class Value>
-constexpr Code code_of(Value value) {
-  return static_cast<Code>(static_cast<int>(value) + 1);
-}
-template <class Value, class Code>
-constexpr Value value_of(Code code) {
-  return static_cast<Value>(static_cast<int>(code) - 1);
-}
-
 store::IdempotentRequest to_store(const IdempotencyScope& scope);
 
 }  // namespace fitgauge::app

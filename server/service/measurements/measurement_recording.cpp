@@ -1,19 +1,286 @@
 #include <fmt/format.h>
 
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
+#include "base/thread.hpp"
 #include "db/store/database.hpp"
+#include "db/store/measurement_row.hpp"
 #include "record/note.hpp"
 #include "record/origins.hpp"
+#include "service/log/leaf.hpp"
 #include "service/measurements/mapping.hpp"
-#include "service/measurements/measurement_queue.hpp"
 #include "service/measurements/measurement_service.hpp"
 #include "service/measurements/measurement_storage.hpp"
 
+namespace fitgauge::app {
+
 // How measurements get into the store; how they are read stands in measurement_service.cpp.
 
-namespace fitgauge::app {
+/// Where small requests wait for the writer. All that come before its job begins and have room in
+/// it are stored by that one: their rows fill the same statements, and one savepoint serves them
+/// all. Thread-safe.
+/// Each job owns a reference to the queue, so the queue outlives them; the database drains its jobs
+/// when it closes.
+class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
+ public:
+  /// @param origin of the data folder.
+  /// @param most_waiting requests; one more is StorageBusy.
+  /// @param each_apart every request is a job, and so a commit, of its own.
+  MeasurementQueue(store::Database& database, std::string_view origin, std::size_t most_waiting,
+                   bool each_apart)
+      : database_(database),
+        origin_(origin),
+        most_waiting_(most_waiting),
+        each_apart_(each_apart) {}
+
+  template <class T>
+  using Done = MeasurementService::Done<T>;
+  using Render = MeasurementService::Render;
+
+  /// As MeasurementService::record, of measurements that correct none.
+  void record(std::span<const Measurement> measurements, Render render, Done<Answer> done);
+
+ private:
+  struct Request {
+    std::size_t first;  ///< of its measurements in the load
+    std::size_t count;
+    Render render;
+    Done<Answer> done;
+    Answer answer{};
+  };
+  /// What one job stores: kRowsAtATime measurements, and what the last request has beyond.
+  struct Load {
+    Load() { requests.reserve(kRowsAtATime); }
+    void add(std::span<const Measurement> rows, Render render, Done<Answer> done);
+    std::span<Measurement> of(const Request& request) {
+      return std::span(measurements).subspan(request.first, request.count);
+    }
+
+    std::vector<Measurement> measurements;
+    std::vector<Request> requests;
+    bool is_closed = false;
+  };
+
+  void submit(const std::shared_ptr<Load>& load);
+  void close(const std::shared_ptr<Load>& load);
+  void keep(const std::shared_ptr<Load>& load);
+  Result<bool> store(store::Stores& stores, Load& load);
+  void finish(Load& load, const Result<bool>& stored);
+
+  store::Database& database_;
+  const std::string_view origin_;
+  const std::size_t most_waiting_;
+  const bool each_apart_;
+  LeafMaker leaves_;                         ///< of the writer thread
+  std::vector<store::MeasurementRow> rows_;  ///< those of one job, of the writer thread
+  std::mutex mutex_;
+  std::size_t waiting_ = 0;      ///< requests whose jobs have not begun
+  std::shared_ptr<Load> open_;   ///< the last whose job has not begun; null when there is none
+  std::shared_ptr<Load> spare_;  ///< empty, with the memory of one that was stored
+};
+
+/// All or nothing: there is room for another request.
+void MeasurementQueue::Load::add(std::span<const Measurement> rows, Render render,
+                                 Done<Answer> done) {
+  const std::size_t first = measurements.size();
+  measurements.insert(measurements.end(), rows.begin(), rows.end());
+  requests.push_back({first, rows.size(), std::move(render), std::move(done), {}});
+}
+
+void MeasurementQueue::record(std::span<const Measurement> measurements, Render render,
+                              Done<Answer> done) {
+  std::unique_lock lock(mutex_);
+  if (waiting_ >= most_waiting_) {
+    lock.unlock();
+    return done(too_much_work());
+  }
+  const bool joins = open_ && !each_apart_ && open_->measurements.size() < kRowsAtATime;
+  const std::shared_ptr<Load> load = joins    ? open_
+                                     : spare_ ? std::exchange(spare_, nullptr)
+                                              : std::make_shared<Load>();
+  load->add(measurements, std::move(render), std::move(done));
+  ++waiting_;
+  open_ = load;
+  lock.unlock();
+  if (!joins) submit(load);
+}
+
+void MeasurementQueue::submit(const std::shared_ptr<Load>& load) {
+  database_.writer().submit(
+      [self = shared_from_this(), load](store::Stores& stores) -> Result<bool> {
+        self->close(load);
+        return self->store(stores, *load);
+      },
+      [self = shared_from_this(), load](const Result<bool>& stored) {
+        self->close(load);  // when the job was refused, it has not begun
+        self->finish(*load, stored);
+        self->keep(load);
+      });
+}
+
+/// No request joins any more.
+void MeasurementQueue::close(const std::shared_ptr<Load>& load) {
+  const std::lock_guard lock(mutex_);
+  if (!std::exchange(load->is_closed, true)) waiting_ -= load->requests.size();
+  if (open_ == load) open_ = nullptr;
+}
+
+/// For the next job: memory that one thread takes and another gives back costs the allocator most.
+void MeasurementQueue::keep(const std::shared_ptr<Load>& load) {
+  load->measurements.clear();
+  load->requests.clear();
+  load->is_closed = false;
+  const std::lock_guard lock(mutex_);
+  spare_ = load;
+}
+
+Result<bool> MeasurementQueue::store(store::Stores& stores, Load& load) {
+  rows_.clear();
+  number_from(stores.measurements.last_id() + 1, origin_, load.measurements);
+  append_rows(rows_, load.measurements, leaves_);
+  for (Request& request : load.requests) {
+    const auto rendering = request.render();
+    rendering->add(load.of(request), leaves_.records(request.first, request.count));
+    request.answer = rendering->finish();
+  }
+  const auto appended = stores.measurements.append(rows_);
+  if (!appended) return appended.error();
+  return true;
+}
+
+/// A bug may lie in one request alone: then the others do not suffer for it.
+void MeasurementQueue::finish(Load& load, const Result<bool>& stored) {
+  const bool again =
+      !stored && stored.error().code == ErrorCode::Internal && load.requests.size() > 1;
+  for (Request& request : load.requests) {
+    guarded("the end of a measurement's request", [&] {
+      if (again) {
+        const auto alone = std::make_shared<Load>();
+        alone->is_closed = true;  // none joins, and it was counted
+        alone->add(load.of(request), std::move(request.render), std::move(request.done));
+        submit(alone);
+      } else if (stored) {
+        request.done(std::move(request.answer));
+      } else {
+        request.done(stored.error());
+      }
+    });
+  }
+}
+
 namespace {
+
+/// The measurements of one long request on their way from the thread that reads them to the writer,
+/// which stores the first ones while the last are still being read. Owns the pieces under way.
+/// Whatever needs no database is done on the reading side: it numbers the rows and makes
+/// their leaves itself.
+/// Thread-safe; each side is one thread. The reading side stops waiting when the outcome is there,
+/// the writer after finish() or fail().
+class MeasurementFeed {
+ public:
+  /// Numbered on from what was put before; their texts live until outcome() has returned.
+  using Piece = std::vector<store::MeasurementRow>;
+
+  // The reading side.
+
+  /// Waits for the writer's turn. @returns the id before that of the first row; none when the
+  /// writer is done without having begun.
+  std::optional<std::int64_t> last_id();
+  /// Hands a piece over; waits while a few are under way already.
+  void put(Piece piece);
+  /// There is nothing more. @param answer to be kept, when the request has an idempotency key.
+  void finish(Answer answer);
+  /// The request is refused: nothing of it is kept.
+  void fail(Error error);
+  /// Waits until the writer is done.
+  Result<Answer> outcome();
+
+  // The writer's side.
+
+  void begin(std::int64_t last_id);
+  /// The next piece, empty after the last. @errors that of fail().
+  Result<Piece> take();
+  Answer take_answer() { return std::move(*answer_); }
+  void end(Result<Answer> outcome);
+
+ private:
+  static constexpr std::size_t kMostPieces = 4;
+
+  template <class Condition>
+  void wait(std::unique_lock<std::mutex>& lock, Condition condition) {
+    changed_.wait(lock, [&] { return outcome_.has_value() || condition(); });
+  }
+  template <class Change>
+  void change(Change change) {
+    const std::lock_guard lock(mutex_);
+    change();
+    changed_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Piece> pieces_;
+  std::optional<std::int64_t> last_id_;
+  std::optional<Answer> answer_;
+  std::optional<Error> error_;
+  std::optional<Result<Answer>> outcome_;
+};
+
+std::optional<std::int64_t> MeasurementFeed::last_id() {
+  std::unique_lock lock(mutex_);
+  wait(lock, [this] { return last_id_.has_value(); });
+  return last_id_;
+}
+
+void MeasurementFeed::put(Piece piece) {
+  std::unique_lock lock(mutex_);
+  wait(lock, [this] { return pieces_.size() < kMostPieces; });
+  pieces_.push_back(std::move(piece));
+  changed_.notify_all();
+}
+
+void MeasurementFeed::finish(Answer answer) {
+  change([&] { answer_ = std::move(answer); });
+}
+
+void MeasurementFeed::fail(Error error) {
+  change([&] { error_ = std::move(error); });
+}
+
+Result<Answer> MeasurementFeed::outcome() {
+  std::unique_lock lock(mutex_);
+  wait(lock, [] { return false; });
+  return *std::move(outcome_);
+}
+
+void MeasurementFeed::begin(std::int64_t last_id) {
+  change([&] { last_id_ = last_id; });
+}
+
+Result<MeasurementFeed::Piece> MeasurementFeed::take() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return !pieces_.empty() || answer_ || error_; });
+  if (error_) return *error_;
+  if (pieces_.empty()) return Piece();
+  Piece piece = std::move(pieces_.front());
+  pieces_.pop_front();
+  changed_.notify_all();
+  return piece;
+}
+
+void MeasurementFeed::end(Result<Answer> outcome) {
+  change([&] { outcome_.emplace(std::move(outcome)); });
+}
 
 /// Stores the pieces of a long request, from the thread that reads it.
 Result<Answer> append_pieces(store::Stores& stores, MeasurementFeed& feed) {

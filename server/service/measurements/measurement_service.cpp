@@ -13,46 +13,8 @@
 namespace fitgauge::app {
 namespace {
 
-store::MeasurementFilter measurement_filter(const MeasurementQuery& query) {
-  store::MeasurementFilter filter;
-  filter.texts = query.texts;
-  if (query.designation) {
-    filter.designation = {.nominal_nm = query.designation->nominal.count(),
-                          .tolerance_class = query.designation->tolerance_class};
-  }
-  if (query.run_id) {
-    filter.run_id = query.run_id->number;
-    filter.run_origin = query.run_id->origin;
-  }
-  if (query.verdict) filter.verdict = code_of<store::Verdict>(*query.verdict);
-  filter.source =
-      query.source ? std::optional(code_of<store::Source>(*query.source)) : std::nullopt;
-  if (query.from) filter.from_ns = query.from->nanoseconds;
-  if (query.to) filter.to_ns = query.to->nanoseconds;
-  if (query.received_from) filter.received_from_ns = query.received_from->nanoseconds;
-  if (query.received_to) filter.received_to_ns = query.received_to->nanoseconds;
-  filter.cause = query.cause;
-  if (query.noted_from) filter.noted_from_ns = query.noted_from->nanoseconds;
-  if (query.noted_to) filter.noted_to_ns = query.noted_to->nanoseconds;
-  filter.confirmed = query.confirmed;
-  filter.has_notes = query.has_notes;
-  filter.history = query.history;
-  filter.as_of_id = query.as_of;
-  return filter;
-}
-
 Error unknown_cursor() {
   return {ErrorCode::CursorInvalid, "after must be the `next` of an earlier page"};
-}
-
-MeasurementGroup measurement_group(store::SummaryGroup group) {
-  return {.value = std::move(group.value),
-          .count = group.count,
-          .verdicts = group.verdicts,
-          .mean_mm = std::move(group.mean_mm),
-          .standard_deviation_mm = std::move(group.standard_deviation_mm),
-          .min = Length::nanometres(group.min_nm),
-          .max = Length::nanometres(group.max_nm)};
 }
 
 /// None for an absent one, which lies beyond every length. Values of cycles without limits had
@@ -111,8 +73,8 @@ void MeasurementService::list_notes(const RecordName& name, Done<std::vector<Not
 void MeasurementService::list(const MeasurementQuery& query, std::int64_t after, std::size_t limit,
                               Visitor visit, Done<ListPage> done) {
   database_.readers().submit(
-      [this, filter = measurement_filter(query), after, limit, last = query.last,
-       behind = query.after, shows_notes = query.shows_notes,
+      [this, filter = static_cast<const store::MeasurementFilter&>(query), after, limit,
+       last = query.last, behind = query.after, shows_notes = query.shows_notes,
        order = query.newest_first ? store::ListOrder::NewestFirst : store::ListOrder::OldestFirst,
        visit = std::move(visit)](const store::Stores& stores) mutable -> Result<ListPage> {
         if (!filter.as_of_id) filter.as_of_id = stores.measurements.last_id();
@@ -150,9 +112,9 @@ void MeasurementService::list(const MeasurementQuery& query, std::int64_t after,
 Result<ReadValues> MeasurementService::read_values(const MeasurementQuery& query,
                                                    const RunVisitor& visit) {
   constexpr std::size_t kRowsAJob = 20'000;  // other readers get their turn between two jobs
-  store::MeasurementFilter filter = measurement_filter(query);
+  store::MeasurementFilter filter = query;
   std::optional<std::int64_t> after = 0;
-  std::string newest = measurement_id_text(query.as_of.value_or(0), origins_.own());
+  std::string newest = measurement_id_text(query.as_of_id.value_or(0), origins_.own());
   CorrectedPlaces places;
   std::vector<MeasuredRun::Value> values;
   while (after) {
@@ -217,17 +179,8 @@ void MeasurementService::summary(const MeasurementQuery& query, std::string_view
   const auto number = static_cast<std::size_t>(field - kTextFilters.begin());
   const store::TextField group = store::kTextColumns.at(number).field;
   database_.readers().submit(
-      [filter = measurement_filter(query),
-       group](const store::Stores& stores) -> Result<std::vector<MeasurementGroup>> {
-        auto groups = stores.measurements.summary(filter, group);
-        if (!groups) return groups.error();
-        std::vector<MeasurementGroup> mapped;
-        mapped.reserve(groups->size());
-        for (store::SummaryGroup& found : *groups) {
-          mapped.push_back(measurement_group(std::move(found)));
-        }
-        return mapped;
-      },
+      [filter = static_cast<const store::MeasurementFilter&>(query),
+       group](const store::Stores& stores) { return stores.measurements.summary(filter, group); },
       std::move(done));
 }
 

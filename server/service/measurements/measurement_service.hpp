@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "db/store/keys_store.hpp"
+#include "db/store/measurement_index.hpp"
+#include "db/store/measurement_row.hpp"
 #include "record/measurement.hpp"
 #include "service/measurements/corrected_places.hpp"
 
@@ -38,33 +40,8 @@ struct IdempotencyScope {
   bool is_kept_for_ever = false;  ///< not only for the days of the service
 };
 
-/// A nominal size and the class of one standard or another.
-struct DesignationQuery {
-  Length nominal;
-  std::string tolerance_class;
-};
-
 /// Which measurements a list shows.
-struct MeasurementQuery {
-  std::array<std::optional<std::string>, kTextFilters.size()> texts;
-  std::optional<DesignationQuery> designation;
-  std::optional<RecordName> run_id;
-  std::optional<gauging::Verdict> verdict;
-  std::optional<Source> source = Source::Gauge;  ///< none: all
-  std::optional<Timestamp> from;                 ///< from <= measured_at
-  std::optional<Timestamp> to;                   ///< measured_at < to
-  std::optional<Timestamp> received_from;        ///< from <= received_at
-  std::optional<Timestamp> received_to;          ///< received_at < to
-  // Of one note beside the row:
-  std::optional<std::string> cause;     ///< that it names
-  std::optional<Timestamp> noted_from;  ///< from <= its received_at
-  std::optional<Timestamp> noted_to;    ///< its received_at < to
-  bool has_notes = false;               ///< only rows with a note
-  std::optional<bool> confirmed;        ///< by a person, or not
-  bool history = false;                 ///< corrected rows too
-  std::optional<std::int64_t> as_of;    ///< the state when this id was the newest
-
-  // Of lists.
+struct MeasurementQuery : store::MeasurementFilter {
   bool newest_first = false;
   bool shows_notes = false;
   std::optional<std::size_t> last;  ///< only so many of the newest that match, on one page
@@ -99,17 +76,17 @@ struct ReadValues {
 
 /// How many there are of each verdict, by gauging::Verdict.
 using VerdictTally = std::array<std::int64_t, gauging::kVerdicts>;
+using MeasurementGroup = store::SummaryGroup;
 
-/// Counts and statistics of one group; texts are exact decimals in mm.
-struct MeasurementGroup {
-  std::optional<std::string> value;
-  std::int64_t count = 0;
-  VerdictTally verdicts{};
-  std::string mean_mm;
-  std::optional<std::string> standard_deviation_mm;
-  Length min;
-  Length max;
-};
+/// Enumerations of the store count from 1, in the order of those of the service.
+template <class Code, class Value>
+constexpr Code code_of(Value value) {
+  return static_cast<Code>(static_cast<int>(value) + 1);
+}
+template <class Value, class Code>
+constexpr Value value_of(Code code) {
+  return static_cast<Value>(static_cast<int>(code) - 1);
+}
 
 struct MeasurementServiceOptions {
   std::size_t most_waiting = 4096;  ///< requests; one more is StorageBusy
@@ -191,9 +168,9 @@ class MeasurementService {
   void list_notes(const RecordName& name, Done<std::vector<Note>> done);
 
   /// Visits up to `limit` matching measurements that come after the cursor `after`, in storage
-  /// order or the other way round. A query without `as_of` is read in the newest state; the pages
-  /// that follow name the one it gives, so that the list is of one piece however much is recorded
-  /// and corrected meanwhile.
+  /// order or the other way round. A query without `as_of_id` is read in the newest state; the
+  /// pages that follow name the one it gives, so that the list is of one piece however much is
+  /// recorded and corrected meanwhile.
   void list(const MeasurementQuery& query, std::int64_t after, std::size_t limit, Visitor visit,
             Done<ListPage> done);
 

@@ -1,5 +1,6 @@
 #include "service/revisions/revision_feed.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -15,8 +16,10 @@ namespace {
 constexpr std::int64_t kMostRevisions = 500;
 constexpr std::size_t kMostBytes = std::size_t{4} << 20;
 
-static_assert(static_cast<int>(RevisionKind::Correction) ==
-              static_cast<int>(store::RevisionKind::Correction));
+constexpr std::pair<RevisionKind, std::string_view> kKinds[] = {
+    {RevisionKind::Tables, "tables"},         {RevisionKind::Key, "key"},
+    {RevisionKind::Setup, "setup"},           {RevisionKind::Plan, "plan"},
+    {RevisionKind::Correction, "correction"}, {RevisionKind::Catalogue, "catalogue"}};
 
 void fill_tables(const store::Stores& stores, Revision& revision) {
   const auto latest = stores.tables.load_latest();
@@ -30,7 +33,7 @@ void fill_key(const store::Stores& stores, Revision& revision) {
   const auto key = stores.keys.newest(revision.name);
   revision.is_removed = !key || key->revoked_at_ns.has_value();
   if (!key) return;
-  revision.role = static_cast<Role>(key->role);
+  revision.role = key->role;
   revision.token_hash = key->token_hash;
   if (key->expires_at_ns) revision.expires_at = Timestamp{*key->expires_at_ns};
 }
@@ -46,22 +49,12 @@ void fill_document(const store::Stores& stores, Revision& revision) {
 }  // namespace
 
 std::string_view word(RevisionKind kind) {
-  switch (kind) {
-    case RevisionKind::Tables: return "tables";
-    case RevisionKind::Key: return "key";
-    case RevisionKind::Setup: return "setup";
-    case RevisionKind::Plan: return "plan";
-    case RevisionKind::Catalogue: return "catalogue";
-    case RevisionKind::Correction: break;
-  }
-  return "correction";
+  return std::ranges::find(kKinds, kind, &std::pair<RevisionKind, std::string_view>::first)->second;
 }
 
 std::optional<RevisionKind> revision_kind_from_word(std::string_view text) {
-  for (const RevisionKind kind :
-       {RevisionKind::Tables, RevisionKind::Key, RevisionKind::Setup, RevisionKind::Plan,
-        RevisionKind::Correction, RevisionKind::Catalogue}) {
-    if (text == word(kind)) return kind;
+  for (const auto& [kind, name] : kKinds) {
+    if (text == name) return kind;
   }
   return std::nullopt;
 }
@@ -89,7 +82,7 @@ Result<RevisionPage> RevisionFeed::page(const store::Stores& stores, std::string
       page.more = true;
       break;
     }
-    Revision revision{.number = number, .kind = static_cast<RevisionKind>(kind)};
+    Revision revision{.number = number, .kind = kind};
     if (!fill(stores, name, revision)) continue;
     bytes += revision.text.size();
     page.revisions.push_back(std::move(revision));

@@ -10,6 +10,7 @@
 #include "base/clock.hpp"
 #include "base/digest.hpp"
 #include "base/result.hpp"
+#include "db/store/log_store.hpp"
 #include "record/measurement.hpp"
 #include "service/documents/key_service.hpp"
 #include "tables/iso286/table_data.hpp"
@@ -23,15 +24,7 @@ inline Error centre_decides(std::string_view what) {
       std::string(what) + " belongs to the centre: change it there, and wait half a minute for it"};
 }
 
-/// Numbered as in the database.
-enum class RevisionKind : std::uint8_t {
-  Tables = 1,
-  Key = 2,
-  Setup = 3,
-  Plan = 4,
-  Correction = 5,
-  Catalogue = 7
-};
+using store::RevisionKind;
 
 /// `tables`, `key`, `setup`, `plan`, `correction`, `catalogue`.
 std::string_view word(RevisionKind kind);

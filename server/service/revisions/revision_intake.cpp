@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -50,11 +49,10 @@ struct RevisionIntake::Job {
   }
 
   std::optional<store::RevisionsStore::Received> received_of(const Revision& revision) const {
-    return stores.revisions.received(static_cast<store::RevisionKind>(revision.kind),
-                                     revision.name);
+    return stores.revisions.received(revision.kind, revision.name);
   }
   void set_received(const Revision& revision, const Digest& digest) {
-    stores.revisions.set_received(static_cast<store::RevisionKind>(revision.kind), revision.name,
+    stores.revisions.set_received(revision.kind, revision.name,
                                   {.number = revision.number, .digest = digest});
   }
 
@@ -100,8 +98,7 @@ struct RevisionIntake::Job {
         ++outcome.taken;
       }
       if (before) {
-        stores.revisions.forget_received(static_cast<store::RevisionKind>(revision.kind),
-                                         revision.name);
+        stores.revisions.forget_received(revision.kind, revision.name);
       }
       return;
     }
@@ -135,7 +132,7 @@ struct RevisionIntake::Job {
       return set_received(revision, revision.token_hash);
     }
     if (!stores.keys.receive(
-            revision.name, static_cast<store::Role>(revision.role), revision.token_hash, now,
+            revision.name, revision.role, revision.token_hash, now,
             revision.expires_at ? std::optional(revision.expires_at->nanoseconds) : std::nullopt)) {
       return refuse(
           fmt::format("the centre's key '{}': this folder has a valid key of its own of "

@@ -33,31 +33,17 @@ RunState state_of(interpreter::RunStatus status) {
   return RunState::Failed;
 }
 
+// The store counts from 1, in the same order.
+static_assert(static_cast<int>(RunState::Cancelled) + 1 ==
+              static_cast<int>(store::RunStatus::Cancelled));
+
 store::RunStatus run_status(RunState state) {
-  switch (state) {
-    case RunState::Queued: return store::RunStatus::Queued;
-    case RunState::Running: return store::RunStatus::Running;
-    case RunState::Completed: return store::RunStatus::Completed;
-    case RunState::Stopped: return store::RunStatus::Stopped;
-    case RunState::Failed: return store::RunStatus::Failed;
-    case RunState::LimitExceeded: return store::RunStatus::LimitExceeded;
-    case RunState::Cancelled: break;
-  }
-  return store::RunStatus::Cancelled;
+  return static_cast<store::RunStatus>(static_cast<int>(state) + 1);
 }
 
 RunState run_state(store::RunStatus status) {
-  switch (status) {
-    case store::RunStatus::Queued: return RunState::Queued;
-    case store::RunStatus::Running:
-    case store::RunStatus::Cancelling: return RunState::Running;
-    case store::RunStatus::Completed: return RunState::Completed;
-    case store::RunStatus::Stopped: return RunState::Stopped;
-    case store::RunStatus::Failed: return RunState::Failed;
-    case store::RunStatus::LimitExceeded: return RunState::LimitExceeded;
-    case store::RunStatus::Cancelled: break;
-  }
-  return RunState::Cancelled;
+  if (status == store::RunStatus::Cancelling) return RunState::Running;
+  return static_cast<RunState>(static_cast<int>(status) - 1);
 }
 
 StoredRun stored_run(store::Run run, std::string_view origin) {

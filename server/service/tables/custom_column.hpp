@@ -1,19 +1,35 @@
 #pragma once
 
+#include <concepts>
 #include <vector>
 
-#include "base/json/json_value.hpp"
-#include "base/json/json_writer.hpp"
-#include "base/result.hpp"
+#include "base/json/body_forms.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 
 namespace fitgauge::api {
 
-/// Reads the body of a custom column: `{"rows":[{"over_mm","up_to_mm","upper_um","lower_um"}]}`.
-/// @errors RequestInvalid with every bad field.
-Result<std::vector<iso286::CustomRow>> decode_custom_rows(const JsonValue& body);
+/// The rows of a custom column as they are sent and stored.
+struct CustomRows {
+  std::vector<iso286::CustomRow> rows{};
+};
 
-/// Writes `[{"over_mm","up_to_mm","upper_um","lower_um"}]`.
-void write_custom_rows(JsonWriter& json, const std::vector<iso286::CustomRow>& rows);
+template <class Row>
+requires std::same_as<std::remove_const_t<Row>, iso286::CustomRow>
+void members(auto& v, Row& row) {
+  v.member("over_mm", row.range.over, Millimetres{}, "Exclusive; the upper end of the row before");
+  v.member("up_to_mm", row.range.up_to, Millimetres{}, "Inclusive");
+  v.member("upper_um", row.deviations.upper, Micrometres{}, "Upper deviation");
+  v.member("lower_um", row.deviations.lower, Micrometres{}, "Lower deviation");
+}
+
+template <class Column>
+requires std::same_as<std::remove_const_t<Column>, CustomRows>
+void members(auto& v, Column& column) {
+  v.member("rows", column.rows, "At least one, contiguous, by size");
+  v.check([&column](FieldReader& fields) {
+    if (!column.rows.empty() || fields.errors().has(fields.at("rows"))) return;
+    fields.report(ErrorCode::FieldInvalid, "rows", "a column needs at least one row");
+  });
+}
 
 }  // namespace fitgauge::api

@@ -85,8 +85,7 @@ std::optional<std::string> column_text(std::vector<iso286::CustomColumn>& column
                                        const TableCatalog::ColumnName& column) {
   const auto found = find_column(columns, column.feature, column.name);
   if (found == columns.end()) return std::nullopt;
-  return api::json_object(
-      [&](api::JsonWriter& json) { api::write_custom_rows(json.key("rows"), found->rows); });
+  return api::body_json(api::CustomRows{found->rows});
 }
 
 }  // namespace

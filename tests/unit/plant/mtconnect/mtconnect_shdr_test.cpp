@@ -19,7 +19,7 @@ TEST_CASE("a text stands between the bars of a line") {
 }
 
 TEST_CASE("counts are a line") {
-  CHECK(shdr_line(Counts{.good = 3, .rework = 1, .reject = 2, .indeterminate = 0}, Timestamp{}) ==
+  CHECK(shdr_line(Counts{3, 1, 2, 0, 0}, Timestamp{}) ==
         "1970-01-01T00:00:00Z|count1|6|count2|3|count3|2|count4|1|count5|0\n");
 }
 
