@@ -12,7 +12,7 @@
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/commands.hpp"
-#include "cli/input_file.hpp"
+#include "cli/local_files.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 
-#include "cli/bash_completion.hpp"
 #include "cli/limits_commands.hpp"
 #include "cli/registration.hpp"
 #include "cli/stored_commands.hpp"

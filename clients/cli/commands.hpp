@@ -17,4 +17,7 @@ using Action = std::function<Outcome<ExitCode>(const Context&)>;
 /// which outlives `app`.
 void add_commands(CLI::App& app, Action& chosen);
 
+/// completion/fitgauge.bash, from the build.
+extern const std::string_view kBashCompletion;
+
 }  // namespace fitgauge::cli

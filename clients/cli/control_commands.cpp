@@ -7,9 +7,8 @@
 #include "base/clock.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
-#include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
-#include "cli/output_file.hpp"
+#include "cli/local_files.hpp"
 #include "plant/lsv2/link/link_client.hpp"
 #include "plant/lsv2/link/requests.hpp"
 
@@ -85,17 +84,11 @@ std::string_view name_of(std::uint16_t mode) {
 }
 
 std::string_view name_of(ProgramState state) {
-  switch (state) {
-    case ProgramState::Started: return "started";
-    case ProgramState::Stopped: return "stopped";
-    case ProgramState::Finished: return "finished";
-    case ProgramState::Cancelled: return "cancelled";
-    case ProgramState::Interrupted: return "interrupted";
-    case ProgramState::Failed: return "failed";
-    case ProgramState::FailureCleared: return "failure cleared";
-    case ProgramState::Idle: return "idle";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 8> kNames{"started",         "stopped",     "finished",
+                                                   "cancelled",       "interrupted", "failed",
+                                                   "failure cleared", "idle"};
+  const auto i = static_cast<std::size_t>(state);
+  return i < kNames.size() ? kNames.at(i) : "unknown";
 }
 
 /// All that `control state` says.

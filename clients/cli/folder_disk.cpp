@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "cli/input_file.hpp"
+#include "cli/local_files.hpp"
 #include "service/runs/control_files.hpp"
 
 namespace fitgauge::cli {

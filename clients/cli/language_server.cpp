@@ -1,4 +1,4 @@
-#include "cli/language_server.hpp"
+#include "cli/nc_commands.hpp"
 
 #include <fmt/format.h>
 

@@ -6,8 +6,7 @@
 
 #include "base/length.hpp"
 #include "cli/address.hpp"
-#include "cli/context.hpp"
-#include "cli/output_file.hpp"
+#include "cli/local_files.hpp"
 #include "cli/problem.hpp"
 #include "cli/tolerance_zones.hpp"
 

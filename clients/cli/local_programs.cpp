@@ -1,16 +1,16 @@
-#include "cli/local_programs.hpp"
+#include "cli/nc_commands.hpp"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 
+#include "api/runs/run_codec.hpp"
 #include "base/allowance.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/folder_disk.hpp"
-#include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
-#include "cli/output_file.hpp"
+#include "cli/local_files.hpp"
 #include "cli/problem.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/iso/printer.hpp"
@@ -64,18 +64,6 @@ void apply(const Levels& levels, std::vector<Diagnostic>& found) {
   });
 }
 
-std::string json_of(const Diagnostic& found) {
-  JsonObject object;
-  object.add("severity", word(found.severity))
-      .add("code", id(found.code))
-      .add("message", found.message);
-  object.add("program", found.program).add_raw("line", std::to_string(found.range.begin.line));
-  object.add_raw("column", std::to_string(found.range.begin.column));
-  object.add_raw("block", found.block ? std::to_string(*found.block) : "null")
-      .add("source", found.source);
-  return object.text();
-}
-
 std::string sarif_of(const Diagnostic& found) {
   JsonObject region;
   region.add_raw("startLine", std::to_string(std::max(found.range.begin.line, 1U)));
@@ -93,15 +81,15 @@ std::string sarif_of(const Diagnostic& found) {
 }
 
 void print(const Context& context, std::string_view format, const std::vector<Diagnostic>& found) {
+  if (format == "json") return context.print("{}\n", api::diagnostics_json(found));
   std::string items;
   for (const Diagnostic& each : found) {
     if (format == "text") {
       context.print("{}\n", klartext::render(each));
     } else {
-      items += (items.empty() ? "" : ",") + (format == "json" ? json_of(each) : sarif_of(each));
+      items += (items.empty() ? "" : ",") + sarif_of(each);
     }
   }
-  if (format == "json") context.print("{{\"diagnostics\":[{}]}}\n", items);
   if (format == "sarif") {
     context.print(
         R"({{"version":"2.1.0","runs":[{{"tool":{{"driver":{{"name":"fitgauge","version":"{}"}}}},"results":[{}]}}]}})"

@@ -5,8 +5,8 @@
 #include <future>
 #include <memory>
 
-#include "cli/input_file.hpp"
-#include "cli/retry.hpp"
+#include "cli/http_client.hpp"
+#include "cli/local_files.hpp"
 #include "cli/row_input.hpp"
 #include "cli/terminal.hpp"
 #include "formats/sheet/record_reader.hpp"

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "base/digest.hpp"
-#include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
+#include "cli/local_files.hpp"
 #include "cli/terminal.hpp"
 
 namespace fitgauge::cli {

@@ -4,13 +4,10 @@
 
 #include "base/text.hpp"
 #include "cli/address.hpp"
-#include "cli/context.hpp"
 #include "cli/gauge_command.hpp"
-#include "cli/input_file.hpp"
-#include "cli/json_object.hpp"
-#include "cli/output_file.hpp"
+#include "cli/http_client.hpp"
+#include "cli/local_files.hpp"
 #include "cli/problem.hpp"
-#include "cli/retry.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -5,12 +5,45 @@
 
 #include "cli/context.hpp"
 #include "cli/json_object.hpp"
-#include "cli/local_programs.hpp"
 
 namespace fitgauge::cli {
 
 // `fitgauge nc …`: the control's disk and its programs. A path is written as on the control or
 // with strokes: TNC:\nc_prog\8255.h is nc_prog/8255.h.
+
+struct CheckOptions {
+  std::vector<std::string> files;
+  bool from_control = false;  ///< the files are those of the service
+  std::string format{};       ///< text, json or sarif; text when empty, json with --json
+  std::vector<std::string>
+      levels{};  ///< `cycle.dialog_contradicts=error`: off, note, warning or error
+};
+
+/// `nc check FILE…`, of files here without a service: programs and what they call in their folder.
+/// Exit code 0: nothing or notes, 1: warnings, 2: errors. @errors LocalFile, Usage for a level that
+/// cannot be read.
+Outcome<ExitCode> run_nc_check_local(const Context& context, const CheckOptions& options);
+
+struct FormatOptions {
+  std::vector<std::string> files;
+  bool in_place = false;  ///< writes the files, else prints
+  bool from_control = false;
+};
+
+/// `nc format FILE…`: as a control lists a program. @errors LocalFile, ProgramFailed for what
+/// cannot be read.
+Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& options);
+
+struct ConvertOptions {
+  std::string file;
+  std::string target;         ///< a file here
+  bool from_control = false;  ///< `file` is one of the service
+  bool force = false;         ///< replace a file that is there
+};
+
+/// `nc convert A.i A.h` and `A.h A.i`: the program in the other dialect. @errors Usage for other
+/// names, LocalFile, ProgramFailed for a program with errors or a block without a form there.
+Outcome<ExitCode> run_nc_convert(const Context& context, const ConvertOptions& options);
 
 /// `nc ls [PREFIX]`
 Outcome<ExitCode> run_nc_ls(const Context& context, const std::string& prefix);
@@ -56,7 +89,32 @@ struct RunOptions {
 /// Good without one, ProgramFailed when the program did not complete.
 Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options);
 
+/// Runs a program of this machine here, on the setup of a file, with what it calls in its folder
+/// and the tool tables there or in its folder `table`.
+/// @returns the document of the run as the service writes it, with places of this machine.
+/// @errors LocalFile, Usage, Refused for the setup, ProgramFailed for a program with errors, which
+///   are printed.
+Outcome<std::string> run_here(const Context& context, RunOptions options);
+
 /// The body of a run. @errors Usage for a parameter that cannot be read, LocalFile for the setup.
 Outcome<std::string> run_order(const RunOptions& options);
+
+struct ReplayOptions {
+  RunOptions run{};
+  std::string log{};       ///< of the control, as a file
+  std::string contacts{};  ///< JSON: [[X, Y, Z], null, …]
+};
+
+/// `replay PROGRAM LOG --contacts FILE`: runs the program on a machine whose probe finds the
+/// contacts of the file, and compares the logs it writes with LOG, by the digits LOG prints.
+/// Prints every result that differs. @errors LocalFile, Refused; ProgramFailed: the program did not
+/// complete, or a result differs or is missing.
+Outcome<ExitCode> run_replay(const Context& context, const ReplayOptions& options);
+
+/// `nc lsp`: a language server (LSP 3.17) on standard input and output, for both dialects, without
+/// a service: diagnostics, hover, completion, definition, rename, formatting and remedies. Single
+/// thread; what it cannot read is answered with an error of JSON-RPC. Good when it ends after
+/// `shutdown`. @errors LocalFile when the input ends before.
+Outcome<ExitCode> run_nc_lsp(const Context& context);
 
 }  // namespace fitgauge::cli

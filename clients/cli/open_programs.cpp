@@ -12,7 +12,7 @@
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/folder_disk.hpp"
-#include "cli/input_file.hpp"
+#include "cli/local_files.hpp"
 #include "cli/program_help.hpp"
 #include "http/engine/request_head.hpp"
 #include "nc/iso/parser.hpp"

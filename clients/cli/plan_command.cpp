@@ -1,4 +1,4 @@
-#include "cli/plan_command.hpp"
+#include "cli/record_commands.hpp"
 
 #include "base/mapped_file.hpp"
 #include "cli/address.hpp"

@@ -1,15 +1,12 @@
 #include "cli/record_commands.hpp"
 
-#include <algorithm>
-
 #include "base/length.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
-#include "cli/json_object.hpp"
-#include "cli/output_file.hpp"
+#include "cli/http_client.hpp"
+#include "cli/local_files.hpp"
 #include "cli/problem.hpp"
-#include "cli/retry.hpp"
 #include "cli/watch_command.hpp"
 
 namespace fitgauge::cli {

@@ -3,7 +3,7 @@
 #include "cli/gauge_command.hpp"
 #include "cli/limits_commands.hpp"
 #include "cli/measure_command.hpp"
-#include "cli/statistics_commands.hpp"
+#include "cli/record_commands.hpp"
 
 namespace fitgauge::cli {
 namespace {

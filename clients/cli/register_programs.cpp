@@ -1,9 +1,7 @@
 #include "cli/registration.hpp"
 
 #include "cli/control_commands.hpp"
-#include "cli/language_server.hpp"
 #include "cli/nc_commands.hpp"
-#include "cli/replay_command.hpp"
 #include "cli/stored_commands.hpp"
 
 namespace fitgauge::cli {

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/plan_command.hpp"
 #include "cli/record_commands.hpp"
-#include "cli/statistics_commands.hpp"
 
 namespace fitgauge::cli {
 namespace {

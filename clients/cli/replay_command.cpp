@@ -1,4 +1,4 @@
-#include "cli/replay_command.hpp"
+#include "cli/nc_commands.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -7,10 +7,10 @@
 
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
-#include "cli/input_file.hpp"
+#include "cli/http_client.hpp"
 #include "cli/json_object.hpp"
+#include "cli/local_files.hpp"
 #include "cli/problem.hpp"
-#include "cli/retry.hpp"
 #include "formats/measuring_log/measuring_log.hpp"
 
 namespace fitgauge::cli {

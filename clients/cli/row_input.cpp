@@ -10,12 +10,11 @@
 #include "base/length.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
-#include "cli/input_file.hpp"
+#include "cli/local_files.hpp"
 #include "cli/problem.hpp"
 #include "formats/dfq/measurement_csv.hpp"
 #include "formats/qif/qif.hpp"
 #include "formats/sheet/record_reader.hpp"
-#include "formats/sheet/shop_csv.hpp"
 
 namespace fitgauge::cli {
 namespace {

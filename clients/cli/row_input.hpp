@@ -3,9 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 
-#include "cli/context.hpp"
 #include "cli/measure_command.hpp"
 #include "cli/outcome.hpp"
 #include "formats/sheet/shop_csv.hpp"

@@ -1,12 +1,11 @@
-#include "cli/statistics_commands.hpp"
+#include "cli/record_commands.hpp"
 
 #include <cstdlib>
 #include <vector>
 
 #include "base/text.hpp"
-#include "cli/context.hpp"
-#include "cli/input_file.hpp"
 #include "cli/json_object.hpp"
+#include "cli/local_files.hpp"
 #include "cli/problem.hpp"
 
 namespace fitgauge::cli {

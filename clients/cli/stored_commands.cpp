@@ -1,13 +1,11 @@
 #include "cli/stored_commands.hpp"
 
 #include "cli/address.hpp"
-#include "cli/context.hpp"
-#include "cli/input_file.hpp"
+#include "cli/http_client.hpp"
 #include "cli/json_object.hpp"
+#include "cli/local_files.hpp"
 #include "cli/nc_commands.hpp"
-#include "cli/output_file.hpp"
 #include "cli/problem.hpp"
-#include "cli/retry.hpp"
 
 namespace fitgauge::cli {
 namespace {

@@ -5,7 +5,6 @@
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/gauge_command.hpp"
-#include "cli/json_object.hpp"
 #include "cli/problem.hpp"
 
 namespace fitgauge::cli {

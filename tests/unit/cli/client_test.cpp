@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "cli/address.hpp"
+#include "cli/http_client.hpp"
 #include "cli/json_object.hpp"
 #include "cli/nc_commands.hpp"
-#include "cli/retry.hpp"
 #include "cli/terminal.hpp"
 #include "cli/watch_command.hpp"
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cli/input_file.hpp"
+#include "cli/local_files.hpp"
 #include "cli/measure_command.hpp"
 
 using namespace fitgauge::cli;
