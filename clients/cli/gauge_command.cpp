@@ -90,10 +90,11 @@ Outcome<SerialPort> SerialPort::open(const std::string& path, unsigned baud) {
   const auto speed = std::find_if(kSpeeds.begin(), kSpeeds.end(),
                                   [baud](const auto& each) { return each.first == baud; });
   if (speed == kSpeeds.end()) {
-    return Failure{ExitCode::Usage,
-                   fmt::format("--baud {}: ports here have 1200, 2400 and so on to 38400, 57600 "
-                               "and 115200",
-                               baud)};
+    return Failure{
+        ExitCode::Usage,
+        fmt::format(
+            "--baud must be one of: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200; got {}",
+            baud)};
   }
   // Without O_NONBLOCK an open waits for a carrier that a gauge does not give.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);

@@ -182,7 +182,8 @@ void add_connections_routes(std::vector<http::Route>& routes, Connections& all) 
       .body = api::json_body("ConnectionOrder"),
       .access = "admin",
       .operation = "putConnection",
-      .outcomes = {{.meaning = "It is replaced and goes on where it stood", .schema = "Connection"},
+      .outcomes = {{.meaning = "The connection is replaced and continues at its position",
+                    .schema = "Connection"},
                    {.status = 201, .meaning = "It is new", .schema = "Connection"}},
       .refusals = {409},
   });

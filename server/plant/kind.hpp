@@ -26,9 +26,9 @@ void event_members(V& v, FollowerOptions& options) {
 template <class V>
 void follower_members(V& v, FollowerOptions& options) {
   v.optional("filter", options.filter, FilterForm{},
-             "Which measurements go out; all that a gauge has measured when absent");
+             "Measurements that are sent; all measurements of gauges when absent");
   v.optional("start", options.from_beginning, Choice{"now", "beginning"},
-             "Where a new connection begins; now when absent");
+             "Start of a new connection; now when absent");
   v.optional("longest_wait_s", options.longest_wait, Within{1, 3600},
              "Longest time between two attempts; 300 when absent");
   v.check([&](const auto&) {

@@ -58,23 +58,24 @@ inline constexpr std::array<RowField, RowField::Count> kRowFields = [] {
       {"designation", RowField::Kind::Text, 64,
        "25 H7, 25 H7(E), M10-6H or 25 ISO 2768-m; a comma may mark decimals"},
       {"feature", RowField::Kind::Feature, 16,
-       "Of a drawing's own limits of a diameter, width or pitch diameter"},
+       "Feature; required with explicit limits of a diameter, width or pitch diameter"},
       {"upper_um", RowField::Kind::Length, 0, "Upper deviation of a drawing's own limits"},
       {"lower_um", RowField::Kind::Length, 0, "Lower deviation of a drawing's own limits"},
       {"quantity", RowField::Kind::Quantity, 16,
-       "As the designation says, else diameter; given, the value may do without limits"},
+       "Quantity; from the designation, else diameter. With it the limits are optional"},
   }};
   fields[RowField::MeasuredAt] = {
       "measured_at", RowField::Kind::Time, 64,
-      "With an offset or Z, kept in UTC; when it was received, if absent"};
+      "Time with an offset or Z, stored in UTC; time of receipt when absent"};
   fields[RowField::Uncertainty] = {"uncertainty_um", RowField::Kind::Length, 0,
                                    "Standard uncertainty u, from 0"};
   fields[RowField::Coverage] = {
       "coverage_factor", RowField::Kind::Decimal, 0,
       "k, above 0 to 100; t(0.9545, degrees_of_freedom) when absent, 2 without them"};
   fields[RowField::Rule] = {"rule", RowField::Kind::Rule, 16, "Decision rule; simple when absent"};
-  fields[RowField::Probability] = {"probability", RowField::Kind::Decimal, 0,
-                                   "Of conformance, from 0.5 to below 1; 0.95 when absent"};
+  fields[RowField::Probability] = {
+      "probability", RowField::Kind::Decimal, 0,
+      "Probability of conformance, from 0.5 to below 1; 0.95 when absent"};
   std::size_t at = RowField::Labels;
   for (const app::MeasurementField& field : app::kGivenFields) {
     if (at == RowField::MeasuredAt) at = RowField::Thermal;

@@ -164,14 +164,14 @@ template <class V>
 void members(V& v, FolderOutOptions& options) {
   v.member("folder", options.folder, path_for(v), "Absolute path on this machine");
   v.optional("time_zone", options.dfq.zone, By{0, sheet::TimeZone::load},
-             "Of the times in a DFQ; UTC when absent");
+             "Time zone of times in a DFQ; UTC when absent");
   v.optional("format", options.format, Choice{"csv", "ndjson", "dfq", "qif"}, "csv when absent");
   v.optional("part_number", options.dfq.part_number, part_text(30, aqdef::k::kPartNumber),
              "K1001 of a DFQ; - when absent");
   v.optional("part_description", options.dfq.part_description,
              part_text(80, aqdef::k::kPartDescription), "K1002 of a DFQ; - when absent");
   v.optional("split", options.split, Choice{"none", "part_id", "order"},
-             "A file has measurements of one of these alone; none when absent");
+             "Field that separates files, one value for each file; none when absent");
   v.optional("every_s", options.follower.gather, Within{1, 86'400},
              "Seconds that new measurements wait for more; 60 when absent");
   follower_members(v, options.follower);

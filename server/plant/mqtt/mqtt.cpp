@@ -161,7 +161,7 @@ void members(V& v, MqttOptions& options) {
   v.member("topic", options.topic, By{kLongestTopic, TopicTemplate::parse},
            "plant/{machine}/{characteristic}");
   v.optional("version", options.broker.version_5, Choice{"3.1.1", "5"},
-             "Of MQTT; 3.1.1 when absent");
+             "Version of MQTT; 3.1.1 when absent");
   v.optional("status_topic", options.status_topic, plain_topic("status_topic"),
              "Topic of online and offline; client_id/status when absent");
   v.optional("events_topic", options.events_topic, plain_topic("events_topic"),

@@ -135,7 +135,7 @@ void MachineTableRow::whole(std::string_view column, int& value) {
   const auto read = cell(column);
   if (!read) return;
   if (std::trunc(*read) != *read || *read < 0 || *read > kHighestNumber) {
-    return fail(column, "a whole number from 0 to 65535 is wanted");
+    return fail(column, "must be a whole number from 0 to 65535");
   }
   value = static_cast<int>(*read);
 }
