@@ -77,14 +77,11 @@ struct CorrectedParts {
     }
   }
 
-  /// From the target to the nearer limit, in µm.
+  /// From the target to the nearer limit, in µm; not above 0 if the target is no good size.
   double half_tolerance() const {
-    double least = INFINITY;
-    for (const auto& limit : {lower, upper}) {
-      if (!limit) continue;
-      least = std::min(least, std::abs(static_cast<double>((*limit - *target).count())));
-    }
-    return least / kNanometresOfUm;
+    const double below = lower ? static_cast<double>((*target - *lower).count()) : INFINITY;
+    const double above = upper ? static_cast<double>((*upper - *target).count()) : INFINITY;
+    return std::min(below, above) / kNanometresOfUm;
   }
 };
 
@@ -140,12 +137,15 @@ void members(auto& v, const Proposal& proposal) {
 
 Result<Proposal> proposal_of(CorrectedParts& read, double cost) {
   if (read.error) return *read.error;
-  if (!read.target && (read.lower || read.upper)) {
+  const bool has_limits = read.lower || read.upper;
+  if (!read.newest.empty() && !has_limits)
+    return Error{ErrorCode::LimitsNone, "the values have no limits, which an offset needs"};
+  if (!read.target && has_limits) {
     return Error{ErrorCode::QueryInvalid, "values with one limit need a target", "target_mm"};
   }
   const double half = read.target ? read.half_tolerance() : 0;
   if (read.target && !(half > 0)) {
-    return Error{ErrorCode::QueryInvalid, "the target lies on a limit", "target_mm"};
+    return Error{ErrorCode::QueryInvalid, "target_mm must be between the limits", "target_mm"};
   }
   std::reverse(read.parts.begin(), read.parts.end());
   Proposal proposal{.found = metrology::propose_offset(read.parts, half, cost),

@@ -338,10 +338,14 @@ class Stored(DaemonTest):
         self.store("one-sided", ["74.01"], one_sided)
         self.store("mixed", ["74.01"])
         self.store("mixed", ["74.01"], {**DRAWING, "upper_um": 60})
+        self.store("bare", ["74.01"], {"quantity": "distance"})
         for query, status, code in [("characteristic=one-sided", 400, "query.invalid"),
+                                    ("characteristic=bare", 422, "limits.none"),
+                                    ("characteristic=bare&target_mm=74", 422, "limits.none"),
                                     ("characteristic=mixed", 422, "limits.mixed"),
                                     ("characteristic=mixed&cost=0", 400, "query.invalid"),
-                                    ("characteristic=one-sided&target_mm=74.05", 400, "query.invalid")]:
+                                    ("characteristic=one-sided&target_mm=74.05", 400, "query.invalid"),
+                                    ("characteristic=one-sided&target_mm=74.06", 400, "query.invalid")]:
             with self.subTest(query):
                 for kind in ("application/json", "text/event-stream"):
                     answer = self.daemon.get("/v1/measurements/compensation?" + query, Accept=kind)
