@@ -133,6 +133,19 @@ class Neighbourhood {
     const auto fits = [&](double h) { return std::abs((away(i, h) - value_) / h - slope) <= open; };
     return fits(near) && fits(-near);
   }
+  /// Half of what the slope jumps by at the value, as far as it is above rounding: the bend of
+  /// both sides, which ends with the step where the model is smooth.
+  double kink(std::size_t i) {
+    const double near = std::max(width(i) / 4096, 5e-5);
+    const auto bend = [&](double h) { return (away(i, h) + away(i, -h) - 2 * value_) / h; };
+    return std::max(0.0, std::abs(2 * bend(near / 2) - bend(near)) - 16 * noise_ / near) / 2;
+  }
+  /// Whether the model has values up to its uncertainty.
+  bool is_finite(std::size_t i) {
+    constexpr double kWithin = 1023.0 / 1024;
+    return std::isfinite(away(i, width(i) * kWithin)) &&
+           std::isfinite(away(i, -width(i) * kWithin));
+  }
   // Derivatives by the steps:
 
   Derivative first(std::size_t i) {
@@ -237,15 +250,17 @@ Result<double> linearise(Budget& budget) {
     const double within = near.spread(i, found.value);
     spread = std::max(spread, within * width);
     for (const double by : {width, -width}) least = std::fmin(least, std::abs(near.away(i, by)));
-    const bool is_known = std::isfinite(found.error) && near.is_smooth(i, found.value, within);
-    errors.push_back(is_known ? found.error * width : std::numeric_limits<double>::infinity());
+    const double error = std::max(found.error, near.kink(i));
+    const bool is_known =
+        std::isfinite(error) && near.is_finite(i) && near.is_smooth(i, found.value, within);
+    errors.push_back(is_known ? error * width : std::numeric_limits<double>::infinity());
   }
   spread = std::max(spread, least * 1e-6);
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (errors[i] <= spread * 1e-6) continue;
     return unreadable(fmt::format(
         "the model has no derivative by contribution {} at its value that is known to 1e-6: choose "
-        "a model that is smooth there",
+        "a model that is smooth there, and an uncertainty within which it has values",
         i + 1));
   }
   return near.value();

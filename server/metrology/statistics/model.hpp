@@ -29,7 +29,7 @@ Result<Model> read_model(const std::string& text, const std::vector<std::string>
 /// 1e-9: central differences, extrapolated (Ridders 1982) with the step whose error is least.
 /// @returns the value of the model at the estimates
 /// @errors FieldInvalid: no value there, or a derivative not known to 1e-6 of the uncertainty,
-///   as at a kink, in noise, and near a pole that the uncertainty reaches.
+///   as at a kink, in noise, and where the uncertainty reaches a pole or the end of the domain.
 Result<double> linearise(Budget& budget);
 
 /// The standard uncertainty with the terms of second order (JCGM 100, note to 5.1.2).

@@ -380,6 +380,8 @@ TEST_CASE("sensitivities are those within the uncertainty, whatever is further a
               {"a - 5", {"a", 5, 1e-20}, 1},
               {"1/(a - 99999.875)", {"a", 100000, 1e-6}, -64},
               {"exp(20*a)", {"a", 0, 1}, 20},
+              {"10000000*a + sqrt((a - 1)^2)", {"a", 1, 0.1}, 1e7},  // a jump within 1e-6
+              {"exp(a)", {"a", 700, 9}, std::exp(700.0)},
               {"a^3", {"a", 0, 1}, 0},
               {"(a - 8)^4", {"a", 8, 0.1}, 0},
               {"exp(10 - 20/c)", {"c", 0.4, 0.58}, 125 * std::exp(-40.0)}};
@@ -403,7 +405,11 @@ TEST_CASE("kinks, and poles that the uncertainty reaches, have no sensitivity") 
            {"sqrt((a - b)^2)", {{"a", 5, 0.01}, {"b", 5, 0.01}}},
            {"sqrt((a - b)^2)", {{"a", 5, 1e-9}, {"b", 5, 1e-9}}},
            {"b + sqrt((a - 1)^2)", {{"a", 1, 1e-5}, {"b", 0, 1}}},
-           {"(x*x)^0.5", {{"x", 0, 1}}}}) {
+           {"(x*x)^0.5", {{"x", 0, 1}}},
+           {"1000*a + sqrt((a - 1)^2)", {{"a", 1, 0.1}}},
+           {"100000*a + sqrt((a - 1)^2)", {{"a", 1, 1e-6}}},
+           {"exp(a)", {{"a", 700, 50}}},
+           {"sqrt(a)", {{"a", 0.5, 1}}}}) {
     CAPTURE(model);
     Budget budget = budget_of(model, quantities);
     const auto value = linearise(budget);
