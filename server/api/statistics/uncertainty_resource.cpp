@@ -1,5 +1,8 @@
 #include "api/statistics/uncertainty_resource.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "api/resources.hpp"
 #include "api/statistics/computation.hpp"
 #include "api/wire/formulas.hpp"
@@ -8,9 +11,25 @@
 
 namespace fitgauge::api {
 
+/// Whether the interval of the law of propagation is that of the simulation (JCGM 101, 8).
+struct ValidationAnswer {
+  int digits = 0;
+  double tolerance = 0;
+  double lower = 0;
+  double upper = 0;
+};
+void members(auto& v, const ValidationAnswer& of) {
+  v.member("digits", of.digits, "Significant ones of the standard uncertainty");
+  v.member("tolerance", of.tolerance, "Half a unit of the last one");
+  v.member("lower_difference", of.lower, "Of the lower ends of both intervals");
+  v.member("upper_difference", of.upper);
+  v.member("validated", std::max(of.lower, of.upper) <= of.tolerance);
+}
+
 struct SimulationAnswer {
   std::uint64_t seed = 0;
   metrology::MonteCarloResult made{};
+  std::vector<ValidationAnswer> validation{};
 };
 struct SimulatedInterval {
   double lower = 0;
@@ -27,6 +46,7 @@ void members(auto& v, const SimulationAnswer& simulated) {
   v.member("mean", made.mean, "Of the model, else of the deviation from the estimate");
   v.member("standard_deviation", made.standard_deviation);
   v.member("interval", SimulatedInterval{made.lower, made.upper}, "Equal probability outside");
+  v.member("validation", simulated.validation, "Of expanded_uncertainty, to 1 and to 2 digits");
 }
 
 struct SensitivityAnswer {
@@ -85,7 +105,14 @@ Result<std::string> compute_uncertainty(const JsonValue& body) {
       const bool is_of_matrix = made.error().code == ErrorCode::FieldInvalid;
       return at_member(is_of_matrix ? "correlations" : "model", made.error());
     }
-    answer.simulated = SimulationAnswer{simulation->seed, *made};
+    auto& simulated = answer.simulated.emplace(SimulationAnswer{simulation->seed, *made});
+    const double value = answer.value.value_or(0);
+    const double expanded = answer.combined.expanded;
+    for (const int digits : {1, 2}) {
+      simulated.validation.push_back(
+          {digits, metrology::numerical_tolerance(answer.combined.combined, digits),
+           std::abs(value - expanded - made->lower), std::abs(value + expanded - made->upper)});
+    }
   }
   return body_json(answer);
 }

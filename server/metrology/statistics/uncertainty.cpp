@@ -145,7 +145,7 @@ bool are_settled(std::span<const MonteCarloResult> sequences, int digits) {
     return sum / count;
   };
   const double u = mean_of(&MonteCarloResult::standard_deviation);
-  const double open = u > 0 ? std::pow(10, std::floor(std::log10(u)) - digits + 1) / 2 : 0;
+  const double open = numerical_tolerance(u, digits);
   for (const auto figure : {&MonteCarloResult::mean, &MonteCarloResult::standard_deviation,
                             &MonteCarloResult::lower, &MonteCarloResult::upper}) {
     const double mean = mean_of(figure);
@@ -172,6 +172,10 @@ std::optional<double> standard_uncertainty_of(Distribution distribution, double 
     case Distribution::T: break;
   }
   return std::nullopt;
+}
+
+double numerical_tolerance(double u, int digits) {
+  return u > 0 ? std::pow(10, std::floor(std::log10(u)) - digits + 1) / 2 : 0;
 }
 
 Result<CombinedUncertainty> combine(const Budget& budget) {

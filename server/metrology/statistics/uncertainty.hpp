@@ -76,6 +76,10 @@ struct Simulation {
   std::optional<int> digits{};
 };
 
+/// What so many significant digits of a standard uncertainty leave open: half a unit of the last
+/// one (JCGM 101, 7.9.2); 0 of 0.
+double numerical_tolerance(double u, int digits);
+
 /// The propagation of distributions (JCGM 101), of deviations from the estimate, or of the values
 /// of the model. A normal contribution with degrees of freedom is drawn from their t distribution
 /// (6.4.9), a correlated one from a normal one. The same seed gives the same answer everywhere.

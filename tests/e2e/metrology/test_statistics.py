@@ -282,6 +282,30 @@ class Uncertainty(DaemonTest):
         self.assertAlmostEqual(answer["monte_carlo"]["standard_deviation"], 0.0754, delta=0.003)
         self.assertGreaterEqual(answer["monte_carlo"]["trials"], 20000)
 
+    def test_the_interval_of_the_gum_is_validated_by_monte_carlo(self):
+        """JCGM 101, 8, with the tables of 9.2 and 9.3."""
+        def validation(last, distribution, digits=2):
+            contributions = [{"name": f"x{i}", "standard_uncertainty": u, "distribution": distribution}
+                             for i, u in enumerate([1, 1, 1, last])]
+            answer = self.daemon.post("/v1/uncertainty", {"contributions": contributions,
+                                                          "monte_carlo": {"digits": digits}}).json
+            return answer["monte_carlo"]["validation"]
+        # Table 2: four normal quantities, u 2.0, so that 1 digit leaves 0.5 open and 2 digits 0.05.
+        one, two = validation(1, "normal")
+        self.assertEqual([one["digits"], one["tolerance"], one["validated"]], [1, 0.5, True])
+        self.assertEqual([two["digits"], two["tolerance"], two["validated"]], [2, 0.05, True])
+        # Table 5: one of four rectangular ones is ten times as wide; 19.9 and 17.0 are half the intervals.
+        one, two = validation(10, "rectangular", 1)
+        self.assertAlmostEqual(one["lower_difference"], 2.9, delta=0.15)
+        self.assertAlmostEqual(one["upper_difference"], 2.9, delta=0.15)
+        self.assertEqual([one["tolerance"], one["validated"]], [5, True])
+        self.assertEqual([two["tolerance"], two["validated"]], [0.5, False])
+        # Table 7: 0.0451 and 0.0430 mg of the first order, more than 0.005 mg.
+        one = self.daemon.post("/v1/uncertainty", {**self.MASS, "monte_carlo": {"trials": 500000}}).json["monte_carlo"]["validation"][0]
+        self.assertAlmostEqual(one["lower_difference"], 0.0451, delta=0.002)
+        self.assertAlmostEqual(one["upper_difference"], 0.0430, delta=0.002)
+        self.assertEqual([one["tolerance"], one["validated"]], [0.005, False])
+
     def test_a_gauge_is_judged_by_a_model(self):
         body = {"model": "a*b", "contributions": [{"name": "a", "value": 2, "standard_uncertainty": 0.5},
                                                   {"name": "b", "value": 1, "standard_uncertainty": 0}]}
