@@ -118,6 +118,7 @@ struct VariationOrder {
   metrology::Readings readings{};
   StudyLabels parts{};
   StudyLabels operators{};
+  double confidence = 0.95;
   std::set<std::tuple<std::string, std::string, std::string>> seen{};
 };
 void row_members(auto& v, VariationOrder& study) {
@@ -145,6 +146,14 @@ void members(auto& v, VariationOrder& study) {
   choice_members(v, study.choices, word(study.method), true);
   v.member("measurements", study, StudyRows<VariationOrder>{},
            "Each with an operator, but for type3");
+  v.optional("confidence", study.confidence,
+             Number{.least = 0, .most = 1, .ends = Number::Ends::Open},
+             "Of the intervals, which average_range has not");
+  v.check([&study](FieldReader& fields) {
+    static constexpr std::array<Applicable, 1> kOfIntervals = {
+        {{"confidence", "anova nested type3"}}};
+    fields.refuse_not_applicable(kOfIntervals, "method", word(study.method));
+  });
 }
 
 /// StudyLabels that a method does not use.
@@ -230,6 +239,17 @@ struct AnovaTable {
   }
 };
 
+void members(auto& v, const metrology::StudyIntervals::Interval& interval) {
+  v.member("lower", interval.lower);
+  v.member("upper", interval.upper);
+}
+void members(auto& v, const metrology::StudyIntervals& of) {
+  v.member("confidence", of.confidence);
+  v.member("ev", of.ev, "Chi-square");
+  v.optional("av", of.av, "Modified large samples, Ting et al. 1990");
+  v.optional("grr", of.grr, "Modified large samples, Graybill and Wang 1980; none of nested");
+}
+
 struct VariationAnswer {
   StudyMethod method{};
   metrology::GaugeStudy study{};
@@ -259,6 +279,7 @@ void members(auto& v, const VariationAnswer& answer) {
            "Null without a tolerance");
   v.member("interaction_p", s.interaction_p);
   v.member("anova", s.anova, AnovaTable{}, "By line of the table");
+  v.optional("intervals", s.intervals, "Of the standard deviations; none of average_range");
 }
 
 void members(auto& v, const metrology::LinearityStudy::Coefficient& of) {
@@ -314,7 +335,8 @@ Result<std::string> components(const JsonValue& body) {
   readings.parts = order->parts.size();
   readings.operator_count = order->operators.size();
   if (order->method == StudyMethod::Nested) number_within_operators(readings);
-  auto study = metrology::study_gauge(readings, order->method, order->choices.model);
+  auto study =
+      metrology::study_gauge(readings, order->method, order->choices.model, order->confidence);
   if (!study) return at_member("measurements", study.error());
   return body_json(VariationAnswer{order->method, *std::move(study), order->choices.tolerance});
 }

@@ -53,6 +53,18 @@ struct AnovaLine {
   FTest test;
 };
 
+/// Intervals of standard deviations.
+struct StudyIntervals {
+  struct Interval {
+    long double lower = 0;
+    long double upper = 0;
+  };
+  long double confidence = 0;
+  Interval ev;
+  std::optional<Interval> av{};   ///< with operators
+  std::optional<Interval> grr{};  ///< not of Nested
+};
+
 /// Standard deviations; a component the method does not tell apart is kUndefined.
 struct GaugeStudy {
   long double ev = kUndefined;           ///< equipment: repeatability
@@ -66,11 +78,16 @@ struct GaugeStudy {
   std::optional<StudyModel> model{};  ///< of Anova: Interaction or Pooled
   long double interaction_p = kUndefined;
   std::vector<AnovaLine> anova{};  ///< of all but AverageRange, the total last
+  std::optional<StudyIntervals> intervals{};  ///< none of AverageRange and without repeatability
 };
 
+/// Numbers of readings may differ: the components are those of unweighted means.
+/// @param confidence of the intervals, between 0 and 1
 /// @errors StatisticsTooFew: fewer than two parts, operators or, where they are needed, trials;
-///   StatisticsUnbalanced: another number of readings in some cell; StatisticsZeroSpread.
-Result<GaugeStudy> study_gauge(const Readings& readings, StudyMethod method, StudyModel model);
+///   StatisticsUnbalanced: a part that an operator did not measure, of AverageRange another number
+///   of readings; StatisticsZeroSpread.
+Result<GaugeStudy> study_gauge(const Readings& readings, StudyMethod method, StudyModel model,
+                               long double confidence = 0.95L);
 
 /// Bias over the measuring range: the regression of every reading's bias on its reference
 /// (MSA 4, III-B). Standard errors for tests of t with n - 2 degrees of freedom.

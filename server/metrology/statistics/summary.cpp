@@ -167,6 +167,10 @@ long double f_above(long double f, long double between, long double within) {
   return bm::cdf(bm::complement(bm::fisher_f_distribution<long double>(between, within), f));
 }
 
+long double f_quantile(long double p, long double between, long double within) {
+  return bm::quantile(bm::fisher_f_distribution<long double>(between, within), p);
+}
+
 long double t_beyond(long double t, long double degrees_of_freedom) {
   if (std::isinf(t)) return 0;
   const bm::students_t_distribution<long double> distribution(degrees_of_freedom);

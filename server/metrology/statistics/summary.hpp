@@ -90,6 +90,8 @@ long double normal_quantile(long double p);
 
 /// The probability of a value above f; 0 for an infinite f.
 long double f_above(long double f, long double between, long double within);
+/// The f with that probability below it.
+long double f_quantile(long double p, long double between, long double within);
 /// The probability of a value farther from 0 than t, on both sides.
 long double t_beyond(long double t, long double degrees_of_freedom);
 /// The t with that probability below it.

@@ -93,6 +93,22 @@ class Statistics(DaemonTest):
         type1 = self.compute("type1", {"values": [9.9, 10.1, 10.1, 9.9], "reference": 10, "tolerance": 6})
         self.assertAlmostEqual(type1["cg"], 1.2 / (6 * (0.04 / 3) ** 0.5), places=14)
 
+    def test_a_study_with_a_missing_trial_and_its_intervals(self):
+        study = self.compute("grr", {"model": "interaction", "measurements": STUDY[:-1], "confidence": 0.9})
+        # Cell means 1, 5, 3 and 2; the harmonic mean of 2, 2, 2 and 1 is 1.6.
+        self.assertAlmostEqual(study["anova"]["part"]["sum_of_squares"], 1.6 * 2.25, places=12)
+        self.assertAlmostEqual(study["anova"]["interaction"]["sum_of_squares"], 1.6 * 6.25, places=12)
+        self.assertEqual(study["anova"]["repeatability"]["sum_of_squares"], 6)
+        self.assertAlmostEqual(study["ev"], 2 ** 0.5, places=14)
+        intervals = study["intervals"]
+        self.assertEqual(intervals["confidence"], 0.9)
+        for name in ("ev", "grr"):
+            self.assertLess(intervals[name]["lower"], study[name])
+            self.assertGreater(intervals[name]["upper"], study[name])
+        self.assertEqual(intervals["av"]["lower"], 0)
+        self.assertNotIn("intervals", self.compute("grr", {"method": "average_range", "measurements": STUDY}))
+        self.assertNotIn("grr", self.compute("grr", {"method": "nested", "measurements": STUDY})["intervals"])
+
     def test_one_trial_needs_a_model(self):
         """Its residue is repeatability and interaction together: nobody is told that it is the first alone."""
         single = {"measurements": [row for row in STUDY if row["trial"] == 0]}
@@ -227,7 +243,9 @@ class Statistics(DaemonTest):
                 ("type1", {"values": [1, 1], "reference": 1, "tolerance": 1}, "statistics.zero_spread"),
                 ("type1", {"values": [1, 2], "reference": 1, "tolerance": -1}, "limits.invalid"),
                 ("type1", {"values": [1, 2], "tolerance": 1}, "field.missing"),
-                ("grr", {"measurements": STUDY[:-1]}, "statistics.unbalanced"),
+                ("grr", {"method": "average_range", "measurements": STUDY[:-1]}, "statistics.unbalanced"),
+                ("grr", {"measurements": STUDY[:-2]}, "statistics.unbalanced"),
+                ("grr", {"method": "average_range", "confidence": 0.9, "measurements": STUDY}, "field.conflict"),
                 ("grr", {"measurements": [{"part": 1, "value": 1}]}, "field.missing"),
                 ("grr", {"measurements": [{**row, "value": 1} for row in STUDY]}, "statistics.zero_spread"),
                 ("grr", {"measurements": [{**row, "operator": 1, "trial": i} for i, row in enumerate(STUDY)]},
