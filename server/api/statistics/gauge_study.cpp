@@ -9,6 +9,7 @@
 #include <span>
 #include <tuple>
 
+#include "api/statistics/measuring_process.hpp"
 #include "metrology/statistics/gauge_study.hpp"
 
 namespace fitgauge::api {
@@ -119,6 +120,7 @@ struct VariationOrder {
   StudyLabels parts{};
   StudyLabels operators{};
   double confidence = 0.95;
+  std::optional<MeasuringOrder<true>> process{};
   std::set<std::tuple<std::string, std::string, std::string>> seen{};
 };
 void row_members(auto& v, VariationOrder& study) {
@@ -154,6 +156,8 @@ void members(auto& v, VariationOrder& study) {
         {{"confidence", "anova nested type3"}}};
     fields.refuse_not_applicable(kOfIntervals, "method", word(study.method));
   });
+  v.optional("measuring_process", study.process,
+             "For its capability by ISO 22514-7, with u_bi and u_evr of a type1 study");
 }
 
 /// StudyLabels that a method does not use.
@@ -254,6 +258,7 @@ struct VariationAnswer {
   StudyMethod method{};
   metrology::GaugeStudy study{};
   std::optional<metrology::Exact> tolerance{};
+  std::optional<MeasuringAnswer<true>> process{};
 };
 void members(auto& v, const VariationAnswer& answer) {
   constexpr long double kPercent = 100;
@@ -280,6 +285,7 @@ void members(auto& v, const VariationAnswer& answer) {
   v.member("interaction_p", s.interaction_p);
   v.member("anova", s.anova, AnovaTable{}, "By line of the table");
   v.optional("intervals", s.intervals, "Of the standard deviations; none of average_range");
+  v.optional("measuring_process", answer.process, "When it was asked for");
 }
 
 void members(auto& v, const metrology::LinearityStudy::Coefficient& of) {
@@ -338,7 +344,20 @@ Result<std::string> components(const JsonValue& body) {
   auto study =
       metrology::study_gauge(readings, order->method, order->choices.model, order->confidence);
   if (!study) return at_member("measurements", study.error());
-  return body_json(VariationAnswer{order->method, *std::move(study), order->choices.tolerance});
+  VariationAnswer answer{order->method, *std::move(study), order->choices.tolerance};
+  if (order->process) {
+    using metrology::Component;
+    const double tolerance = answer.tolerance ? metrology::nearest_double(*answer.tolerance)
+                                              : std::numeric_limits<double>::quiet_NaN();
+    auto& found = answer.process.emplace(*order->process, tolerance).found;
+    const auto put = [&](Component to, long double sigma) {
+      if (!std::isnan(sigma)) found[to] = static_cast<double>(sigma);
+    };
+    put(Component::Evo, answer.study.ev);
+    put(Component::Av, answer.study.av);
+    put(Component::Ia, answer.study.interaction);
+  }
+  return body_json(answer);
 }
 
 Result<std::string> linearity(const JsonValue& body) {

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "api/statistics/computation.hpp"
+#include "api/statistics/measuring_process.hpp"
 #include "api/statistics/statistics_answers.hpp"
 #include "metrology/statistics/fit_analysis.hpp"
 #include "metrology/statistics/gauge_study.hpp"
@@ -135,14 +137,24 @@ struct Type1Order {
   metrology::Decimals values{};
   metrology::Exact reference{};
   metrology::Exact tolerance{};
+  metrology::Type1Rule rule{};
+  std::optional<MeasuringOrder<false>> system{};
 };
 void members(auto& v, Type1Order& order) {
   v.member("values", order.values, "Two or more, of one master");
   v.member("reference", order.reference, "The size of the master");
   v.member("tolerance", order.tolerance, kTolerance, "Of what will be measured");
+  v.optional("tolerance_percent", order.rule.percent, Integer{1, 100}, "Of it that Cg compares");
+  v.optional("spread", order.rule.spread, Integer{2, 6}, "Standard deviations that Cg compares");
+  v.optional("measuring_system", order.system, "For its capability by ISO 22514-7");
 }
 
-void members(auto& v, const metrology::Type1Study& study) {
+struct Type1Answer {
+  metrology::Type1Study study{};
+  std::optional<MeasuringAnswer<false>> system{};
+};
+void members(auto& v, const Type1Answer& answer) {
+  const metrology::Type1Study& study = answer.study;
   formula_members(v, "type1");
   v.member("count", study.count);
   v.member("mean", study.mean);
@@ -152,6 +164,7 @@ void members(auto& v, const metrology::Type1Study& study) {
   v.member("p", study.p);
   v.member("cg", study.cg);
   v.member("cgk", study.cgk);
+  v.optional("measuring_system", answer.system, "When it was asked for");
 }
 
 /// The form of sizes in mm.
@@ -263,9 +276,18 @@ Result<std::string> chart(const JsonValue& body) {
 Result<std::string> type1(const JsonValue& body) {
   const auto order = read_whole<Type1Order>(body);
   if (!order) return order.error();
-  const auto made = metrology::study_type1(order->values, order->reference, order->tolerance);
+  const auto made =
+      metrology::study_type1(order->values, order->reference, order->tolerance, order->rule);
   if (!made) return at_member("values", made.error());
-  return body_json(*made);
+  Type1Answer answer{*made};
+  if (order->system) {
+    auto& system =
+        answer.system.emplace(*order->system, metrology::nearest_double(order->tolerance));
+    system.found[metrology::Component::Bi] =
+        static_cast<double>(std::abs(made->bias) / std::sqrt(3.0L));
+    system.found[metrology::Component::Evr] = static_cast<double>(made->standard_deviation);
+  }
+  return body_json(answer);
 }
 
 Result<std::string> pairing(const JsonValue& body) {
@@ -352,7 +374,7 @@ void add_statistics_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<ChartAnswer>("ControlChart"));
   schemas.push_back(answer_schema<Stored<ChartAnswer>>("StoredControlChart"));
   schemas.push_back(order_schema<Type1Order>("Type1Order"));
-  schemas.push_back(answer_schema<metrology::Type1Study>("Type1Study"));
+  schemas.push_back(answer_schema<Type1Answer>("Type1Study"));
   add_gauge_study_schemas(schemas);
   schemas.push_back({"PairingOrder", pairing_schema()});
   schemas.push_back(answer_schema<Pairing>("Pairing"));

@@ -34,8 +34,18 @@ constexpr std::array kFormulas = {
     Formula{"xbar_s", "x̿ ± 3σ/√n, σ = s̄/c₄", "ISO 7870-2"},
     Formula{"ewma", "z = λx + (1 − λ)z, x̿ ± 3σ√(λ/(2 − λ))", "ISO 7870-6:2016; Crowder 1987"},
     Formula{"cusum", "sums beyond kσ on each side, limits ± hσ", "ISO 7870-4:2021; Page 1954"},
-    Formula{"type1", "Cg = 0.2T/6s, Cgk = (0.1T − |x̄ − reference|)/3s",
-            "Bosch Booklet 10 (2019), 4.1; ISO 22514-7:2021"},
+    Formula{"type1",
+            "Cg = 0.2T/6s, Cgk = (0.1T − |x̄ − reference|)/3s, or as tolerance_percent and spread",
+            "Bosch Booklet 10 (2019), 4.1"},
+    Formula{"measuring_system",
+            "u_MS² = u_CAL² + max(u_EVR, u_RE)² + u_BI² + u_LIN² + u_MS,REST²; Q_MS = 2·2u_MS/T, "
+            "C_MS = 0.3T/6u_MS",
+            "ISO 22514-7:2012, 5.2, 7.1.2, 9 and A.3 to A.5; VDA 5"},
+    Formula{
+        "measuring_process",
+        "u_MP² = u_CAL² + max(u_EVR, u_EVO, u_RE)² + the squares of the rest; Q_MP = 2·2u_MP/T, "
+        "C_MP = 0.3T/3u_MP",
+        "ISO 22514-7:2012, 5.2, 7.1, 9 and A.3 to A.5; VDA 5"},
     Formula{"anova",
             "EV² = MSₑ, INT² = (MSₚₒ − MSₑ)/r, AV² = (MSₒ − MSₚₒ)/pr, PV² = (MSₚ − MSₚₒ)/or; "
             "pooled: MSₚₒ and MSₑ are one",

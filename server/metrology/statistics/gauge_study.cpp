@@ -357,7 +357,7 @@ std::string_view word(StudyMethod method) {
 std::string_view word(StudyModel model) { return kModels[static_cast<std::size_t>(model)].first; }
 
 Result<Type1Study> study_type1(const Decimals& values, const Exact& reference,
-                               const Exact& tolerance) {
+                               const Exact& tolerance, Type1Rule rule) {
   if (values.size() < 2) return too_few("a type 1 study takes two readings or more; 50 are usual");
   if (tolerance <= 0) return Error{ErrorCode::LimitsInvalid, "the tolerance must be above 0"};
   const Moments of = moments(values);
@@ -373,9 +373,10 @@ Result<Type1Study> study_type1(const Decimals& values, const Exact& reference,
   study.bias = nearest(bias);
   study.t = study.bias / study.standard_deviation * std::sqrt(static_cast<long double>(of.count));
   study.p = t_beyond(study.t, static_cast<long double>(of.count - 1));
-  study.cg = nearest(tolerance / 5) / (6 * study.standard_deviation);
-  study.cgk =
-      nearest(tolerance / 10 - (bias < 0 ? Exact(-bias) : bias)) / (3 * study.standard_deviation);
+  const Exact half = tolerance * rule.percent / 200;
+  study.cg = nearest(half) * 2 / (rule.spread * study.standard_deviation);
+  study.cgk = nearest(half - (bias < 0 ? Exact(-bias) : bias)) * 2 /
+              (rule.spread * study.standard_deviation);
   return study;
 }
 

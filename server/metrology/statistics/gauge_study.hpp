@@ -23,10 +23,16 @@ struct Type1Study {
   long double cgk = 0;  ///< (0.1 T - |bias|) / (3 s)
 };
 
+/// What Cg compares: so much of the tolerance with so many standard deviations.
+struct Type1Rule {
+  int percent = 20;
+  int spread = 6;
+};
+
 /// @param tolerance above 0
 /// @errors StatisticsTooFew with one value; StatisticsZeroSpread; LimitsInvalid: the tolerance.
 Result<Type1Study> study_type1(const Decimals& values, const Exact& reference,
-                               const Exact& tolerance);
+                               const Exact& tolerance, Type1Rule rule = {});
 
 /// Readings of parts by operators. Labels are small numbers from 0, in the order they first stand.
 struct Readings {

@@ -6,6 +6,7 @@
 #include "metrology/gauging/gauge.hpp"
 #include "metrology/statistics/capability.hpp"
 #include "metrology/statistics/gauge_study.hpp"
+#include "metrology/statistics/measuring_process.hpp"
 #include "metrology/statistics/model.hpp"
 #include "metrology/statistics/process_model.hpp"
 #include "metrology/statistics/uncertainty.hpp"
@@ -61,8 +62,8 @@ void add_nist(const References& references, Figures& to) {
   }
 }
 
-void add_gauge_studies(const References& references, Figures& to) {
-  const auto rows = references.set("msa.study");
+/// A line is a trial of one of three operators.
+Readings crossed_readings(const std::vector<Words>& rows) {
   Readings readings{.values = decimals(rows),
                     .part = {},
                     .operators = {},
@@ -72,6 +73,29 @@ void add_gauge_studies(const References& references, Figures& to) {
     readings.part.push_back(i % readings.parts);
     readings.operators.push_back(3 * i / readings.values.size());
   }
+  return readings;
+}
+
+/// The printed components of the system, and those that the study finds.
+void add_measuring_process(const Readings& readings, Figures& to) {
+  const GaugeStudy study = study_gauge(readings, StudyMethod::Anova, StudyModel::Auto).value();
+  MeasuringProcess process;
+  process[Component::Cal] = 0.005;
+  process[Component::Lin] = 0.0533;
+  process[Component::Evr] = 0.0641;
+  process[Component::Re] = 0.0014;
+  process[Component::Evo] = static_cast<double>(study.ev);
+  process[Component::Av] = static_cast<double>(study.av);
+  const MeasuringCapability system(process.system(), 9, false);
+  const MeasuringCapability whole(process.process(), 9, true);
+  to.add("iso22514.", "u_evo u_av u_ms u_mp q_ms q_mp c_ms c_mp",
+         {study.ev, study.av, process.system(), process.process(), system.percent, whole.percent,
+          system.index, whole.index});
+}
+
+void add_gauge_studies(const References& references, Figures& to) {
+  const Readings readings = crossed_readings(references.set("msa.study"));
+  add_measuring_process(crossed_readings(references.set("iso22514.study")), to);
   for (const StudyMethod method : {StudyMethod::Anova, StudyMethod::AverageRange}) {
     const GaugeStudy study = study_gauge(readings, method, StudyModel::Auto).value();
     const std::string name = fmt::format("msa.{}.", word(method));

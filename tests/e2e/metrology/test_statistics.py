@@ -93,6 +93,43 @@ class Statistics(DaemonTest):
         type1 = self.compute("type1", {"values": [9.9, 10.1, 10.1, 9.9], "reference": 10, "tolerance": 6})
         self.assertAlmostEqual(type1["cg"], 1.2 / (6 * (0.04 / 3) ** 0.5), places=14)
 
+    def test_the_capability_of_a_measuring_system_and_process(self):
+        values = {"values": [9.9, 10.1, 10.1, 9.9], "reference": "9.97", "tolerance": 6}
+        self.assertNotIn("measuring_system", self.compute("type1", values))
+        known = {"resolution": 0.3, "u_cal": 0.02}
+        system = self.compute("type1", {**values, "measuring_system": {**known, "u_lin": 0.03}})["measuring_system"]
+        u_re, u_evr, u_bi = 0.3 / 12 ** 0.5, (0.04 / 3) ** 0.5, 0.03 / 3 ** 0.5
+        self.assertAlmostEqual(system["re_percent"], 5, places=12)
+        for name, u in (("u_re", u_re), ("u_evr", u_evr), ("u_bi", u_bi), ("u_cal", 0.02), ("u_lin", 0.03)):
+            self.assertAlmostEqual(system[name], u, places=14)
+        u_ms = (0.02 ** 2 + max(u_re, u_evr) ** 2 + u_bi ** 2 + 0.03 ** 2) ** 0.5
+        self.assertAlmostEqual(system["u_ms"], u_ms, places=14)
+        self.assertAlmostEqual(system["q_ms_percent"], 400 * u_ms / 6, places=12)
+        self.assertAlmostEqual(system["c_ms"], 0.3 * 6 / (6 * u_ms), places=12)
+        self.assertAlmostEqual(system["least_tolerance_ms"], 4 * u_ms / 0.15, places=12)
+        self.assertFalse({"u_ms_rest", "u_mp", "u_evo"} & set(system))
+        # The answer of the master study goes into the study of parts.
+        study = {"tolerance": 60, "measurements": STUDY,
+                 "measuring_process": {**known, "u_evr": system["u_evr"], "u_bi": system["u_bi"], "u_t": 0.5}}
+        answer = self.compute("grr", {**study, "model": "interaction"})
+        process = answer["measuring_process"]
+        for of, sigma in (("u_evo", "ev"), ("u_av", "av"), ("u_ia", "interaction")):
+            self.assertAlmostEqual(process[of], answer[sigma], places=14)
+        self.assertAlmostEqual(process["u_mp"] ** 2, 0.02 ** 2 + 2 + 3 + u_bi ** 2 + 0.5 ** 2, places=12)
+        self.assertAlmostEqual(process["q_mp_percent"], 400 * process["u_mp"] / 60, places=12)
+        del study["tolerance"]
+        self.assertIsNone(self.compute("grr", study)["measuring_process"]["q_mp_percent"])
+        for missing in ("resolution", "u_cal", "u_evr", "u_bi"):
+            less = {name: of for name, of in study["measuring_process"].items() if name != missing}
+            errors = self.send("grr", {**study, "measuring_process": less}).json["errors"]
+            self.assertEqual([(e["pointer"], e["code"]) for e in errors], [(f"/measuring_process/{missing}", "field.missing")])
+        answer = self.send("type1", {**values, "measuring_system": {**known, "u_t": 1, "u_lin": -1}})
+        self.assertEqual({(e["pointer"], e["code"]) for e in answer.json["errors"]},
+                         {("/measuring_system/u_t", "field.unknown"), ("/measuring_system/u_lin", "field.invalid")})
+        other = self.compute("type1", {**values, "tolerance_percent": 15, "spread": 4})
+        self.assertAlmostEqual(other["cg"], 0.9 / (4 * u_evr), places=12)
+        self.assertAlmostEqual(other["cgk"], (0.45 - 0.03) / (2 * u_evr), places=12)
+
     def test_a_study_with_a_missing_trial_and_its_intervals(self):
         study = self.compute("grr", {"model": "interaction", "measurements": STUDY[:-1], "confidence": 0.9})
         # Cell means 1, 5, 3 and 2; the harmonic mean of 2, 2, 2 and 1 is 1.6.

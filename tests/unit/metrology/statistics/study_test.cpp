@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "metrology/statistics/gauge_study.hpp"
+#include "metrology/statistics/measuring_process.hpp"
 #include "support.hpp"
 
 using namespace fitgauge;
@@ -218,6 +219,40 @@ TEST_CASE("type 1: Cg and Cgk of a gauge on its master") {
   CHECK(code("10", 1) == ErrorCode::StatisticsTooFew);
   CHECK(code("10 10", 1) == ErrorCode::StatisticsZeroSpread);
   CHECK(code("10 11", 0) == ErrorCode::LimitsInvalid);
+}
+
+TEST_CASE("type 1: Cg by another share of the tolerance and another spread") {
+  const auto values = decimals("10.001 10.003 10.001 10.003");
+  const double s = std::sqrt(4e-6 / 3);
+  const Type1Study study =
+      study_type1(values, 10, Exact(1, 10), {.percent = 15, .spread = 4}).value();
+  CHECK(number(study.cg) == Approx(0.015 / (4 * s)).epsilon(1e-14));
+  CHECK(number(study.cgk) == Approx((0.0075 - 0.002) / (2 * s)).epsilon(1e-14));
+}
+
+TEST_CASE("ISO 22514-7: the greatest repeatability counts, and each other component") {
+  // The printed example is in expected.txt of `fitgauged qualify`.
+  MeasuringProcess process;
+  process[Component::Cal] = 3;
+  process[Component::Evr] = 4;
+  CHECK(process.system() == 5);
+  process[Component::Re] = 3.5;  // below u_EVR: no part of it
+  CHECK(process.system() == 5);
+  CHECK(process.process() == 5);
+  process[Component::Evo] = 12;
+  CHECK(process.system() == 5);
+  CHECK(process.process() == std::sqrt(9 + 144.0));
+  process[Component::Re] = 20;
+  CHECK(process.process() == std::sqrt(9 + 400.0));
+  process = {};
+  for (std::size_t i = 0; i < kComponents.size(); ++i) process[static_cast<Component>(i)] = 1;
+  CHECK(process.system() == std::sqrt(5.0));    // CAL, one repeatability, BI, LIN, rest
+  CHECK(process.process() == std::sqrt(12.0));  // and AV, IA, GV, STAB, T, OBJ, rest
+  const MeasuringCapability at_bound(0.075, 1, true);
+  CHECK(at_bound.percent == Approx(30));
+  CHECK(at_bound.index == Approx(4.0 / 3));
+  CHECK(at_bound.least_tolerance == Approx(1));
+  CHECK(MeasuringCapability(0.0375, 1, false).index == Approx(4.0 / 3));
 }
 
 TEST_CASE("linearity: the regression of bias on reference") {
