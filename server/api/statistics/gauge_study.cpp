@@ -4,48 +4,18 @@
 
 #include <array>
 #include <cmath>
-#include <map>
 #include <set>
 #include <span>
 #include <tuple>
 
 #include "api/statistics/measuring_process.hpp"
+#include "api/statistics/study_rows.hpp"
 #include "metrology/statistics/gauge_study.hpp"
 
 namespace fitgauge::api {
 
 using metrology::StudyMethod;
 using metrology::StudyModel;
-
-/// StudyLabels as small numbers, in the order they first stand.
-class StudyLabels {
- public:
-  std::size_t number(const std::string& label) {
-    return numbers_.try_emplace(label, numbers_.size()).first->second;
-  }
-  std::size_t size() const { return numbers_.size(); }
-
- private:
-  std::map<std::string, std::size_t> numbers_;
-};
-
-/// The form of a label: a word or a number.
-struct StudyLabel {
-  std::string schema(Side) const { return R"({"type":["string","number"]})"; }
-  bool read(FieldReader& fields, std::string_view name, std::string& to) const {
-    const JsonValue* value = fields.any(name);
-    if (value == nullptr) return false;
-    const bool fits = value->is(JsonValue::Kind::Number) || value->is(JsonValue::Kind::String);
-    if (fits) {
-      to = value->text;
-    } else {
-      fields.report(
-          ErrorCode::FieldType, name,
-          fmt::format("{} takes a string or a number, not {}", name, name_of(value->kind)));
-    }
-    return fits;
-  }
-};
 
 /// The form of a decimal that is added to the others.
 struct OneMore {
@@ -54,31 +24,6 @@ struct OneMore {
     const JsonValue* value = fields.any(name);
     if (value != nullptr) add_exact(*value, fields.at(name), to, fields.errors());
     return value != nullptr;
-  }
-};
-
-/// The form of the readings of a study: `row_members(v, study)` describes one and adds it.
-template <class Study>
-struct StudyRows {
-  std::string schema(Side side) const {
-    Study study;
-    BodySchema row(side);
-    row_members(row, study);
-    return schema::array(row.json(), 1);
-  }
-  bool read(FieldReader& fields, std::string_view name, Study& to) const {
-    const JsonValue* array = fields.array(name);
-    if (array == nullptr) return false;
-    if (array->items.empty()) {
-      fields.report(ErrorCode::StatisticsTooFew, name, "there is no measurement");
-    }
-    for (std::size_t i = 0; i < array->items.size(); ++i) {
-      BodyReader row(array->items[i], pointer_to(fields.at(name), i), fields.errors());
-      if (!array->items[i].is(JsonValue::Kind::Object)) continue;
-      row_members(row, to);
-      row.end();
-    }
-    return true;
   }
 };
 
@@ -401,16 +346,17 @@ Result<std::string> gauge_study(const JsonValue& body) {
   const std::string_view method = is_text ? std::string_view(given.text) : word(StudyMethod::Anova);
   if (method == "linearity") return linearity(body);
   if (method == "stability") return stability(body);
+  if (method == "attribute") return attribute_study(body);
   if (metrology::study_method_from_word(method)) return components(body);
   return at_member("method", {ErrorCode::FieldInvalid,
-                              "method is anova, average_range, type3, nested, linearity or "
-                              "stability"});
+                              "method is anova, average_range, type3, nested, linearity, "
+                              "stability or attribute"});
 }
 
 void add_gauge_study_schemas(Schemas& schemas) {
-  const auto one_of_three = [&schemas](const char* name, const char* of) {
+  const auto one_of_all = [&schemas](const char* name, const char* of) {
     std::vector<std::string> all;
-    for (const char* kind : {"Variation", "Linearity", "Stability"}) {
+    for (const char* kind : {"Variation", "Linearity", "Stability", "Attribute"}) {
       all.push_back(schema::ref(fmt::format("{}{}", kind, of)));
     }
     schemas.push_back({name, schema::any_of(all)});
@@ -418,11 +364,12 @@ void add_gauge_study_schemas(Schemas& schemas) {
   schemas.push_back(order_schema<VariationOrder>("VariationStudyOrder"));
   schemas.push_back(order_schema<LinearityOrder>("LinearityStudyOrder"));
   schemas.push_back(order_schema<StabilityOrder>("StabilityStudyOrder"));
-  one_of_three("GaugeStudyOrder", "StudyOrder");
+  add_attribute_study_schemas(schemas);
+  one_of_all("GaugeStudyOrder", "StudyOrder");
   schemas.push_back(answer_schema<VariationAnswer>("VariationStudy"));
   schemas.push_back(answer_schema<metrology::LinearityStudy>("LinearityStudy"));
   schemas.push_back(answer_schema<StabilityAnswer>("StabilityStudy"));
-  one_of_three("GaugeStudy", "Study");
+  one_of_all("GaugeStudy", "Study");
 }
 
 }  // namespace fitgauge::api

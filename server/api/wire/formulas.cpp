@@ -59,6 +59,8 @@ constexpr std::array kFormulas = {
             "AIAG MSA 4, III-B"},
     Formula{"stability", "a chart of the readings of each time, Western Electric rules 1 to 4",
             "AIAG MSA 4, III-B; ISO 7870-2"},
+    Formula{"attribute", "κ = (p₀ − pₑ)/(1 − pₑ), p₀ observed and pₑ chance agreement",
+            "AIAG MSA 4, III-C; Cohen 1960, Fleiss 1971"},
     Formula{"pairing", "least Σ(clearance − target)² of all assignments",
             "no standard: an assignment of least squares"},
     Formula{"uncertainty", "u_c² = Σ(cᵢuᵢ)² + 2ΣΣcᵢcⱼuᵢuⱼrᵢⱼ, ν = u_c⁴/Σ((cᵢuᵢ)⁴/νᵢ), U = k u_c",

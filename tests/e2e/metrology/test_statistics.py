@@ -146,6 +146,45 @@ class Statistics(DaemonTest):
         self.assertNotIn("intervals", self.compute("grr", {"method": "average_range", "measurements": STUDY}))
         self.assertNotIn("grr", self.compute("grr", {"method": "nested", "measurements": STUDY})["intervals"])
 
+    def test_the_agreement_of_ratings(self):
+        """Worked out by hand: A rates all four parts right twice, B calls the second bad part good once."""
+        rated = {"A": "11 11 00 00", "B": "11 11 00 01"}
+        rows = [{"part": part, "operator": who, "trial": trial, "value": int(value), "reference": int(part < 2)}
+                for who, words in rated.items() for part, word in enumerate(words.split()) for trial, value in enumerate(word)]
+        study = self.compute("grr", {"method": "attribute", "good": 1, "measurements": rows})
+        self.assertEqual((study["method"], study["clause"][:4]), ("attribute", "AIAG"))
+        a, b = study["operators"]
+        self.assertEqual((a["operator"], a["kappa_reference"], a["kappa_within"], a["misses"]["count"]), ("A", 1, 1, 0))
+        self.assertEqual([b[of]["count"] for of in ("consistent", "effectiveness", "misses", "false_alarms")], [3, 3, 1, 0])
+        self.assertEqual([b[of]["of"] for of in ("consistent", "effectiveness", "misses", "false_alarms")], [4, 4, 4, 4])
+        self.assertEqual(b["misses"]["percent"], 25)
+        # Of 8 pairs 7 agree, by chance 4 * 5 and 4 * 3 of 64; of 8 ratings of B 5 are good, and 3 of 4 parts agree.
+        self.assertEqual([pair["operators"] for pair in study["pairs"]], [["A", "B"]])
+        self.assertAlmostEqual(study["pairs"][0]["kappa"], (7 / 8 - 1 / 2) / (1 / 2), places=15)
+        self.assertAlmostEqual(b["kappa_reference"], 0.75, places=15)
+        chance = (25 + 9) / 64
+        self.assertAlmostEqual(b["kappa_within"], (3 / 4 - chance) / (1 - chance), places=15)
+        # All four ratings of a part: 6, 6, 6 and 3 of 6 pairs agree; 9 of 16 are good.
+        chance = (81 + 49) / 256
+        self.assertAlmostEqual(study["kappa_between"], (21 / 24 - chance) / (1 - chance), places=15)
+        self.assertEqual([study["alike"]["count"], study["effectiveness"]["count"]], [3, 3])
+        # The upper end of 0 of n: 1 - 0.025 ^ (1 / n).
+        self.assertAlmostEqual(b["false_alarms"]["upper_percent"], 100 * (1 - 0.025 ** 0.25), places=10)
+        bare = [{name: of for name, of in row.items() if name != "reference"} for row in rows]
+        blind = self.compute("grr", {"method": "attribute", "measurements": bare})
+        self.assertIsNone(blind["operators"][0]["kappa_reference"])
+        self.assertFalse({"effectiveness", "misses", "false_alarms"} & set(blind["operators"][0]))
+        for body, pointer, code in (
+                ({"good": 1, "measurements": bare}, "/good", "field.conflict"),
+                ({"measurements": rows[:1] + bare[1:]}, "/measurements", "field.missing"),
+                ({"measurements": rows + rows[:1]}, f"/measurements/{len(rows)}/trial", "field.conflict"),
+                ({"measurements": [*rows, {**rows[0], "trial": 2, "reference": 0}]},
+                 f"/measurements/{len(rows)}/reference", "field.conflict"),
+                ({"measurements": rows[:-1]}, "/measurements", "statistics.unbalanced"),
+                ({"measurements": rows[:8]}, "/measurements", "statistics.too_few")):
+            answer = self.send("grr", {"method": "attribute", **body})
+            self.assertEqual((answer.json["errors"][0]["pointer"], answer.json["errors"][0]["code"]), (pointer, code))
+
     def test_one_trial_needs_a_model(self):
         """Its residue is repeatability and interaction together: nobody is told that it is the first alone."""
         single = {"measurements": [row for row in STUDY if row["trial"] == 0]}

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "api/statistics/computation.hpp"
+
+namespace fitgauge::api {
+
+/// StudyLabels as small numbers, in the order they first stand.
+class StudyLabels {
+ public:
+  std::size_t number(const std::string& label) {
+    const auto [found, is_new] = numbers_.try_emplace(label, names_.size());
+    if (is_new) names_.push_back(label);
+    return found->second;
+  }
+  std::size_t size() const { return names_.size(); }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::map<std::string, std::size_t> numbers_;
+  std::vector<std::string> names_;
+};
+
+/// The form of a label: a word or a number.
+struct StudyLabel {
+  std::string schema(Side) const { return R"({"type":["string","number"]})"; }
+  bool read(FieldReader& fields, std::string_view name, std::string& to) const {
+    const JsonValue* value = fields.any(name);
+    if (value == nullptr) return false;
+    const bool fits = value->is(JsonValue::Kind::Number) || value->is(JsonValue::Kind::String);
+    if (fits) {
+      to = value->text;
+    } else {
+      fields.report(
+          ErrorCode::FieldType, name,
+          fmt::format("{} takes a string or a number, not {}", name, name_of(value->kind)));
+    }
+    return fits;
+  }
+};
+
+/// The form of the readings of a study: `row_members(v, study)` describes one and adds it.
+template <class Study>
+struct StudyRows {
+  std::string schema(Side side) const {
+    Study study;
+    BodySchema row(side);
+    row_members(row, study);
+    return schema::array(row.json(), 1);
+  }
+  bool read(FieldReader& fields, std::string_view name, Study& to) const {
+    const JsonValue* array = fields.array(name);
+    if (array == nullptr) return false;
+    if (array->items.empty()) {
+      fields.report(ErrorCode::StatisticsTooFew, name, "there is no measurement");
+    }
+    for (std::size_t i = 0; i < array->items.size(); ++i) {
+      BodyReader row(array->items[i], pointer_to(fields.at(name), i), fields.errors());
+      if (!array->items[i].is(JsonValue::Kind::Object)) continue;
+      row_members(row, to);
+      row.end();
+    }
+    return true;
+  }
+};
+
+/// The answer to a study of ratings.
+Result<std::string> attribute_study(const JsonValue& body);
+void add_attribute_study_schemas(Schemas& schemas);
+
+}  // namespace fitgauge::api

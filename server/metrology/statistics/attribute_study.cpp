@@ -1,0 +1,134 @@
+#include "metrology/statistics/attribute_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace fitgauge::metrology {
+namespace {
+
+using Trials = std::vector<std::size_t>;  // the categories of a part, trial by trial
+
+long double kappa_of(long double agreed, long double by_chance) {
+  return by_chance == 1 ? kUndefined : (agreed - by_chance) / (1 - by_chance);
+}
+
+AttributeShare share(std::size_t count, std::size_t of) {
+  constexpr long double kBelow = 0.975L;
+  AttributeShare made{count, of};
+  const auto k = static_cast<long double>(count);
+  const auto n = static_cast<long double>(of);
+  if (count > 0) made.lower = k / (k + (n - k + 1) * f_quantile(kBelow, 2 * (n - k + 1), 2 * k));
+  if (count < of) {
+    const long double odds = (k + 1) * f_quantile(kBelow, 2 * (k + 1), 2 * (n - k));
+    made.upper = odds / (n - k + odds);
+  }
+  return made;
+}
+
+/// Agreement of two raters, trial by trial.
+long double cohen(const std::vector<Trials>& a, const std::vector<Trials>& b,
+                  std::size_t categories) {
+  std::vector<long double> of_a(categories), of_b(categories);
+  long double agreed = 0, count = 0, chance = 0;
+  for (std::size_t part = 0; part < a.size(); ++part) {
+    for (std::size_t k = 0; k < a[part].size(); ++k, ++count) {
+      ++of_a[a[part][k]];
+      ++of_b[b[part][k]];
+      agreed += a[part][k] == b[part][k] ? 1 : 0;
+    }
+  }
+  for (std::size_t i = 0; i < categories; ++i) chance += of_a[i] * of_b[i];
+  return kappa_of(agreed / count, chance / (count * count));
+}
+
+/// Agreement of any number of ratings of a part, as many of each.
+long double fleiss(const std::vector<Trials>& parts, std::size_t categories) {
+  const auto m = static_cast<long double>(parts.front().size());
+  const auto n = static_cast<long double>(parts.size());
+  if (m < 2) return kUndefined;
+  std::vector<long double> all(categories);
+  long double pairs = 0, chance = 0;  // pairs of ratings of a part that agree
+  for (const Trials& part : parts) {
+    std::map<std::size_t, long double> before;
+    for (const std::size_t category : part) {
+      ++all[category];
+      pairs += before[category]++;
+    }
+  }
+  for (const long double each : all) chance += each * each;
+  return kappa_of(2 * pairs / (n * m * (m - 1)), chance / (n * m * n * m));
+}
+
+AttributeStudy::Operator rate(const std::vector<Trials>& parts, const Ratings& ratings,
+                              std::string name = {}) {
+  AttributeStudy::Operator made{std::move(name)};
+  const auto& references = ratings.reference;
+  std::size_t alike = 0, right = 0, misses = 0, alarms = 0, bad = 0, good = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Trials& part = parts[i];
+    const bool is_alike =
+        std::all_of(part.begin(), part.end(), [&](auto each) { return each == part[0]; });
+    alike += is_alike ? 1U : 0U;
+    if (references.empty()) continue;
+    right += is_alike && part[0] == references[i] ? 1U : 0U;
+    const auto called_good =
+        static_cast<std::size_t>(std::count(part.begin(), part.end(), ratings.good));
+    const bool is_good = references[i] == ratings.good;
+    (is_good ? good : bad) += part.size();
+    (is_good ? alarms : misses) += is_good ? part.size() - called_good : called_good;
+  }
+  made.consistent = share(alike, parts.size());
+  made.within = fleiss(parts, ratings.categories);
+  if (references.empty()) return made;
+  std::vector<Trials> wanted;
+  for (const std::size_t each : references) wanted.emplace_back(parts[0].size(), each);
+  made.effectiveness = share(right, parts.size());
+  made.reference = cohen(parts, wanted, ratings.categories);
+  if (ratings.good && bad > 0) made.misses = share(misses, bad);
+  if (ratings.good && good > 0) made.false_alarms = share(alarms, good);
+  return made;
+}
+
+}  // namespace
+
+Result<AttributeStudy> study_attributes(const Ratings& ratings) {
+  if (ratings.parts < 2 || ratings.names.size() < 2) {
+    return Error{ErrorCode::StatisticsTooFew,
+                 "an attribute study takes two parts and two operators or more"};
+  }
+  if (ratings.names.size() > kMostOperators) {
+    return Error{ErrorCode::StatisticsTooMany,
+                 fmt::format("an attribute study takes at most {} operators", kMostOperators)};
+  }
+  std::vector<std::vector<Trials>> by(ratings.names.size(), std::vector<Trials>(ratings.parts));
+  std::vector<Trials> all(ratings.parts);
+  for (std::size_t i = 0; i < ratings.part.size(); ++i) {
+    by[ratings.operators[i]][ratings.part[i]].push_back(ratings.category[i]);
+    all[ratings.part[i]].push_back(ratings.category[i]);
+  }
+  const std::size_t trials = by.front().front().size();
+  AttributeStudy study;
+  for (std::size_t a = 0; a < by.size(); ++a) {
+    for (std::size_t part = 0; part < ratings.parts; ++part) {
+      if (by[a][part].size() == trials && trials > 0) continue;
+      return Error{ErrorCode::StatisticsUnbalanced,
+                   fmt::format("every operator rates every part equally often: operator {} has {} "
+                               "ratings of part {}, others have another number",
+                               a + 1, by[a][part].size(), part + 1)};
+    }
+    study.operators.push_back(rate(by[a], ratings, ratings.names[a]));
+    for (std::size_t b = 0; b < a; ++b) {
+      study.pairs.push_back(
+          {{ratings.names[b], ratings.names[a]}, cohen(by[b], by[a], ratings.categories)});
+    }
+  }
+  study.between = fleiss(all, ratings.categories);
+  const AttributeStudy::Operator together = rate(all, ratings);
+  study.alike = together.consistent;
+  study.right = together.effectiveness;
+  return study;
+}
+
+}  // namespace fitgauge::metrology
