@@ -199,6 +199,16 @@ void add_programs(const References& references, const iso286::ToleranceTables& t
     for (const Words& row : references.set(program)) surface.points.push_back(point(row));
     run(program, fmt::format("{}.", program), {.machine = {}, .features = {surface}});
   }
+  machine::Setup mill{.machine = {}, .features = {}};
+  mill.machine.tools.emplace_back().row.number = 5;
+  run("8025", "8025.", mill);
+  machine::Setup tilting{.machine = {}, .features = {}};
+  for (const auto axis : {machine::Axis::A, machine::Axis::C}) {
+    tilting.machine.axes.at(static_cast<std::size_t>(axis)) = machine::AxisSetup::of(axis);
+  }
+  tilting.machine.calibration_sphere = {{60, 25, 40}, 15};
+  tilting.machine.presets[0].frame.origin = {60, 25, 40};
+  run("451", "451.", tilting);
 }
 
 }  // namespace fitgauge::app::qualification

@@ -171,6 +171,25 @@ void add_thermometer(const References& references, Figures& to) {
           fit.slope.standard_error, fit.residual_standard_deviation});
 }
 
+/// The analysis of variance of a voltage standard by days.
+void add_days(const References& references, Figures& to) {
+  Decimals means;
+  Exact squares = 0;
+  for (const Words& row : references.set("gum.h5")) {
+    means.add(row[0]).value();
+    squares += 4 * exact(row[1]) * exact(row[1]);
+  }
+  const Moments of = moments(means);
+  const Variation between{9, 5 * of.squares * Exact(power_of_ten(12))};
+  const Variation within{40, squares};
+  const Exact a = between.mean_square();
+  const Exact b = within.mean_square();
+  to.add("gum.h5.", "mean s_a s_b f s_between u pooled f95 f975",
+         {nearest(of.mean), square_root(a), square_root(b), f_test(between, within).f,
+          square_root((a - b) / 5), square_root(a / 50), square_root((9 * a + 40 * b) / (49 * 50)),
+          f_quantile(0.95L, 9, 40), f_quantile(0.975L, 9, 40)});
+}
+
 void add_monte_carlo(Figures& to) {
   Budget budget{.contributions = std::vector<Contribution>(4, {.standard_uncertainty = 1})};
   const auto upper = [&] { return simulate(budget, {.trials = 400'000}).value().upper; };
@@ -239,6 +258,7 @@ void add_uncertainties(const References& references, Figures& to) {
   add_end_gauge(references, to);
   add_models(references, to);
   add_thermometer(references, to);
+  add_days(references, to);
   add_monte_carlo(to);
   add_decisions(to);
 }

@@ -81,8 +81,9 @@ TEST_CASE("this program computes what was published, each figure within its limi
   };
   CHECK(count("iso286.") == 57);  // 28 letters of holes and of shafts, and the rules
   CHECK(count("nist.") == 9 * 3 + 11 * 9);
-  for (const char* kind : {"msa.", "bosch.", "gum.h1.", "gum.h2.", "gum.h3.", "jcgm101.",
-                           "jcgm106.", "circle.", "sphere.", "8255.", "8210.", "444."}) {
+  for (const char* kind :
+       {"msa.", "iso22514.", "bosch.", "gum.h1.", "gum.h2.", "gum.h3.", "gum.h5.", "jcgm101.",
+        "jcgm106.", "circle.", "sphere.", "8255.", "8210.", "444."}) {
     CAPTURE(kind);
     CHECK(count(kind) >= 3);
   }
