@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/clock.hpp"
+#include "formats/certificate/certificate.hpp"
 #include "service/state/readiness.hpp"
 
 namespace fitgauge::app {
@@ -45,6 +46,7 @@ struct Services {
   std::shared_ptr<VerdictCounts> verdicts;
   const Clock& clock;
   std::function<app::Readiness()> readiness;
+  certificate::Letterhead letterhead{};  ///< of certificates
 };
 
 /// The version of the service, from the build.

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "api/measurements/measurement_codec.hpp"
 #include "api/services.hpp"
@@ -71,29 +74,82 @@ std::string measured_text(const app::Measurement& m) {
   return text;
 }
 
-std::string rule_text(const app::Measurement& m) {
-  const Length u = m.rule.standard_uncertainty();
-  const std::string degrees =
-      m.degrees_of_freedom ? fmt::format(", \u03bd {}", format_decimal(*m.degrees_of_freedom, 6))
-                           : "";
-  switch (m.rule.kind()) {
-    case gauging::DecisionRule::Kind::Simple: return "";
+/// The rule in words, with its standard.
+std::string rule_words(const gauging::DecisionRule& rule) {
+  switch (rule.kind()) {
+    case gauging::DecisionRule::Kind::Simple:
+      return "simple acceptance. Good: the value lies within the limits; its uncertainty does not count (JCGM 106:2012, "
+             "8.2).";
     case gauging::DecisionRule::Kind::GuardBand:
-      return fmt::format("guard band, u {} \u00b5m, k {}{}", format_um(u),
-                         format(m.rule.coverage_factor()), degrees);
+      return "guard band. Good: the value lies inside both limits by U at least. Rework or reject: outside by more than "
+             "U. Else indeterminate (ISO 14253-1:2017; JCGM 106:2012, 8.3).";
     case gauging::DecisionRule::Kind::Conformance: break;
   }
-  const std::int64_t found = m.conformance ? m.conformance->probability : 0;
-  return fmt::format("conformance {}, found {}, u {} \u00b5m{}", format(m.rule.probability()),
-                     format_decimal(found, 9), format_um(u), degrees);
+  return fmt::format("conformance. Good: the true value lies within the limits with a probability p of {} at least. Rework "
+                     "or reject: outside with that probability. Else indeterminate (ISO 14253-1:2017; JCGM 106:2012, 7).",
+                     format(rule.probability()));
 }
 
-/// `2026-11-22 08:00:00Z`
-std::string time_text(Timestamp time) {
-  std::string text = format_rfc3339(time);
-  if (const std::size_t point = text.find('.'); point != text.npos) text.erase(point) += 'Z';
-  return text.replace(text.find('T'), 1, " ");
+/// `1.6 (k 2, 95.45 %)`: the expanded uncertainty with its factor and what that covers. A record without a factor gets
+/// the one of 95.45 %.
+std::string uncertainty_text(const app::Measurement& m) {
+  using gauging::DecisionRule;
+  const auto kind = m.rule.kind();
+  const Length u = kind == DecisionRule::Kind::Simple ? m.standard_uncertainty.value_or(Length())
+                                                      : m.rule.standard_uncertainty();
+  if (u == Length()) return "";
+  constexpr std::int64_t kOne = 1'000'000;
+  const double degrees = m.degrees_of_freedom ? static_cast<double>(*m.degrees_of_freedom) / 1e6 : gauging::kExactly;
+  const std::int64_t k = kind == DecisionRule::Kind::GuardBand ? m.rule.coverage_factor().millionths()
+                         : m.coverage_factor                   ? m.coverage_factor->millionths()
+                         : m.degrees_of_freedom                ? gauging::coverage_millionths(degrees)
+                                                               : 2 * kOne;
+  const double covered =
+      gauging::conformance_probability({Length::nanometres(k), Length::nanometres(-k)}, Length(),
+                                       {Length::nanometres(kOne), degrees});
+  constexpr double kCounted = 9e12;  // nm: beyond it the product does not fit
+  const double about = static_cast<double>(u.count()) * static_cast<double>(k) / 1e6;
+  return fmt::format("{} (k {:.4g}, {:.2f} %)",
+                     about < kCounted ? format_um(Length::nanometres((u.count() * k + kOne - 1) / kOne))
+                                      : fmt::format("{:.6g}", about / 1e3),
+                     static_cast<double>(k) / 1e6, covered * 100);
 }
+
+/// How far between the limits a value lies: 0 is the lower one, 1 the upper one.
+std::optional<double> place_of(const app::Measurement& m) {
+  if (!m.is_judged() || !m.has_lower_limit() || !m.has_upper_limit() || m.upper_limit() == m.lower_limit()) return {};
+  return (m.decisive() - m.lower_limit()).to_mm() / (m.upper_limit() - m.lower_limit()).to_mm();
+}
+
+/// `1 µm above the upper limit`, `3 µm inside the lower limit`.
+std::string distance_text(const app::Measurement& m) {
+  if (!m.is_judged()) return "no limits";
+  const Length above = m.decisive() - m.upper_limit();
+  const Length below = m.lower_limit() - m.decisive();
+  const bool is_upper = m.has_upper_limit() && (!m.has_lower_limit() || below <= above);
+  const Length beyond = is_upper ? above : below;
+  return fmt::format("{} \u00b5m {} the {} limit", format_um(beyond < Length() ? -beyond : beyond),
+                     beyond <= Length() ? "inside"
+                     : is_upper         ? "above"
+                                        : "below",
+                     is_upper ? "upper" : "lower");
+}
+
+/// `2026-11-22 08:00:00`, UTC
+std::string time_text(Timestamp time) { return format_rfc3339(time).substr(0, 19).replace(10, 1, " "); }
+
+template <typename... Texts>
+std::string listed(const Texts&... texts) {
+  std::string out;
+  for (const std::string_view text : {std::string_view(texts)...}) {
+    if (!text.empty()) out.append(out.empty() ? "" : ", ").append(text);
+  }
+  return out;
+}
+
+constexpr std::array kSeverity = {0, 2, 3, 1, -1};  // of each gauging::Verdict
+constexpr std::array kWeights = {certificate::Weight::Plain, certificate::Weight::Noted, certificate::Weight::Marked,
+                                 certificate::Weight::Noted, certificate::Weight::Plain};
 
 }  // namespace
 
@@ -104,11 +160,21 @@ void CertificateDraft::add(const app::Measurement& m) {
   if (first_id_.empty()) first_id_ = last_id_;
   const std::string gauge(m.gauge.value_or(""));
   const std::string due(m.calibration_due.value_or(""));
+  if (m.part_id) parts_.emplace(*m.part_id);
   if (m.gauge) {
     const std::string budget(m.uncertainty_budget.value_or(""));
     gauges_.insert({gauge, budget, budget.empty() ? std::nullopt : m.standard_uncertainty, due});
   }
   if (!m.table_revision.empty()) ++revisions_[std::string(m.table_revision)];
+  const auto verdict = static_cast<std::size_t>(m.result.verdict);
+  const std::optional<double> place = place_of(m);
+  const std::pair badness(kSeverity.at(verdict), place ? std::abs(2 * *place - 1) : 0);
+  const bool is_worst = worst_id_.empty() || badness_ < badness;
+  if (is_worst) {
+    badness_ = badness;
+    worst_id_ = last_id_;
+    worst_verdict_ = m.result.verdict;
+  }
   std::string record;
   app::append_record(record, m);
   bytes_ += record.size();
@@ -117,16 +183,29 @@ void CertificateDraft::add(const app::Measurement& m) {
     records_ += record;
     return;
   }
-  lines_.push_back({.part = std::string(m.part_id.value_or("")),
-                    .characteristic = std::string(m.characteristic.value_or("")),
-                    .size = size_text(m),
-                    .limits = limits_text(m),
-                    .measured = measured_text(m),
-                    .deviation = m.has_nominal ? format_um(m.decisive() - m.nominal_size) : "",
-                    .verdict = std::string(word(m.result.verdict)),
-                    .rule = rule_text(m),
-                    .gauge = due.empty() ? gauge : gauge + "; OVERDUE when measured: " + due,
-                    .measured_at = time_text(m.measured_at)});
+  std::string rule;
+  if (m.is_judged()) rule = fmt::format("R{}", rules_.try_emplace(rule_words(m.rule), rules_.size() + 1).first->second);
+  if (m.conformance) rule += fmt::format(", p {}", format_decimal(m.conformance->probability, 9));
+  const Length deviation = m.decisive() - m.nominal_size;
+  lines_.push_back(
+      {.part = std::string(m.part_id.value_or("")),
+       .characteristic = std::string(m.characteristic.value_or("")),
+       .size = size_text(m),
+       .limits = limits_text(m),
+       .measured = measured_text(m) + (m.correction_reason ? fmt::format("; corrected: {}", *m.correction_reason) : ""),
+       .deviation = m.has_nominal ? (Length() < deviation ? "+" : "") + format_um(deviation) : "",
+       .verdict = std::string(word(m.result.verdict)),
+       .rule = rule,
+       .uncertainty = uncertainty_text(m),
+       .gauge = listed(due.empty() ? gauge : gauge + "; OVERDUE when measured: " + due, m.machine.value_or(""),
+                       m.operator_id.value_or("")),
+       .measured_at = time_text(m.measured_at),
+       .place = place ? std::optional(static_cast<float>(*place)) : std::nullopt,
+       .weight = kWeights.at(verdict)});
+  if (!is_worst) return;
+  worst_ = lines_.back();
+  worst_text_ = fmt::format("{}: {} mm, {}", listed(worst_.part, worst_.characteristic, worst_.size),
+                            mm_text(m.decisive()), distance_text(m));
 }
 
 std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpoint) const {
@@ -137,6 +216,8 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
     if (!order_.customer.empty()) json.member("customer", order_.customer);
     json.member("made_at", format_rfc3339(made_at)).member("count", std::uint64_t{count_});
     write_verdict_counts(json, verdicts_);
+    json.member("parts", std::uint64_t{parts_.size()}).member("worst_id", worst_id_);
+    if (worst_verdict_ != gauging::Verdict::Unjudged) json.member("verdict", word(worst_verdict_));
     json.key("gauges").begin_array();
     for (const UsedGauge& gauge : gauges_) {
       json.begin_object().member("name", gauge.name);
@@ -151,7 +232,8 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
 }
 
 std::string CertificateDraft::summary() const {
-  std::string text = fmt::format("{} measured values", count_);
+  std::string text = fmt::format("{} measured value{}", count_, count_ == 1 ? "" : "s");
+  if (!parts_.empty()) text += fmt::format(" of {} part{}", parts_.size(), parts_.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < verdicts_.size(); ++i) {
     const auto verdict = static_cast<gauging::Verdict>(i);
     if (verdict == gauging::Verdict::Unjudged && verdicts_[i] == 0) continue;
@@ -160,11 +242,14 @@ std::string CertificateDraft::summary() const {
   return text + '.';
 }
 
-std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoint) const {
+std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoint,
+                                  const certificate::Letterhead& letterhead) {
   certificate::Certificate paper{
       .title = order_.title,
-      .lines = lines_,
-      .summary = summary(),
+      .letterhead = letterhead,
+      .summary = {summary(), "Worst value: " + worst_text_ + '.'},
+      .statements = std::vector<std::string>(rules_.size()),
+      .lines = std::move(lines_),
       .code = fmt::format("{}/v1/measurements/{}/proof", order_.own_origin, first_id_),
       .signatures = {"Inspector", "Quality", "Date"}};
   if (!order_.company.empty()) paper.facts.push_back(order_.company);
@@ -172,7 +257,12 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
   for (const auto& [name, value] : order_.of) {
     paper.facts.push_back(fmt::format("{}: {}", name == "order" ? "Order" : "Part", value));
   }
-  std::string made = fmt::format("Made {} by fitgauge {}", time_text(made_at), kVersion);
+  for (const auto& [words, number] : rules_) paper.statements[number - 1] = fmt::format("R{}: {}", number, words);
+  paper.statements.emplace_back(
+      "U: expanded uncertainty k\u00b7u with its coverage factor and coverage probability, as the record has it. The results "
+      "relate to the values listed here alone; a size is at 20 \u00b0C (ISO 1) if the temperature stands beside it.");
+  if (worst_verdict_ != gauging::Verdict::Unjudged) paper.worst = std::move(worst_);
+  std::string made = fmt::format("Made {} UTC by fitgauge {}", time_text(made_at), kVersion);
   for (const auto& [revision, uses] : revisions_) made += ", tables " + revision;
   paper.facts.push_back(made);
   paper.proof.emplace_back("Every value stands in the log whose signed head is:");

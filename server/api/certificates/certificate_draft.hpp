@@ -40,8 +40,8 @@ class CertificateDraft {
 
   /// @param checkpoint the signed head of the log
   std::string json(Timestamp made_at, const std::string& checkpoint) const;
-  /// @throws std::runtime_error as certificate::to_pdf does.
-  std::string pdf(Timestamp made_at, const std::string& checkpoint) const;
+  /// Once. @throws std::runtime_error as certificate::to_pdf does.
+  std::string pdf(Timestamp made_at, const std::string& checkpoint, const certificate::Letterhead& letterhead);
 
  private:
   std::string summary() const;
@@ -63,6 +63,13 @@ class CertificateDraft {
   };
   std::set<UsedGauge> gauges_;
   std::map<std::string, int> revisions_;
+  std::set<std::string, std::less<>> parts_;
+  std::map<std::string, std::size_t> rules_;  ///< in words, numbered from 1 on
+  std::pair<int, double> badness_;            ///< of the worst value: its verdict, then its share of the tolerance
+  std::string worst_id_;
+  gauging::Verdict worst_verdict_ = gauging::Verdict::Unjudged;
+  certificate::Line worst_;
+  std::string worst_text_;
   std::string first_id_;
   std::string last_id_;
 };

@@ -208,6 +208,9 @@ void add_measurement_schemas(Schemas& schemas) {
                        {"made_at", schema::time(), ""},
                        {"count", schema::count(), "Of the measurements"},
                        {"verdicts", schema::ref("VerdictCounts"), ""},
+                       {"parts", schema::count(), "Different part numbers"},
+                       {"worst_id", schema::text(), "Of the worst value: by its verdict, then by its place in the limits"},
+                       {"verdict", verdict_words(), "The worst; none if no value has limits", false},
                        {"gauges", schema::array(gauge), "What the records say of them"},
                        {"checkpoint", schema::text(), "The signed head of the log: a note"},
                        {"measurements", schema::array(schema::ref("Measurement")), ""}})});

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "formats/certificate/tagged_pdf.hpp"
+
 namespace fitgauge::certificate {
+
+/// How the verdict of a line is set off: on grey, or white on black.
+enum class Weight { Plain, Noted, Marked };
 
 /// A line of the table: texts in UTF-8, numbers as they are to be read.
 struct Line {
@@ -14,26 +20,40 @@ struct Line {
   std::string size{};       ///< `25 H7`, or the nominal size in mm
   std::string limits{};     ///< `25 to 25.021`
   std::string measured{};   ///< in mm
-  std::string deviation{};  ///< in um
+  std::string deviation{};  ///< in um, with its sign
   std::string verdict{};
-  std::string rule{};   ///< with its numbers; empty for the simple one
-  std::string gauge{};  ///< with its calibration
+  std::string rule{};         ///< its number, with what it found
+  std::string uncertainty{};  ///< expanded, in um, with its factor and coverage
+  std::string gauge{};        ///< with its calibration, the machine, the operator
   std::string measured_at{};
+  std::optional<float> place{};  ///< of the value: 0 is the lower limit, 1 the upper one
+  Weight weight = Weight::Plain;
 };
 
 /// A column of the table and its share of the width.
 struct Column {
   std::string_view name;
   float share = 0;
-  std::string Line::*text = nullptr;
+  std::string Line::*text = nullptr;  ///< null: a drawing of the tolerance with the value
 };
+
+/// Who makes reports out.
+struct Letterhead {
+  std::vector<std::string> address{};
+  Picture logo{};
+};
+/// @param address lines with `;` between them @param logo a file; empty for none @errors as read_picture
+Result<Letterhead> read_letterhead(std::string_view address, const std::string& logo);
 
 /// What an inspection report says, or another report of that form.
 struct Certificate {
   std::string title{};
+  Letterhead letterhead{};
   std::vector<std::string> facts{};  ///< lines below the title: what it is of, when it was made
+  std::vector<std::string> summary{};
+  std::optional<Line> worst{};             ///< drawn large: its verdict stands for all
+  std::vector<std::string> statements{};  ///< how it was decided
   std::vector<Line> lines{};
-  std::string summary{};
   std::vector<std::string> proof{};  ///< lines at the end: how what it says is checked
   std::string code{};                ///< the text of a QR code; empty for none
   std::vector<std::string> signatures{};
@@ -42,9 +62,9 @@ struct Certificate {
 
 enum class Paper { A4, Letter };
 
-/// The certificate as PDF 1.6 with one embedded font: its text can be searched and copied. A line
+/// The certificate as a tagged PDF with one embedded font: its text can be searched, copied and heard. A line
 /// that is too wide for its column goes on below, and none is torn between two pages.
-/// @throws std::runtime_error where the writer of PDF fails.
+/// @throws std::runtime_error if the code is too long.
 std::string to_pdf(const Certificate& certificate, Paper paper);
 
 }  // namespace fitgauge::certificate

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
-#include <hpdf.h>
 #include <qrencode.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -10,12 +7,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "base/text.hpp"
 #include "formats/certificate/certificate.hpp"
-
-extern "C" {
-extern const char fitgauge_font_begin[];  // font.S
-extern const char fitgauge_font_end[];
-}
 
 namespace fitgauge::certificate {
 namespace {
@@ -26,55 +19,40 @@ constexpr float kSmall = 7;
 constexpr float kTitle = 16;
 constexpr float kLeading = 1.35F;
 constexpr float kCode = 84;
+constexpr float kGap = 5;
 
-constexpr std::array<Column, 10> kInspection = {{
-    {"Part", 0.11F, &Line::part},
-    {"Characteristic", 0.11F, &Line::characteristic},
-    {"Size", 0.08F, &Line::size},
-    {"Limits / mm", 0.13F, &Line::limits},
-    {"Measured / mm", 0.09F, &Line::measured},
-    {"Dev. / \u00b5m", 0.07F, &Line::deviation},
-    {"Verdict", 0.10F, &Line::verdict},
-    {"Rule", 0.09F, &Line::rule},
-    {"Gauge", 0.10F, &Line::gauge},
-    {"Measured at", 0.12F, &Line::measured_at},
+constexpr std::array<Column, 12> kInspection = {{
+    {"Part", 0.09F, &Line::part},
+    {"Characteristic", 0.09F, &Line::characteristic},
+    {"Size", 0.07F, &Line::size},
+    {"Limits / mm", 0.107F, &Line::limits},
+    {"Measured / mm", 0.078F, &Line::measured},
+    {"Dev. / \u00b5m", 0.05F, &Line::deviation},
+    {"In limits", 0.047F, nullptr},
+    {"Verdict", 0.077F, &Line::verdict},
+    {"Rule", 0.073F, &Line::rule},
+    {"U / \u00b5m", 0.112F, &Line::uncertainty},
+    {"Taken with, by", 0.098F, &Line::gauge},
+    {"Measured at (UTC)", 0.108F, &Line::measured_at},
 }};
 
-void check(HPDF_STATUS status) {
-  if (status != HPDF_OK) {
-    throw std::runtime_error(fmt::format("the writer of PDF failed with {:#06x}", status));
-  }
-}
-
-/// The compiled-in font as a file, which is all that the writer of PDF reads fonts from.
-const std::string& font_file() {
-  static const std::string path = [] {
-    const std::size_t size = static_cast<std::size_t>(fitgauge_font_end - fitgauge_font_begin);
-    const int file = memfd_create("font.ttf", MFD_CLOEXEC);
-    if (file < 0 || write(file, fitgauge_font_begin, size) != static_cast<ssize_t>(size)) {
-      throw std::runtime_error("there is no memory for the font");
-    }
-    return fmt::format("/proc/self/fd/{}", file);
-  }();
-  return path;
-}
-
-using Document = std::unique_ptr<std::remove_pointer_t<HPDF_Doc>, decltype(&HPDF_Free)>;
 using Code = std::unique_ptr<QRcode, decltype(&QRcode_free)>;
+
+std::string box(float x, float y, float width, float height) {
+  return fmt::format("{:.2f} {:.2f} {:.2f} {:.2f} re f\n", x, y, width, height);
+}
 
 /// Puts text on pages from the top down.
 class Writer {
  public:
-  Writer(HPDF_Doc document, Paper paper)
-      : document_(document), size_(paper == Paper::A4 ? HPDF_PAGE_SIZE_A4 : HPDF_PAGE_SIZE_LETTER) {
-    check(HPDF_UseUTFEncodings(document_));
-    const char* const name = HPDF_LoadTTFontFromFile(document_, font_file().c_str(), HPDF_TRUE);
-    font_ = name == nullptr ? nullptr : HPDF_GetFont(document_, name, "UTF-8");
-    if (font_ == nullptr) check(HPDF_GetError(document_));
-    begin_page();
-  }
+  Writer(const std::string& title, Paper paper)
+      : width_(paper == Paper::A4 ? 841.89F : 792),
+        height_(paper == Paper::A4 ? 595.28F : 612),
+        pdf_(title, width_, height_),
+        y_(height_ - kMargin) {}
 
-  float width() const { return HPDF_Page_GetWidth(page_) - 2 * kMargin; }
+  TaggedPdf& pdf() { return pdf_; }
+  float width() const { return width_ - 2 * kMargin; }
   float left() const { return kMargin; }
   float y() const { return y_; }
   void advance(float height) { y_ -= height; }
@@ -82,131 +60,105 @@ class Writer {
   bool is_full(float height) const { return y_ - height < kMargin + 2 * kSmall; }
 
   void begin_page() {
-    page_ = HPDF_AddPage(document_);
-    if (page_ == nullptr) check(HPDF_GetError(document_));
-    check(HPDF_Page_SetSize(page_, size_, HPDF_PAGE_LANDSCAPE));
-    pages_.push_back(page_);
-    y_ = HPDF_Page_GetHeight(page_) - kMargin;
+    pdf_.begin_page();
+    y_ = height_ - kMargin;
   }
 
-  void text(float x, float y, float size, const std::string& text) {
-    check(HPDF_Page_BeginText(page_));
-    check(HPDF_Page_SetFontAndSize(page_, font_, size));
-    check(HPDF_Page_TextOut(page_, x, y, text.c_str()));
-    check(HPDF_Page_EndText(page_));
+  void element(std::string_view type, const std::string& operators, std::string more = {}) {
+    pdf_.open(type, std::move(more));
+    pdf_.mark(operators);
+    pdf_.close();
   }
 
   /// A line of its own. One that is too long goes on in the next.
-  void paragraph(float size, const std::string& text) {
-    for (const std::string& line : wrapped(text, size, width())) {
+  void paragraph(float size, const std::string& text, std::string_view type = "P") {
+    pdf_.open(type);
+    for (const std::string& line : pdf_.wrapped(text, size, width() - kCode)) {
       if (is_full(size * kLeading)) begin_page();
       advance(size * kLeading);
-      this->text(left(), y_, size, line);
+      pdf_.mark(pdf_.text(left(), y_, size, line));
     }
+    pdf_.close();
   }
 
-  void rule(float thickness) {
-    check(HPDF_Page_SetLineWidth(page_, thickness));
-    check(HPDF_Page_MoveTo(page_, left(), y_));
-    check(HPDF_Page_LineTo(page_, left() + width(), y_));
-    check(HPDF_Page_Stroke(page_));
-  }
-
-  void box(float x, float y, float side) {
-    check(HPDF_Page_Rectangle(page_, x, y, side, side));
-    check(HPDF_Page_Fill(page_));
-  }
-
-  /// The text in pieces no wider than `room`, at blanks where there are some.
-  std::vector<std::string> wrapped(const std::string& text, float size, float room) {
-    check(HPDF_Page_SetFontAndSize(page_, font_, size));
-    std::vector<std::string> lines;
-    std::string_view rest = text;
-    while (!rest.empty()) {
-      std::size_t end = fitting(rest, room);
-      if (end < rest.size()) {
-        const std::size_t blank = rest.substr(0, end + 1).rfind(' ');
-        if (blank != rest.npos && blank > 0) end = blank;
-      }
-      lines.emplace_back(rest.substr(0, end));
-      rest.remove_prefix(end);
-      rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
-    }
-    return lines;
-  }
-
-  /// `page n of m` on each.
-  void number_pages(const std::string& text) {
-    for (std::size_t i = 0; i < pages_.size(); ++i) {
-      page_ = pages_[i];
-      const std::string line = fmt::format("{}page {} of {}", text, i + 1, pages_.size());
-      check(HPDF_Page_SetFontAndSize(page_, font_, kSmall));
-      const float wide = HPDF_Page_TextWidth(page_, line.c_str());
-      this->text(left() + width() - wide, kMargin - kSmall, kSmall, line);
-    }
-  }
+  void rule(float thickness) { pdf_.decorate("0.6 g " + box(left(), y_, width(), thickness) + "0 g\n"); }
 
  private:
-  /// How many bytes of whole characters fit, at least one character.
-  std::size_t fitting(std::string_view text, float room) const {
-    const auto after = [&](std::size_t at) {
-      do ++at;
-      while (at < text.size() && (text[at] & 0xC0) == 0x80);
-      return at;
-    };
-    std::size_t end = after(0);
-    while (end < text.size()) {
-      const std::size_t next = after(end);
-      if (HPDF_Page_TextWidth(page_, std::string(text.substr(0, next)).c_str()) > room) break;
-      end = next;
-    }
-    return end;
-  }
-
-  HPDF_Doc document_;
-  HPDF_PageSizes size_;
-  HPDF_Font font_ = nullptr;
-  HPDF_Page page_ = nullptr;
-  std::vector<HPDF_Page> pages_;
-  float y_ = 0;
+  float width_;
+  float height_;
+  TaggedPdf pdf_;
+  float y_;
 };
 
 using Columns = std::span<const Column>;
 
-void write_table_head(Writer& out, Columns columns) {
+/// The tolerance in grey, half as wide as the drawing, with the value: a value far outside lies at the end.
+std::string drawing(float place, float x, float y, float width, float height) {
+  const float at = x + width * (0.25F + 0.5F * std::clamp(place, -0.48F, 1.48F));
+  const float tick = std::max(1.2F, width / 80);
+  return "0.82 g " + box(x + width / 4, y, width / 2, height) + "0.5 g " + box(x, y + height / 2 - 0.2F, width, 0.4F) +
+         "0 g " + box(at - tick / 2, y - height / 4, tick, height * 1.5F);
+}
+
+/// The text of a verdict, set off as it is to be.
+std::string verdict(TaggedPdf& pdf, const Line& line, float x, float y, float size, const std::string& text) {
+  if (line.weight == Weight::Plain) return pdf.text(x, y, size, text);
+  const bool is_marked = line.weight == Weight::Marked;
+  return (is_marked ? "0 g " : "0.85 g ") +
+         box(x - size / 4, y - size / 4, pdf.width_of(text, size) + size / 2, size * 1.2F) +
+         (is_marked ? "1 g\n" : "0 g\n") + pdf.text(x, y, size, text) + "0 g\n";
+}
+
+/// @param is_first on the first page; later ones repeat what was heard
+void write_table_head(Writer& out, Columns columns, bool is_first) {
   out.advance(kText * 2);
   float x = out.left();
+  if (is_first) out.pdf().open("TR");
   for (const Column& column : columns) {
-    out.text(x, out.y(), kText, std::string(column.name));
+    const std::string text = out.pdf().text(x, out.y(), kSmall, column.name);
+    if (is_first) out.element("TH", text, "/A<</O/Table/Scope/Column>>");
+    else out.pdf().decorate(text);
     x += column.share * out.width();
   }
+  if (is_first) out.pdf().close();
   out.advance(kText / 2);
   out.rule(0.8F);
 }
 
 void write_line(Writer& out, const Line& line, Columns columns) {
-  constexpr float kGap = 6;
   std::vector<std::vector<std::string>> cells;
   std::size_t most = 1;
   for (const Column& column : columns) {
-    cells.push_back(out.wrapped(line.*column.text, kText, column.share * out.width() - kGap));
+    cells.emplace_back();
+    if (column.text == nullptr) continue;
+    cells.back() = out.pdf().wrapped(line.*column.text, kSmall, column.share * out.width() - kGap);
     most = std::max(most, cells.back().size());
   }
-  const float height = static_cast<float>(most) * kText * kLeading + kText / 2;
+  const float height = static_cast<float>(most) * kSmall * kLeading + kSmall / 2;
   if (out.is_full(height)) {
     out.begin_page();
-    write_table_head(out, columns);
+    write_table_head(out, columns, false);
   }
-  const float top = out.y();
   float x = out.left();
+  out.pdf().open("TR");
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    float y = top;
-    for (const std::string& text : cells[i]) {
-      y -= kText * kLeading;
-      out.text(x, y, kText, text);
+    const float width = columns[i].share * out.width();
+    float y = out.y();
+    std::string text;
+    for (const std::string& piece : cells[i]) {
+      y -= kSmall * kLeading;
+      text += columns[i].text == &Line::verdict ? verdict(out.pdf(), line, x, y, kSmall, piece)
+                                                : out.pdf().text(x, y, kSmall, piece);
     }
-    x += columns[i].share * out.width();
+    out.pdf().open("TD");
+    if (!text.empty()) out.pdf().mark(text);
+    out.pdf().close();
+    if (columns[i].text == nullptr && line.place) {
+      out.pdf().decorate(drawing(*line.place, x, y - kSmall * 1.2F, width - kGap, kSmall * 0.8F));
+    }
+    x += width;
   }
+  out.pdf().close();
   out.advance(height);
   out.rule(0.2F);
 }
@@ -216,11 +168,58 @@ void write_code(Writer& out, const std::string& text, float top) {
   if (code == nullptr) throw std::runtime_error("the text is too long for a QR code");
   const float side = kCode / static_cast<float>(code->width);
   const float x = out.left() + out.width() - kCode;
+  std::string boxes;
   for (int i = 0; i < code->width * code->width; ++i) {
     if ((code->data[i] & 1) == 0) continue;
-    out.box(x + static_cast<float>(i % code->width) * side,
-            top - static_cast<float>(i / code->width + 1) * side, side);
+    boxes += box(x + static_cast<float>(i % code->width) * side,
+                 top - static_cast<float>(i / code->width + 1) * side, side, side);
   }
+  out.element("Figure", boxes, "/Alt" + TaggedPdf::string("QR code: " + text));
+}
+
+/// The logo, the address, the title and what the report is of.
+void write_head(Writer& out, const Certificate& certificate) {
+  const Picture& logo = certificate.letterhead.logo;
+  float y = out.y();
+  for (const std::string& line : certificate.letterhead.address) {
+    y -= kSmall * kLeading;
+    out.element("P", out.pdf().text(out.left() + out.width() - out.pdf().width_of(line, kSmall), y, kSmall, line));
+  }
+  if (!logo.empty()) {
+    constexpr float kWide = 160, kHigh = 40;
+    const auto width = static_cast<float>(logo.width), height = static_cast<float>(logo.height);
+    const float scale = std::min(kWide / width, kHigh / height);
+    out.advance(height * scale);
+    out.element("Figure", out.pdf().picture(logo, out.left(), out.y(), width * scale, height * scale),
+                "/Alt(Logo)");
+    out.advance(kText);
+  }
+  out.paragraph(kTitle, certificate.title, "H1");
+  out.advance(kText / 2);
+  for (const std::string& fact : certificate.facts) out.paragraph(kText, fact);
+}
+
+/// The verdict of all, and the worst value in its tolerance.
+void write_summary(Writer& out, const Certificate& certificate) {
+  if (certificate.summary.empty()) return;
+  out.advance(kText);
+  if (certificate.worst) {
+    const Line& worst = *certificate.worst;
+    out.advance(kTitle * 1.2F);
+    out.element("P", verdict(out.pdf(), worst, out.left() + kTitle / 4, out.y(), kTitle, worst.verdict));
+    if (worst.place) {
+      constexpr float kWide = 300, kHigh = 12;
+      const float x = out.left() + 180;
+      out.element("Figure", drawing(*worst.place, x, out.y() + 1, kWide, kHigh),
+                  "/Alt" + TaggedPdf::string(fmt::format("{} mm in its limits {} mm", worst.measured, worst.limits)));
+      const std::string limits = fmt::format("{}: {}", worst.characteristic, worst.limits);
+      out.element("P", out.pdf().text(x + kWide + kText, out.y() + kText / 2, kSmall, limits));
+    }
+    out.advance(kText / 2);
+  }
+  for (const std::string& line : certificate.summary) out.paragraph(kText, line);
+  out.advance(kText / 2);
+  for (const std::string& line : certificate.statements) out.paragraph(kSmall, line);
 }
 
 void write_end(Writer& out, const Certificate& certificate) {
@@ -228,47 +227,47 @@ void write_end(Writer& out, const Certificate& certificate) {
   if (out.is_full(room)) out.begin_page();
   out.advance(kText);
   const float top = out.y();
-  out.paragraph(kText, certificate.summary);
   for (const std::string& line : certificate.proof) out.paragraph(kSmall, line);
   if (!certificate.code.empty()) write_code(out, certificate.code, top);
   out.advance(3 * kTitle);
   float x = out.left();
   for (const std::string& name : certificate.signatures) {
-    out.text(x, out.y(), kText, std::string(38, '_'));
-    out.text(x, out.y() - kText * kLeading, kSmall, name);
-    x += out.width() / 3;
+    out.pdf().decorate(box(x, out.y(), 170, 0.6F));
+    out.element("P", out.pdf().text(x, out.y() - kText * kLeading, kSmall, name));
+    x += (out.width() - kCode) / 3;
   }
-}
-
-std::string saved(HPDF_Doc document) {
-  check(HPDF_SaveToStream(document));
-  check(HPDF_ResetStream(document));
-  std::string out(HPDF_GetStreamSize(document), '\0');
-  HPDF_UINT32 size = static_cast<HPDF_UINT32>(out.size());
-  const HPDF_STATUS status =
-      HPDF_ReadFromStream(document, reinterpret_cast<HPDF_BYTE*>(out.data()), &size);
-  if (status != HPDF_STREAM_EOF) check(status);
-  out.resize(size);
-  return out;
 }
 
 }  // namespace
 
+Result<Letterhead> read_letterhead(std::string_view address, const std::string& logo) {
+  Letterhead letterhead;
+  while (!address.empty()) {
+    const std::size_t end = std::min(address.find(';'), address.size());
+    letterhead.address.emplace_back(trim(address.substr(0, end)));
+    address.remove_prefix(std::min(end + 1, address.size()));
+  }
+  if (logo.empty()) return letterhead;
+  auto picture = read_picture(logo);
+  if (!picture) return picture.error();
+  letterhead.logo = *std::move(picture);
+  return letterhead;
+}
+
 std::string to_pdf(const Certificate& certificate, Paper paper) {
-  const Document document(HPDF_New(nullptr, nullptr), &HPDF_Free);
-  if (document == nullptr) throw std::bad_alloc();
-  check(HPDF_SetCompressionMode(document.get(), HPDF_COMP_ALL));
-  check(HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, certificate.title.c_str()));
-  Writer out(document.get(), paper);
-  out.paragraph(kTitle, certificate.title);
-  out.advance(kText / 2);
-  for (const std::string& fact : certificate.facts) out.paragraph(kText, fact);
+  Writer out(certificate.title, paper);
+  write_head(out, certificate);
+  write_summary(out, certificate);
   const Columns columns = certificate.columns.empty() ? Columns(kInspection) : certificate.columns;
-  write_table_head(out, columns);
+  out.pdf().open("Table");
+  write_table_head(out, columns, true);
   for (const Line& line : certificate.lines) write_line(out, line, columns);
+  out.pdf().close();
   write_end(out, certificate);
-  out.number_pages(certificate.title + ", ");
-  return saved(document.get());
+  return out.pdf().finish([&](std::size_t page, std::size_t of) {
+    const std::string line = fmt::format("{}, page {} of {}", certificate.title, page, of);
+    return out.pdf().text(out.left() + out.width() - out.pdf().width_of(line, kSmall), kMargin - kSmall, kSmall, line);
+  });
 }
 
 }  // namespace fitgauge::certificate

@@ -70,6 +70,7 @@ std::string to_pdf(const Qualification& made, const std::vector<std::string>& pr
   for (const Check& c : made.checks) {
     pdf.lines.push_back({c.id, c.source, c.quantity, c.expected, fmt::format("{:.15Lg}", c.got),
                          fmt::format("{:.1f}", c.digits), c.passed ? "passed" : "FAILED", c.limit});
+    if (!c.passed) pdf.lines.back().weight = certificate::Weight::Marked;
   }
   pdf.facts = {
       fmt::format("fitgauged {}, {}, tolerance tables {}", made.version, format_rfc3339(made.at),

@@ -5,7 +5,7 @@ import re
 import subprocess
 import tempfile
 
-from support.daemon import DaemonTest
+from support.daemon import SANITIZED, DaemonTest
 
 
 class Certificates(DaemonTest):
@@ -23,21 +23,30 @@ class Certificates(DaemonTest):
                             "part_id": "SN-07", "rule": "conformance", "uncertainty_um": 1, "temperature_c": 25,
                             "part_material": "steel"})
 
-    def pdf(self, query):
-        answer = self.daemon.get(f"/v1/certificates?{query}")
+    def pdf(self, query, daemon=None, structure="-struct-text"):
+        """The text, what pdfinfo says, and the structure as lines without their indent; with its texts poppler takes
+        the square of the pages."""
+        answer = (daemon or self.daemon).get(f"/v1/certificates?{query}")
         self.assertEqual((answer.status, answer.headers["content-type"]), (200, "application/pdf"), answer)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "certificate.pdf"
             path.write_bytes(answer.body)
-            text = subprocess.run(["pdftotext", "-layout", path, "-"], capture_output=True, text=True, check=True)
-            info = subprocess.run(["pdfinfo", path], capture_output=True, text=True, check=True).stdout
-        return text.stdout, dict(line.split(":", 1) for line in info.splitlines())
+            read = [subprocess.run([*command, path, *to], capture_output=True, text=True, check=True) for command, to in (
+                (["pdftotext", "-layout"], ["-"]), (["pdfinfo"], []), (["pdfinfo", structure], []), (["pdfimages", "-list"], []))]
+        self.assertEqual([one.stderr for one in read], [""] * len(read))  # a reader finds nothing to repair
+        text, info, heard, images = (one.stdout for one in read)
+        info = dict(line.split(":", 1) for line in info.splitlines())
+        return text, {**info, "images": images.splitlines()[2:]}, [line.strip() for line in heard.splitlines()]
+
+    def flat(self, query):
+        return re.sub(r"\s+", " ", self.pdf(query)[0])
 
     def test_a_pdf_has_every_value_once_and_whole(self):
-        text, info = self.pdf("order=WO-1&company=Muster%20GmbH&customer=%C3%96hler%20%26%20Co")
+        text, info, _ = self.pdf("order=WO-1&company=Muster%20GmbH&customer=%C3%96hler%20%26%20Co")
+        head, table = text.split("Measured at", 1)
         for part in range(60):
-            self.assertEqual(len(re.findall(rf"SN-{part:02d}\b", text)), 1, part)
-        self.assertIn("60 measured values: 22 good, 0 rework, 38 reject, 0 indeterminate.", text)
+            self.assertEqual(len(re.findall(rf"SN-{part:02d}\b", table)), 1, part)
+        self.assertIn("60 measured values of 60 parts: 22 good, 0 rework, 38 reject, 0 indeterminate.", head)
         for word in ("Inspection report", "Muster GmbH", "Customer: Öhler & Co", "Order: WO-1", "25.000 to 25.021",
                      "Bohrung Ø", "чертежу", "G-07", "fitgauge/"):
             self.assertIn(word, text)
@@ -45,11 +54,66 @@ class Certificates(DaemonTest):
         pages = int(info["Pages"])
         self.assertEqual(re.findall(r"page (\d+) of (\d+)", text),
                          [(str(page), str(pages)) for page in range(1, pages + 1)])
-        self.assertRegex(info["Page size"], "841.89 x 595.276 pts")
+        self.assertRegex(info["Page size"], "841.89 x 595.2")
         self.assertRegex(self.pdf("order=WO-1&paper=letter")[1]["Page size"], "792 x 612 pts")
 
+    def test_its_structure_can_be_heard(self):
+        text, info, lines = self.pdf("order=WO-1&title=Pr%C3%BCfprotokoll")
+        self.assertEqual((info["Tagged"].strip(), info["Title"].strip()), ("yes", "Prüfprotokoll"))
+        self.assertEqual(lines[lines.index("H1 (block)") + 1], '"Prüfprotokoll"')
+        counts = {kind: sum(line.split(" ")[0].rstrip(":") == kind for line in lines) for kind in ("Table", "TR", "TH", "TD", "Figure")}
+        columns = counts["TH"]
+        self.assertEqual(counts, {"Table": 1, "TR": 61, "TH": columns, "TD": 60 * columns, "Figure": 2})
+        self.assertEqual(sum(line == "/Scope /Column" for line in lines), columns)
+        self.assertGreater(int(info["Pages"]), 1)
+        self.assertEqual(text.count("Measured at"), int(info["Pages"]))  # on paper each page has the head
+
+    def test_names_of_other_alphabets_are_copied(self):
+        """Those that the font lacks too: on paper they are boxes."""
+        names = ("Zażółć gęślą", "Διάμετρος ὀπῆς", "Отверстие", "直径检验", "𠮷")
+        for name in names:
+            self.daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "part_id": "UTF", "characteristic": name})
+        text = "".join(self.pdf("part_id=UTF")[0].split())
+        for name in names:
+            self.assertIn(name.replace(" ", ""), text)
+
+    def test_the_worst_stands_first(self):
+        for part, measured in (("W1", "25.010"), ("W2", "25.0205"), ("W3", "24.999"), ("W3", "25.012")):
+            self.daemon.measure({"designation": "25 H7", "measured_mm": measured, "part_id": part, "order": "WO-W",
+                                 "machine": "M-12", "operator": "anna", "gauge": "G-07", "characteristic": "bore"})
+        text = self.flat("order=WO-W")
+        self.assertIn("rework", text.split("4 measured values of 3 parts: 3 good, 1 rework")[0])
+        for word in ("Worst value: W3, bore, 25 H7: 24.999 mm, 1 µm below the lower limit.", "-1 rework", "+12 good", "G-07, M-12, anna"):
+            self.assertIn(word, text)
+        self.assertIn("Worst value: W2, bore, 25 H7: 25.0205 mm, 0.5 µm inside the upper limit.", self.flat("part_id=W2"))
+        of_all = self.daemon.get("/v1/certificates?order=WO-W", Accept="application/json").json
+        worst = next(one for one in of_all["measurements"] if one["verdict"] == "rework")
+        self.assertEqual((of_all["verdict"], of_all["parts"], of_all["worst_id"]), ("rework", 3, worst["id"]))
+
+    def test_rules_stand_in_words_and_u_with_its_coverage(self):
+        given = {"designation": "25 H7", "measured_mm": "25.01", "order": "WO-R", "uncertainty_um": 0.8}
+        for part, rule in enumerate(({}, {"rule": "guard_band", "coverage_factor": 3}, {"rule": "guard_band", "degrees_of_freedom": 4},
+                                     {"rule": "conformance"}, {"rule": "guard_band"})):
+            self.daemon.measure({**given, **rule, "part_id": f"R{part}"})
+        text = self.flat("order=WO-R")
+        for word in ("R1: simple acceptance.", "JCGM 106:2012, 8.2", "R2: guard band.", "R3: conformance.", "probability p of 0.95 at least",
+                     "1.6 (k 2, 95.45 %)", "2.4 (k 3, 99.73 %)", "2.296 (k 2.869,", "relate to the values listed here alone"):
+            self.assertIn(word, text)
+        self.assertNotIn("R4", text.split("Measured at")[0])
+
+    def test_ten_thousand_values_take_little_memory(self):
+        for start in range(0, 10_000, 1000):
+            self.daemon.measure([{"designation": "25 H7", "measured_mm": f"25.{number % 23:03d}", "order": "WO-10000",
+                                  "part_id": f"L-{number}"} for number in range(start, start + 1000)])
+        before = self.daemon.memory("VmRSS")
+        text, info, lines = self.pdf("order=WO-10000", structure="-struct")
+        self.assertEqual((len(re.findall(r"\bL-\d+\b", text.split("Measured at", 1)[1])), sum(line == "TR" for line in lines)), (10_000, 10_001))
+        self.assertLess(int(info["File size"].split()[0]), 8_000_000)
+        if not SANITIZED:
+            self.assertLess(self.daemon.memory("VmHWM") - before, 64 << 20)
+
     def test_what_decided_stands_in_it(self):
-        text, _ = self.pdf("part_id=SN-07")
+        text = self.pdf("part_id=SN-07")[0]
         for word in ("10.006525", "(read 10.0071)", "conformance", "up to 10.010", "10 shaft"):
             self.assertIn(word, text)
 
@@ -84,16 +148,16 @@ class Certificates(DaemonTest):
         gauges = self.daemon.get("/v1/certificates?order=WO-G", Accept="application/json").json["gauges"]
         self.assertEqual(gauges, [{"name": "G-20"}, {"name": "G-20", "uncertainty": "then", "uncertainty_um": 0.8}])
         text = re.sub(r"\s+", " ", self.pdf("order=WO-G")[0])
-        self.assertIn("0.8 µm, k 2", text)
+        self.assertIn("1.6 (k 2, 95.45 %)", text)
         for word in ("0.05", "2020-12-31", "OVERDUE"):
             self.assertNotIn(word, text)
 
     def test_designations_of_other_standards_stand_as_they_are_written(self):
         for designation, size in (("M10x1.25-6g", "9.1"), ("R5 ISO 2768-m", "5.2"), ("12 ISO 2768-f", "12.05")):
             self.daemon.measure({"designation": designation, "measured_mm": size, "order": "WO-S", "part_id": "S"})
-        text, _ = self.pdf("order=WO-S")
+        text = self.pdf("order=WO-S")[0]
         flat = re.sub(r"\s+", " ", text)
-        for word in ("S M10x1.25-6g 9.042 to 9.160 9.100 -88 good", "R5 ISO", "12 ISO", "tables ISO 965-1:2013"):
+        for word in ("S M10x1.25-6g 9.042 to 9.160 9.100 -88 good R1", "R5 ISO", "12 ISO", "tables ISO 965-1:2013"):
             self.assertIn(word, flat)
         self.assertNotIn("9.188", text)
 

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace fitgauge::certificate {
+
+/// The character that begins at `at`, which moves behind it. @pre at < text.size()
+char32_t next_character(std::string_view text, std::size_t& at);
+
+/// The compiled-in font (TrueType) as one document uses it: characters get codes from 1 on as they come. One that the
+/// font lacks is drawn as a box, and is the same character when it is copied.
+class EmbeddedFont {
+ public:
+  struct Used {
+    char32_t character = 0;
+    std::uint16_t glyph = 0;
+    std::uint16_t width = 0;  ///< in thousandths of the size
+  };
+
+  EmbeddedFont();
+  std::uint16_t code(char32_t character);
+  std::size_t width(char32_t character) { return used_.at(code(character)).width; }
+  const std::vector<Used>& used() const { return used_; }  ///< by code
+  /// The font as a file, with the glyphs that were used alone.
+  std::string file() const;
+
+ private:
+  std::vector<Used> used_;
+  std::unordered_map<char32_t, std::uint16_t> codes_;
+};
+
+}  // namespace fitgauge::certificate
