@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "daemon/connections.hpp"
+#include "formats/certificate/certificate.hpp"
 #include "plant/virtual_control/virtual_control.hpp"
 #include "service/log/log_keys.hpp"
 
@@ -178,6 +179,8 @@ const std::vector<Setting>& settings() {
       {"allow-private-addresses",
        "Webhooks may use addresses of this machine and of private networks",
        &Config::allow_private_addresses},
+      {"certificate-logo", "PNG file that inspection reports begin with; empty for none", &Config::certificate_logo},
+      {"certificate-address", "Who makes out inspection reports: lines with ; between them", &Config::certificate_address},
       {"forward-to", "Centre that gets a copy of the log, as https://host:port; empty for none",
        &Config::forward_to},
       {"forward-key-file", "File with the key of this station at the centre",
@@ -332,6 +335,9 @@ Result<void> check(const Config& config) {
     return invalid("tls-client-ca needs tls-cert and tls-key");
   }
   if (const auto database = check_database(config); !database) return database;
+  if (const auto head = certificate::read_letterhead(config.certificate_address, config.certificate_logo); !head) {
+    return head.error();
+  }
   return check_forwarding(config);
 }
 

@@ -42,6 +42,8 @@ struct Config {
   std::string connections;
   std::vector<std::string> connection_folders;
   bool allow_private_addresses = false;
+  std::string certificate_logo;
+  std::string certificate_address;
   std::string forward_to;
   std::string forward_key_file;
   std::string forward_ca;

@@ -202,6 +202,8 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
     write_connection_metrics(outside.states(), clock, out);
     write_outbox_metrics(forwarding.get(), clock, out);
   });
+  auto letterhead = certificate::read_letterhead(config.certificate_address, config.certificate_logo);
+  if (!letterhead) return letterhead.error();
   const api::Services services{.tables = app.tables(),
                                .log = app.log(),
                                .intake = app.intake(),
@@ -216,7 +218,8 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
                                .metrics = metrics,
                                .verdicts = verdicts,
                                .clock = clock,
-                               .readiness = [&app] { return app.readiness(); }};
+                               .readiness = [&app] { return app.readiness(); },
+                               .letterhead = *std::move(letterhead)};
   std::vector<http::Route> of_plant;
   connections::add_connections_routes(of_plant, outside);
   api::add_mtconnect_routes(of_plant, services);

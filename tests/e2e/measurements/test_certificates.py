@@ -2,10 +2,13 @@
 
 import pathlib
 import re
+import struct
 import subprocess
 import tempfile
+import unittest
+import zlib
 
-from support.daemon import SANITIZED, DaemonTest
+from support.daemon import SANITIZED, Daemon, DaemonTest, command
 
 
 class Certificates(DaemonTest):
@@ -178,7 +181,49 @@ class Certificates(DaemonTest):
         self.assert_problem(self.daemon.get("/v1/certificates?order=WO-1", Accept="text/csv"), 406, "media_type.not_acceptable")
 
 
-if __name__ == "__main__":
-    import unittest
+def png(width, height, colour=2, damaged=False):
+    """A PNG of RGB (2), grey (0) or RGB with transparency (6)."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
+    row = b"\0" + b"\x20\x60\xa0\xff"[:{0: 1, 2: 3, 6: 4}[colour]] * width
+    packed = zlib.compress(row * (height - damaged))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, colour, 0, 0, 0)) + chunk(b"IDAT", packed) + chunk(b"IEND", b"")
+
+
+class Letterhead(unittest.TestCase):
+    """Logo and address are settings."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.logo = pathlib.Path(folder.name) / "logo.png"
+
+    def test_logo_and_address_head_each_report(self):
+        for colour, kind in ((2, "rgb"), (0, "gray")):
+            with self.subTest(kind):
+                self.logo.write_bytes(png(300, 60, colour))
+                daemon = Daemon("--certificate-logo", self.logo, "--certificate-address", "Öhler GmbH; Hauptstraße 1, Halle 2; 70173 Stuttgart")
+                self.addCleanup(daemon.cleanup)
+                daemon.start().measure({"designation": "25 H7", "measured_mm": "25.01", "part_id": "P"})
+                text, info, lines = Certificates.pdf(self, "part_id=P", daemon)
+                self.assertEqual([line.split()[2:6] for line in info["images"]], [["image", "300", "60", kind]])
+                for line in ("Öhler GmbH", "Hauptstraße 1, Halle 2", "70173 Stuttgart"):
+                    self.assertIn(f'"{line}"', lines)
+                self.assertLess(text.index("Öhler"), text.index("Inspection report"))
+
+    def test_a_logo_that_cannot_be_printed_is_refused_before_the_start(self):
+        for content, why in ((None, "cannot be read"), (b"GIF89a", "must be a PNG file"), (png(9, 9, 6), "save it so"),
+                             (png(2001, 1), "save it smaller"), (png(9, 9, damaged=True), "is damaged")):
+            with self.subTest(why):
+                self.logo.unlink(missing_ok=True)
+                if content:
+                    self.logo.write_bytes(content)
+                checked = command("--check-config", "--data", self.logo.parent, "--certificate-logo", self.logo)
+                self.assertNotEqual(checked.returncode, 0)
+                self.assertIn(str(self.logo), checked.stderr)
+                self.assertIn(why, checked.stderr)
+
+
+if __name__ == "__main__":
     unittest.main()
