@@ -3,6 +3,7 @@
 import { designationText } from '../designation.js';
 import { h } from '../dom.js';
 import { number, t, time } from '../i18n.js';
+import { certificateLink } from '../parts/certificate.js';
 import { LaterStore, readJson, store } from '../stored.js';
 import { distanceText, limitsText, measuredText, noteText, verdictMark, verdictShape } from '../verdict.js';
 
@@ -16,9 +17,9 @@ const waitingMark = (state, { verdict }) => (verdict && state === 'waiting'
   : h('span.mark-of', verdictShape('waiting'), t(`recent.${state}`)));
 
 export class Recent {
-  /** @param ledger the values and their state; @param onCorrect takes the record to correct, and what of it: `measured_mm` or `part_id`; @param leaving ends it */
-  constructor({ ledger, onCorrect, leaving }) {
-    Object.assign(this, { ledger, onCorrect });
+  /** @param ledger the values and their state; @param onCorrect takes the record to correct, and what of it: `measured_mm` or `part_id`; @param onProblem takes why a certificate could not be had; @param leaving ends it */
+  constructor({ ledger, onCorrect, onProblem, leaving }) {
+    Object.assign(this, { ledger, onCorrect, onProblem });
     this.kept = new LaterStore(() => store(KEPT, JSON.stringify(this.keys), 'session'), leaving);
     this.keys = readJson(KEPT, [], 'session').filter((key) => ledger.get(key));
     this.list = h('ol');
@@ -65,7 +66,7 @@ export class Recent {
       h('span.aside', [part_id, characteristic, what, time(new Date(shown.at)), confirmed && t('confirmed.mark'), isOld && t(`recent.${now}`)].filter(Boolean).join(' · ')),
       h('span.aside', record ? distanceText(record) : value.reason ?? ''), said.done && h('span.aside.noted', noteText(said)),
       state === 'stored' && !isOld && h('span.fix',
-        this.#fix(record, 'measured_mm', 'recent.correct'), this.#fix(record, 'part_id', 'recent.correct_part')));
+        this.#fix(record, 'measured_mm', 'recent.correct'), part_id && certificateLink(part_id, this.onProblem), this.#fix(record, 'part_id', 'recent.correct_part')));
   }
 
   #fix(record, what, name) {

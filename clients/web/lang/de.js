@@ -416,6 +416,7 @@ export default {
   'correct.why': 'Bitte den Grund nennen: Er bleibt bei der Messung.',
   'correct.far': '{mm} mm liegt weit außerhalb der Grenzen. Noch einmal speichern, wenn es stimmt.',
   'certificate.title': 'Prüfprotokoll',
+  'certificate.of': 'Prüfzeugnis von {part}',
   'certificate.company': 'Firma',
   'certificate.customer': 'Kunde',
   'certificate.paper': 'Papier',

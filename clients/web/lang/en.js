@@ -416,6 +416,7 @@ export default {
   'correct.why': 'Enter the reason: it stays with the measurement.',
   'correct.far': '{mm} mm is far outside the limits. Store again if it is right.',
   'certificate.title': 'Inspection report',
+  'certificate.of': 'Certificate of {part}',
   'certificate.company': 'Company',
   'certificate.customer': 'Customer',
   'certificate.paper': 'Paper',

@@ -416,6 +416,7 @@ export default {
   'correct.why': 'Indicare il motivo: resta con la misura.',
   'correct.far': '{mm} mm è molto fuori dai limiti. Salvare di nuovo se è giusto.',
   'certificate.title': 'Rapporto di misura',
+  'certificate.of': 'Certificato di {part}',
   'certificate.company': 'Ditta',
   'certificate.customer': 'Cliente',
   'certificate.paper': 'Carta',

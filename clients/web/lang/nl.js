@@ -416,6 +416,7 @@ export default {
   'correct.why': 'Geef de reden: die blijft bij de meting.',
   'correct.far': '{mm} mm ligt ver buiten de grenzen. Sla nog eens op als het klopt.',
   'certificate.title': 'Meetrapport',
+  'certificate.of': 'Certificaat van {part}',
   'certificate.company': 'Bedrijf',
   'certificate.customer': 'Klant',
   'certificate.paper': 'Papier',

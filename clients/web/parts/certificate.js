@@ -10,6 +10,18 @@ const KEPT_COMPANY = 'company';
 const KEPT_PAPER = 'paper';
 const PAPERS = { a4: 'A4', letter: 'Letter' };
 
+/** Where the sheet is: with the company and the paper that were given last. @param of {part_id, order}: one of them or both */
+const sheetOf = (of, customer) => url(['certificates'], {
+  ...of, title: t('certificate.title'), company: readStored(KEPT_COMPANY), customer, paper: readStored(KEPT_PAPER) ?? 'a4',
+});
+
+/** Opens the sheet of a part beside the station. It leaves the focus, so that no scan opens it again. */
+export function certificateLink(part, onProblem) {
+  const link = downloadLink({ target: '_blank', href: sheetOf({ part_id: part }), 'aria-label': t('certificate.of', { part }) }, t('parts.certificate'), onProblem);
+  link.addEventListener('click', () => link.blur());
+  return link;
+}
+
 export class CertificateForm {
   /** @param onProblem takes why the sheet could not be had */
   constructor(onProblem) {
@@ -35,8 +47,6 @@ export class CertificateForm {
   #changed() {
     store(KEPT_COMPANY, this.company.value.trim());
     store(KEPT_PAPER, this.paper.value);
-    this.link.href = url(['certificates'], {
-      ...this.of, title: t('certificate.title'), company: this.company.value.trim(), customer: this.customer.value.trim(), paper: this.paper.value,
-    });
+    this.link.href = sheetOf(this.of, this.customer.value.trim());
   }
 }

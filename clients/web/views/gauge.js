@@ -72,7 +72,7 @@ export function mount(main, route) {
     onChange: (another) => jobChanged(another), onDone: () => entry.focus(),
     named: (text, ended) => entry.named(text, ended),
   });
-  const recent = new Recent({ ledger, onCorrect: (record, what) => entry.correct(record, what), leaving: leaving.signal });
+  const recent = new Recent({ ledger, onCorrect: (record, what) => entry.correct(record, what), onProblem: (why) => entry.unread(why), leaving: leaving.signal });
   const arrivals = new Arrivals(leaving.signal);
   const unkept = h('p.unkept', { role: 'status' });
 

@@ -180,6 +180,25 @@ describe('the parts', () => {
     await page.click('.certificate summary');
     assert.equal(await page.getByLabel('Company').inputValue(), 'Muster GmbH & Co.'); // typed once
   });
+
+  it('have it one touch away at the station, and the next scan is a scan again', async () => {
+    page = await open(browser, daemon, '#/gauge/25H7?part_id=SN-C');
+    await page.waitForSelector('.echo .figures');
+    await page.keyboard.type('25.01\n');
+    await page.waitForSelector('.recent .stored .fix a');
+    const [sheet, opened] = await Promise.all([
+      page.context().waitForEvent('response', (answer) => answer.url().includes('/v1/certificates')),
+      page.context().waitForEvent('page'),
+      page.click('.recent .fix a'),
+    ]);
+    assert.deepEqual([sheet.headers()['content-type'], new URL(sheet.url()).searchParams.get('part_id')], ['application/pdf', 'SN-C']);
+    await opened.close();
+    await page.keyboard.type('25.02\n');
+    await page.waitForFunction(() => document.querySelectorAll('.recent .stored .fix').length === 2);
+    assert.equal(page.context().pages().length, 1);
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'station-certificate-link');
+  });
 });
 
 describe('what is saved as a file', () => {
