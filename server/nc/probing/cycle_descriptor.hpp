@@ -50,14 +50,14 @@ class ErrorSet {
 enum class CycleFamily : std::uint8_t { CyclDef, TchProbe };
 
 enum class CycleKind : std::uint8_t {
-  Measuring,    ///< 0, 1, 3, 4, 420 to 431, 444: results, most with status and log
+  Measuring,    ///< 0, 1, 3, 4, 420 to 431, 444, 1400 to 1434: results, most with status and log
   Preset,       ///< 408 to 419, 247
   Alignment,    ///< 400 to 405: basic rotation
   Calibration,  ///< 460 to 463: the probe
   Kinematics,   ///< 450 to 453: rotary axes
   Tool,         ///< 30 to 33, 480 to 484
   Machining,    ///< CYCL DEF 1 to 5, 14 to 24, 200 to 267: motion without probing
-  Other         ///< 441
+  Other         ///< 441, 1493
 };
 
 /// `measuring`, `preset`, ...

@@ -30,15 +30,24 @@ struct FastProbing {
 /// What cycle 450 has saved, by name.
 using KinematicsRecords = std::map<std::string, machine::Kinematics>;
 
+/// Cycle 1493: each touch of the next cycle, or of all until the program ends, is repeated.
+struct Extrusion {
+  machine::Vec3 step;     ///< from one touch to the next, in plane coordinates
+  std::size_t count = 0;  ///< of repetitions
+  bool is_modal = false;
+};
+
 /// What cycles leave for later cycles of a run. The host owns it, gives the same one to every cycle
 /// and calls `end_program` at END PGM, M2 and M30 of the main program.
 struct CycleMemory {
   FastProbing fast_probing;
+  std::optional<Extrusion> extrusion;
   /// The HTML logs that this run has begun, by file name and program: further sections join them.
   std::set<std::pair<std::string, std::string>> begun_logs;
 
   void end_program() {
     fast_probing = {};
+    extrusion.reset();
     begun_logs.clear();
   }
 };

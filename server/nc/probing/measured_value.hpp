@@ -31,6 +31,7 @@ struct MeasuredValue {
   std::uint16_t deviation_q = 0;  ///< receives the deviation; 0 is none
   int error_too_large = 1072;     ///< of Q309
   int error_too_small = 1072;
+  bool is_position = false;  ///< a face: judged as a size, by the side of its material
 
   Length deviation() const { return measured - nominal; }
   /// Limits are inclusive (decision 1); without limits every value is good.

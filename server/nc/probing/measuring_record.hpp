@@ -50,7 +50,8 @@ constexpr gauging::Quantity quantity_of(int cycle, bool is_position) {
   using gauging::Quantity;
   if (is_position || cycle == 427) return Quantity::Position;
   if (cycle == 444) return Quantity::Deviation;
-  const bool is_width = (cycle >= 408 && cycle <= 411) || (cycle >= 423 && cycle <= 426);
+  const bool is_width = (cycle >= 408 && cycle <= 411) || (cycle >= 423 && cycle <= 426) ||
+                        cycle == 1404 || cycle == 1434;
   return is_width ? Quantity::Width : Quantity::Diameter;
 }
 

@@ -25,8 +25,7 @@ CycleResult<void> rotate(const CycleContext& context) {
       context.arguments.number(307);
   // Along the secondary axis: the reference line is that axis, whether Q307 says 90 or 0.
   if (edge->axis == 0) angle -= 90 * std::round(angle / 90);
-  const Vec3 rotation =
-      turned_rotation(context.machine.state().frames, motion->plane().probe, angle);
+  const Vec3 rotation = turned_rotation(context.machine.state().frames, motion->plane(), angle);
   return set_basic_rotation(context, rotation, context.arguments.whole(305));
 }
 

@@ -40,7 +40,7 @@ CycleResult<void> compensate(const CycleContext& context, const WorkingPlane& pl
   const double angle =
       workpiece_angle(context.machine.state().frames, plane, direction) - arguments.number(307);
   if (arguments.whole(402) == 0) {
-    const Vec3 rotation = turned_rotation(context.machine.state().frames, plane.probe, angle);
+    const Vec3 rotation = turned_rotation(context.machine.state().frames, plane, angle);
     return set_basic_rotation(context, rotation, arguments.whole(305));
   }
   const machine::Axis table = rotary_axis_around(plane.probe);

@@ -26,11 +26,16 @@ double workpiece_angle(const Frames& frames, const WorkingPlane& plane, const Ve
   return angle <= -90 ? angle + 180 : angle;
 }
 
-Vec3 turned_rotation(const Frames& frames, machine::Axis probe, double angle_deg) {
-  const Matrix3 tilt = tilt_of(frames);
-  const Matrix3 turn = Matrix3::rotation(unit_vector(probe), angle_deg);
+Vec3 turned_rotation(const Frames& frames, const WorkingPlane& plane, const Matrix3& turn) {
+  Matrix3 axes;  // of the plane, in the workpiece system
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3 along;
+    along[i] = 1;
+    axes.rows.at(i) = frames.direction_from_machine(
+        frames.direction_to_machine(plane.to_input(along)), CoordinateSystem::Workpiece);
+  }
   const Vec3 angles = machine::spatial_angles(Matrix3::spatial(frames.preset().basic_rotation_deg) *
-                                              tilt * turn * tilt.transposed());
+                                              axes.transposed() * turn * axes);
   return {to_angle(angles.x), to_angle(angles.y), to_angle(angles.z)};
 }
 
@@ -87,18 +92,22 @@ CycleResult<void> set_basic_rotation(const CycleContext& context, const Vec3& ro
 
 using machine::Axis;
 
-CycleResult<void> align_rotary_axis(const CycleContext& context, Axis rotary, double angle_deg) {
+CycleResult<double> table_angle(const machine::MachineState& state, Axis rotary, double angle_deg) {
   using machine::FaultKind;
-  const machine::MachineState& state = context.machine.state();
   const machine::RotaryAxis* axis = state.kinematics.find(rotary);
   if (axis == nullptr) return from_machine(make_fault(FaultKind::AxisMissing, name(rotary)));
   if (axis->mount == machine::AxisMount::Head) {
     return nc_error(1100, "the rotary axis does not turn the workpiece");
   }
   // A positive angle turns the tool right-handed around the axis, seen from the workpiece.
-  const double sense = dot(axis->direction, unit_vector(rotary)) < 0 ? -1 : 1;
+  return dot(axis->direction, unit_vector(rotary)) < 0 ? -angle_deg : angle_deg;
+}
+
+CycleResult<void> align_rotary_axis(const CycleContext& context, Axis rotary, double angle_deg) {
+  const auto turn = table_angle(context.machine.state(), rotary, angle_deg);
+  if (!turn) return turn.error();
   machine::AxisWords target;
-  target[rotary] = to_angle(context.machine.position()[rotary] + sense * angle_deg);
+  target[rotary] = to_angle(context.machine.position()[rotary] + *turn);
   return lift(context.machine.move({target, machine::Feed::rapid()}));
 }
 

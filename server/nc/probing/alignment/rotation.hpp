@@ -13,9 +13,15 @@ machine::Matrix3 tilt_of(const machine::Frames& frames);
 double workpiece_angle(const machine::Frames& frames, const WorkingPlane& plane,
                        const Vec3& direction);
 
-/// The spatial angles of the active basic rotation after a further turn by `angle_deg` around the
-/// probe axis of the workpiece system, or of the tilted plane when one is active.
-Vec3 turned_rotation(const machine::Frames& frames, machine::Axis probe, double angle_deg);
+/// The spatial angles of the active basic rotation after a further turn, given in plane coordinates
+/// of the input system. @pre nothing is mirrored or scaled.
+Vec3 turned_rotation(const machine::Frames& frames, const WorkingPlane& plane,
+                     const machine::Matrix3& turn);
+/// The same after a turn around the probe axis.
+inline Vec3 turned_rotation(const machine::Frames& frames, const WorkingPlane& plane,
+                            double angle_deg) {
+  return turned_rotation(frames, plane, machine::Matrix3::rotation({0, 0, 1}, angle_deg));
+}
 
 /// Measuring and alignment cycles begin without a basic rotation.
 CycleResult<void> reset_basic_rotation(machine::Machine& machine);
@@ -38,6 +44,11 @@ CycleResult<void> set_basic_rotation(const CycleContext& context, const Vec3& ro
 constexpr machine::Axis rotary_axis_around(machine::Axis linear) {
   return static_cast<machine::Axis>(index(linear) + 3);
 }
+
+/// The angle by which a rotary table turns what stands at `angle_deg`, right-handed around the
+/// linear axis of the same letter, to 0. @errors those of align_rotary_axis.
+CycleResult<double> table_angle(const machine::MachineState& state, machine::Axis rotary,
+                                double angle_deg);
 
 /// Turns a rotary table so that what stands at `angle_deg` (right-handed around the linear axis of
 /// the same letter) comes to 0.

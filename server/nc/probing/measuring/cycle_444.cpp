@@ -7,6 +7,7 @@
 #include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/measuring/probing_3d_log.hpp"
+#include "nc/probing/object/dimension.hpp"
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 

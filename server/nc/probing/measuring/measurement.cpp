@@ -52,7 +52,16 @@ const MeasuredValue& worst(const std::vector<MeasuredValue>& values) {
   return *std::ranges::max_element(values, {}, &MeasuredValue::verdict);
 }
 
-void write_results(CycleHost& host, const std::vector<MeasuredValue>& values) {
+/// On a short arc the scatter of the touches becomes a large one of the diameter.
+void add_short_arc(MeasuringLog& log, const std::optional<Form>& form) {
+  constexpr double kShort = 2;  // four touches at right angles: 1, three: 1.15
+  if (!form || form->diameter_factor <= kShort) return;
+  log.number("Scatter of the diameter per scatter of touch", form->diameter_factor);
+}
+
+}  // namespace
+
+void publish(CycleHost& host, std::span<const MeasuredValue> values) {
   for (const MeasuredValue& value : values) {
     if (value.result_q != 0) host.set_q(value.result_q, value.measured.to_mm(), Unit::Length);
     if (value.deviation_q != 0) {
@@ -61,7 +70,7 @@ void write_results(CycleHost& host, const std::vector<MeasuredValue>& values) {
   }
 }
 
-MeasuringRecord make_record(const CycleContext& context, const Measurement& measurement) {
+MeasuringRecord record_of(const CycleContext& context, const Measurement& measurement) {
   const bool is_judged =
       std::ranges::any_of(measurement.values, [](const auto& value) { return !!value.limits; });
   MeasuringRecord record{
@@ -74,7 +83,7 @@ MeasuringRecord make_record(const CycleContext& context, const Measurement& meas
     record.sizes.push_back(
         {.characteristic = value.characteristic,
          .feature = shaft ? iso286::Feature::Shaft : iso286::Feature::Hole,
-         .is_position = value.role == ValueRole::Position,
+         .is_position = value.is_position || value.role == ValueRole::Position,
          .nominal = value.nominal,
          .measured = value.measured,
          .limits = value.limits,
@@ -84,15 +93,6 @@ MeasuringRecord make_record(const CycleContext& context, const Measurement& meas
                         [](const MeasuredSize& size) { return !size.is_position; });
   return record;
 }
-
-/// On a short arc the scatter of the touches becomes a large one of the diameter.
-void add_short_arc(MeasuringLog& log, const std::optional<Form>& form) {
-  constexpr double kShort = 2;  // four touches at right angles: 1, three: 1.15
-  if (!form || form->diameter_factor <= kShort) return;
-  log.number("Scatter of the diameter per scatter of touch", form->diameter_factor);
-}
-
-}  // namespace
 
 ToolCorrection radius_correction(const MeasuredValue& size) {
   const Length half = to_length(size.deviation().to_mm() / 2);
@@ -140,7 +140,7 @@ CycleResult<ProbingMotion> begin_measurement(const CycleContext& context) {
 CycleResult<void> finish_measurement(const CycleContext& context, const Measurement& measurement) {
   CycleHost& host = context.host;
   const MeasuredValue& decisive = worst(measurement.values);
-  write_results(host, measurement.values);
+  publish(host, measurement.values);
   set_status(host, decisive.verdict());
   MeasuringLog log(context.arguments.descriptor(), host);
   add_values(log, measurement.values);
@@ -150,7 +150,7 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
     add_short_arc(log, measurement.form);
   }
   if (auto written = deliver_log(context, std::move(log)); !written) return written;
-  host.record(make_record(context, measurement));
+  host.record(record_of(context, measurement));
   if (measurement.correction) {
     if (auto corrected = correct_tool(context, *measurement.correction); !corrected) {
       return corrected;

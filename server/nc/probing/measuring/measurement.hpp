@@ -49,6 +49,11 @@ struct Measurement {
 ///   ProbingMotion::begin.
 CycleResult<ProbingMotion> begin_measurement(const CycleContext& context);
 
+/// Sets the Q parameters of the values.
+void publish(CycleHost& host, std::span<const MeasuredValue> values);
+/// Judged by the worst of the values that have limits. @pre there are values.
+MeasuringRecord record_of(const CycleContext& context, const Measurement& measurement);
+
 /// What it ends with: results, status, log (Q281), record, tool correction (Q330), and last the
 /// stop of Q309 (decision 6).
 /// @errors 1092 and 1065 of the tool; a tolerance stop with the error of the worst value.

@@ -135,10 +135,32 @@ CycleResult<void> transfer_datum(const CycleContext& context, const WorkingPlane
   std::vector<Found> found;
   for (const DatumPoint& point : points) found.push_back(found_in(frames, plane, point));
   PresetFrame turned = frames.preset();
-  if (turn_deg) turned.basic_rotation_deg = turned_rotation(frames, plane.probe, *turn_deg);
+  if (turn_deg) turned.basic_rotation_deg = turned_rotation(frames, plane, *turn_deg);
   const bool datum_table = context.arguments.whole(303) == 0 && context.arguments.whole(305) != 0;
   return datum_table ? write_datum_table(context, turned, found)
                      : write_preset(context, turned, found);
+}
+
+CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane& plane,
+                                 PresetFrame turned, const std::optional<MovedPoint>& moved) {
+  const machine::MachineState& state = context.machine.state();
+  Frames frames = state.frames;
+  const PresetFrame before = frames.preset();
+  if (moved) {
+    Found found = found_in(frames, plane, {.point = moved->measured, .axes = {true, true, true}});
+    const Vec3 nominal = found_in(frames, plane, {.point = moved->nominal}).point;
+    found.datum = axes_of(frames, before).transposed() * (nominal - before.origin);
+    move_zero(turned, axes_of(frames, turned), found);
+  }
+  if (turned == before) return {};
+  Preset row{.number = state.active_preset, .comment = {}, .frame = before};
+  if (const Preset* existing = state.presets.find(row.number)) row = *existing;
+  row.frame.origin = tidy(row.frame.origin + turned.origin - before.origin);
+  row.frame.basic_rotation_deg = turned.basic_rotation_deg;
+  row.frame.rotary_offsets_deg = turned.rotary_offsets_deg;
+  if (auto written = lift(context.machine.write_preset(row)); !written) return written;
+  frames.set_preset(turned);
+  return lift(context.machine.set_frames(frames));
 }
 
 DatumPoint plane_datum(const Arguments& arguments, Point2 point) {

@@ -45,6 +45,17 @@ CycleResult<void> transfer_datum(const CycleContext& context, const WorkingPlane
                                  std::span<const DatumPoint> points,
                                  std::optional<double> turn_deg = std::nullopt);
 
+struct MovedPoint {
+  Vec3 nominal;
+  Vec3 measured;
+};
+/// Corrects the active preset and its row: `turned` is the preset with the new basic rotation and
+/// offsets; the measured point is moved to read what the nominal one reads now.
+/// @errors 1085 the row is write-protected.
+CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane& plane,
+                                 machine::PresetFrame turned,
+                                 const std::optional<MovedPoint>& moved);
+
 namespace parameter {
 
 /// The last parameters of the cycles that also can set the datum in the probe axis.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "nc/probing/measured_value.hpp"
 
 namespace fitgauge::probing {
@@ -52,6 +54,7 @@ CycleResult<std::vector<Contact>> ProbingMotion::touch_all(std::span<const Touch
     if (!contact) return contact.error();
     contacts.push_back(*contact);
   }
+  if (std::isinf(clearance_height)) return contacts;
   if (auto moved = move_tip_to_height(clearance_height); !moved) return moved.error();
   return contacts;
 }

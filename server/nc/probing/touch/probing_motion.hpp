@@ -57,7 +57,7 @@ class ProbingMotion {
 
   /// Touches in order, then retracts to the clearance height (of the tip, Q260). The first start is
   /// reached by the positioning logic: a tip below the clearance height goes up first.
-  /// Every touch updates Q115 to Q119.
+  /// Without end, -infinity, the height has no effect. Every touch updates Q115 to Q119.
   /// @errors 1014 no contact within DIST, and the faults of the machine.
   CycleResult<std::vector<Contact>> touch_all(std::span<const Touch> touches,
                                               double clearance_height);

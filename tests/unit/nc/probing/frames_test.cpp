@@ -37,14 +37,14 @@ const std::vector<FrameRule> kRules{
      1008,
      1007,
      1007,
-     {400, 401, 402, 403, 405, 408, 409, 410, 411, 412, 413,
-      414, 415, 416, 417, 418, 419, 444, 460, 461, 462, 463}},
+     {400, 401, 402, 403, 405, 408, 409,  410,  411,  412,  413,  414,  415,  416,  417,  418,
+      419, 444, 460, 461, 462, 463, 1400, 1401, 1402, 1404, 1410, 1411, 1412, 1420, 1430, 1434}},
     {"the sphere lies in the preset, the tool touch probe in the machine",
      0,
      0,
      0,
      {30, 31, 32, 33, 451, 452, 453, 480, 481, 482, 483, 484}},
-    {"no motion", 0, 0, 0, {247, 404, 441, 450}},
+    {"no motion", 0, 0, 0, {247, 404, 441, 450, 1493}},
 };
 
 struct NamedFrames {
@@ -121,7 +121,8 @@ Numbers modal_state(ProbingBench& bench) {
           zero.z,
           state.frames.preset().basic_rotation_deg.z,
           bench.host.memory().fast_probing.positioning_feed.value_or(0),
-          static_cast<double>(bench.host.saved.size())};
+          static_cast<double>(bench.host.saved.size()),
+          bench.host.memory().extrusion.value_or(Extrusion{}).step.x};
 }
 
 /// A probe and what it is calibrated against: none is as the tables say.
@@ -251,6 +252,8 @@ std::vector<Scenario> scenarios() {
   all.push_back(
       on_machine(404, probe, 30, {0, 0, 200}, always({{307, 2.5}, {305, 0.0}}), modal_state));
   all.push_back(on_machine(441, probe, 30, {0, 0, 200}, always({{396, 1234.0}}), modal_state));
+  all.push_back(on_machine(1493, probe, 30, {0, 0, 200},
+                           always({{372, 1.0}, {1145, 3.0}, {1146, 9.0}}), modal_state));
   all.push_back(on_machine(450, table, 30, over, always({{410, 0.0}, {409, 1.0}}), modal_state));
   return all;
 }

@@ -257,6 +257,69 @@ void add_alignment(std::vector<NominalCase>& cases) {
                    {{150, 0}}});
 }
 
+/// 1400 to 1434: the results, the deviations 30 further on, and the status.
+Results object_results(int first, const std::vector<double>& nominal, Results more = {}) {
+  for (const double value : nominal) more.push_back({first++, value});
+  for (std::size_t i = more.size(); i-- > 0;) more.push_back({more[i].first + 30, 0});
+  more.push_back({183, 0});
+  return more;
+}
+
+void add_objects(std::vector<NominalCase>& cases) {
+  const auto near = [](int q, double value, const char* tolerance) {
+    return Values{{q, std::to_string(static_cast<int>(value)) + tolerance}};
+  };
+  const auto point = [](int first, double x, double y, double z) {
+    return Values{{first, x}, {first + 1, y}, {first + 2, z}};
+  };
+  const Values face = with(with(kClear, point(1100, 0, 40, -5)), {{372, 1.0}});
+  for (const int cycle : {1400, 1430}) {
+    cases.push_back({cycle,
+                     {kPlate},
+                     {-40, 40, 60},
+                     with(face, near(1100, 0, "+-0.1")),
+                     object_results(950, {0, 40, -5})});
+  }
+  const Values middle = with(kClear, point(1100, 100, 80, -5));
+  for (const int cycle : {1404, 1434}) {
+    cases.push_back({cycle, kPocket, kAbove,
+                     with(middle, with(near(1113, 40, "+-0.1"), {{1114, 90.0}})),
+                     object_results(950, {100, 80, -5}, {{968, 40}})});
+  }
+  cases.push_back({1401, kHole, kAbove, with(middle, near(1116, 25, "+-0.1")),
+                   object_results(950, {100, 80, -5}, {{966, 25}})});
+  cases.push_back({1402,
+                   {machine::Sphere{{100, 80, -5}, 25}},
+                   kAbove,
+                   with(middle, near(1116, 25, "+-0.1")),
+                   object_results(950, {100, 80, -5}, {{966, 25}})});
+  const Values line = with(with(kClear, {{372, 2.0}}), point(1103, 180, 0, -5));
+  cases.push_back({1410,
+                   {kPlate},
+                   {20, -30, 60},
+                   with(with(line, point(1100, 20, 0, -5)), near(1101, 0, "+-0.1")),
+                   object_results(950, {20, 0, -5, 180, 0, -5}, {{964, 0}})});
+  cases.push_back(
+      {1412,
+       {kPlate},
+       {20, -30, 60},
+       with(with(kClear, point(1100, 20, 0, -5)),
+            {{1130, 0.0}, {1131, 1.0}, {1132, 10.0}, {1133, 150.0}, {400, std::string("0.1-0.1")}}),
+       object_results(950, {30, 0, -5, 170, 0, -5}, {{964, 0}})});
+  cases.push_back(
+      {1411, plate_with({{50, 40}, {150, 40}}, 10), kAbove,
+       with(with(with(kClear, point(1100, 50, 40, -5)), point(1103, 150, 40, -5)),
+            with(near(1116, 10, "+-0.1"), {{1117, 10.0}})),
+       object_results(950, {50, 40, -5, 150, 40, -5}, {{964, 0}, {966, 10}, {967, 10}})});
+  cases.push_back(
+      {1420,
+       {kFace},
+       kAbove,
+       with(with(with(kClear, point(1100, 20, 20, 0)), point(1103, 150, 20, 0)),
+            with(with(point(1106, 20, 120, 0), {{372, -3.0}}), near(1102, 0, "+-0.1"))),
+       object_results(950, {20, 20, 0, 150, 20, 0, 20, 120, 0}, {{961, 0}, {962, 0}, {963, 0}})});
+}
+
 }  // namespace
 
 std::vector<NominalCase> nominal_cases() {
@@ -265,6 +328,7 @@ std::vector<NominalCase> nominal_cases() {
   add_measuring(cases);
   add_datums(cases);
   add_alignment(cases);
+  add_objects(cases);
   for (NominalCase& c : cases) {
     c.only_right_angles = std::ranges::any_of(
         c.part, [](const Feature& feature) { return std::holds_alternative<Block>(feature); });

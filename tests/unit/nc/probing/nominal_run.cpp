@@ -34,6 +34,9 @@ class Placed {
   machine::Feature operator()(const machine::Plane& plane) const {
     return machine::Plane{at(plane.point), frames_.direction_to_machine(plane.normal)};
   }
+  machine::Feature operator()(const machine::Sphere& sphere) const {
+    return machine::Sphere{at(sphere.centre), sphere.diameter * scale_};
+  }
   template <class Other>
   machine::Feature operator()(const Other& other) const {
     return other;

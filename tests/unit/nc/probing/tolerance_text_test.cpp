@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "nc/probing/measuring/probing_3d_log.hpp"
+#include "nc/probing/object/dimension.hpp"
 
 namespace fitgauge::probing {
 namespace {
@@ -97,6 +97,41 @@ TEST_CASE("QS400: nearest nanometre, inches of an inch program") {
   CHECK(limits_of("0.0000004-0.0000005") == Limits{{}, Length::nanometres(-1)});
   CHECK(limits_of("1-0.0001", true) ==
         Limits{Length::micrometres(25'400), Length::nanometres(-2540)});
+}
+
+TEST_CASE("QS1100: a dimension with its tolerance") {
+  const auto um = [](std::int64_t count) { return Length::micrometres(count); };
+  struct Case {
+    std::string text;
+    Length target;
+    std::optional<Limits> limits;
+  };
+  for (const Case& c :
+       {Case{"50", um(50'000), {}}, Case{"-50,5", um(-50'500), {}},
+        Case{"50+0.2-0.1", um(50'050), Limits{um(50'200), um(49'900)}},
+        Case{"50-0.1+0.2", um(50'050), Limits{um(50'200), um(49'900)}},
+        Case{"50+0.2", um(50'100), Limits{um(50'200), um(50'000)}},
+        Case{"-50-0.1", um(-50'050), Limits{um(-50'000), um(-50'100)}},
+        Case{"50+0.3+0.1", um(50'200), Limits{um(50'300), um(50'100)}},
+        Case{"50+-0.1", um(50'000), Limits{um(50'100), um(49'900)}},
+        Case{"10H7", Length::nanometres(10'007'500), Limits{um(10'015), um(10'000)}},
+        Case{"10h6", Length::nanometres(9'995'500), Limits{um(10'000), um(9'991)}},
+        Case{"10m", um(10'000), Limits{um(10'200), um(9'800)}}}) {
+    CAPTURE(c.text);
+    const auto read = parse_nominal("QS1100", c.text, false);
+    REQUIRE(read.has_value());
+    CHECK(read->target == c.target);
+    CHECK(read->limits == c.limits);
+  }
+  CHECK(parse_nominal("QS1100", "1+0.01", true)->limits == Limits{um(25'654), um(25'400)});
+  for (const char* text : {"", "x", "+", "50+", "50+0.1+", "50+0.1-0.2-0.3", "50+-", "50+-0.1-0.2",
+                           "50X", "50H99", "0H7", "-10H7", "100000"}) {
+    CAPTURE(text);
+    CHECK(parse_nominal("QS1100", text, false).error().number == 1011);
+  }
+  for (const char* text : {"?", "?50", "50+0.2@50.01"}) {
+    CHECK(parse_nominal("QS1100", text, false).error().number == 1097);
+  }
 }
 
 }  // namespace fitgauge::probing

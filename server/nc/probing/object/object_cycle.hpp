@@ -1,0 +1,176 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "nc/probing/errors.hpp"
+#include "nc/probing/measured_value.hpp"
+#include "nc/probing/object/dimension.hpp"
+#include "nc/probing/parameters.hpp"
+#include "nc/probing/touch/circle_probing.hpp"
+
+/// What cycles 1400 to 1434 have in common: toleranced dimensions, clearance (Q1125), extrusion
+/// (1493), results from Q950 on with the status Q183, the page TCHPRAUTO.html, transfer of position
+/// (Q1120) and rotation (Q1121) into the active preset, and Q309.
+namespace fitgauge::probing {
+
+/// A point of the nominal part and of the real one, in plane coordinates.
+struct ObjectPoint {
+  Vec3 nominal;
+  Vec3 measured;
+  std::array<std::optional<Limits>, 3> limits{};
+  Vec3 touched{};  ///< the probing direction where it lies on a face; else zero
+
+  /// A face was found there along that direction.
+  void touch(const Vec3& surface, const Vec3& direction) {
+    measured = nominal + direction * dot(surface - nominal, direction);
+    touched = direction;
+  }
+};
+
+/// An angle: its result, and the deviation from the nominal one in the Q parameter 30 higher.
+struct ObjectAngle {
+  std::string_view name;
+  int result_q;
+  double measured;  ///< degrees
+  double deviation;
+};
+
+/// What a cycle has found out.
+struct ObjectFound {
+  std::vector<ObjectPoint> points{};
+  std::vector<MeasuredValue> sizes{};
+  std::vector<ObjectAngle> angles{};
+  std::optional<Form> form{};
+  machine::Matrix3 turn{};           ///< of the part from nominal to real, in plane coordinates
+  std::optional<double> turn_deg{};  ///< around the probe axis
+};
+
+/// One execution of such a cycle. @errors 1011 and 1097 of dimensions, 1014 nothing to touch, 1085
+/// the row of the preset is locked, 1016 and 1100 the table cannot turn so, a tolerance stop 1072.
+class ObjectProbing {
+ public:
+  /// @errors 1007, 1008, 1097 and those of ProbingMotion::begin.
+  static CycleResult<ObjectProbing> begin(const CycleContext& context);
+
+  const Arguments& arguments() const { return context_.arguments; }
+  const machine::Frames& frames() const { return context_.machine.state().frames; }
+  const ProbingMotion& motion() const { return motion_; }
+  /// Further back by the approach of an undercut (Q1118).
+  double start_distance() const {
+    return motion_.start_distance(arguments().number(320)) + arguments().number_or(1118, 0);
+  }
+  CycleResult<Nominal> size(int parameter) const;
+  /// Three coordinates, from that parameter on.
+  CycleResult<ObjectPoint> point(int first) const;
+  Touch towards(const Vec3& point, const Vec3& direction) const {
+    return {.start = point - direction * start_distance(), .direction = direction};
+  }
+  /// Touches objects as Q1125 and the extrusion say; contacts in the order of the touches.
+  CycleResult<std::vector<Contact>> touch(const std::vector<std::vector<Touch>>& objects);
+  CycleResult<void> finish(const ObjectFound& found);
+
+ private:
+  ObjectProbing(const CycleContext& context, const ProbingMotion& motion)
+      : context_(context), motion_(motion) {}
+  CycleResult<void> transfer(const ObjectFound& found);
+
+  CycleContext context_;
+  ProbingMotion motion_;
+};
+
+/// Q372: a unit vector. @errors 1042 it is 0.
+CycleResult<Vec3> object_direction(const Arguments& arguments);
+/// The angles Q964 and Q965 of a line, in the working plane or to it, and the turn it says.
+void add_line(ObjectFound& found, const ObjectProbing& probing, const Vec3& nominal,
+              const Vec3& measured, bool is_level);
+/// The face behind the ball, which touches an oblique one beside its foremost point.
+Vec3 face_behind(const Contact& contact, const Vec3& direction, const Vec3& normal,
+                 double ball_radius);
+/// The shortest turn that brings one direction into another. @pre neither is zero.
+machine::Matrix3 shortest_turn(const Vec3& from, const Vec3& to);
+/// For the linker: the texts of dimensions can be read.
+CycleResult<void> check_dimensions(const Arguments& arguments);
+
+namespace parameter {
+
+constexpr CycleParameter dimension(int number, std::string_view meaning) {
+  CycleParameter made = coordinate(number, meaning);
+  made.kind = ValueKind::NumberOrText;
+  return made;
+}
+inline constexpr std::array kPoint1{dimension(1100, "1st point, main axis"),
+                                    dimension(1101, "1st point, secondary axis"),
+                                    dimension(1102, "1st point, probe axis")};
+inline constexpr std::array kPoint2{dimension(1103, "2nd point, main axis"),
+                                    dimension(1104, "2nd point, secondary axis"),
+                                    dimension(1105, "2nd point, probe axis")};
+inline constexpr CycleParameter kObjectDirection =
+    choice(372, "Direction: 1 main, 2 secondary, 3 probe axis, with its sign", -3, 3);
+inline constexpr std::array kObject{
+    kSetUpClearance, kClearanceHeight,
+    choice(1125, "Clearance height: -1 never, 0 around the cycle, 1 each object, 2 each point", -1,
+           2, 1),
+    choice(309, "Stop out of tolerance: 0 no, 1 yes, 2 for reject alone", 0, 2, 0)};
+constexpr CycleParameter transfer_position(double most) {
+  return choice(1120, "Transfer into the preset: 0 none, point 1, 2, ..., last: the mean", 0, most,
+                0);
+}
+constexpr std::array<CycleParameter, 3> transfer_all(double most_position, double most_rotation) {
+  return {choice(1126, "Rotary axis: 0 stays, 1 and 2 turn the table, with Q1121 = 2", 0, 2, 0),
+          transfer_position(most_position),
+          choice(1121, "Transfer of the rotation: 0 none, 1 basic rotation, 2 offset of the table",
+                 0, most_rotation, 0)};
+}
+
+}  // namespace parameter
+
+/// Points, further results, the deviation of each, the status.
+template <std::size_t Points, std::size_t More>
+constexpr auto object_results(const std::array<CycleOutput, More>& more) {
+  constexpr std::string_view kNames[] = {
+      "1st point, main axis", "1st point, secondary axis", "1st point, probe axis",
+      "2nd point, main axis", "2nd point, secondary axis", "2nd point, probe axis",
+      "3rd point, main axis", "3rd point, secondary axis", "3rd point, probe axis"};
+  std::array<CycleOutput, 6 * Points + 2 * More + 1> all{};
+  auto* next = all.data();
+  const auto add = [&](int q, std::string_view name, Unit unit) {
+    *next++ = {static_cast<std::uint16_t>(q), name, unit};
+    *next++ = {static_cast<std::uint16_t>(q + 30), "Deviation of it", unit};
+  };
+  for (std::size_t i = 0; i < 3 * Points; ++i)
+    add(950 + static_cast<int>(i), kNames[i], Unit::Length);
+  for (const CycleOutput& result : more) add(result.q, result.meaning, result.unit);
+  *next = {183, "Status: -1 no tolerance, 0 good, 1 rework, 2 reject", Unit::None};
+  return all;
+}
+inline constexpr CycleOutput kDiameterResult{966, "Diameter", Unit::Length};
+inline constexpr CycleOutput kAngleResult{964, "Angle in the input system", Unit::Angle};
+inline constexpr CycleOutput kTableAngleResult{965, "Angle in the system of the table",
+                                               Unit::Angle};
+
+/// The descriptor of such a cycle; `more` are its errors beside those that all have.
+constexpr TouchProbeCycle object_cycle(std::uint16_t number, std::string_view name,
+                                       std::span<const CycleParameter> parameters,
+                                       std::span<const CycleOutput> results, const ErrorSet& more,
+                                       CycleFunction run, ArgumentCheck check = check_dimensions) {
+  return {
+      {.number = number,
+       .name = name,
+       .parameters = parameters,
+       .results = results,
+       .errors = errors::kTouching | errors::kUnscaled | more | ErrorSet{1011, 1072, 1085, 1097},
+       .simulated =
+           "All other parameters. A dimension with a tolerance is probed at, compared with "
+           "and transferred from the middle of it. A basic rotation stays active. Results "
+           "are logged in TCHPRAUTO.html and transferred into the row of the active preset "
+           "before Q309 stops.",
+       .not_simulated =
+           "Semi-automatic probing (`?`) and given actual positions (`@`): the block is "
+           "refused. An L-shaped stylus: only the ball touches and collides."},
+      run,
+      check};
+}
+
+}  // namespace fitgauge::probing

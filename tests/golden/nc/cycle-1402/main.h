@@ -1,0 +1,68 @@
+BEGIN PGM SPHERE MM
+; A sphere of 25.0 at 60, 40, 30, looked for 0.1 beside.
+TOOL CALL 30 Z
+TCH PROBE 1402 SPHERE PROBING ~
+    Q1100=+60.1 ~
+    Q1101=+39.9 ~
+    Q1102=+30.05 ~
+    QS1116="25.01-0.02" ~
+    Q423=+4 ~
+    Q325=+20 ~
+    Q1119=+360 ~
+    Q320=+0 ~
+    Q260=+80 ~
+    Q1125=+1 ~
+    Q309=+0 ~
+    Q1120=+1
+Q1601 = Q183
+Q1602 = Q950
+Q1603 = Q951
+Q1604 = Q952
+Q1605 = Q966
+Q1606 = Q996
+TCH PROBE 1402 SPHERE PROBING ~
+    Q1100=+60.1 ~
+    Q1101=+39.9 ~
+    Q1102=+30.05 ~
+    Q1116=+25 ~
+    Q423=+3 ~
+    Q325=+0 ~
+    Q1119=+180 ~
+    Q320=+0 ~
+    Q260=+80 ~
+    Q1125=+2 ~
+    Q309=+0 ~
+    Q1120=+0
+Q1611 = Q183
+Q1612 = Q980
+Q1613 = Q981
+Q1614 = Q982
+Q1615 = Q996
+; without tolerance, good, rework, reject
+QS1 = "25"
+LBL 9
+TCH PROBE 1402 SPHERE PROBING ~
+    Q1100=+60.1 ~
+    Q1101=+39.9 ~
+    Q1102=+30.05 ~
+    QS1116=QS1 ~
+    Q423=+4 ~
+    Q325=+20 ~
+    Q1119=+360 ~
+    Q320=+0 ~
+    Q260=+80 ~
+    Q1125=+1 ~
+    Q309=+0 ~
+    Q1120=+0
+LBL 0
+Q1691 = Q183
+QS1 = "25+-0.01"
+CALL LBL 9
+Q1692 = Q183
+QS1 = "24.9+-0.01"
+CALL LBL 9
+Q1693 = Q183
+QS1 = "25.1+-0.01"
+CALL LBL 9
+Q1694 = Q183
+END PGM SPHERE MM

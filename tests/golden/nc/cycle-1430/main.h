@@ -1,0 +1,43 @@
+BEGIN PGM UNDERCUT MM
+; A face at X0, from 5 mm further back.
+TOOL CALL 30 Z
+TCH PROBE 1430 PROBE POSITION OF UNDERCUT ~
+    QS1100="0.01+-0.005" ~
+    Q1101=+40 ~
+    Q1102=-10 ~
+    Q372=+1 ~
+    Q1118=+5 ~
+    Q320=+0 ~
+    Q260=+30 ~
+    Q1125=+1 ~
+    Q309=+0 ~
+    Q1120=+0
+Q1601 = Q183
+Q1602 = Q950
+Q1603 = Q980
+; without tolerance, good, rework, reject
+QS1 = "0"
+LBL 9
+TCH PROBE 1430 PROBE POSITION OF UNDERCUT ~
+    QS1100=QS1 ~
+    Q1101=+40 ~
+    Q1102=-10 ~
+    Q372=+1 ~
+    Q1118=+5 ~
+    Q320=+0 ~
+    Q260=+30 ~
+    Q1125=+1 ~
+    Q309=+0 ~
+    Q1120=+0
+LBL 0
+Q1691 = Q183
+QS1 = "0+-0.1"
+CALL LBL 9
+Q1692 = Q183
+QS1 = "0.5+-0.1"
+CALL LBL 9
+Q1693 = Q183
+QS1 = "-0.5+-0.1"
+CALL LBL 9
+Q1694 = Q183
+END PGM UNDERCUT MM
