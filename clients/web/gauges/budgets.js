@@ -1,0 +1,160 @@
+/** Uncertainty budgets as a table: a row for each contribution, evaluated as one types, with a model where the quantity is computed of others. */
+
+import { getJson, request, url } from '../api.js';
+import { field, h, refill } from '../dom.js';
+import { explain, number, t } from '../i18n.js';
+import { Latest } from '../latest.js';
+
+const NUMBERS = ['value', 'standard_uncertainty', 'half_width', 'sensitivity', 'degrees_of_freedom'];
+const DISTRIBUTIONS = ['normal', 'rectangular', 'triangular', 'u_shaped', 't'];
+const DIVISOR = { rectangular: Math.sqrt(3), triangular: Math.sqrt(6), u_shaped: Math.sqrt(2) };
+const COLUMNS = ['name', ...NUMBERS.slice(0, 3), 'distribution', ...NUMBERS.slice(3)];
+const DIGITS = 4;
+
+/** What is no number goes as it was typed: the service says what is wrong with it. */
+const numberOf = (text) => (/^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text.replace(',', '.')) : text);
+const shown = (value) => number(String(Number(value.toPrecision(DIGITS))));
+
+/** With as many decimals as two digits of its uncertainty have. */
+const resultText = (value, u) => number(value.toFixed(u > 0 ? Math.min(Math.max(1 - Math.floor(Math.log10(u)), 0), 15) : 6));
+
+/** The standard uncertainty of a contribution without a model's sensitivity. */
+export function uncertaintyOf({ standard_uncertainty: own, half_width: half, limits_half_width: inexact, distribution = 'rectangular' }) {
+  if (own !== undefined) return own;
+  return half / (DIVISOR[distribution] ?? 1) * Math.sqrt(1 + (inexact ? (inexact / half) ** 2 / 3 : 0));
+}
+
+export class Budgets {
+  #opened = {};
+
+  /** @param name of the budget shown first; @param onName is told of another; @param leaving ends it */
+  constructor({ name, onName, leaving }) {
+    Object.assign(this, { onName, leaving });
+    this.computing = new Latest(leaving);
+    this.choice = h('select', { name: 'stored-budget', onchange: () => this.#try(() => this.open(this.choice.value)) });
+    this.name = h('input', { type: 'text', name: 'budget-name', maxlength: 200, autocomplete: 'off', spellcheck: 'false' });
+    this.model = h('input', { type: 'text', name: 'model', autocomplete: 'off', spellcheck: 'false', placeholder: 'L*(1 + a*(20 - t))', onchange: () => this.evaluate() });
+    this.rows = h('tbody', { onchange: () => this.evaluate() });
+    this.note = h('p.note', { role: 'alert' });
+    this.done = h('p.aside', { role: 'status' });
+    this.result = h('dl.tiles');
+    this.element = h('section.sheet.budgets', { 'aria-label': t('budget.title') }, h('h2', t('budget.title')),
+      h('div.line', field(t('budget.stored'), this.choice), field(t('budget.name'), this.name), field(t('budget.model'), this.model, t('budget.model_hint'))),
+      h('div.wide', { tabindex: 0, role: 'region', 'aria-label': t('budget.contributions') }, h('table', h('caption', t('budget.contributions')),
+        h('thead', h('tr', [...COLUMNS, 'u', 'share'].map((column) => h('th', { scope: 'col' }, t(`budget.${column}`))), h('td'))), this.rows)),
+      h('p.aside', t('budget.how')), this.note, this.result,
+      h('p.actions', h('button', { type: 'button', onclick: () => this.#add() }, t('budget.add')),
+        h('button.primary', { type: 'button', onclick: () => this.#try(() => this.#store()) }, t('budget.store')), this.done));
+    this.#try(async () => {
+      await this.#list(name);
+      await this.open(name);
+    });
+  }
+
+  async #try(act) {
+    this.note.textContent = this.done.textContent = '';
+    try {
+      await act();
+    } catch (problem) {
+      if (!this.leaving.aborted) this.#complain(problem);
+    }
+  }
+
+  async #list(chosen) {
+    const { uncertainties } = await getJson(url(['uncertainties']), { signal: this.leaving });
+    refill(this.choice, h('option', { value: '' }, t('budget.new')), uncertainties.map(({ name }) => h('option', { value: name }, name)));
+    this.choice.value = chosen;
+  }
+
+  /** Shows a stored budget; '' begins another. */
+  async open(name) {
+    this.#opened = name ? await getJson(url(['uncertainties', name]), { signal: this.leaving }) : { contributions: [{}, {}] };
+    this.name.value = name;
+    this.model.value = this.#opened.model ?? '';
+    this.rows.replaceChildren(...this.#opened.contributions.map((one) => this.#row(one)));
+    this.onName(name);
+    await this.evaluate();
+  }
+
+  #row(one) {
+    const input = (column) => h('input', { type: 'text', name: column, inputmode: NUMBERS.includes(column) && 'decimal', autocomplete: 'off', spellcheck: 'false', 'aria-label': t(`budget.${column}`) });
+    const row = h('tr', COLUMNS.map((column) => {
+      const control = column === 'distribution' ? h('select', { name: column, 'aria-label': t('budget.distribution') }, ['', ...DISTRIBUTIONS].map((value) => h('option', { value }, value ? t(`budget.of.${value}`) : '–'))) : input(column);
+      control.value = one[column] === undefined ? '' : number(String(one[column])).replace('−', '-');
+      return h('td', control);
+    }), h('td.u'), h('td.share'), h('td', h('button.quiet', { type: 'button', 'aria-label': t('budget.remove_this', { name: one.name ?? '' }), onclick: () => { row.remove(); this.evaluate(); } }, t('budget.remove'))));
+    // What the table has no column for stays as it was.
+    row.kept = Object.fromEntries(Object.entries(one).filter(([name]) => !COLUMNS.includes(name)));
+    return row;
+  }
+
+  #add() {
+    this.rows.append(this.#row({}));
+    this.rows.lastElementChild.querySelector('input').focus();
+  }
+
+  /** The rows in which something is typed. */
+  get #filled() {
+    return [...this.rows.children].filter((row) => [...row.querySelectorAll('input, select')].some(({ value }) => value.trim()));
+  }
+
+  /** The budget as it is typed. */
+  get value() {
+    const { model: _, contributions: __, ...kept } = this.#opened;
+    const contributions = this.#filled.map((row) => ({ ...Object.fromEntries([...row.querySelectorAll('input, select')]
+      .map(({ name, value }) => [name, NUMBERS.includes(name) ? value.trim() && numberOf(value.trim()) : value.trim()]).filter(([, value]) => value !== '')), ...row.kept }));
+    return { ...kept, ...(this.model.value.trim() && { model: this.model.value.trim() }), contributions };
+  }
+
+  /** Shows what the service makes of it; nothing before a row is filled. */
+  async evaluate() {
+    const budget = this.value;
+    this.#clear();
+    if (!budget.contributions.length) return;
+    try {
+      const answer = await this.computing.run(async (signal) => (await request('POST', url(['uncertainty']), { body: budget, signal })).json());
+      if (answer) this.#show(budget, answer);
+    } catch (problem) {
+      this.#complain(problem);
+    }
+  }
+
+  #clear() {
+    this.note.textContent = '';
+    this.result.replaceChildren();
+    for (const cell of this.rows.querySelectorAll('.u, .share')) cell.textContent = '';
+    for (const control of this.rows.querySelectorAll('[aria-invalid]')) control.removeAttribute('aria-invalid');
+  }
+
+  #show(budget, answer) {
+    const combined = answer.combined_standard_uncertainty;
+    this.#filled.forEach((row, i) => {
+      const one = budget.contributions[i];
+      const own = Math.abs(answer.sensitivities?.[i].contribution ?? uncertaintyOf(one) * (one.sensitivity ?? 1));
+      row.querySelector('.u').textContent = shown(own);
+      // Contributions that depend on each other do not add up.
+      if (!budget.correlations?.length && combined > 0) row.querySelector('.share').textContent = `${number((100 * (own / combined) ** 2).toFixed(0))} %`;
+    });
+    const freedom = answer.effective_degrees_of_freedom;
+    const tile = (name, value) => h('div', h('dt', t(`budget.${name}`)), h('dd', value));
+    refill(this.result, answer.value != null && tile('result', resultText(answer.value, combined)), tile('combined', shown(combined)), tile('freedom', freedom == null || freedom > 1e6 ? '∞' : shown(freedom)),
+      tile('factor', number(answer.coverage_factor.toFixed(2))), tile('expanded', `± ${shown(answer.expanded_uncertainty)}`));
+  }
+
+  #complain(problem) {
+    this.note.textContent = explain(problem);
+    for (const { pointer } of problem.errors ?? []) {
+      const [, row, name] = /^\/contributions\/(\d+)\/(\w+)/.exec(pointer) ?? [];
+      this.#filled[row]?.querySelector(`[name="${name}"]`)?.setAttribute('aria-invalid', 'true');
+    }
+  }
+
+  async #store() {
+    const name = this.name.value.trim();
+    if (!name) throw new Error(t('budget.name_missing'));
+    await request('PUT', url(['uncertainties', name]), { body: this.value, signal: this.leaving });
+    await this.#list(name);
+    await this.open(name);
+    this.done.textContent = t('budget.done', { name });
+  }
+}

@@ -1,0 +1,85 @@
+/** Uncertainty budgets as a table: evaluated as they are typed, with a model, stored, and shown with what is wrong at its cell. */
+
+import assert from 'node:assert/strict';
+import { before, describe, it } from 'node:test';
+
+import { uncertaintyOf } from '../../../clients/web/gauges/budgets.js';
+import { close, findings, hashOf, open, picture } from './support/browser.mjs';
+import { browser, daemon } from './support/stage.mjs';
+
+const BORE = { contributions: [{ name: 'ring', standard_uncertainty: 0.3, degrees_of_freedom: 50 }, { name: 'repeatability', standard_uncertainty: 0.4, degrees_of_freedom: 9 },
+  { name: 'temperature', half_width: 1.5, distribution: 'rectangular' }] };
+const BLOCK = { model: 'L*(1 + a*(20 - t))', contributions: [{ name: 'L', value: 50.0012, standard_uncertainty: 0.0001 }, { name: 'a', value: 11.5e-6, half_width: 1e-6 }, { name: 't', value: 20.8, standard_uncertainty: 0.2 }] };
+
+const evaluated = async (budget) => (await daemon.send('POST', '/v1/uncertainty', budget)).json();
+const shown = (value) => String(Number(value.toPrecision(4)));
+const tiles = (page) => page.$$eval('.budgets .tiles dd', (all) => all.map(({ textContent }) => textContent));
+
+describe('an uncertainty budget', () => {
+  before(() => daemon.send('PUT', '/v1/uncertainties/bore-gauge', { ...BORE, contributions: [...BORE.contributions.slice(0, 2), { ...BORE.contributions[2], limits_half_width: 0.3 }] }));
+
+  it('is a table that is evaluated as it is typed, and stored', async () => {
+    const page = await open(browser, daemon, '#/gauges', { viewport: { width: 1366, height: 768 } });
+    await page.waitForFunction(() => document.querySelector('[name="stored-budget"]').options.length === 2);
+    const fill = async (row, name, value) => { await page.fill(`.budgets tbody tr:nth-child(${row}) [name="${name}"]`, value); await page.press(`.budgets tbody tr:nth-child(${row}) [name="${name}"]`, 'Tab'); };
+    await page.click('.budgets .actions >> text=Add a contribution');
+    for (const [i, one] of BORE.contributions.entries()) {
+      for (const [name, value] of Object.entries(one)) if (name !== 'distribution') await fill(i + 1, name, String(value).replace('.', ','));
+    }
+    await page.selectOption('.budgets tbody tr:nth-child(3) [name="distribution"]', 'rectangular');
+    const answer = await evaluated(BORE);
+    await page.waitForFunction((wanted) => document.querySelector('.budgets .tiles')?.textContent.includes(wanted), `± ${shown(answer.expanded_uncertainty)}`);
+    assert.deepEqual(await tiles(page), [shown(answer.combined_standard_uncertainty), shown(answer.effective_degrees_of_freedom), answer.coverage_factor.toFixed(2), `± ${shown(answer.expanded_uncertainty)}`]);
+    const shares = await page.$$eval('.budgets .share', (all) => all.map(({ textContent }) => parseInt(textContent, 10)));
+    assert.ok(Math.abs(shares.reduce((sum, one) => sum + one, 0) - 100) <= 1, shares.join());
+    await page.fill('[name="budget-name"]', 'own');
+    await page.click('.budgets .primary');
+    await page.waitForFunction(() => /own is stored/.test(document.querySelector('.budgets [role="status"]').textContent));
+    assert.deepEqual((await daemon.json('/v1/uncertainties/own')).contributions, BORE.contributions);
+    assert.match(hashOf(page), /budget=own/);
+    assert.deepEqual(await findings(page), []);
+    await page.$eval('.budgets', (section) => section.scrollIntoView());
+    await picture(page, 'budgets');
+    await close(page);
+  });
+
+  it('has a model, whose sensitivities the service finds; a mistake is marked at its cell', async () => {
+    await daemon.send('PUT', '/v1/uncertainties/block', BLOCK);
+    const page = await open(browser, daemon, '#/gauges?budget=block', { viewport: { width: 1024, height: 768 }, locale: 'it-IT' });
+    const answer = await evaluated(BLOCK);
+    await page.waitForFunction(() => document.querySelectorAll('.budgets .tiles dd').length === 5);
+    assert.equal((await tiles(page))[0], answer.value.toFixed(5).replace('.', ','));
+    const own = await page.$$eval('.budgets .u', (all) => all.map(({ textContent }) => textContent.replace(',', '.')));
+    assert.deepEqual(own.map(Number), answer.sensitivities.map(({ contribution }) => Number(Math.abs(contribution).toPrecision(4))));
+    await page.$eval('.budgets', (section) => section.scrollIntoView());
+    await picture(page, 'budgets-it');
+    await page.fill('.budgets tbody tr:nth-child(2) [name="standard_uncertainty"]', '1');
+    await page.press('.budgets tbody tr:nth-child(2) [name="standard_uncertainty"]', 'Tab');
+    await page.waitForSelector('.budgets tbody tr:nth-child(2) [name="half_width"][aria-invalid]');
+    assert.notEqual(await page.textContent('.budgets .note'), '');
+    assert.deepEqual(await tiles(page), []);
+    await page.setViewportSize({ width: 390, height: 844 });
+    await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth);
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'budgets-390', { fullPage: true });
+    await close(page);
+  });
+
+  it('keeps what the table has no column for', async () => {
+    const page = await open(browser, daemon, '#/gauges?budget=bore-gauge');
+    await page.waitForFunction(() => document.querySelectorAll('.budgets .tiles dd').length === 4);
+    const { combined_standard_uncertainty: combined } = await evaluated(await daemon.json('/v1/uncertainties/bore-gauge'));
+    assert.equal((await tiles(page))[0], shown(combined));
+    await page.click('.budgets .primary');
+    await page.waitForFunction(() => /is stored/.test(document.querySelector('.budgets [role="status"]').textContent));
+    assert.equal((await daemon.json('/v1/uncertainties/bore-gauge')).contributions[2].limits_half_width, 0.3);
+    await close(page);
+  });
+
+  it('has the standard uncertainty of its half widths', () => {
+    assert.equal(uncertaintyOf({ standard_uncertainty: 0.3 }), 0.3);
+    assert.ok(Math.abs(uncertaintyOf({ half_width: 3 }) - Math.sqrt(3)) < 1e-12);
+    assert.ok(Math.abs(uncertaintyOf({ half_width: 3, distribution: 'triangular' }) - 3 / Math.sqrt(6)) < 1e-12);
+    assert.ok(Math.abs(uncertaintyOf({ half_width: 3, limits_half_width: 0.6 }) - Math.sqrt(3) * Math.sqrt(1 + 0.04 / 3)) < 1e-12);
+  });
+});
