@@ -51,6 +51,15 @@ export function useKey(key) {
 
 export const forgetKey = () => forget(KEY, 'session');
 
+/** How many questions wait for their answer; `asking` is told of each change. */
+export let waiting = 0;
+async function counted(method, ask) {
+  if (method !== 'GET') return ask();
+  const count = (by) => { waiting += by; dispatchEvent(new Event('asking')); };
+  count(1);
+  return ask().finally(() => count(-1));
+}
+
 async function problemOf(response) {
   const document = await response.json().catch(() => ({}));
   return new Problem(response.status, document);
@@ -69,10 +78,10 @@ export async function request(method, path, { body, headers = {}, signal, timeou
   for (;;) {
     const key = keyInUse();
     const authorization = key ? { Authorization: `Bearer ${key}` } : {};
-    const response = await fetch(path, {
+    const response = await counted(method, () => fetch(path, {
       method, body: sent, cache: 'no-cache', headers: { ...type, ...headers, ...authorization },
       signal: timeout ? AbortSignal.timeout(timeout) : signal,
-    });
+    }));
     if (response.ok) return response;
     const problem = await problemOf(response);
     if (response.status !== 401) throw problem;

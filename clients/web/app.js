@@ -1,6 +1,6 @@
 /** The page: its header, the language, the key, and the view the URL names. */
 
-import { onKeyNeeded } from './api.js';
+import { onKeyNeeded, waiting } from './api.js';
 import { connection } from './connection.js';
 import { h, refill } from './dom.js';
 import { chooseLanguage, dateTime, has, language, LANGUAGES, loadLanguage, t, textsOf } from './i18n.js';
@@ -18,12 +18,14 @@ const VIEWS = { gauge, fit, parts };
 const LATER = {
   trend: () => import('./views/trend.js'), programs: () => import('./views/programs.js'), overview: () => import('./views/overview.js'),
   tables: () => import('./views/tables.js'), connections: () => import('./views/connections.js'),
-  plans: () => import('./views/plans.js'), gauges: () => import('./views/gauges.js'),
+  plans: () => import('./views/plans.js'), gauges: () => import('./views/gauges.js'), style: () => import('./views/style.js'),
 };
 const BAR = ['gauge', 'fit', 'trend', 'overview', 'parts', 'plans', 'programs', 'tables'];
 const main = document.getElementById('main');
 const printed = document.getElementById('printed');
 const viewOf = ({ view }) => (Object.hasOwn(VIEWS, view) || Object.hasOwn(LATER, view) ? view : BAR[0]);
+const LOADING_MS = 500;
+let loadingSoon = 0;
 let leave = () => {};
 let shown = '';
 
@@ -101,6 +103,14 @@ function drawFrame() {
   drawLink();
 }
 
+/** What waits longer than a blink says so, in every view alike. */
+function drawLoading() {
+  clearTimeout(loadingSoon);
+  const place = document.getElementById('loading');
+  if (waiting) loadingSoon = setTimeout(() => { place.textContent = t('loading'); }, LOADING_MS);
+  else place.textContent = '';
+}
+
 async function changeLanguage(event) {
   await chooseLanguage(event.target.value);
   drawFrame();
@@ -116,6 +126,7 @@ document.getElementById('skip').addEventListener('click', (event) => {
 });
 connection.addEventListener('change', drawLink);
 queue.addEventListener('change', drawLink);
+addEventListener('asking', drawLoading);
 addEventListener('hashchange', show);
 addEventListener('routechange', () => drawViews(viewOf(currentRoute())));
 addEventListener('beforeprint', drawPrinted);

@@ -5,6 +5,8 @@ export default {
   'view.gauge': 'Prüfen',
   'view.fit': 'Passung',
   'view.trend': 'Verlauf',
+  'loading': 'Wird geladen …',
+  'view.style': 'Gestaltungswerte und Bausteine',
   'view.overview': 'Übersicht',
   'view.parts': 'Teile',
   'view.plans': 'Pläne',

@@ -5,6 +5,8 @@ export default {
   'view.gauge': 'Gauge',
   'view.fit': 'Fit',
   'view.trend': 'Trend',
+  'loading': 'Loading …',
+  'view.style': 'Tokens and components',
   'view.overview': 'Overview',
   'view.parts': 'Parts',
   'view.plans': 'Plans',

@@ -5,6 +5,8 @@ export default {
   'view.gauge': 'Misura',
   'view.fit': 'Accoppiamento',
   'view.trend': 'Andamento',
+  'loading': 'Caricamento …',
+  'view.style': 'Valori e componenti grafici',
   'view.overview': 'Panoramica',
   'view.parts': 'Pezzi',
   'view.plans': 'Piani',

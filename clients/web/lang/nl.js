@@ -5,6 +5,8 @@ export default {
   'view.gauge': 'Meten',
   'view.fit': 'Passing',
   'view.trend': 'Verloop',
+  'loading': 'Wordt geladen …',
+  'view.style': 'Ontwerpwaarden en bouwstenen',
   'view.overview': 'Overzicht',
   'view.parts': 'Onderdelen',
   'view.plans': 'Plannen',
