@@ -38,7 +38,7 @@ struct Form {
   std::optional<double> residual_mm{};  ///< largest distance of a point from the fitted circle
   double diameter_factor = 1;  ///< standard deviation of the diameter over that of one touch
   std::size_t points = 0;
-  double start_angle_deg = 0;  ///< of the first point, from the main axis
+  double start_angle_deg = 0;                    ///< of the first point, from the main axis
   std::optional<double> touch_uncertainty_um{};  ///< standard uncertainty, if the setup states it
   /// Range of the points' distances from the centre: a lower bound of the roundness. Nothing of
   /// three points, which always lie on a circle.
