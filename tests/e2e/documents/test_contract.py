@@ -260,17 +260,21 @@ class Answers(ContractTest):
             data = {"values": lot[:30]} if kind == "i_mr" else {"subgroups": groups}
             self.expect("makeControlChart", 200, {"kind": kind, **data, "rules": [1, 2, 3, 4] if kind[0] in "ix" else [1],
                                                   "phase1": {"from": 0, "to": 5}})
-        self.expect("studyGaugeOnMaster", 200, {"values": [9.9, 10.1, 10.1, 9.9], "reference": 10, "tolerance": 6})
+        self.expect("studyGaugeOnMaster", 200, {"values": [9.9, 10.1, 10.1, 9.9], "reference": 10, "tolerance": 6,
+                                                   "measuring_system": {"resolution": 0.1, "u_cal": 0.01}})
         rows = [{"part": part, "operator": who, "trial": trial, "value": value}
                 for who, trials in enumerate([[[0, 2], [4, 6]], [[2, 4], [2, 4]]])
                 for part, values in enumerate(trials) for trial, value in enumerate(values)]
         for method in ("anova", "average_range", "type3", "nested"):
             self.expect("studyGauge", 200, {"method": method, "model": "auto", "tolerance": 60, "measurements": rows})
-        self.expect("studyGauge", 200, {"measurements": rows})
+        self.expect("studyGauge", 200, {"measurements": rows, "measuring_process": {
+            "resolution": 0.1, "u_cal": 0.01, "u_bi": 0.01, "u_evr": 0.1}})
         self.expect("studyGauge", 200, {"method": "linearity", "measurements": [
             {"reference": x, "value": y} for x, y in ((1, 1.1), (1, 1.2), (2, 2.1), (3, 3.3))]})
         self.expect("studyGauge", 200, {"method": "stability", "measurements": [
             {"at": day, "value": value} for day in range(5) for value in (1, 2)]})
+        self.expect("studyGauge", 200, {"method": "attribute", "good": 1, "measurements": [
+            {**row, "value": row["part"], "reference": row["part"]} for row in rows]})
         self.expect("pairParts", 200, {"holes": [25.01], "shafts": ["24.99", 25.001], "target_clearance_um": 8})
         self.expect("combineUncertainties", 200, {"contributions": [
             {"name": "a", "standard_uncertainty": 2, "degrees_of_freedom": 9, "sensitivity": 1},
@@ -306,7 +310,7 @@ class Answers(ContractTest):
             self.expect(f"delete{kind}", 204, name=name)
             self.expect(f"delete{kind}", 404, name=name)
         self.assert_seen("ValueSummary", "Anova", "Capability", "CapabilityIndex", "ControlChart", "Type1Study", "VariationStudy",
-                         "LinearityStudy", "StabilityStudy", "Pairing", "Uncertainty", without={})
+                         "LinearityStudy", "StabilityStudy", "AttributeStudy", "Pairing", "Uncertainty", without={})
 
     def runs(self):
         bad = b"BEGIN PGM BAD MM\nLBL 5\nLBL 5\nCALL LBL 6\nEND PGM BAD MM\n"
