@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view kDefaultServer = "http://127.0.0.1:8286";
 constexpr int kMeasureRetrySeconds = 60;
 
-/// What every command takes.
+/// Options of every command.
 struct CommonOptions {
   std::string server{};
   std::string key_file{};
@@ -119,7 +119,7 @@ std::optional<std::string> what_is_unknown(const CLI::App& command,
   return text;
 }
 
-/// What cannot be read, and where to read on: at the command as far as it was understood.
+/// The part of a command line that cannot be read, and the command that was understood before it.
 std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = &app;
   std::string name = "fitgauge";

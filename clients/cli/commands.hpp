@@ -10,7 +10,7 @@ class App;
 
 namespace fitgauge::cli {
 
-/// What a command line asks for.
+/// The request of a command line.
 using Action = std::function<Outcome<ExitCode>(const Context&)>;
 
 /// Registers every command with its options. Parsing puts what the chosen one does into `chosen`,

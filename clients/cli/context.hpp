@@ -14,7 +14,7 @@
 
 namespace fitgauge::cli {
 
-/// What every command works with.
+/// Objects that every command uses.
 struct Context {
   HttpClient& client;
   Terminal out{};                       ///< of standard output

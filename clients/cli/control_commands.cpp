@@ -66,7 +66,7 @@ Outcome<LinkClient> connect(const std::string& address,
   return *std::move(control);
 }
 
-/// What a control keeps as lines: programs and tables.
+/// Files that a control stores as lines: programs and tables.
 Transfer transfer_of(std::string_view path) {
   constexpr std::array<std::string_view, 8> kLines{".h", ".i", ".t",   ".tch",
                                                    ".d", ".p", ".tab", ".pnt"};
@@ -332,7 +332,8 @@ Outcome<ExitCode> run_control_run(const Context& context, const std::string& add
   if (!errors) return errors.error();
   for (const auto& error : *errors) context.note(fmt::format("{}: {}", error.number, error.text));
   if (*state != ProgramState::Finished) {
-    return Failure{ExitCode::ProgramFailed, fmt::format("{} ended with status {}", path, name_of(*state))};
+    return Failure{ExitCode::ProgramFailed,
+                   fmt::format("{} ended with status {}", path, name_of(*state))};
   }
   if (!context.json) context.print("{} {}\n", path, name_of(*state));
   return ExitCode::Good;

@@ -45,7 +45,7 @@ struct CsvChunk {
   CsvPosition end;
 };
 
-/// What an input has at a place where another run was.
+/// The state of an input at the place where an earlier run stopped.
 enum class CsvMatch : std::uint8_t {
   Same,
   Different,   ///< it is shorter, or has other bytes before the place

@@ -28,7 +28,7 @@ namespace {
 /// several threads.
 class SerialPort {
  public:
-  /// What the port held before is thrown away. @errors LocalFile, Usage for a baud rate there is
+  /// Discards old input of the port. @errors LocalFile, Usage for a baud rate there is
   /// none of.
   static Outcome<SerialPort> open(const std::string& path, unsigned baud);
   ~SerialPort();

@@ -26,7 +26,7 @@ struct Reading {
   bool ended_by_sink = false;
 };
 
-/// What to do about a connection that did not come about.
+/// The remedy for a failed connection.
 std::string_view advice_for(CURLcode code) {
   switch (code) {
     case CURLE_PEER_FAILED_VERIFICATION:

@@ -7,7 +7,7 @@
 
 namespace fitgauge::cli {
 
-/// What the service has answered, or a file that it has written, however many values it holds.
+/// An answer of the service, or a file that it wrote, with any number of values.
 Result<JsonValue> parse_document(std::string_view text);
 
 /// `text` as a JSON string with its quotes. It must be UTF-8.

@@ -31,7 +31,7 @@ ToleranceZone zone_of(const JsonValue& limits) {
       .colour = hole ? Colour::Cyan : Colour::Yellow};
 }
 
-/// What the fit leaves between hole and shaft; interference is negative clearance.
+/// The clearance between hole and shaft; interference is negative clearance.
 std::string clearances(const JsonValue& fit, std::string_view unit) {
   const Length most = parse_length_um(fit.text_of("max_clearance_um")).value();
   const Length least = parse_length_um(fit.text_of("min_clearance_um")).value();
@@ -156,7 +156,7 @@ std::string format_limits(const JsonValue& limits, const Terminal& terminal) {
 
 namespace {
 
-/// What stored values say; nothing where none were asked for.
+/// Figures of stored values; absent if the caller did not ask for them.
 std::string measured_clearance(const JsonValue& stored, const Terminal& terminal) {
   if (!stored.is(JsonValue::Kind::Object)) return "";
   const auto number = [](const JsonValue& of, std::string_view name) {

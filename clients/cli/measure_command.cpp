@@ -98,7 +98,7 @@ class Upload {
     auto opened = RowInput::open(context_, options_);
     if (!opened) return opened.error();
     const auto input = std::make_shared<RowInput>(*std::move(opened));
-    // What asks the service for limits cannot while rows are on their way there.
+    // Requests for limits must wait while rows are on their way to the service.
     reads_ahead_ = RowInput::keeps_lines(options_) && options_.input != "-";
     const auto read = [input](std::span<char> into) { return input->read(into); };
     if (!is_ndjson) return begin_chunks(read);

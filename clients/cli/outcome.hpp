@@ -7,7 +7,7 @@
 
 namespace fitgauge::cli {
 
-/// What the shell is told; fitgauge(1) has the same table.
+/// Exit codes for the shell; fitgauge(1) has the same table.
 enum class ExitCode : std::uint8_t {
   Good = 0,           ///< done; the part is good
   Rework = 1,         ///< hole too small, shaft too large

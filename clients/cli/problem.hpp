@@ -10,7 +10,7 @@
 
 namespace fitgauge::cli {
 
-/// What is wrong with one field of a body.
+/// The error in one field of a body.
 struct FieldProblem {
   std::string pointer;                ///< JSON pointer: `/3/measured_mm`
   std::optional<std::size_t> line{};  ///< of the body, from 1, where the format has lines

@@ -49,7 +49,7 @@ std::string record_target(
     std::string path, const RecordQuery& query,
     std::initializer_list<std::pair<std::string_view, std::string>> others = {});
 
-/// What a GET gives; with --json it is printed as it is.
+/// The answer of a GET; --json prints it unchanged.
 Outcome<JsonValue> get_document(const Context& context, const std::string& target);
 
 /// `fitgauge list`: a page of records, one a line, and on standard error how to get the next.

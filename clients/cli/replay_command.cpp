@@ -42,7 +42,7 @@ Outcome<ByCycle> read_log(const std::string& file) {
   return logs;
 }
 
-/// What the run has written. A file that is no log of a cycle does not matter here.
+/// Files that the run wrote. Files that are not a log of a cycle are ignored.
 Outcome<ByCycle> written_logs(const Context& context, const JsonValue& run) {
   ByCycle logs;
   for (const JsonValue& file : run.member("files").items) {

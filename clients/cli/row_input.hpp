@@ -47,7 +47,7 @@ class RowInput {
 /// Whether the options say that a table is the shop's own.
 bool is_converted(const MeasureOptions& options);
 
-/// What the options say of a table, or of a DFQ. @errors Usage
+/// Settings of a table or a DFQ from the options. @errors Usage
 Outcome<sheet::ShopCsvOptions> table_options(const MeasureOptions& options);
 
 }  // namespace fitgauge::cli

@@ -10,7 +10,7 @@ namespace fitgauge::cli {
 
 enum class Colour { Green, Yellow, Red, Blue, Cyan };
 
-/// What a stream shows.
+/// Abilities of a stream.
 struct Terminal {
   bool interactive = false;  ///< someone looks at it
   bool unicode = false;      ///< its locale is UTF-8

@@ -44,7 +44,7 @@ constexpr std::string_view kDamagedIndex = "XX002";
 
 constexpr sql::Dialect kDialect{.is_shared = true, .keys_may_be_null = true};
 
-/// What holds for each session: bounds, so that nobody waits for ever for a server, a row or a
+/// Settings of each session: bounds, so that nobody waits for ever for a server, a row or a
 /// client that is gone.
 constexpr const char* kSettings =
     "SET search_path TO fitgauge; SET statement_timeout = '60s'; SET lock_timeout = '30s';"
@@ -52,7 +52,7 @@ constexpr const char* kSettings =
     "SET jit = off; SET bytea_output = hex; SET plan_cache_mode = auto";
 
 PGconn* open(const std::string& address) {
-  // What stands before the address can be set in it.
+  // Settings before the address can be overridden in it.
   const std::array<const char*, 8> keys = {
       "target_session_attrs", "connect_timeout", "application_name", "keepalives_idle",
       "tcp_user_timeout",     "dbname",          "client_encoding",  nullptr};

@@ -35,7 +35,7 @@ struct Parameter {
   std::string_view bytes{};
 };
 
-/// What a transaction holds of the row `head`.
+/// The lock of a transaction on the row `head`.
 struct Head {
   std::int64_t last_id = 0;
   std::int64_t own_rows = 0;
@@ -81,7 +81,7 @@ class Connection final : public sql::Connection {
 
   PGconn* handle() const { return connection_.get(); }
 
-  /// What the server warned of since the last call; empty for nothing.
+  /// Warnings of the server since the last call; empty if there are none.
   std::string take_warning() { return std::exchange(warning_, {}); }
 
   Head head;                         ///< in a transaction

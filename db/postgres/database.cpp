@@ -112,7 +112,7 @@ class SharedDatabase final : public Database {
     return not_here("backup", "pg_basebackup with archived WAL, or pg_dump --schema=fitgauge");
   }
 
-  /// What PostgreSQL checks itself (pages, keys, references) is left to pg_amcheck.
+  /// pg_amcheck checks pages, keys and references.
   Result<VerifyReport> verify(const MeasurementCheck& check) const override;
 
  private:

@@ -17,7 +17,7 @@ namespace {
 constexpr std::chrono::milliseconds kBetweenAttempts{500};
 constexpr std::chrono::seconds kBetweenFigures{5};
 
-/// Who may not see the standbys of others sees how many there are.
+/// A role that must not see the standbys sees their number.
 constexpr const char* kFigures =
     "SELECT pg_database_size(current_database()), (SELECT count(*) FROM pg_stat_replication), "
     "(SELECT max(pg_wal_lsn_diff(pg_current_wal_lsn(), flush_lsn))::bigint FROM "
@@ -33,7 +33,7 @@ struct Heard {
   bool names = false;
 };
 
-/// What has come of notifications.
+/// Notifications that have arrived.
 Heard hear(Connection& connection) {
   Heard heard;
   while (PGnotify* const notify = PQnotifies(connection.handle())) {
@@ -119,7 +119,7 @@ void Listener::listen(const std::stop_token& stop) {
       notify_postponed();
       notify_at = Notifications::Clock::time_point::max();
     }
-    // What came with the figures is here already.
+    // Notifications that came with the figures are here already.
     if (const Heard heard = hear(connection); heard.commit) heard_(heard.names);
     if (wait_for(own, notifications_.wake_up(), std::min(look_at, notify_at) - now)) {
       notify_at = std::min(notify_at, Notifications::Clock::now() + Notifications::kInterval);

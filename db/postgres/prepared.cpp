@@ -88,7 +88,7 @@ void append_value(std::string& bytes,
   append_number(bytes, static_cast<Stored>(value));
 }
 
-/// What stands in a field of a row or in an element of an array; -1 for the length of a NULL.
+/// The bytes of a field of a row or an element of an array; -1 is the length of a NULL.
 template <class Value>
 void append_counted_value(std::string& bytes, const Value& value) {
   append_counted(bytes, [&] { append_value(bytes, value); });

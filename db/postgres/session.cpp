@@ -12,8 +12,9 @@ constexpr const char* kHead =
     "SELECT last_id, own_rows, names, (pg_current_wal_insert_lsn() - '0/0')::bigint FROM head";
 constexpr const char* kFlushed = "SELECT (pg_current_wal_flush_lsn() - '0/0')::bigint";
 
-/// Who waits for a row is woken twice, to be the next one and to have it, and then reads it again:
-/// who waits here finds it free. The row still keeps out those who do not wait here.
+/// A transaction that waits for a row is woken twice, as the next one and as the owner, and then
+/// reads it again: who waits here finds it free. The row still keeps out those who do not wait
+/// here.
 constexpr const char* kQueueForHead = "SELECT pg_advisory_xact_lock(6044937214080451862)";
 
 /// The commit frees the row before the WAL is on the disk, which the session waits for behind it.
@@ -107,7 +108,7 @@ void Session::commit_written() {
   }
 }
 
-/// What was read may be of a commit that is not on the disk yet: nobody hears of it before it is.
+/// Rows can belong to a commit that is not on the disk yet: nobody hears of it before it is.
 void Session::commit_read() {
   commit_.run();
   if (!is_durable_ || flushed_.returning<std::int64_t>() >= seen_wal_) return settle();
@@ -125,7 +126,7 @@ void Session::rollback() noexcept {
   }
 }
 
-/// What is sent behind a statement that fails is not carried out.
+/// Statements after a failed statement are not executed.
 void Session::settle_undone() {
   try {
     settle();

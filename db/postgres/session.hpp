@@ -15,9 +15,9 @@
 
 namespace fitgauge::store::postgres {
 
-/// What the application keeps of the database in memory (table revisions, origins, keys of the
-/// log), as other daemons change it too: it is told before a transaction shows rows that need what
-/// is new.
+/// The part of the database that the application keeps in memory (table revisions, origins, keys of
+/// the log), as other daemons change it too: it is told before a transaction shows rows that need
+/// what is new.
 class Names {
  public:
   /// @param changed see OpenOptions::names_changed.

@@ -12,7 +12,7 @@
 
 namespace fitgauge::store::sql {
 
-/// What a NULL stands for: an engine that knows its types before the values asks.
+/// The meaning of a NULL, for an engine that knows its types before the values.
 enum class Kind : std::uint8_t { Integer, Text, Bytes };
 
 /// A statement that an engine has prepared, with the row it stands at. Parameters count from 1,

@@ -26,7 +26,7 @@ bool is_asked(const MeasurementFilter& filter, int kind);
 Source source_of(int kind);
 Verdict verdict_of(int kind);
 
-/// What the nodes of the index say without their blocks being read.
+/// Statistics of the nodes of the index, without their blocks.
 class IndexNodes {
  public:
   explicit IndexNodes(sql::Connection& connection);
@@ -75,7 +75,7 @@ class IndexNodes {
 /// and so on. Where there are none, 0 is empty.
 class PairIndex {
  public:
-  /// What there is of a node.
+  /// The stored parts of a node.
   struct Node {
     bool is_complete = true;               ///< false: the nodes below have not got theirs yet
     std::optional<std::string> columns{};  ///< of a block

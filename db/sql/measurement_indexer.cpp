@@ -55,8 +55,8 @@ int kind_of(int source, int verdict) { return 8 * source + verdict; }
 
 using Values = std::set<std::optional<std::string>>;
 
-/// What a field's value of the row before leads to: rows that follow each other mostly share it,
-/// and need not look for it again.
+/// The index entry of a field's value in the row before: rows that follow each other mostly share
+/// it, and need not look for it again.
 struct FieldPlace {
   std::optional<std::string> value;
   RowSet* rows = nullptr;                 ///< those with the value

@@ -15,7 +15,7 @@
 
 namespace fitgauge::store {
 
-/// What the index says of a node; derived from the measurements alone.
+/// The statistics of a node; derived from the measurements alone.
 struct NodeIndex {
   std::int64_t min_measured_at = 0;
   std::int64_t max_measured_at = 0;

@@ -69,7 +69,7 @@ class MeasurementQuery {
   static std::vector<FieldValue> postings_of(const MeasurementFilter& filter);
   static bool is_source(const FieldValue& posting);
 
-  /// What a run hands down to its parts.
+  /// The context of a query for its parts.
   struct Reading {
     const MeasurementFilter& filter;
     ListOrder order;

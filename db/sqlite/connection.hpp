@@ -158,7 +158,7 @@ class MeasurementTable final : public sql::MeasurementTable {
  private:
   /// A set of fields, one bit each in the order of for_each_field.
   __extension__ using Fields = unsigned __int128;
-  /// What a statement is made for.
+  /// The purpose of a statement.
   struct Shape {
     Fields fields = 0;
     std::size_t rows = 0;

@@ -60,7 +60,7 @@ Result<void> publish(const fs::path& finished, const fs::path& name) {
   return sync_file(name);
 }
 
-/// What an earlier attempt left under a temporary name.
+/// A temporary file of an earlier attempt.
 void remove_leftover(const fs::path& file) {
   std::error_code ignored;
   for (const std::string_view suffix : {"", "-journal", "-wal", "-shm"}) {

@@ -40,7 +40,7 @@ class Verifier {
   void check_schema();
   /// The revisions that are new since the last call.
   void check_tables();
-  /// What has a digest of its own, and the files' revisions in force.
+  /// Objects with their own digest, and the current revisions of the files.
   void check_rows();
   void check_rows(const SealedTable& table);
   void check_files();

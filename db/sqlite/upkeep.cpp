@@ -125,7 +125,7 @@ void Scrub::pass(const std::stop_token& stop) {
       health_.damaged(fmt::format("{}. Restore a backup", *finding));
     }
   } catch (const StorageFailure& failure) {
-    // What else fails here (no memory, no descriptors) is for the next pass.
+    // Other failures here (no memory, no descriptors) are for the next pass.
     if (failure.error().code == ErrorCode::StorageCorrupt) health_.damaged(failure.error().message);
   } catch (const std::exception& bug) {
     if (options_.job_threw) {

@@ -94,7 +94,7 @@ void Verifier::check_file() {
   }
 }
 
-/// What is in the file against what the migrations of this build make.
+/// Compares the schema of the file with the migrations of this build.
 void Verifier::check_schema() {
   if (const auto history = sqlite::check_history(session_.connection, sqlite::migrations());
       !history) {

@@ -15,16 +15,16 @@
 
 namespace fitgauge::store {
 
-/// What a database server says of itself, for metrics.
+/// Figures of a database server, for metrics.
 struct ServerFigures {
   std::int64_t database_bytes = 0;
   std::int64_t standbys = 0;  ///< servers that follow this one at the moment
-  /// What the last of them does not have on its disk yet; nothing where there is none, or where the
-  /// user may not see it.
+  /// Bytes that the slowest of them does not have on its disk yet; absent if there is none, or if
+  /// the user may not see it.
   std::optional<std::int64_t> standby_behind_bytes{};
 };
 
-/// What the writer has done since the start, for metrics. Written by the writer's thread, read by
+/// Counts of the writer since the start, for metrics. Written by the writer's thread, read by
 /// any.
 struct WriterCounters {
   /// From the transaction's begin until it is on disk.
@@ -59,8 +59,8 @@ class Database {
   virtual std::size_t writer_queue() const = 0;
   /// Jobs that wait for a reader.
   virtual std::size_t reader_queue() const = 0;
-  /// What the server said a few seconds ago; nothing where there is none or it is away. Does not
-  /// wait.
+  /// The server's figures of a few seconds ago; absent if there is no server or it is away. Does
+  /// not wait.
   virtual std::optional<ServerFigures> server_figures() const { return std::nullopt; }
 
   /// Writes a consistent copy of the live database to a new file, on disk when it returns.

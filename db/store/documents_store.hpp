@@ -66,7 +66,7 @@ struct FileContent {
   std::string content{};
 };
 
-/// What `put` gets.
+/// Arguments of `put`.
 struct FileWrite {
   std::string_view path{};
   std::string_view content{};
@@ -100,7 +100,7 @@ class FilesStore {
   std::unique_ptr<Statements> statements_;
 };
 
-/// What somebody found out about a measurement or did because of it; at least one of the texts.
+/// A note of a person about a measurement, its cause or an action; at least one of the texts.
 struct Note {
   std::int64_t id = 0;           ///< given by the store
   std::int64_t measurement = 0;  ///< the row it is about

@@ -84,7 +84,7 @@ class IdempotencyStore {
   std::unique_ptr<Statements> statements_;
 };
 
-/// What a caller may do. An operator may do what a viewer may, an administrator everything; a
+/// Rights of a caller. An operator has all rights of a viewer, an administrator all rights; a
 /// station may read, and forward its log. The codes are stored: never change one, never use one
 /// again.
 enum class Role : std::uint8_t { Viewer = 1, Operator = 2, Admin = 3, Station = 4 };

@@ -154,7 +154,7 @@ enum class RevisionKind : std::uint8_t {
 };
 constexpr RevisionKind last_of(RevisionKind) { return RevisionKind::Catalogue; }
 
-/// What a centre has changed, for its stations; and what a station has of its centre. Changes of
+/// Changes of a centre for its stations, and the part that a station has of them. Changes of
 /// tables, keys, setups, plans and catalogues number themselves; corrections are numbered by
 /// MeasurementsStore::append().
 class RevisionsStore {

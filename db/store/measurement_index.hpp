@@ -136,7 +136,7 @@ struct IndexNode {
 /// No id is greater.
 inline constexpr std::int64_t kLastId = std::numeric_limits<std::int64_t>::max();
 
-/// What has postings, by the number stored: the text fields, and these.
+/// Fields with postings, by the stored number: the text fields, and these.
 enum class IndexField : std::uint8_t {
   Designation = 12,  ///< `25000000 H7`: nominal size in nm, class
   Run = 13,

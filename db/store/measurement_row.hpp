@@ -88,7 +88,7 @@ struct MeasurementRow : app::MeasurementFields {
   std::optional<std::int64_t> origin{};  ///< OriginsStore::Origin::number; 0 is this folder
   std::optional<std::int64_t> seq{};     ///< in the log of its origin; none: it is the id
   std::optional<std::int64_t> number{};  ///< in the id it got there; none: it is the seq
-  /// What correction_of is called where it was stored; none: it is of this folder.
+  /// The id of correction_of in the folder that stored it; none: this folder.
   std::optional<std::int64_t> corrected_origin{};
   std::optional<std::int64_t> corrected_number{};
 
@@ -104,7 +104,7 @@ struct MeasurementRow : app::MeasurementFields {
   std::int64_t lower_limit_nm() const { return nominal_nm + lower_deviation_nm; }
 };
 
-/// What figures are computed from: a measured value, its limits and what it is grouped by.
+/// The input of figures: a measured value, its limits and its group.
 struct MeasuredValue {
   std::int64_t measured_nm = 0;  ///< at 20 °C where it was corrected
   std::int64_t lower_limit_nm = 0;

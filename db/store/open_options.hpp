@@ -16,7 +16,7 @@
 
 namespace fitgauge::store {
 
-/// What the database can do at the moment.
+/// The current abilities of the database.
 enum class HealthState {
   Ok,             ///< checked, reads and writes work
   Checking,       ///< reads and writes work; a large file is still being checked
@@ -54,7 +54,7 @@ struct VerifyReport {
 /// Whether a commit waits until the disk has it. Only Full survives a power cut.
 enum class Synchronous { Off, Normal, Full };
 
-/// Who opens the data directory.
+/// The program that opens the data directory.
 enum class Access {
   Serve,   ///< the one daemon: creates and upgrades the database, holds the directory's lock
   Attach,  ///< a command beside a running daemon (backup, verify, keys): nothing is created or
@@ -83,7 +83,7 @@ struct OpenOptions {
   std::chrono::hours run_retention{90 * 24};  ///< finished runs with their files and traces
   std::int64_t event_retention = 100'000;     ///< events kept for replay
 
-  /// What is wrong with a stored measurement, for the scrub. Called on its thread; may wait for the
+  /// The error of a stored measurement, for the scrub. Called on its thread; may wait for the
   /// application to be ready, and lives as long as the database.
   MeasurementCheck check_measurement{};
 

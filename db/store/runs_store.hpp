@@ -51,7 +51,7 @@ struct RunFile {
   std::string content{};
 };
 
-/// What a run leaves.
+/// Results of a run.
 struct RunOutcome {
   RunStatus status = RunStatus::Completed;
   std::string_view result{};

@@ -71,7 +71,7 @@ struct LoadedTables {
       computed{};  ///< of the content as loaded: differs from revision.digest when a cell changed
 };
 
-/// What an import needs.
+/// Input of an import.
 struct TableImport {
   TableContent content{};
   std::string source{};
@@ -80,7 +80,7 @@ struct TableImport {
   std::optional<std::string> id{};  ///< what the centre that it came from calls it
 };
 
-/// What an id ends with: the first eight digits of the digest.
+/// The end of an id: the first eight digits of the digest.
 std::string shown_digits(const Digest& digest);
 
 /// The immutable revisions of the tolerance tables. The newest one is in force. Cells of the

@@ -59,7 +59,7 @@ void add_log_routes(std::vector<http::Route>& routes, const Services& services);
 void add_changes_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/log/{origin}/{from}: what stations forward.
 void add_intake_routes(std::vector<http::Route>& routes, const Services& services);
-/// What a centre hands on to its stations.
+/// Revisions of a centre for its stations.
 void add_revisions_routes(std::vector<http::Route>& routes, const Services& services);
 /// GET /v1/certificates: what was measured at an order or a part, on paper or as JSON.
 void add_certificates_routes(std::vector<http::Route>& routes, const Services& services);
@@ -122,16 +122,16 @@ void add_service_schemas(Schemas& schemas);
 /// @param of_plant those of the rooms above
 Schemas make_schemas(const Schemas& of_plant = {});
 
-// What several rooms say in the same words.
+// Texts that several rooms share.
 
-/// What a class of the tables gives, with the limits of a drawing what is not of the tables absent.
+/// The limits of a class; with explicit limits the fields of the tables are absent.
 schema::Fields limits_fields();
 /// Beside the limits: the measured value and what follows from it.
 schema::Fields verdict_fields();
 /// The warnings beside a verdict.
 schema::Fields warnings_field();
 
-/// What an answer was computed by.
+/// The formula of an answer.
 schema::Fields formula_fields();
 
 inline std::string verdict_words() {

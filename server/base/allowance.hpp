@@ -18,7 +18,7 @@ std::int64_t thread_memory();
 /// give back, or, negative, the other way round.
 void hand_over_memory(std::int64_t bytes);
 
-/// What one piece of work may still take: time of the wall clock, memory of its thread, and whether
+/// The budget of one piece of work: time of the wall clock, memory of its thread, and whether
 /// it has been called off. Every loop whose length a user chooses looks at it and leaves off once
 /// it is spent; spent stays spent, so a result computed meanwhile can be told from a whole one.
 /// Belongs to the thread that makes it; the stop may be requested by any.
@@ -48,7 +48,7 @@ class Allowance {
   };
   /// That of the calling thread's work; an unlimited one where it has none.
   static Allowance& of_thread();
-  /// What an earlier look has found.
+  /// The result of an earlier check.
   Spent found() const { return spent_; }
 
   /// Counts memory that this work keeps alive but has not taken itself: a shared program.

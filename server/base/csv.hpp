@@ -13,7 +13,7 @@ namespace fitgauge::sheet {
 
 // The one writer of CSV cells.
 
-/// What stands between the cells. Where it is a semicolon, a comma is of a number.
+/// The separator of cells. With a semicolon, a comma belongs to a number.
 enum class CsvSeparator : char { Comma = ',', Semicolon = ';' };
 
 /// Appends `text` as a CSV cell, quoted where a separator, a quote or a line end wants it.
@@ -25,7 +25,7 @@ void append_csv_cell(std::string& out, std::string_view text,
 void append_csv_text(std::string& out, std::string_view text,
                      CsvSeparator separator = CsvSeparator::Comma);
 
-/// What append_csv_text was given.
+/// The text that append_csv_text received.
 std::string_view without_formula_guard(std::string_view text);
 
 }  // namespace fitgauge::sheet

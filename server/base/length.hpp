@@ -10,7 +10,7 @@
 
 namespace fitgauge {
 
-/// What a decimal text may look like and what becomes of digits finer than the scale.
+/// Forms of a decimal text, and the treatment of digits finer than the scale.
 struct DecimalSyntax {
   int scale = 6;               ///< digits after the point that are kept: value = integer / 10^scale
   bool decimal_comma = false;  ///< `25,5` is read as `25.5`

@@ -72,7 +72,7 @@ class BoundedQueue {
     return items_.size();
   }
 
-  /// What is queued can still be taken, what comes from now on is refused.
+  /// Queued work can still be taken; new work is refused.
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;

@@ -77,7 +77,7 @@ Result<int> run_forward_all(const Config& config) {
 constexpr int kFailed = 1;
 constexpr int kUsage = 2;
 
-/// What the command line says, before it is put over the other sources.
+/// Settings of the command line, before they override the other sources.
 struct Arguments {
   std::string config_file;
   std::string port_file;

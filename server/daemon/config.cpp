@@ -179,8 +179,10 @@ const std::vector<Setting>& settings() {
       {"allow-private-addresses",
        "Webhooks may use addresses of this machine and of private networks",
        &Config::allow_private_addresses},
-      {"certificate-logo", "PNG file that inspection reports begin with; empty for none", &Config::certificate_logo},
-      {"certificate-address", "Who makes out inspection reports: lines with ; between them", &Config::certificate_address},
+      {"certificate-logo", "PNG file that inspection reports begin with; empty for none",
+       &Config::certificate_logo},
+      {"certificate-address", "Who makes out inspection reports: lines with ; between them",
+       &Config::certificate_address},
       {"forward-to", "Centre that gets a copy of the log, as https://host:port; empty for none",
        &Config::forward_to},
       {"forward-key-file", "File with the key of this station at the centre",
@@ -288,7 +290,7 @@ bool is_origin(std::string_view text) {
   return is_part(text.substr(0, end), "+-.") && is_part(text.substr(end + 3), "-.:[]_");
 }
 
-/// What daemons that share a database cannot have.
+/// Settings that daemons with a shared database cannot have.
 Result<void> check_database(const Config& config) {
   if (config.database.empty()) return {};
   if (!config.database.starts_with("postgresql://") &&
@@ -335,7 +337,9 @@ Result<void> check(const Config& config) {
     return invalid("tls-client-ca needs tls-cert and tls-key");
   }
   if (const auto database = check_database(config); !database) return database;
-  if (const auto head = certificate::read_letterhead(config.certificate_address, config.certificate_logo); !head) {
+  if (const auto head =
+          certificate::read_letterhead(config.certificate_address, config.certificate_logo);
+      !head) {
     return head.error();
   }
   return check_forwarding(config);

@@ -93,7 +93,7 @@ Result<void> read_environment(const std::vector<std::string>& environment, Confi
 /// Sets one setting from text; a list takes comma-separated items.
 Result<void> assign(const Setting& setting, std::string_view text, Config& config);
 
-/// What one setting alone cannot tell: a certificate without a key.
+/// Checks across settings, such as a certificate without a key.
 Result<void> check(const Config& config);
 
 /// The whole configuration as TOML, which reads back to the same.

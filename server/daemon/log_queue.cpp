@@ -21,7 +21,7 @@ using std::chrono::steady_clock;
 /// Between two batches, so that a busy service wakes the thread 100 times a second, not once a
 /// line.
 constexpr milliseconds kPause{10};
-/// What a pipe takes at once as soon as poll() calls it writable (PIPE_BUF on Linux).
+/// The bytes that a pipe accepts at once when poll() calls it writable (PIPE_BUF on Linux).
 constexpr std::size_t kPiece = 4096;
 
 bool is_regular_file(int descriptor) {

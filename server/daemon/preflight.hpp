@@ -32,7 +32,7 @@ std::int64_t allow_connections(std::int64_t connections);
 /// The addresses of `listen`. @errors ConfigInvalid naming the one that is none.
 Result<std::vector<http::ListenAddress>> listen_addresses(const Config& config);
 
-/// What the server needs to speak TLS; none without a certificate.
+/// The TLS settings of the server; none without a certificate.
 std::optional<http::TlsOptions> tls_options(const Config& config);
 
 /// Whether a start with this configuration would get as far as the database, as things are now:
@@ -49,7 +49,7 @@ Result<std::string> read_admin_key(const std::string& file);
 /// The file that receives the administrator's key of the first start.
 std::string admin_key_out(const Config& config);
 
-/// What a start does about the administrator's key. With a file, its key is valid afterwards: a key
+/// Prepares the administrator's key at a start. With a file, its key is valid afterwards: a key
 /// that an earlier file gave and this one does not is revoked, and the log says so. Without a file
 /// the first start that `needs_one` makes a key and writes it to admin_key_out(), with mode 0600;
 /// the log has the path. A key that was revoked stays revoked.

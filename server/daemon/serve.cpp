@@ -202,7 +202,8 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
     write_connection_metrics(outside.states(), clock, out);
     write_outbox_metrics(forwarding.get(), clock, out);
   });
-  auto letterhead = certificate::read_letterhead(config.certificate_address, config.certificate_logo);
+  auto letterhead =
+      certificate::read_letterhead(config.certificate_address, config.certificate_logo);
   if (!letterhead) return letterhead.error();
   const api::Services services{.tables = app.tables(),
                                .log = app.log(),

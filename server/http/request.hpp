@@ -47,7 +47,7 @@ class Request {
   Method method() const { return method_; }
   /// The path as sent, not decoded: `/v1/limits/25%20H7`.
   std::string_view path() const { return path_; }
-  /// What follows the `?` as sent, without it; empty when there is none.
+  /// The text after the `?` as sent; empty if there is none.
   std::string_view query() const { return query_; }
 
   /// The value of the first field of that name, case-insensitive.
@@ -106,7 +106,7 @@ class Request {
   /// The route found, or null where the request was refused before one was.
   const Route* route() const { return route_; }
 
-  /// Who sent it: whatever the guard stored, or null.
+  /// The sender, as the guard stored it, or null.
   template <class T>
   const T* caller() const {
     return std::any_cast<T>(&caller_);

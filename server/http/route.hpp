@@ -17,7 +17,7 @@ namespace fitgauge::http {
 
 class RouteTree;
 
-// What a parameter's text may be. Every kind is checked before the handler runs; a refused path or
+// Kinds of a parameter's text. Every kind is checked before the handler runs; a refused path or
 // query value names the parameter and what it takes.
 
 struct Text {
@@ -69,8 +69,8 @@ struct BodyRules {
   /// Lower case, without parameters; empty takes any or none. Charset may only be UTF-8.
   std::vector<std::string> media_types{};
   std::size_t limit = std::size_t{1} << 20;  ///< bytes, after decompression
-  bool spools = false;           ///< one above 1 MiB goes to disk: Request::file_body()
-  std::string when_too_large{};  ///< what to do instead, behind "…: "
+  bool spools = false;                       ///< one above 1 MiB goes to disk: Request::file_body()
+  std::string when_too_large{};              ///< what to do instead, behind "…: "
   std::string schema{};                      ///< of its JSON form, by name
 };
 

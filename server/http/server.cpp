@@ -157,7 +157,7 @@ void Server::Impl::turn_away(Socket socket, const Peer& peer) {
   socket.non_blocking(true, ignored);
   socket.write_some(asio::buffer(text), ignored);
   socket.shutdown(Socket::shutdown_send, ignored);
-  // What has come by now would make the closing a reset, which can overtake the answer.
+  // Unread bytes would turn the close into a reset, which can overtake the answer.
   std::array<char, 4096> unread;
   socket.read_some(asio::buffer(unread), ignored);
 }

@@ -61,7 +61,7 @@ struct ServerOptions {
   std::string spool_folder{};
   /// Bytes of answers that wait for their readers, all connections together. Beyond it those end
   /// that have been leaving longest, if for longer than `unsent_time`: who reads has his by then.
-  /// What several answers share counts for none.
+  /// Memory that several answers share does not count.
   std::size_t unsent_budget = std::size_t{64} << 20;
   std::chrono::milliseconds unsent_time = std::chrono::seconds(10);
   /// A sender of a body that is silent for so long gives way when others wait for memory.

@@ -182,7 +182,7 @@ Result<void> LogFollower::read_events() {
     return options_.events.find(event.type) == options_.events.end();
   });
   for (auto& event : page->events) pending_events_.push_back({std::move(event)});
-  // What is not asked for is dealt with.
+  // Events that nobody wants are done.
   if (pending_events_.empty()) {
     progress_.event = last;
     is_dirty_ = true;
@@ -207,7 +207,7 @@ Result<void> LogFollower::read() {
   std::move(page->measurements.begin(), page->measurements.end(), std::back_inserter(pending_));
   take_log_end(page->end.as_of);
   read_to_ = std::max(read_to_, page->end.next.value_or(page->end.as_of));
-  // What the filter lets pass by is dealt with.
+  // Measurements outside the filter are done.
   if (pending_.empty() && progress_.position < read_to_) {
     progress_.position = read_to_;
     is_dirty_ = true;
@@ -226,9 +226,8 @@ void LogFollower::find_offsets(const std::stop_token& stop) {
     order.query.newest_first = true;
     order.query.texts[app::kOfCharacteristic] = made.first;
     order.query.texts[app::kOfMachine] = made.second;
-    auto news = wait_for_result<api::OffsetNews>([&](auto done) {
-      order.find_news(plant_.measurements, plant_.gauges, std::move(done));
-    });
+    auto news = wait_for_result<api::OffsetNews>(
+        [&](auto done) { order.find_news(plant_.measurements, plant_.gauges, std::move(done)); });
     if (!news) return;  // the next round finds them
     const bool is_new = std::exchange(told_[made], news->told) != news->told;
     made_.erase(made_.begin());

@@ -14,8 +14,8 @@
 
 #include "base/json/body_forms.hpp"
 #include "base/thread.hpp"
-#include "plant/settings.hpp"
 #include "plant/plant.hpp"
+#include "plant/settings.hpp"
 #include "record/measurement.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/events/event_service.hpp"
@@ -113,7 +113,7 @@ class Outlet {
 
 inline constexpr std::string_view kRecorded = "measurement.recorded";
 
-/// What every outgoing connection has.
+/// The common part of outgoing connections.
 struct FollowerOptions {
   std::string name{};
   LogFilter filter{};
@@ -122,7 +122,7 @@ struct FollowerOptions {
   bool from_beginning = false;             ///< of the log; else from now on
   std::chrono::seconds longest_wait{300};  ///< between two attempts in vain
   std::chrono::seconds gather{0};          ///< what is younger waits for more
-  /// What goes out together is decided before, so that after a kill the same goes out together.
+  /// A batch is decided before it is sent, so that the same batch is sent after a kill.
   bool plans = false;
 };
 
@@ -182,11 +182,11 @@ class LogFollower final : public Worker {
   std::vector<OutgoingEvent> pending_events_;
   /// A characteristic and its machine.
   using Made = std::pair<std::optional<std::string>, std::optional<std::string>>;
-  std::set<Made> made_;                ///< of the values since their offsets were found
-  std::map<Made, std::string> told_;   ///< of these offsets
-  std::int64_t events_behind_ = 0;  ///< the measurement they come behind; 0: none is pending
-  std::chrono::seconds pause_{0};   ///< before the next attempt; 0: the last went well
-  bool repeats_at_once_ = false;    ///< a refusal: the last attempt went well
+  std::set<Made> made_;               ///< of the values since their offsets were found
+  std::map<Made, std::string> told_;  ///< of these offsets
+  std::int64_t events_behind_ = 0;    ///< the measurement they come behind; 0: none is pending
+  std::chrono::seconds pause_{0};     ///< before the next attempt; 0: the last went well
+  bool repeats_at_once_ = false;      ///< a refusal: the last attempt went well
   bool is_dirty_ = false;
   bool cannot_read_ = false;
   Time saved_at_{};

@@ -15,7 +15,7 @@
 
 namespace fitgauge::connections {
 
-/// What the other side of a connection refused for good.
+/// A measurement that the other side refused finally.
 struct DeadLetter {
   std::string measurement{};  ///< its id
   std::string reason{};
@@ -85,7 +85,7 @@ inline constexpr std::array<ConnectionCounter, 9> kConnectionCounters = {{
     {"refused", &ConnectionState::refused, "Measurements that the other side refused finally"},
 }};
 
-/// What a test of a connection found.
+/// The result of a test of a connection.
 struct ConnectionTest {
   bool ok = false;
   std::string detail{};
@@ -135,7 +135,7 @@ class Worker {
 
   /// Begins to end: for many that are to end together. Thread-safe.
   virtual void request_stop() = 0;
-  /// What it has done, without what its definition says. Thread-safe.
+  /// The counts of the connection, without its definition. Thread-safe.
   ConnectionState state() const {
     const std::lock_guard lock(mutex_);
     return state_;

@@ -140,7 +140,7 @@ struct ReadSettings : api::BodyReader {
 inline Path path_for(const ReadSettings& read) { return {&read.allowed}; }
 inline Path path_for(const api::BodySchema&) { return {nullptr}; }
 
-/// What an outgoing connection takes of the log.
+/// The part of the log that an outgoing connection sends.
 struct LogFilter {
   LogFilter() { query.history = true; }
 

@@ -57,7 +57,7 @@ class SigningKey {
   /// @errors KeyMalformed.
   static Result<SigningKey> parse(std::string_view text);
 
-  /// What parse() reads. Secret.
+  /// The text for parse(). Secret.
   std::string text() const;
 
   const VerifierKey& verifier() const { return verifier_; }

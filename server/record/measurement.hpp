@@ -17,7 +17,7 @@
 
 namespace fitgauge::app {
 
-/// What somebody found out about a measurement or did because of it: at least one of cause, measure
+/// A note of a person about a measurement: at least one of cause, measure
 /// and text. It stands beside the record and is never changed.
 struct Note {
   std::string id{};           ///< `n3-5f0c9a3e77d21b40`; empty before it is stored
@@ -34,7 +34,7 @@ struct Note {
 
 class Origins;
 
-/// Who measured: a gauge at a part, or the simulated machine.
+/// The source of a measurement: a gauge at a part, or the simulated machine.
 enum class Source : std::uint8_t { Gauge, Simulation };
 /// Where the limits come from: a class of the tables, a custom tolerance class, the drawing, or a
 /// designation of another standard; None: a value that nothing judges.
@@ -116,7 +116,7 @@ struct Measurement : MeasurementFields {
   bool has_failed_envelope() const { return envelope && go_gauge == kGoFails; }
   bool has_upper_limit() const { return deviations.upper < kNoLimit; }
   bool has_lower_limit() const { return -kNoLimit < deviations.lower; }
-  /// What is compared with the limits.
+  /// The value that is compared with the limits.
   Length decisive() const { return corrected.value_or(measured); }
 };
 

@@ -18,7 +18,7 @@
 
 namespace fitgauge::api {
 
-/// What a gauge in use says of the measurements that name it, from a calibration to the next.
+/// Facts of a gauge in use for its measurements, from a calibration to the next.
 struct GaugePeriod {
   Timestamp from{std::numeric_limits<std::int64_t>::min()};
   std::string budget{};  ///< its name; empty: none
@@ -77,7 +77,7 @@ struct MeasurementBatch {
   std::shared_ptr<TextArena> decoded_texts{};  ///< of keep()
 };
 
-/// What a batch is decoded with. All of it outlives the batch.
+/// Services for the decoding of a batch. All of them outlive the batch.
 struct BatchContext {
   const iso286::ToleranceTables& tables;
   Timestamp received_at;

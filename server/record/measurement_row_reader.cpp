@@ -242,7 +242,7 @@ const GaugeInUse* MeasurementRowReader::find_gauge(std::string_view name) {
   return last_gauge_in_use_;
 }
 
-/// What a gauge in use says of that time: its uncertainty where the rule needs one that was not
+/// Facts of a gauge in use at that time: its uncertainty if the rule needs one that was not
 /// given, and that its calibration was overdue. @pre measured_at stands
 void MeasurementRowReader::apply_gauge() {
   app::Measurement& m = draft_.measurement;
@@ -320,7 +320,7 @@ void MeasurementRowReader::refuse_rule_without_limits() {
   }
 }
 
-/// What ISO 14405-1 says of a size, and of no other quantity.
+/// Fields of ISO 14405-1, which are for sizes only.
 void MeasurementRowReader::apply_size() {
   app::Measurement& m = draft_.measurement;
   const bool is_size = m.quantity && gauging::has_feature(*m.quantity);

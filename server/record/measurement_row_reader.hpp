@@ -133,7 +133,7 @@ class MeasurementRowReader {
   static bool knows(std::string_view name);
 
  private:
-  /// What a row may say before it is known how its limits are given.
+  /// Fields of a row before the form of its limits is known.
   struct Draft {
     app::Measurement measurement{};
     std::uint64_t given = 0;  ///< a bit a field

@@ -38,7 +38,7 @@ struct NoteText {
   void write(JsonWriter& json, std::string_view from) const { json.value(from); }
 };
 
-/// What a caller says in a note.
+/// The texts of a note from the caller.
 void given_members(auto& v, auto& note) {
   v.optional("cause", note.cause, NoteText{}, "Cause of the value");
   v.optional("measure", note.measure, NoteText{}, "Action after the value");

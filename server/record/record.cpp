@@ -29,7 +29,7 @@ class RecordText {
 
   /// How long the string is so far.
   std::size_t size() const { return static_cast<std::size_t>(at_ - out_.data()); }
-  /// What was written from `begin` on.
+  /// The text from `begin`.
   std::string_view from(std::size_t begin) const { return {out_.data() + begin, size() - begin}; }
 
   RecordText& raw(std::string_view text) {

@@ -9,7 +9,7 @@
 namespace fitgauge::api {
 namespace {
 
-/// What is said of a body beside its temperature.
+/// The facts of a body other than its temperature.
 struct BodyWords {
   std::string_view name;  ///< part or scale
   const std::optional<std::int64_t>& expansion;

@@ -15,7 +15,7 @@
 
 namespace fitgauge::api {
 
-/// What a reading is corrected to 20 °C with.
+/// The data for the correction of a reading to 20 °C.
 struct ThermalCorrection {
   gauging::ThermalBody part;
   gauging::ThermalBody scale;

@@ -79,7 +79,7 @@ std::optional<std::string> check_verdict(const store::MeasurementRow& row, const
 
 constexpr std::string_view kOfNoOrigin = "is of a folder that is not known: its origin was altered";
 
-/// What rows are called, also by what a daemon beside this process has stored since it was
+/// Names of the numbers in rows, also of rows that another daemon has stored since it was
 /// attached. One thread at a time.
 class LaterNames {
  public:
@@ -148,7 +148,7 @@ std::uint64_t size_of(const Result<std::optional<std::string>>& note) {
   return checkpoint ? checkpoint->size : 0;
 }
 
-/// What verify says of a measurement that is altered, has a wrong verdict, or both.
+/// The finding of verify for a measurement that is altered, has a wrong verdict, or both.
 std::optional<std::string> finding_of(const std::optional<std::string>& altered,
                                       const std::optional<std::string>& verdict) {
   if (!verdict) return altered;
@@ -159,7 +159,8 @@ std::optional<std::string> finding_of(const std::optional<std::string>& altered,
 
 Application::Application() = default;
 
-/// Who calls the services goes before them: the runs, the listeners of commits, the storage jobs.
+/// Ends the callers of services before the services: the runs, the listeners of commits, the
+/// storage jobs.
 Application::~Application() {
   stage_ = Stage::Closing;
   stage_.notify_all();
@@ -248,7 +249,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   return app;
 }
 
-/// What other daemons have added.
+/// Rows that other daemons have added.
 bool Application::take_names(const store::Stores& stores) {
   tables_->take(stores);
   log_->take_names(stores);

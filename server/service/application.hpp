@@ -39,7 +39,7 @@ struct VerifyReport;
 
 namespace fitgauge::app {
 
-/// What the database's writer does, for metrics: now, and since the start.
+/// Figures of the database's writer, for metrics: now, and since the start.
 struct WriterFigures {
   std::size_t queued = 0;  ///< jobs that wait
   const Histogram<12>& commit_seconds;
@@ -48,12 +48,12 @@ struct WriterFigures {
   std::uint64_t log_pages = 0;  ///< in the write-ahead log
 };
 
-/// What the database does beside writing, for metrics.
+/// Other figures of the database, for metrics.
 struct StorageFigures {
   std::size_t readers_queued = 0;  ///< jobs that wait for a reader
   bool is_on_server = false;       ///< not in files of the data folder
 
-  // What a server says of itself; nothing where there is none or it is away.
+  // Figures of the database server; absent if there is none or it is away.
   std::optional<std::int64_t> server_bytes{};
   std::optional<std::int64_t> standbys{};
   std::optional<std::int64_t> standby_behind_bytes{};  ///< of the last of them
@@ -85,7 +85,7 @@ struct ApplicationOptions {
   std::function<void(std::string_view state, const std::string& reason)> health_changed{};
   /// A storage job threw, which is a bug. As above.
   std::function<void(const std::string& what)> job_threw{};
-  /// What happens to the log: the event's name and a sentence. As above.
+  /// Events of the log: a name and a sentence.
   std::function<void(std::string_view event, const std::string& detail)> log_told{};
 };
 

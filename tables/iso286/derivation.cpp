@@ -56,7 +56,7 @@ FundamentalDeviation fundamental_deviation(const ToleranceClass& c) {
   return {Limit::Lower, c.letter == Letter::K ? k_column(c.grade) : "ei_" + letter};
 }
 
-/// What the notes to the tables leave out up to 1 mm: A, B, a, b; N above IT8; IT14 to IT18.
+/// Classes that the notes to the tables exclude up to 1 mm: A, B, a, b; N above IT8; IT14 to IT18.
 bool is_used_up_to_1_mm(const ToleranceClass& c) {
   if (c.letter == Letter::A || c.letter == Letter::B) return false;
   if (c.grade >= Grade::IT14) return false;
@@ -81,7 +81,7 @@ LimitDeviations complete(Limit limit, Length deviation, Length tolerance) {
   return {deviation, deviation - tolerance};
 }
 
-/// What the limits of one class are computed from.
+/// The input of the limits of one class.
 struct ClassColumns {
   ClassColumns(const StandardTables& tables, const ToleranceClass& c)
       : tolerance_class(c),

@@ -22,7 +22,7 @@ struct LimitDeviations {
 
 class ToleranceTables;
 
-/// What the tables say for every size of one of their ranges: of a class of the standard, the
+/// A class for every size of one range of the tables: of a class of the standard, the
 /// deviations at its end; of a custom column, those of the row that holds the whole range.
 std::optional<LimitDeviations> deviations_in_range(const ToleranceTables& tables, ClassId id,
                                                    const NominalSizeRange& range);

@@ -11,7 +11,7 @@
 
 namespace fitgauge::iso286 {
 
-/// What is measured (ISO 286-1, 3.1.1 and 3.1.2): an internal feature of size, or an external one.
+/// The feature (ISO 286-1, 3.1.1 and 3.1.2): an internal feature of size, or an external one.
 enum class Feature : std::uint8_t { Hole, Shaft };
 
 /// `hole` or `shaft`.

@@ -76,7 +76,7 @@ std::vector<Error> table_rules(const TableData& data);
 /// @returns TablesInconsistent each, naming table, range, column, found and expected.
 std::vector<Error> compare_with_compiled_in(const TableData& data);
 
-/// What a shop's own column must be: a name of the grammar whose case is the feature's and that is
+/// Rules of a custom column: a name of the grammar whose case is the feature's and that is
 /// not NR or BEREICH, at least one row, contiguous ascending ranges within 0 to 3150 mm, and
 /// upper >= lower.
 /// @errors TableRowsInvalid; `details` has one entry a finding, `where` its JSON pointer.

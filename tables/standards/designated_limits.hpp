@@ -16,7 +16,7 @@ namespace fitgauge::standards {
 /// exact.
 struct DesignatedLimits {
   const Standard* standard = nullptr;  ///< never null
-  /// What the designation says beside the nominal size: `ISO 2768-m`, `R ISO 2768-m` of a broken
+  /// The designation without the nominal size: `ISO 2768-m`, `R ISO 2768-m` of a broken
   /// edge. Of a thread, whose nominal size here is the basic pitch diameter, all of it: `M10-6H`.
   /// Stays as long as the program runs.
   std::string_view tolerance_class;
@@ -53,8 +53,9 @@ Result<DesignatedLimits> thread_limits(std::string_view designation);
 
 /// Whether a class names one of bearings: `ISO 492-P6`.
 bool is_bearing_class(std::string_view text);
-/// The mean diameter of a radial bearing but a tapered roller bearing (ISO 492): its bore as a hole,
-/// its outer ring as a shaft. @param tolerance_class `ISO 492-normal`, `ISO 492-P6` or `ISO 492-P5`
+/// The mean diameter of a radial bearing but a tapered roller bearing (ISO 492): its bore as a
+/// hole, its outer ring as a shaft. @param tolerance_class `ISO 492-normal`, `ISO 492-P6` or `ISO
+/// 492-P5`
 /// @errors ClassUnknown; ClassUndefinedForSize.
 Result<DesignatedLimits> bearing_limits(Length nominal, std::string_view tolerance_class,
                                         iso286::Feature feature);

@@ -12,7 +12,7 @@
 
 namespace fitgauge::standards {
 
-/// What a cell says of its item. Lengths in nanometres, angles in minutes of arc.
+/// The value of a cell. Lengths in nanometres, angles in minutes of arc.
 enum class Member : std::uint8_t {
   Nominal,
   Upper,
@@ -30,7 +30,7 @@ struct Cell {
   std::int64_t count = 0;
 };
 
-/// What a row holds for: a range of sizes, a pitch, a diameter, or several of them.
+/// The scope of a row: a range of sizes, a pitch, a diameter, or several of them.
 struct Row {
   std::optional<Length> over{};   ///< exclusive
   std::optional<Length> up_to{};  ///< inclusive; none beside `over`: without end

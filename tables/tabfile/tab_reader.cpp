@@ -50,7 +50,7 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-/// What follows BEGIN: name, suffix (a blank may stand before its dot), unit, version.
+/// The fields after BEGIN: name, suffix (a blank may stand before its dot), unit, version.
 TabHeader read_begin_line(std::string_view text) {
   TabHeader header;
   header.name = take_word(text);

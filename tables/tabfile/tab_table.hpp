@@ -122,7 +122,7 @@ Result<TabTable> read_tab(std::string_view text);
 /// The same for the bytes of a file: UTF-8, or else Windows-1252 as older controls write it.
 Result<TabTable> read_tab_file(std::string_view bytes, Allowance& allowance);
 
-/// What a file says of its columns, by name, before the line of their names.
+/// The description of columns in a file, by name, before the line of their names.
 using ColumnDescriptions = std::map<std::string, TabColumn, std::less<>>;
 
 /// A table has no more; a description that names more is read no further.

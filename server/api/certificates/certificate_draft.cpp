@@ -78,20 +78,25 @@ std::string measured_text(const app::Measurement& m) {
 std::string rule_words(const gauging::DecisionRule& rule) {
   switch (rule.kind()) {
     case gauging::DecisionRule::Kind::Simple:
-      return "simple acceptance. Good: the value lies within the limits; its uncertainty does not count (JCGM 106:2012, "
+      return "simple acceptance. Good: the value lies within the limits; its uncertainty does not "
+             "count (JCGM 106:2012, "
              "8.2).";
     case gauging::DecisionRule::Kind::GuardBand:
-      return "guard band. Good: the value lies inside both limits by U at least. Rework or reject: outside by more than "
+      return "guard band. Good: the value lies inside both limits by U at least. Rework or reject: "
+             "outside by more than "
              "U. Else indeterminate (ISO 14253-1:2017; JCGM 106:2012, 8.3).";
     case gauging::DecisionRule::Kind::Conformance: break;
   }
-  return fmt::format("conformance. Good: the true value lies within the limits with a probability p of {} at least. Rework "
-                     "or reject: outside with that probability. Else indeterminate (ISO 14253-1:2017; JCGM 106:2012, 7).",
-                     format(rule.probability()));
+  return fmt::format(
+      "conformance. Good: the true value lies within the limits with a probability p of {} at "
+      "least. Rework "
+      "or reject: outside with that probability. Else indeterminate (ISO 14253-1:2017; JCGM "
+      "106:2012, 7).",
+      format(rule.probability()));
 }
 
-/// `1.6 (k 2, 95.45 %)`: the expanded uncertainty with its factor and what that covers. A record without a factor gets
-/// the one of 95.45 %.
+/// `1.6 (k 2, 95.45 %)`: the expanded uncertainty with its factor and what that covers. A record
+/// without a factor gets the one of 95.45 %.
 std::string uncertainty_text(const app::Measurement& m) {
   using gauging::DecisionRule;
   const auto kind = m.rule.kind();
@@ -99,25 +104,30 @@ std::string uncertainty_text(const app::Measurement& m) {
                                                       : m.rule.standard_uncertainty();
   if (u == Length()) return "";
   constexpr std::int64_t kOne = 1'000'000;
-  const double degrees = m.degrees_of_freedom ? static_cast<double>(*m.degrees_of_freedom) / 1e6 : gauging::kExactly;
-  const std::int64_t k = kind == DecisionRule::Kind::GuardBand ? m.rule.coverage_factor().millionths()
-                         : m.coverage_factor                   ? m.coverage_factor->millionths()
-                         : m.degrees_of_freedom                ? gauging::coverage_millionths(degrees)
-                                                               : 2 * kOne;
+  const double degrees =
+      m.degrees_of_freedom ? static_cast<double>(*m.degrees_of_freedom) / 1e6 : gauging::kExactly;
+  const std::int64_t k = kind == DecisionRule::Kind::GuardBand
+                             ? m.rule.coverage_factor().millionths()
+                         : m.coverage_factor    ? m.coverage_factor->millionths()
+                         : m.degrees_of_freedom ? gauging::coverage_millionths(degrees)
+                                                : 2 * kOne;
   const double covered =
       gauging::conformance_probability({Length::nanometres(k), Length::nanometres(-k)}, Length(),
                                        {Length::nanometres(kOne), degrees});
   constexpr double kCounted = 9e12;  // nm: beyond it the product does not fit
   const double about = static_cast<double>(u.count()) * static_cast<double>(k) / 1e6;
   return fmt::format("{} (k {:.4g}, {:.2f} %)",
-                     about < kCounted ? format_um(Length::nanometres((u.count() * k + kOne - 1) / kOne))
-                                      : fmt::format("{:.6g}", about / 1e3),
+                     about < kCounted
+                         ? format_um(Length::nanometres((u.count() * k + kOne - 1) / kOne))
+                         : fmt::format("{:.6g}", about / 1e3),
                      static_cast<double>(k) / 1e6, covered * 100);
 }
 
 /// How far between the limits a value lies: 0 is the lower one, 1 the upper one.
 std::optional<double> place_of(const app::Measurement& m) {
-  if (!m.is_judged() || !m.has_lower_limit() || !m.has_upper_limit() || m.upper_limit() == m.lower_limit()) return {};
+  if (!m.is_judged() || !m.has_lower_limit() || !m.has_upper_limit() ||
+      m.upper_limit() == m.lower_limit())
+    return {};
   return (m.decisive() - m.lower_limit()).to_mm() / (m.upper_limit() - m.lower_limit()).to_mm();
 }
 
@@ -136,7 +146,9 @@ std::string distance_text(const app::Measurement& m) {
 }
 
 /// `2026-11-22 08:00:00`, UTC
-std::string time_text(Timestamp time) { return format_rfc3339(time).substr(0, 19).replace(10, 1, " "); }
+std::string time_text(Timestamp time) {
+  return format_rfc3339(time).substr(0, 19).replace(10, 1, " ");
+}
 
 template <typename... Texts>
 std::string listed(const Texts&... texts) {
@@ -148,8 +160,9 @@ std::string listed(const Texts&... texts) {
 }
 
 constexpr std::array kSeverity = {0, 2, 3, 1, -1};  // of each gauging::Verdict
-constexpr std::array kWeights = {certificate::Weight::Plain, certificate::Weight::Noted, certificate::Weight::Marked,
-                                 certificate::Weight::Noted, certificate::Weight::Plain};
+constexpr std::array kWeights = {certificate::Weight::Plain, certificate::Weight::Noted,
+                                 certificate::Weight::Marked, certificate::Weight::Noted,
+                                 certificate::Weight::Plain};
 
 }  // namespace
 
@@ -184,7 +197,9 @@ void CertificateDraft::add(const app::Measurement& m) {
     return;
   }
   std::string rule;
-  if (m.is_judged()) rule = fmt::format("R{}", rules_.try_emplace(rule_words(m.rule), rules_.size() + 1).first->second);
+  if (m.is_judged())
+    rule =
+        fmt::format("R{}", rules_.try_emplace(rule_words(m.rule), rules_.size() + 1).first->second);
   if (m.conformance) rule += fmt::format(", p {}", format_decimal(m.conformance->probability, 9));
   const Length deviation = m.decisive() - m.nominal_size;
   lines_.push_back(
@@ -192,20 +207,23 @@ void CertificateDraft::add(const app::Measurement& m) {
        .characteristic = std::string(m.characteristic.value_or("")),
        .size = size_text(m),
        .limits = limits_text(m),
-       .measured = measured_text(m) + (m.correction_reason ? fmt::format("; corrected: {}", *m.correction_reason) : ""),
+       .measured =
+           measured_text(m) +
+           (m.correction_reason ? fmt::format("; corrected: {}", *m.correction_reason) : ""),
        .deviation = m.has_nominal ? (Length() < deviation ? "+" : "") + format_um(deviation) : "",
        .verdict = std::string(word(m.result.verdict)),
        .rule = rule,
        .uncertainty = uncertainty_text(m),
-       .gauge = listed(due.empty() ? gauge : gauge + "; OVERDUE when measured: " + due, m.machine.value_or(""),
-                       m.operator_id.value_or("")),
+       .gauge = listed(due.empty() ? gauge : gauge + "; OVERDUE when measured: " + due,
+                       m.machine.value_or(""), m.operator_id.value_or("")),
        .measured_at = time_text(m.measured_at),
        .place = place ? std::optional(static_cast<float>(*place)) : std::nullopt,
        .weight = kWeights.at(verdict)});
   if (!is_worst) return;
   worst_ = lines_.back();
-  worst_text_ = fmt::format("{}: {} mm, {}", listed(worst_.part, worst_.characteristic, worst_.size),
-                            mm_text(m.decisive()), distance_text(m));
+  worst_text_ =
+      fmt::format("{}: {} mm, {}", listed(worst_.part, worst_.characteristic, worst_.size),
+                  mm_text(m.decisive()), distance_text(m));
 }
 
 std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpoint) const {
@@ -233,7 +251,8 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
 
 std::string CertificateDraft::summary() const {
   std::string text = fmt::format("{} measured value{}", count_, count_ == 1 ? "" : "s");
-  if (!parts_.empty()) text += fmt::format(" of {} part{}", parts_.size(), parts_.size() == 1 ? "" : "s");
+  if (!parts_.empty())
+    text += fmt::format(" of {} part{}", parts_.size(), parts_.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < verdicts_.size(); ++i) {
     const auto verdict = static_cast<gauging::Verdict>(i);
     if (verdict == gauging::Verdict::Unjudged && verdicts_[i] == 0) continue;
@@ -257,10 +276,13 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
   for (const auto& [name, value] : order_.of) {
     paper.facts.push_back(fmt::format("{}: {}", name == "order" ? "Order" : "Part", value));
   }
-  for (const auto& [words, number] : rules_) paper.statements[number - 1] = fmt::format("R{}: {}", number, words);
+  for (const auto& [words, number] : rules_)
+    paper.statements[number - 1] = fmt::format("R{}: {}", number, words);
   paper.statements.emplace_back(
-      "U: expanded uncertainty k\u00b7u with its coverage factor and coverage probability, as the record has it. The results "
-      "relate to the values listed here alone; a size is at 20 \u00b0C (ISO 1) if the temperature stands beside it.");
+      "U: expanded uncertainty k\u00b7u with its coverage factor and coverage probability, as the "
+      "record has it. The results "
+      "relate to the values listed here alone; a size is at 20 \u00b0C (ISO 1) if the temperature "
+      "stands beside it.");
   if (worst_verdict_ != gauging::Verdict::Unjudged) paper.worst = std::move(worst_);
   std::string made = fmt::format("Made {} UTC by fitgauge {}", time_text(made_at), kVersion);
   for (const auto& [revision, uses] : revisions_) made += ", tables " + revision;

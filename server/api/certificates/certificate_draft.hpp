@@ -14,7 +14,7 @@
 
 namespace fitgauge::api {
 
-/// What the request says of a certificate.
+/// The request for a certificate.
 struct CertificateOrder {
   std::vector<std::pair<std::string, std::string>> of{};  ///< order, part_id: what it is of
   std::string title{};
@@ -41,7 +41,8 @@ class CertificateDraft {
   /// @param checkpoint the signed head of the log
   std::string json(Timestamp made_at, const std::string& checkpoint) const;
   /// Once. @throws std::runtime_error as certificate::to_pdf does.
-  std::string pdf(Timestamp made_at, const std::string& checkpoint, const certificate::Letterhead& letterhead);
+  std::string pdf(Timestamp made_at, const std::string& checkpoint,
+                  const certificate::Letterhead& letterhead);
 
  private:
   std::string summary() const;
@@ -65,7 +66,8 @@ class CertificateDraft {
   std::map<std::string, int> revisions_;
   std::set<std::string, std::less<>> parts_;
   std::map<std::string, std::size_t> rules_;  ///< in words, numbered from 1 on
-  std::pair<int, double> badness_;            ///< of the worst value: its verdict, then its share of the tolerance
+  std::pair<int, double>
+      badness_;  ///< of the worst value: its verdict, then its share of the tolerance
   std::string worst_id_;
   gauging::Verdict worst_verdict_ = gauging::Verdict::Unjudged;
   certificate::Line worst_;

@@ -57,7 +57,8 @@ void finish(const Services& services, const std::shared_ptr<CertificateDraft>& d
       *last, [&services, draft, shared](const Result<app::LogService::Proof>& proof) {
         if (!proof) return shared->fail(proof.error());
         services.jobs.figures.run(
-            [&services, now = services.clock.now(), head = proof->head, draft]() -> Result<http::Response> {
+            [&services, now = services.clock.now(), head = proof->head,
+             draft]() -> Result<http::Response> {
               return written(*draft, now, head->note, services.letterhead).with("Vary", "Accept");
             },
             answer_by(shared));
@@ -117,8 +118,10 @@ void add_certificates_routes(std::vector<http::Route>& routes, const Services& s
       .summary = "Inspection report of an order or a part",
       .description =
           "Every value of the order, the part or both, in storage order, with limits, verdict, "
-          "rule, uncertainty, gauge, machine, operator and the signed head of the log that has them; before them the "
-          "verdict of all and the worst value. A tagged PDF, or JSON by Accept; at most 10,000 values, "
+          "rule, uncertainty, gauge, machine, operator and the signed head of the log that has "
+          "them; before them the "
+          "verdict of all and the worst value. A tagged PDF, or JSON by Accept; at most 10,000 "
+          "values, "
           "whose records have at most 16 MiB.",
       .parameters = parameters(),
       .response_types = {std::string(kPdf), std::string(kJson)},

@@ -13,7 +13,7 @@
 
 namespace fitgauge::api {
 
-/// What chooses the stored values of a fit: the filters of a list twice, `hole_…` and `shaft_…`.
+/// Filters of the stored values of a fit: the filters of a list twice, `hole_…` and `shaft_…`.
 std::vector<http::Parameter> fit_filter_parameters();
 
 /// Writes the member `stored` of a fit.

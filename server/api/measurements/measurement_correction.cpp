@@ -40,7 +40,7 @@ constexpr std::array<Replaced, 9> kReplaced = {{
     {"scale_expansion_uncertainty_um_per_m_k", "scale_expansion_um_per_m_k"},
 }};
 
-/// What the texts of the correction are views of.
+/// The owner of the texts of the correction.
 struct Sources {
   JsonValue body;
   app::KeptMeasurement original;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kRowsAtOnce = 200;
 
-/// What a file is made of.
+/// Content of a file.
 struct Download {
   const Services& services;
   std::string_view media_type;

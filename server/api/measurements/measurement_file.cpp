@@ -128,7 +128,7 @@ qif::Status status_of(gauging::Verdict verdict) {
   return qif::Status::Indeterminate;
 }
 
-/// What QIF has no place for.
+/// Records that QIF cannot express.
 std::vector<std::pair<std::string_view, std::string>> other_fields(const app::Measurement& m) {
   std::vector<std::pair<std::string_view, std::string>> fields;
   const auto add = [&](const app::MeasurementField& field) {

@@ -24,7 +24,7 @@ http::Response response_of(app::Answer answer, Preference applied) {
   return response;
 }
 
-/// What rows are judged by: the tables and the gauges in use, as they are now.
+/// The basis of verdicts: the current tables and gauges in use.
 struct Basis {
   app::TableCatalog::Tables tables;
   std::shared_ptr<const GaugeBook> gauges;

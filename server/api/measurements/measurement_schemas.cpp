@@ -37,7 +37,7 @@ schema::Fields given_fields() {
   return fields;
 }
 
-/// What a caller said beside the value and its limits comes back as it was stored.
+/// Other fields of the caller come back as they were stored.
 schema::Fields echoed_fields() {
   schema::Fields fields;
   for (std::size_t i = RowField::Labels; i < RowField::Count; ++i) {
@@ -200,20 +200,22 @@ void add_measurement_schemas(Schemas& schemas) {
        {"uncertainty_um", schema::number(), "What it came to", false}});
   schemas.push_back(
       {"Certificate",
-       schema::object({{"order", schema::text(), "What it is of", false},
-                       {"part_id", schema::text(), "What it is of", false},
-                       {"title", schema::text(), ""},
-                       {"company", schema::text(), "", false},
-                       {"customer", schema::text(), "", false},
-                       {"made_at", schema::time(), ""},
-                       {"count", schema::count(), "Of the measurements"},
-                       {"verdicts", schema::ref("VerdictCounts"), ""},
-                       {"parts", schema::count(), "Different part numbers"},
-                       {"worst_id", schema::text(), "Of the worst value: by its verdict, then by its place in the limits"},
-                       {"verdict", verdict_words(), "The worst; none if no value has limits", false},
-                       {"gauges", schema::array(gauge), "What the records say of them"},
-                       {"checkpoint", schema::text(), "The signed head of the log: a note"},
-                       {"measurements", schema::array(schema::ref("Measurement")), ""}})});
+       schema::object(
+           {{"order", schema::text(), "What it is of", false},
+            {"part_id", schema::text(), "What it is of", false},
+            {"title", schema::text(), ""},
+            {"company", schema::text(), "", false},
+            {"customer", schema::text(), "", false},
+            {"made_at", schema::time(), ""},
+            {"count", schema::count(), "Of the measurements"},
+            {"verdicts", schema::ref("VerdictCounts"), ""},
+            {"parts", schema::count(), "Different part numbers"},
+            {"worst_id", schema::text(),
+             "Of the worst value: by its verdict, then by its place in the limits"},
+            {"verdict", verdict_words(), "The worst; none if no value has limits", false},
+            {"gauges", schema::array(gauge), "What the records say of them"},
+            {"checkpoint", schema::text(), "The signed head of the log: a note"},
+            {"measurements", schema::array(schema::ref("Measurement")), ""}})});
   schemas.push_back(
       {"Accepted",
        schema::object(schema::Fields{{"accepted", schema::count(), "How many were stored"},

@@ -34,7 +34,7 @@ void members(auto& v, const PartValue& value) {
   v.member("measured_at", value.measured_at, Time{}, "In UTC");
 }
 
-/// What a plan says of a characteristic, and of which record.
+/// A characteristic of a plan and its record.
 struct Reaction {
   std::string characteristic{};
   std::string reaction{};

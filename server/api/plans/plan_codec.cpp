@@ -21,7 +21,7 @@ constexpr std::int64_t kLargestSubgroup = 25;
 constexpr std::int64_t kMostAlike = 10'000;
 constexpr std::size_t kLongestEntity = 32;
 
-/// What a measurement of the characteristic gets as it stands here.
+/// Fields that a measurement of the characteristic copies.
 constexpr std::array<std::string_view, 11> kMeasurementFields = {
     "designation", "nominal_mm", "tolerance_class", "feature",         "upper_um", "lower_um",
     "quantity",    "gauge",      "uncertainty_um",  "coverage_factor", "rule"};

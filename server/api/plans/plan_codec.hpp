@@ -19,7 +19,7 @@ inline constexpr std::size_t kMostCharacteristics = 500;
 Result<std::string> read_plan(const JsonValue& body, std::string_view part,
                               const BatchContext& context);
 
-/// What a list says of a stored plan.
+/// The entry of a stored plan in a list.
 struct PlanHead {
   std::string name;  ///< empty without one
   std::size_t characteristics = 0;

@@ -83,7 +83,7 @@ class RunEventStream final : public http::BodyStream,
       return sink->put(std::move(piece));
     }
     if (!*news.end) return sink->fail();
-    // What another daemon's run has printed is known at its end.
+    // The output of a run in another daemon is known at its end.
     if (!append_screen(piece, (*news.end)->report, seen_lines_)) return sink->fail();
     append_event(piece, kEnd, kEnd, (*news.end)->report);
     sink->finish(std::move(piece));

@@ -58,7 +58,7 @@ Result<std::shared_ptr<app::ActiveRun>> start(const Services& services,
                              [](const app::ActiveRun&) { return app::Answer{}; });
 }
 
-/// What `work` returns as an order.
+/// The result of `work` as an order.
 template <class Work>
 auto ordered(const Services& services, const Work& work) {
   std::promise<decltype(work())> promise;
@@ -74,8 +74,8 @@ http::Response with_preference(http::Response response) {
   return std::move(response).with("Preference-Applied", "respond-async");
 }
 
-/// What is kept under an Idempotency-Key: of a run that is waited for the place alone, since its
-/// report never changes.
+/// The answer stored for an Idempotency-Key: of a run that the caller waits for only the place,
+/// since its report never changes.
 app::Answer accepted(const app::ActiveRun& run, bool at_once) {
   app::Answer answer{.status = 201, .content_type = {}, .location = {}, .body = {}};
   answer.location = std::string(kRuns) + run.id_text();

@@ -65,7 +65,7 @@ void get_request(const Services& services, const http::Request& request,
   }));
 }
 
-/// What a browser may show as it is; everything else is text.
+/// Media types that a browser may show; everything else is text.
 std::string media_type_of(const std::string& path) {
   const std::string name = ascii_lower(path);
   const bool html = name.ends_with(".html") || name.ends_with(".htm");

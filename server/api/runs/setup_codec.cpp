@@ -151,7 +151,7 @@ inline constexpr Nested kWorkpieceForm{
 
 namespace {
 
-/// What does not make sense together, unless a field that was refused already is why.
+/// Reports contradictions between fields, unless a refused field is the reason.
 void check(const machine::Setup& setup, const std::string& pointer, FieldErrors& errors) {
   const auto valid = machine::validate(setup);
   if (valid) return;

@@ -129,8 +129,8 @@ void printing_members(auto& v) {
              "when absent");
 }
 
-/// What of a setup belongs to the run and not to the machine: `m_functions` and `cycles` of the
-/// machine builder, the `decimal_separator` of FN 15, the `fn16_default_path` and the
+/// The part of a setup that belongs to the run and not to the machine: `m_functions` and `cycles`
+/// of the machine builder, the `decimal_separator` of FN 15, the `fn16_default_path` and the
 /// `active_datum_table`. The tables stand in the setup, or below its `machine`. What cannot be
 /// accepted goes to `errors`.
 void decode_builder(const JsonValue& setup, const std::string& pointer,

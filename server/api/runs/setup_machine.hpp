@@ -139,7 +139,7 @@ void members(auto& v, machine::CalibrationSphere& sphere) {
   v.optional("radius_mm", sphere.radius, Mm{}, "Its radius");
 }
 
-/// What the builder's parameters say about cycles 451 to 453.
+/// The machine builder's parameters of cycles 451 to 453.
 void kinematics_members(auto& v, machine::KinematicsOptions& options) {
   v.optional("tcpm_option", options.tcpm, "M128 and FUNCTION TCPM are available");
   v.optional("strobe_rotary_axes", options.strobed, SomeOf<3>{"A", "B", "C"},

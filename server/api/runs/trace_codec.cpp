@@ -17,7 +17,7 @@ namespace {
 using machine::Axis;
 
 constexpr std::size_t kLinearAxes = 3;
-/// What the arithmetic of a path adds beyond is noise.
+/// Digits beyond this are noise of the arithmetic of a path.
 constexpr int kDecimals = 10;
 
 void write_position(JsonWriter& json, std::string_view which, const machine::Position& position,

@@ -36,7 +36,7 @@ std::string names_allowed(const KindOfDocument& kind) {
                      kind.names_with_slashes ? "" : "/ and \\ and ");
 }
 
-/// What a name may be, so that it stands in a path and in a message as it is.
+/// Allowed names, which fit in a path and in a message.
 Result<std::string> name_to_write(const KindOfDocument& kind, const http::Request& request) {
   std::string name = name_in_path(kind, request);
   const bool printable = std::none_of(name.begin(), name.end(), [&](char c) {
@@ -98,14 +98,15 @@ void put(const Services& services, const KindOfDocument& kind, const http::Reque
   const SharedResponder shared = share(std::move(responder));
   const bool is_other = !kind.other_type.empty() && request.media_type() == kind.other_type;
   JobPool& pool = kind.is_figure || is_other ? services.jobs.figures : services.jobs.orders;
-  pool.run([&services, &kind, &request, is_other, name = *name] {
-             return is_other ? kind.check_other(services, name, request.file_body())
-                             : kind.check(services, name, request.body());
-           },
-           [&services, &kind, &request, name = *name, shared](Result<CheckedDocument> checked) {
-             if (!checked) return shared->fail(checked.error());
-             write(services, kind, name, *std::move(checked), request, shared);
-           });
+  pool.run(
+      [&services, &kind, &request, is_other, name = *name] {
+        return is_other ? kind.check_other(services, name, request.file_body())
+                        : kind.check(services, name, request.body());
+      },
+      [&services, &kind, &request, name = *name, shared](Result<CheckedDocument> checked) {
+        if (!checked) return shared->fail(checked.error());
+        write(services, kind, name, *std::move(checked), request, shared);
+      });
 }
 
 void get(const Services& services, const KindOfDocument& kind, const http::Request& request,

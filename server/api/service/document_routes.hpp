@@ -13,7 +13,7 @@
 #include "http/route.hpp"
 #include "service/documents/document_service.hpp"
 
-// Whatever is kept as a text under a name has the same four routes, tags and preconditions.
+// All documents (texts with a name) have the same four routes, tags and preconditions.
 
 namespace fitgauge::api {
 
@@ -30,7 +30,7 @@ struct CheckedDocument {
 using DescribeDocument = Result<void> (*)(JsonWriter& json, const app::NamedDocument& document);
 Result<void> describe_by_name(JsonWriter& json, const app::NamedDocument& document);
 
-/// What differs between the kinds.
+/// Differences between the kinds.
 struct KindOfDocument {
   app::DocumentKind kind{};
   std::string_view path{};              ///< of the list

@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::string_view kTokenPrefix = "fg_";
 
-/// What a route asks for, in rising order: `public` (health, even in keys mode), `open`, and roles.
-/// `station` is what an administrator may too, and no operator.
+/// Rights that a route needs, in rising order: `public` (health, even in keys mode), `open`, and
+/// roles. `station` is what an administrator may too, and no operator.
 enum class Access { Public, Open, Viewer, Operator, Admin, Station };
 
 Access access_of(const http::Route& route, const http::Request& request) {
@@ -105,7 +105,7 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
   std::optional<app::KnownCaller> caller;
   if (token && !token->empty()) {
     caller = keys_.find(*token);
-    // What does not look like a key is of a proxy or another service: no business of ours.
+    // Other text belongs to a proxy or another service and is ignored.
     if (!caller && token->starts_with(kTokenPrefix)) return invalid_key();
     if (caller && caller->is_expired) {
       return Error{ErrorCode::KeyExpired, "the key " + caller->name + " has expired"};

@@ -13,7 +13,7 @@
 
 namespace fitgauge::api {
 
-/// Who needs a key (`--auth`).
+/// Requests that need a key (`--auth`).
 enum class AuthMode {
   Open,      ///< nobody on this machine; others as ReadOpen
   ReadOpen,  ///< everybody but for limits, fits of the tables, tables, verdicts, documents, the

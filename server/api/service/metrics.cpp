@@ -43,7 +43,7 @@ constexpr Seconds::Bounds kSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.
 constexpr int kUnauthorized = 401;
 constexpr int kServerError = 500;
 
-/// What one refresh reads at most; the next goes on.
+/// The most rows of one refresh; the next continues.
 constexpr std::size_t kRowsOfAStep = 200'000;
 
 }  // namespace
@@ -106,7 +106,7 @@ struct Metrics::Parts {
 };
 
 Metrics::Metrics() : parts_(std::make_unique<Parts>()) {
-  // What somebody is woken by is there from the start: a series that begins with 1 has no increase.
+  // Alarms need their series from the start: a series that begins with 1 has no increase.
   for (const ErrorCode code : {
 #define FITGAUGE_ERROR(name, id, title) ErrorCode::name,
 #include "base/error_codes.inc"

@@ -58,9 +58,9 @@ class Exposition {
   std::string_view family_;
 };
 
-/// What /metrics shows: requests and problems, which are counted here, and what its sources write
-/// when somebody asks. docs/reference/metrics.md lists it. Thread-safe; counting a request takes
-/// one short lock and no allocation once its route and status were seen.
+/// Metrics of /metrics: requests and problems, which are counted here, and the lines that its
+/// sources write when somebody asks. docs/reference/metrics.md lists it. Thread-safe; counting a
+/// request takes one short lock and no allocation once its route and status were seen.
 class Metrics {
  public:
   Metrics();

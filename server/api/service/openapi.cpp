@@ -282,7 +282,7 @@ void write_info(JsonWriter& json) {
   json.end_array();
 }
 
-/// What a refusal answers; with a header of its status.
+/// The answer of a refusal, with a header of its status.
 std::string refusal_response(std::string_view name, std::string_view type, std::string_view schema,
                              std::string_view header = {}) {
   std::string headers = R"("X-Request-Id":{"$ref":"#/components/headers/X-Request-Id"})";

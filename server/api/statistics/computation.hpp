@@ -109,7 +109,7 @@ http::Route route_of(const Services& services, Computation computation);
 
 /// Bodies of values are as large as those of measurements.
 inline constexpr std::size_t kLargestValuesBody = std::size_t{32} << 20;
-/// What is done with more values than a body may have.
+/// The remedy for more values than a body may have.
 inline constexpr std::string_view kOfManyValues =
     "store the values with POST /v1/measurements and use GET /v1/measurements/summary, /capability "
     "and /chart";

@@ -17,7 +17,7 @@ using metrology::ChartKind;
 constexpr int kScale = 6;
 constexpr double kMillion = 1e6;
 
-/// What is computed from a selection, given the newest id there was.
+/// A computation over a selection, given the newest id.
 using Figure = std::function<Result<std::string>(ValueSelection&&, const std::string& as_of)>;
 
 /// Reads the values that the filters choose and computes from them, where both may take long.

@@ -6,7 +6,7 @@
 
 namespace fitgauge::api {
 
-/// What an answer was computed by, and where that is from. docs/reference/statistics.md has all of
+/// The formula of an answer and its source. docs/reference/statistics.md has all of
 /// them with their conditions.
 struct Formula {
   std::string_view of;

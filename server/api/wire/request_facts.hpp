@@ -16,14 +16,14 @@
 
 namespace fitgauge::api {
 
-/// Who sent a request, as the guard found out: the name of an API key, or empty where none is
+/// The sender of a request, from the guard: the name of an API key, or empty if none is
 /// needed.
 struct Caller {
   std::string name;
   std::int64_t key = 0;  ///< of app::KeyService
 };
 
-/// What `Prefer: return=` asks for (RFC 7240).
+/// The value of `Prefer: return=` (RFC 7240).
 enum class Preference { None, Minimal, Representation };
 Preference preference_of(const http::Request& request);
 /// Whether `Prefer: respond-async` asks for an answer before the work is done.
@@ -41,7 +41,7 @@ Result<std::optional<std::string>> idempotency_key(const http::Request& request)
 /// The revisions an If-Match names, from their entity tags; none without the header or with `*`.
 std::optional<std::vector<std::string>> revisions_to_match(const http::Request& request);
 
-/// What must be true of the current representation before a request is carried out (RFC 9110,
+/// Preconditions of a request on the current representation (RFC 9110,
 /// section 13): evaluated in the transaction that does it.
 struct Preconditions {
   std::optional<std::string> if_match{};

@@ -53,7 +53,7 @@ class FieldErrors {
   /// Whether an entry of that pointer is listed.
   bool has(std::string_view pointer) const;
 
-  /// What was added after a mark can be taken back.
+  /// Errors added after a mark can be removed again.
   using Mark = std::size_t;
   Mark mark() const { return count_; }
   void rollback(Mark mark);

@@ -68,7 +68,7 @@ class Builder final : public nlohmann::json_sax<WideJson> {
 
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& exception) override {
-    // What follows the library's own prefix says what was read and what was expected.
+    // The text after the library's prefix names the read and the expected token.
     constexpr std::size_t kLongestReason = 160;
     std::string_view reason = exception.what();
     if (const auto at = reason.find(": "); at != std::string_view::npos) {

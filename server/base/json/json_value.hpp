@@ -34,7 +34,7 @@ struct JsonValue {
 /// "a number", "a string", …: for messages that say what was found.
 std::string_view name_of(JsonValue::Kind kind);
 
-/// What a text may ask for: as a tree, that of a request takes less than 50 MB.
+/// Limits of a text: the tree of a request needs less than 50 MB.
 inline constexpr std::size_t kMostRequestValues = 500'000;
 
 /// Reads the whole text as one JSON value (RFC 8259).

@@ -42,16 +42,17 @@ struct Letterhead {
   std::vector<std::string> address{};
   Picture logo{};
 };
-/// @param address lines with `;` between them @param logo a file; empty for none @errors as read_picture
+/// @param address lines with `;` between them @param logo a file; empty for none @errors as
+/// read_picture
 Result<Letterhead> read_letterhead(std::string_view address, const std::string& logo);
 
-/// What an inspection report says, or another report of that form.
+/// The content of an inspection report, or of another report of that form.
 struct Certificate {
   std::string title{};
   Letterhead letterhead{};
   std::vector<std::string> facts{};  ///< lines below the title: what it is of, when it was made
   std::vector<std::string> summary{};
-  std::optional<Line> worst{};             ///< drawn large: its verdict stands for all
+  std::optional<Line> worst{};            ///< drawn large: its verdict stands for all
   std::vector<std::string> statements{};  ///< how it was decided
   std::vector<Line> lines{};
   std::vector<std::string> proof{};  ///< lines at the end: how what it says is checked
@@ -62,8 +63,8 @@ struct Certificate {
 
 enum class Paper { A4, Letter };
 
-/// The certificate as a tagged PDF with one embedded font: its text can be searched, copied and heard. A line
-/// that is too wide for its column goes on below, and none is torn between two pages.
+/// The certificate as a tagged PDF with one embedded font: its text can be searched, copied and
+/// heard. A line that is too wide for its column goes on below, and none is torn between two pages.
 /// @throws std::runtime_error if the code is too long.
 std::string to_pdf(const Certificate& certificate, Paper paper);
 

@@ -81,7 +81,9 @@ class Writer {
     pdf_.close();
   }
 
-  void rule(float thickness) { pdf_.decorate("0.6 g " + box(left(), y_, width(), thickness) + "0 g\n"); }
+  void rule(float thickness) {
+    pdf_.decorate("0.6 g " + box(left(), y_, width(), thickness) + "0 g\n");
+  }
 
  private:
   float width_;
@@ -92,16 +94,19 @@ class Writer {
 
 using Columns = std::span<const Column>;
 
-/// The tolerance in grey, half as wide as the drawing, with the value: a value far outside lies at the end.
+/// The tolerance in grey, half as wide as the drawing, with the value: a value far outside lies at
+/// the end.
 std::string drawing(float place, float x, float y, float width, float height) {
   const float at = x + width * (0.25F + 0.5F * std::clamp(place, -0.48F, 1.48F));
   const float tick = std::max(1.2F, width / 80);
-  return "0.82 g " + box(x + width / 4, y, width / 2, height) + "0.5 g " + box(x, y + height / 2 - 0.2F, width, 0.4F) +
-         "0 g " + box(at - tick / 2, y - height / 4, tick, height * 1.5F);
+  return "0.82 g " + box(x + width / 4, y, width / 2, height) + "0.5 g " +
+         box(x, y + height / 2 - 0.2F, width, 0.4F) + "0 g " +
+         box(at - tick / 2, y - height / 4, tick, height * 1.5F);
 }
 
 /// The text of a verdict, set off as it is to be.
-std::string verdict(TaggedPdf& pdf, const Line& line, float x, float y, float size, const std::string& text) {
+std::string verdict(TaggedPdf& pdf, const Line& line, float x, float y, float size,
+                    const std::string& text) {
   if (line.weight == Weight::Plain) return pdf.text(x, y, size, text);
   const bool is_marked = line.weight == Weight::Marked;
   return (is_marked ? "0 g " : "0.85 g ") +
@@ -116,8 +121,10 @@ void write_table_head(Writer& out, Columns columns, bool is_first) {
   if (is_first) out.pdf().open("TR");
   for (const Column& column : columns) {
     const std::string text = out.pdf().text(x, out.y(), kSmall, column.name);
-    if (is_first) out.element("TH", text, "/A<</O/Table/Scope/Column>>");
-    else out.pdf().decorate(text);
+    if (is_first)
+      out.element("TH", text, "/A<</O/Table/Scope/Column>>");
+    else
+      out.pdf().decorate(text);
     x += column.share * out.width();
   }
   if (is_first) out.pdf().close();
@@ -183,14 +190,16 @@ void write_head(Writer& out, const Certificate& certificate) {
   float y = out.y();
   for (const std::string& line : certificate.letterhead.address) {
     y -= kSmall * kLeading;
-    out.element("P", out.pdf().text(out.left() + out.width() - out.pdf().width_of(line, kSmall), y, kSmall, line));
+    out.element("P", out.pdf().text(out.left() + out.width() - out.pdf().width_of(line, kSmall), y,
+                                    kSmall, line));
   }
   if (!logo.empty()) {
     constexpr float kWide = 160, kHigh = 40;
     const auto width = static_cast<float>(logo.width), height = static_cast<float>(logo.height);
     const float scale = std::min(kWide / width, kHigh / height);
     out.advance(height * scale);
-    out.element("Figure", out.pdf().picture(logo, out.left(), out.y(), width * scale, height * scale),
+    out.element("Figure",
+                out.pdf().picture(logo, out.left(), out.y(), width * scale, height * scale),
                 "/Alt(Logo)");
     out.advance(kText);
   }
@@ -206,12 +215,14 @@ void write_summary(Writer& out, const Certificate& certificate) {
   if (certificate.worst) {
     const Line& worst = *certificate.worst;
     out.advance(kTitle * 1.2F);
-    out.element("P", verdict(out.pdf(), worst, out.left() + kTitle / 4, out.y(), kTitle, worst.verdict));
+    out.element("P",
+                verdict(out.pdf(), worst, out.left() + kTitle / 4, out.y(), kTitle, worst.verdict));
     if (worst.place) {
       constexpr float kWide = 300, kHigh = 12;
       const float x = out.left() + 180;
       out.element("Figure", drawing(*worst.place, x, out.y() + 1, kWide, kHigh),
-                  "/Alt" + TaggedPdf::string(fmt::format("{} mm in its limits {} mm", worst.measured, worst.limits)));
+                  "/Alt" + TaggedPdf::string(fmt::format("{} mm in its limits {} mm",
+                                                         worst.measured, worst.limits)));
       const std::string limits = fmt::format("{}: {}", worst.characteristic, worst.limits);
       out.element("P", out.pdf().text(x + kWide + kText, out.y() + kText / 2, kSmall, limits));
     }
@@ -266,7 +277,8 @@ std::string to_pdf(const Certificate& certificate, Paper paper) {
   write_end(out, certificate);
   return out.pdf().finish([&](std::size_t page, std::size_t of) {
     const std::string line = fmt::format("{}, page {} of {}", certificate.title, page, of);
-    return out.pdf().text(out.left() + out.width() - out.pdf().width_of(line, kSmall), kMargin - kSmall, kSmall, line);
+    return out.pdf().text(out.left() + out.width() - out.pdf().width_of(line, kSmall),
+                          kMargin - kSmall, kSmall, line);
   });
 }
 

@@ -15,7 +15,8 @@ namespace {
 /// A number of the file: most significant byte first.
 std::uint32_t number(std::string_view bytes, std::size_t at, std::size_t size) {
   std::uint32_t value = 0;
-  for (const char byte : bytes.substr(at, size)) value = value << 8 | static_cast<unsigned char>(byte);
+  for (const char byte : bytes.substr(at, size))
+    value = value << 8 | static_cast<unsigned char>(byte);
   return value;
 }
 
@@ -24,9 +25,11 @@ void append(std::string& out, std::size_t value, std::size_t size) {
 }
 
 std::string_view table(std::string_view tag) {
-  const std::string_view file(fitgauge_font_begin, static_cast<std::size_t>(fitgauge_font_end - fitgauge_font_begin));
+  const std::string_view file(fitgauge_font_begin,
+                              static_cast<std::size_t>(fitgauge_font_end - fitgauge_font_begin));
   for (std::size_t at = 12; at < 12 + 16 * number(file, 4, 2); at += 16) {
-    if (file.substr(at, 4) == tag) return file.substr(number(file, at + 8, 4), number(file, at + 12, 4));
+    if (file.substr(at, 4) == tag)
+      return file.substr(number(file, at + 8, 4), number(file, at + 12, 4));
   }
   throw std::runtime_error("the compiled-in font has no table " + std::string(tag));
 }
@@ -63,7 +66,10 @@ void add_glyph(std::set<std::uint32_t>& glyphs, std::uint32_t glyph) {
     flags = number(form, at, 2);
     add_glyph(glyphs, number(form, at + 2, 2));
     at += (flags & kWords) != 0 ? 8U : 6U;
-    at += (flags & kScale) != 0 ? 2U : (flags & kTwoScales) != 0 ? 4U : (flags & kMatrix) != 0 ? 8U : 0U;
+    at += (flags & kScale) != 0       ? 2U
+          : (flags & kTwoScales) != 0 ? 4U
+          : (flags & kMatrix) != 0    ? 8U
+                                      : 0U;
   }
 }
 
@@ -82,12 +88,14 @@ EmbeddedFont::EmbeddedFont() { code(0); }
 
 std::uint16_t EmbeddedFont::code(char32_t character) {
   if (used_.size() == 0xFFFF) return 0;
-  const auto [known, is_new] = codes_.try_emplace(character, static_cast<std::uint16_t>(used_.size()));
+  const auto [known, is_new] =
+      codes_.try_emplace(character, static_cast<std::uint16_t>(used_.size()));
   if (is_new) {
     const std::uint16_t glyph = glyph_of(character);
     const std::uint32_t last = number(table("hhea"), 34, 2) - 1;
     const std::uint32_t wide = number(table("hmtx"), 4 * std::min<std::uint32_t>(glyph, last), 2);
-    used_.push_back({character, glyph, static_cast<std::uint16_t>(wide * 1000 / number(table("head"), 18, 2))});
+    used_.push_back(
+        {character, glyph, static_cast<std::uint16_t>(wide * 1000 / number(table("head"), 18, 2))});
   }
   return known->second;
 }
@@ -102,7 +110,8 @@ std::string EmbeddedFont::file() const {
     if (glyphs.contains(glyph)) forms += outline(glyph);
   }
   append(places, forms.size(), 4);
-  constexpr std::string_view kTables[] = {"cvt ", "fpgm", "glyf", "head", "hhea", "hmtx", "loca", "maxp", "prep"};
+  constexpr std::string_view kTables[] = {"cvt ", "fpgm", "glyf", "head", "hhea",
+                                          "hmtx", "loca", "maxp", "prep"};
   std::string head("\0\1\0\0\0\x09\0\x80\0\3\0\x10", 12);
   std::string body;
   for (const std::string_view tag : kTables) {

@@ -21,12 +21,14 @@ struct Picture {
   bool empty() const { return packed.empty(); }
 };
 
-/// A PNG file of at most 1 MiB and 2000 x 2000 pixels, grey or RGB with 8 bits, neither transparent nor interlaced.
+/// A PNG file of at most 1 MiB and 2000 x 2000 pixels, grey or RGB with 8 bits, neither transparent
+/// nor interlaced.
 /// @errors ConfigInvalid naming the file and what to do.
 Result<Picture> read_picture(const std::string& path);
 
-/// A PDF 1.7 whose structure a reader of screens follows (ISO 32000-1, 14.7 and 14.8), in one embedded font. What is
-/// written is packed at once, page by page. Lengths are points from the lower left. After a failure it is of no use.
+/// A PDF 1.7 whose structure a reader of screens follows (ISO 32000-1, 14.7 and 14.8), in one
+/// embedded font. What is written is packed at once, page by page. Lengths are points from the
+/// lower left. After a failure it is of no use.
 class TaggedPdf {
  public:
   TaggedPdf(std::string_view title, float width, float height);
@@ -74,7 +76,8 @@ class TaggedPdf {
 
   std::size_t reserve();
   void put(std::size_t number, std::string_view object);
-  void put_stream(std::size_t number, const std::string& entries, std::string_view bytes, bool is_packed = false);
+  void put_stream(std::size_t number, const std::string& entries, std::string_view bytes,
+                  bool is_packed = false);
   void flush();
   void end_page();
   void put_font();

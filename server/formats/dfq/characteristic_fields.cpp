@@ -1,5 +1,5 @@
-// What all values of a characteristic have: its name, size, limits and user field, and what it
-// lacks.
+// Fields that all values of a characteristic share: its name, size, limits and user field, and what
+// it lacks.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace fitgauge::aqdef {
 namespace {
 
-/// What the user field of a characteristic may say of its measurements.
+/// Fields of the measurements in the user field of a characteristic.
 constexpr std::array<std::string_view, 10> kUserFields = {
     "feature",     "quantity",           "rule",          "uncertainty_um", "coverage_factor",
     "probability", "degrees_of_freedom", "size_operator", "envelope",       "go_gauge"};

@@ -47,7 +47,7 @@ struct Characteristic {
   bool has_values = false;
 };
 
-/// What a file says of its parts, characteristics and catalogues. Bounded in memory.
+/// The parts, characteristics and catalogues of a file. Bounded in memory.
 class Description {
  public:
   static constexpr std::size_t kMostCharacteristics = 20'000;
@@ -57,7 +57,7 @@ class Description {
 
   /// Takes a line that is no value. @errors kMalformed
   Result<void> add(const FieldLine& field, std::uint32_t line);
-  /// What is still missing when all lines are read. @errors kMalformed
+  /// Checks for missing lines at the end. @errors kMalformed
   Result<void> check() const;
 
   std::size_t count() const { return count_; }
@@ -111,7 +111,7 @@ struct SizeLimits {
 /// The limits of a class for a nominal size, as the tables say.
 using LimitsOfClass = std::function<Result<SizeLimits>(Length nominal, const std::string& name)>;
 
-/// What a characteristic says of its size.
+/// The size of a characteristic.
 struct Toleranced {
   LengthUnit unit = LengthUnit::Millimetre;
   Length nominal{};
@@ -119,7 +119,7 @@ struct Toleranced {
   SizeLimits limits{};       ///< of a class too, as far as they are said
 };
 
-/// What the user field of fitgauge says of a characteristic (K2800 to K2802): `name=…`, or nothing.
+/// The user field of fitgauge in a characteristic (K2800 to K2802): `name=…`, or nothing.
 std::string_view user_text(const Description& description, const Characteristic& characteristic,
                            std::string_view name);
 

@@ -12,7 +12,7 @@ namespace fitgauge::aqdef {
 /// Of what is wrong in a file: no answer over HTTP has it, only the text.
 inline constexpr ErrorCode kMalformed = ErrorCode::CsvMalformed;
 
-/// What a field of the format says something about.
+/// The subject of a field of the format.
 enum class Level : std::uint8_t { File, Value, Part, Characteristic, Catalogue, Group, Other };
 
 enum class FieldType : std::uint8_t { Text, Integer, Number, Time, List };
@@ -98,7 +98,7 @@ struct Comment {
 };
 
 std::string format_comment(const Comment& comment);
-/// What is not of that form is text.
+/// Other forms are text.
 Comment parse_comment(std::string_view comment);
 
 }  // namespace fitgauge::aqdef

@@ -48,7 +48,7 @@ class MeasurementCsv {
   Result<void> check() const;
 
  private:
-  /// What all values of a characteristic have.
+  /// Fields that all values of a characteristic share.
   struct Prepared {
     bool is_left_out = false;
     LengthUnit unit = LengthUnit::Millimetre;

@@ -11,7 +11,7 @@
 
 namespace fitgauge::aqdef {
 
-/// What stands between the separators of a value, in this order.
+/// The parts of a value between its separators, in this order.
 inline constexpr std::array<int, 10> kCells = {
     k::kValue,  k::kAttribute, k::kTime,    k::kEvents,  k::kBatch,
     k::kCavity, k::kOperator,  k::kMachine, k::kProcess, k::kGauge};
@@ -95,7 +95,7 @@ class Reader {
   /// The next values. @returns false at the end. @errors kMalformed with the line.
   Result<bool> next(ValueSet& set);
 
-  /// What was described above the values that were read last.
+  /// The description before the last values.
   const Description& description() const { return description_; }
 
   /// When all is read: whether counts agree. @errors kMalformed

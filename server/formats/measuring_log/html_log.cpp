@@ -102,7 +102,7 @@ std::optional<sheet::WallTime> time_of(std::string_view heading) {
   return read_clock(trim(heading.substr(on + 1, at - on - 1)), trim(heading.substr(at + 4)));
 }
 
-/// What stands above the first section of a page.
+/// The text before the first section of a page.
 struct Head {
   int cycle = 0;
   std::string program{};

@@ -120,7 +120,8 @@ Role role_of(Quantity quantity, int cycle) {
 
 std::optional<sheet::WallTime> read_clock(std::string_view date, std::string_view time) {
   std::string text(date);
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '-' || c == '/'; }, '.');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '-' || c == '/'; }, '.');
   const bool has_seconds = std::count(time.begin(), time.end(), ':') == 2;
   return has_seconds ? sheet::parse_wall_time(text.append(" ").append(time)) : std::nullopt;
 }

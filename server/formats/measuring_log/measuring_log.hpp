@@ -12,14 +12,14 @@
 
 namespace fitgauge::log_reader {
 
-/// What being out of tolerance means.
+/// The meaning of "out of tolerance".
 enum class Role : std::uint8_t {
   Hole,      ///< too small is rework, too large is reject
   Shaft,     ///< too large is rework, too small is reject
   Position,  ///< either side is reject
 };
 
-/// What a log says of one characteristic. Lengths are those of the digits; of INCH to the nearest
+/// One characteristic of a log. Lengths have the digits of the log; of INCH to the nearest
 /// nanometre.
 struct LogValue {
   std::string name;       ///< "Diameter", "Centre, main axis"; another one as the log has it
@@ -80,7 +80,7 @@ std::optional<Section> section_of(std::string_view title);
 std::optional<int> cycle_of_title(std::string_view line);
 bool ends_log(std::string_view line);
 
-/// What a label of a size is about, however nominal, limits and actual value word it.
+/// The subject of a label of a size, in all wordings of nominal, limits and actual value.
 enum class Quantity : std::uint8_t {
   Size,
   CentreMain,

@@ -24,7 +24,7 @@ struct PatternReading {
   bool is_unfinished = false;    ///< the last result lacks its last lines
 };
 
-/// What an FN 16 mask prints, told once for all its files:
+/// The pattern of an FN 16 mask, given once for all its files:
 ///
 ///     characteristic = bore-A
 ///     tolerance_class = H7

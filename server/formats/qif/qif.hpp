@@ -78,7 +78,7 @@ struct OutgoingValue {
   std::optional<Length> uncertainty{};  ///< standard
   std::optional<std::string_view> part_id{};
   std::optional<std::string_view> characteristic{};
-  /// What else it was recorded with, by the names of /v1/measurements.
+  /// Other fields of the record, by the names of /v1/measurements.
   std::vector<std::pair<std::string_view, std::string>> fields{};
 };
 

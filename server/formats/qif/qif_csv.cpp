@@ -17,7 +17,7 @@ using namespace std::string_view_literals;
 
 constexpr std::size_t kUncertainty = aqdef::place_of("uncertainty_um");
 constexpr std::string_view kEnding = "CharacteristicMeasurement";
-/// What is measured between two points of a surface, as a gauge for sizes does.
+/// Quantities between two points of a surface, as a gauge for sizes measures them.
 constexpr std::array kSizes = {
     "Diameter"sv, "SphericalDiameter"sv, "Width"sv,  "Thickness"sv,       "Length"sv, "Height"sv,
     "Depth"sv,    "DistanceBetween"sv,   "Radius"sv, "LinearCoordinate"sv};

@@ -23,7 +23,7 @@ using Fields = std::array<std::string, sheet::kMeasurementFields.size()>;
 /// Gives the field of that name its text; what is no field is passed over.
 void set_field(Fields& fields, std::string_view name, std::string_view text);
 
-/// What a document says of its characteristics, parts and devices. Bounded in memory.
+/// The characteristics, parts and devices of a document. Bounded in memory.
 class Definitions {
  public:
   /// A characteristic that was measured.

@@ -42,7 +42,7 @@ std::string qpid_of(const OutgoingValue& value) {
                      digits.substr(12, 4), digits.substr(16, 4), digits.substr(20));
 }
 
-/// What QIF calls a characteristic of that quantity: of a chamfer its length, of a deviation a
+/// The QIF name of a characteristic of that quantity: of a chamfer its length, of a deviation a
 /// coordinate along the surface's normal. ThreadCharacteristic has no value of the pitch diameter.
 std::string_view characteristic_of(gauging::Quantity quantity) {
   switch (quantity) {

@@ -113,7 +113,7 @@ std::vector<std::pair<std::string, std::string>> Element::named_attributes() con
 
 struct XmlReader::State {
   enum class Kind { Begin, Text, End };
-  /// What the parser reports, in the order of the document.
+  /// Events of the parser, in the order of the document.
   struct Event {
     Kind kind = Kind::Text;
     std::uint32_t line = 0;

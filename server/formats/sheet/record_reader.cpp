@@ -70,7 +70,7 @@ Result<bool> RecordReader::next(Record& record) {
     record.lines = 0;
     record.cells.clear();
     const auto read = read_record(record);
-    // What goes to the end of what is there may go on behind it.
+    // A row that reaches the end of the buffer may continue after it.
     if (!rest_.empty() || is_at_end_) {
       if (!read) return read.error();
       at_ = room_.size() - rest_.size();
@@ -86,10 +86,10 @@ Result<void> RecordReader::fill() {
   at_ = 0;
   if (room_.size() > kLongestRecord) {
     const bool is_table = separator_ != kNone;
-    return at_table_line(ErrorCode::CsvMalformed, line_,
-                         fmt::format("{} more than {} KiB: is {}?",
-                                     is_table ? "begins a row of" : "has", kLongestRecord >> 10,
-                                     is_table ? "a quote open" : "it NDJSON"));
+    return at_table_line(
+        ErrorCode::CsvMalformed, line_,
+        fmt::format("{} more than {} KiB: is {}?", is_table ? "begins a row of" : "has",
+                    kLongestRecord >> 10, is_table ? "a quote open" : "it NDJSON"));
   }
   const auto more = input_.append(room_);
   if (!more) return more.error();

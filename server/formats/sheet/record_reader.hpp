@@ -141,10 +141,10 @@ class RecordReader {
   char separator_ = ';';
 };
 
-// What fitgauge exports, taken back: what was computed is left out, and limits of a class are those
+// Imports an export of fitgauge: computed fields are ignored, and limits of a class are those
 // of the class.
 
-/// What an export calls the fields of a drawing's limits; a class of the tables says them as well.
+/// Names of the fields of explicit limits in an export; a class of the tables implies them too.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kLimitsOfExport = {
     {{"feature", "feature"},
      {"upper_deviation_um", "upper_um"},

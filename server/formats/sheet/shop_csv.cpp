@@ -134,7 +134,8 @@ const std::string* ShopRows::Converter::cell(const Record& record, std::string_v
 Result<std::string> ShopRows::Converter::measured_at(const Record& record,
                                                      std::string_view text) const {
   auto instant = instant_text(bare(text), options_.zone);  // the reader of fields checks others
-  if (!instant) return at_table_line(ErrorCode::TimeMalformed, record.line, instant.error().message);
+  if (!instant)
+    return at_table_line(ErrorCode::TimeMalformed, record.line, instant.error().message);
   return instant;
 }
 
@@ -190,7 +191,7 @@ Result<std::string> ShopRows::Converter::read_header() {
   std::optional<char> separator;
   std::size_t before = 0;
   std::string_view first;
-  // What stands before the header: empty lines, and what a spreadsheet says of its cells.
+  // Lines before the header: empty lines, and the description of a spreadsheet's cells.
   for (;; ++before) {
     const auto line = records_.peek_line();
     if (!line) return line.error();

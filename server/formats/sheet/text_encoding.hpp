@@ -48,7 +48,7 @@ std::string_view take_text_line(std::string_view& text);
 /// @errors TextEncoding with the byte.
 Result<std::string> to_utf8(std::string_view bytes, Encoding encoding);
 
-/// What a text is in, as to_utf8 finds it out. Reads to the end of the text.
+/// Returns the encoding of a text, as to_utf8 detects it. Reads to the end of the text.
 Result<Encoding> detected_encoding(const Read& read);
 
 /// The same as to_utf8 of a text of any size, piece by piece. Not thread-safe; of no more use after

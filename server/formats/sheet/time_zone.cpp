@@ -313,9 +313,8 @@ Result<std::string> instant_text(std::string_view text, const std::optional<Time
   if (!wall) return std::string(text);
   const std::string has = fmt::format("has the time '{}'", first_characters(text, 40));
   if (!zone) {
-    return Error{
-        ErrorCode::TimeMalformed,
-        has + " without an offset: name the time zone of its clock (time_zone)"};
+    return Error{ErrorCode::TimeMalformed,
+                 has + " without an offset: name the time zone of its clock (time_zone)"};
   }
   const auto instant = zone->instant(*wall);
   if (!instant) return Error{ErrorCode::TimeMalformed, has + ", and " + instant.error().message};

@@ -57,14 +57,22 @@ constexpr std::array kEntities = {
     Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION_WITH_PLACEHOLDER", Group::Callout},
     Entity{"PRODUCT", Group::Product},
     Entity{"DRAUGHTING_CALLOUT", Group::Note},
-    Entity{"ANGULARITY_TOLERANCE"}, Entity{"CIRCULAR_RUNOUT_TOLERANCE"},
-    Entity{"COAXIALITY_TOLERANCE"}, Entity{"CONCENTRICITY_TOLERANCE"},
-    Entity{"CYLINDRICITY_TOLERANCE"}, Entity{"FLATNESS_TOLERANCE"},
-    Entity{"LINE_PROFILE_TOLERANCE"}, Entity{"PARALLELISM_TOLERANCE"},
-    Entity{"PERPENDICULARITY_TOLERANCE"}, Entity{"POSITION_TOLERANCE"},
-    Entity{"ROUNDNESS_TOLERANCE"}, Entity{"STRAIGHTNESS_TOLERANCE"},
-    Entity{"SURFACE_PROFILE_TOLERANCE"}, Entity{"SYMMETRY_TOLERANCE"},
-    Entity{"TOTAL_RUNOUT_TOLERANCE"}, Entity{"GEOMETRIC_TOLERANCE"},
+    Entity{"ANGULARITY_TOLERANCE"},
+    Entity{"CIRCULAR_RUNOUT_TOLERANCE"},
+    Entity{"COAXIALITY_TOLERANCE"},
+    Entity{"CONCENTRICITY_TOLERANCE"},
+    Entity{"CYLINDRICITY_TOLERANCE"},
+    Entity{"FLATNESS_TOLERANCE"},
+    Entity{"LINE_PROFILE_TOLERANCE"},
+    Entity{"PARALLELISM_TOLERANCE"},
+    Entity{"PERPENDICULARITY_TOLERANCE"},
+    Entity{"POSITION_TOLERANCE"},
+    Entity{"ROUNDNESS_TOLERANCE"},
+    Entity{"STRAIGHTNESS_TOLERANCE"},
+    Entity{"SURFACE_PROFILE_TOLERANCE"},
+    Entity{"SYMMETRY_TOLERANCE"},
+    Entity{"TOTAL_RUNOUT_TOLERANCE"},
+    Entity{"GEOMETRIC_TOLERANCE"},
     Entity{"SURFACE_TEXTURE_REPRESENTATION"}};
 
 /// `flatness tolerance`: an entity in words.
@@ -94,7 +102,7 @@ constexpr std::array kRelations = {Relation{Group::Value, 0, 1}, Relation{Group:
 using Link = std::pair<std::uint32_t, std::uint32_t>;
 bool by_first(const Link& a, const Link& b) { return a.first < b.first; }
 
-/// What the name of a DIMENSIONAL_SIZE says of the quantity, by a part of it.
+/// The quantity of a DIMENSIONAL_SIZE, by a part of its name.
 constexpr std::array<std::pair<std::string_view, Quantity>, 10> kQuantities = {{
     {"diameter", Quantity::Diameter},
     {"radius", Quantity::Radius},
@@ -254,9 +262,9 @@ class Walker {
       return found.is_angle ? "an angle is not gauged here"
                             : "the file has no value of it: take it from the drawing";
     if (upper && lower && *upper < *lower) {
-      size.remarks.push_back(fmt::format(
-          "upper limit {} mm, lower limit {} mm in the file: the order is wrong there",
-          format_mm(*upper), format_mm(*lower)));
+      size.remarks.push_back(
+          fmt::format("upper limit {} mm, lower limit {} mm in the file: the order is wrong there",
+                      format_mm(*upper), format_mm(*lower)));
       std::swap(upper, lower);
     }
     if (upper && upper == lower)
@@ -349,7 +357,7 @@ class Walker {
     return {};
   }
 
-  /// What a size is of, by its name and its faces.
+  /// The feature of a size, by its name and its faces.
   void take_aspect(std::uint32_t aspect, std::string_view name, DrawnSize& size) {
     for (const auto& [part, quantity] : kQuantities) {
       if (name.find(part) == std::string_view::npos) continue;

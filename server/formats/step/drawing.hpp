@@ -107,7 +107,8 @@ void members(auto& v, const Drawing& drawing) {
   v.optional("compared", drawing.compared, "With the plan of the part; absent if there is none");
 }
 
-/// @param text a whole file, read a stretch at a time if it is mapped; lengths are converted to mm and rounded to the nearest nanometre
+/// @param text a whole file, read a stretch at a time if it is mapped; lengths are converted to mm
+/// and rounded to the nearest nanometre
 /// @param tables of the classes that the file names
 /// @errors DrawingMalformed with the line: the file is none, is cut, or contradicts itself.
 Result<Drawing> read_drawing(const FileText& text, const iso286::ToleranceTables& tables,

@@ -81,7 +81,7 @@ bool is_coaxial(const Face& a, const Face& b) {
          std::sqrt(std::max(0.0, dot(apart, apart) - along * along)) < kNear * reach;
 }
 
-/// What lies between a plane and the nearest one that looks the other way.
+/// The distance between a plane and the nearest opposite plane.
 std::optional<Feature> across(const Face& face, std::span<const Face> all) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Face& other : all) {

@@ -14,9 +14,8 @@ namespace fitgauge::step {
 /// An error at a place of the text, with its line.
 inline Error error_at(const FileText& text, std::size_t at, std::string_view message) {
   std::ptrdiff_t line = 1;
-  text.each_stretch(at, [&line](std::string_view part) {
-    line += std::count(part.begin(), part.end(), '\n');
-  });
+  text.each_stretch(
+      at, [&line](std::string_view part) { line += std::count(part.begin(), part.end(), '\n'); });
   return {ErrorCode::DrawingMalformed, fmt::format("line {}: {}", line, message),
           fmt::format("line {}", line)};
 }

@@ -12,7 +12,7 @@ using api::write_json;
 
 namespace {
 
-/// What a drawing says of a characteristic; the first say its limits.
+/// Fields of a characteristic from a drawing; the first are its limits.
 constexpr std::array<std::string_view, 9> kDrawn = {"designation", "nominal_mm", "tolerance_class",
                                                     "upper_um",    "lower_um",   "feature",
                                                     "quantity",    "count",      "entity"};

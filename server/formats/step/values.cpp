@@ -106,7 +106,7 @@ Value Values::read(std::uint32_t id, std::uint32_t from, int deep) {
   };
   found.exact = found.length = length(found.number);
   if (found.decimals) {
-    // What lies half between goes to the even digit in inches (ASME Y14.5), up in millimetres.
+    // A half rounds to the even digit in inches (ASME Y14.5), up in millimetres.
     constexpr double kNoise = 1e6;
     const double tens = std::pow(10, *found.decimals);
     const double scaled = std::round(found.number * tens * kNoise) / kNoise;

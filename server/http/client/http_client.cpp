@@ -172,7 +172,7 @@ bool is_private_address(const sockaddr& address) {
   return is_private6(bytes);
 }
 
-/// What an address must pass.
+/// Checks of an address.
 struct AddressGate {
   bool may_reach_private = false;
   bool has_refused = false;

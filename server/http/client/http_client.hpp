@@ -16,7 +16,7 @@
 
 namespace fitgauge {
 
-/// What a line of an HTTP head asks a client to wait (RFC 9110, 10.2.3); none of another field, or
+/// The wait that a line of an HTTP head asks for (RFC 9110, 10.2.3); none of another field, or
 /// where it is a date.
 std::optional<std::chrono::seconds> retry_after(std::string_view line);
 
@@ -73,7 +73,7 @@ struct HttpClientOptions {
   std::string authorities{};      ///< PEM file; the system's when empty
 };
 
-/// What is asked for. The views need to last for the call alone.
+/// The request. The views must outlive the call.
 struct HttpCall {
   std::string method = "POST";
   std::string url{};                   ///< http:// or https://

@@ -151,7 +151,7 @@ HttpDate format_http_date(Timestamp time);
 
 inline std::string_view text(const HttpDate& date) { return {date.data(), date.size()}; }
 
-/// What the request decides about the form of its answer.
+/// The form of an answer, from its request.
 struct AnswerForm {
   bool head_only = false;  ///< HEAD: no body
   bool http_1_0 = false;

@@ -1,6 +1,7 @@
 #pragma once
 
-// What the engine uses of Asio, compiled once (asio_source.cpp); also its precompiled header.
+// The parts of Asio that the engine uses, compiled once (asio_source.cpp); also its precompiled
+// header.
 
 #include <boost/asio/basic_socket_acceptor.hpp>
 #include <boost/asio/basic_stream_socket.hpp>

@@ -86,7 +86,7 @@ struct BodyBudgets {
 /// Used by one thread. After TooLarge, Malformed or DiskFull only clear() may follow.
 class BodyReader {
  public:
-  /// What every body may use without asking: small requests never wait.
+  /// Bytes that every body may use without a permission: small requests never wait.
   static constexpr std::size_t kFree = std::size_t{16} << 10;
 
   enum class Outcome { Ok, NoBudget, TooLarge, Malformed, DiskFull };

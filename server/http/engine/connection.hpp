@@ -168,11 +168,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Peer& peer() { return peer_; }
 
   virtual void read_some(std::span<char> room) = 0;  ///< then on_read
-  /// What has come by now; `error` is would_block when nothing has, or the transport cannot tell.
+  /// The bytes that have arrived; `error` is would_block if there are none, or the transport cannot
+  /// tell.
   virtual std::size_t read_now(std::span<char> room, error_code& error);
   /// Whether bytes have come that no read has taken; false when the transport cannot tell.
   virtual bool has_unread() const noexcept { return false; }
-  /// What the socket takes at once; `broken` when it takes nothing any more.
+  /// Writes the bytes that the socket accepts at once; `broken` if it accepts none again.
   virtual std::size_t write_now(std::string_view bytes, bool& broken) = 0;
   virtual void write_some(std::string_view bytes) = 0;  ///< then on_write
   /// Shuts down the sending side when all is sent and the client may still be sending; closes when

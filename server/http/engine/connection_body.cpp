@@ -106,8 +106,9 @@ bool Connection::take_body_outcome(BodyReader::Outcome outcome) {
               "the body must be a gzip stream; check Content-Encoding"});
       return true;
     case BodyReader::Outcome::DiskFull:
-      refuse({503, ErrorCode::StorageUnavailable,
-              "the disk of the data folder is too full for the body: free some, then send it again"});
+      refuse(
+          {503, ErrorCode::StorageUnavailable,
+           "the disk of the data folder is too full for the body: free some, then send it again"});
       return true;
   }
   return false;

@@ -12,7 +12,7 @@
 
 namespace fitgauge::http {
 
-/// What one thread has for the I/O threads, kept for an AnswerBatch.
+/// The answers of one thread for the I/O threads, collected for an AnswerBatch.
 class Posts {
  public:
   /// Those of the calling thread; null when it has no AnswerBatch.

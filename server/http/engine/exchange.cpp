@@ -335,7 +335,10 @@ Refusal Exchange::body_too_large() const {
 
 BodyReader::Plan Exchange::body_plan() const {
   const BodyRules& rules = request_.route_->body;
-  return {.limit = rules.limit, .gzip = gzip_, .discard = rules.use == BodyUse::None, .spools = rules.spools};
+  return {.limit = rules.limit,
+          .gzip = gzip_,
+          .discard = rules.use == BodyUse::None,
+          .spools = rules.spools};
 }
 
 AnswerForm Exchange::form(bool keep_alive) const {

@@ -46,7 +46,7 @@ class Exchange {
   bool is_synchronous() const {
     return std::holds_alternative<SyncHandler>(request_.route()->handler);
   }
-  /// What a synchronous handler returned, or the answer to its exception.
+  /// The result of a synchronous handler, or the answer to its exception.
   Result<Response> run();
   void run(Responder responder);
 

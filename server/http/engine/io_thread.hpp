@@ -50,7 +50,7 @@ class Gate {
   std::uint64_t inside_ = 0;
 };
 
-/// Whoever has it is inside the gate, which outlives it.
+/// The owner is inside the gate, which outlives it.
 class Place {
  public:
   explicit Place(Gate& gate) : gate_(&gate) { gate_->enter(); }
@@ -94,7 +94,7 @@ class Connection;
 
 using Tick = std::chrono::steady_clock::time_point;
 
-/// What all I/O threads share: constants, and counters that are thread-safe.
+/// State that all I/O threads share: constants, and counters that are thread-safe.
 struct ServerShared {
   ServerShared(ServerOptions given, RouteTable table, ServerHooks callbacks)
       : options(std::move(given)),

@@ -68,7 +68,7 @@ inline constexpr std::array<bool, 256> kPlainCharacters = [] {
 }();
 }  // namespace detail
 
-/// What stands for itself in a path or query, neither to be decoded nor checked: printable ASCII
+/// Characters of a path or query that need neither decoding nor a check: printable ASCII
 /// but for `%` and `+`.
 constexpr bool is_plain(char c) { return detail::kPlainCharacters[static_cast<unsigned char>(c)]; }
 

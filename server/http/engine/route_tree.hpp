@@ -70,7 +70,7 @@ struct Resource {
 /// rest. Immutable after construction.
 class RouteTree {
  public:
-  /// What dispatch needs to know of a route besides the route itself.
+  /// Additional facts of a route for dispatch.
   struct Plan {
     struct Capture {
       std::size_t parameter = 0;

@@ -58,7 +58,7 @@ double nonconformance_probability(const ConformanceLimits& limits, Length measur
 std::optional<double> guard_band_factor(Length tolerance, const KnownUncertainty& uncertainty,
                                         double probability);
 
-/// What is said of a value beside its verdict.
+/// Facts of a value other than its verdict.
 struct ConformanceFigures {
   std::int64_t probability = 0;  ///< of conformance, in 1e-9
   std::int64_t guard_band = 0;   ///< in fm, of which 15 digits count

@@ -14,7 +14,7 @@
 
 namespace fitgauge::gauging {
 
-/// What becomes of a part. Rework: a hole too small or a shaft too large, more can be cut. Reject:
+/// The verdict on a part. Rework: a hole too small or a shaft too large, more can be cut. Reject:
 /// a hole too large or a shaft too small. Indeterminate: too near a limit for the uncertainty.
 /// Unjudged: a value without limits.
 enum class Verdict : std::uint8_t { Good, Rework, Reject, Indeterminate, Unjudged };

@@ -72,7 +72,7 @@ struct PressFit {
   PressedPart shaft;
 };
 
-/// What an interference presses.
+/// The joint of an interference.
 struct Pressure {
   double effective_um = 0;      ///< interference less what pressing flattens, 0.4 (Rz + Rz)
   double pressure_mpa = 0;      ///< in the joint

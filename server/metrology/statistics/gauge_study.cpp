@@ -137,8 +137,8 @@ Exact component(const Variation& above, const Variation& below, const Exact& n) 
   return difference > 0 ? Exact(difference / n) : Exact(0);
 }
 
-/// StudyBounds of components at a confidence: of one mean square exactly, of sums and differences by
-/// modified large samples (Graybill and Wang 1980; Ting et al. 1990; Burdick and Graybill 1992).
+/// StudyBounds of components at a confidence: of one mean square exactly, of sums and differences
+/// by modified large samples (Graybill and Wang 1980; Ting et al. 1990; Burdick and Graybill 1992).
 class StudyBounds {
  public:
   using Interval = StudyIntervals::Interval;

@@ -83,7 +83,7 @@ struct GaugeStudy {
   std::optional<std::int64_t> ndc{};
   std::optional<StudyModel> model{};  ///< of Anova: Interaction or Pooled
   long double interaction_p = kUndefined;
-  std::vector<AnovaLine> anova{};  ///< of all but AverageRange, the total last
+  std::vector<AnovaLine> anova{};             ///< of all but AverageRange, the total last
   std::optional<StudyIntervals> intervals{};  ///< none of AverageRange and without repeatability
 };
 

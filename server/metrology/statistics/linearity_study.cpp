@@ -5,7 +5,7 @@
 namespace fitgauge::metrology {
 namespace {
 
-/// What of the readings of one reference is used: their biases.
+/// The biases of the readings of one reference.
 struct Biases {
   std::size_t count = 0;
   Exact sum = 0;

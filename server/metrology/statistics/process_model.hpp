@@ -42,10 +42,10 @@ enum class ProcessModel : std::uint8_t { A1, A2, B, C1, C2, C3, C4, D };
 
 /// `A1` … `D`.
 std::string_view word(ProcessModel model);
-/// What the model says, in one line.
+/// The model in one line.
 std::string_view meaning(ProcessModel model);
 
-/// What the model was chosen by; each a probability, compared with `significance`.
+/// The tests that chose the model; each a probability, compared with `significance`.
 struct ModelTests {
   long double location = kUndefined;  ///< subgroup means are equal: analysis of variance
   /// Subgroup spreads are equal: Brown and Forsythe 1974, without structural zeros; undefined of

@@ -118,7 +118,7 @@ double draw(Random& random, const Contribution& c) {
   return c.standard_uncertainty * random.t(c.degrees_of_freedom);
 }
 
-/// What values come to, which it sorts.
+/// The summary of values, which it sorts.
 MonteCarloResult result_of(std::span<double> values, double probability) {
   std::sort(values.begin(), values.end());
   MonteCarloResult made{.trials = values.size()};

@@ -23,7 +23,7 @@ RangeConstants range_constants(std::size_t n);
 /// The mean of the standard deviation (of n - 1) of n standard normal values. @pre n >= 2
 double c4(std::size_t n);
 
-/// What a mean moving range of two is divided by: d2 of n = 2 as tables print it, and as every
+/// The divisor of a mean moving range of two: d2 of n = 2 as tables print it, and as every
 /// published chart of individual values uses it. 2 / sqrt(pi) is 0.034 % more.
 inline constexpr double kMovingRangeDivisor = 1.128;
 
@@ -54,7 +54,7 @@ class ZoneRules {
   std::uint8_t bits_ = 0;
 };
 
-/// What of the past of a chart decides about its next point; it never starts anew after a signal.
+/// The past of a chart that decides about its next point; it never starts anew after a signal.
 class ZoneHistory {
  public:
   /// How many whole standard deviations a point is beyond, at most 3, with its sign: 0 for a point
@@ -81,7 +81,7 @@ class ZoneHistory {
   friend constexpr auto operator<=>(const ZoneHistory&, const ZoneHistory&) = default;
 
  private:
-  // What was seen on one side of the centre, the newest point in the lowest bit of each part:
+  // Points on one side of the centre, the newest point in the lowest bit of each part:
   static constexpr unsigned kBeyond1 = 0;  ///< the last five, whether beyond 1
   static constexpr unsigned kBeyond2 = 5;  ///< the last three, whether beyond 2
   static constexpr unsigned kRun = 8;      ///< the last eight, whether on this side at all

@@ -67,7 +67,7 @@ struct Capture {
   std::string_view text;
 };
 
-/// What stands for each `$` of a pattern; nothing if the pattern does not make the text.
+/// The text of each `$` of a pattern; nothing if the pattern does not make the text.
 std::optional<std::vector<Capture>> captures(std::string_view pattern, std::string_view text) {
   std::vector<Capture> found;
   for (std::size_t mark = 0; (mark = pattern.find('$')) != pattern.npos;) {

@@ -31,7 +31,7 @@ enum class DiagnosticCode : std::uint8_t {
 /// The stable text of a code: `label.unknown`.
 std::string_view id(DiagnosticCode code);
 
-/// What belongs to a finding and stands elsewhere in the same text.
+/// Another place of a finding in the same text.
 struct DiagnosticNote {
   std::string message{};
   SourceRange range{};

@@ -61,7 +61,7 @@ using Expr = std::variant<Absent, double, QRef, Text, NodeIndex>;
 
 inline bool is_absent(const Expr& expr) { return std::holds_alternative<Absent>(expr); }
 
-/// What a Node does with its operands, in the order written. Angles are in degrees.
+/// Operations of a Node on its operands, in the order written. Angles are in degrees.
 enum class Operator : std::uint8_t {
   // two numbers; FN 1 to 4, FN 8 and FN 13 are lowered to these too
   Add,

@@ -64,7 +64,7 @@ inline const char* scan_plain_number(const char* at, const char* end, double& va
   return at + fraction.count;
 }
 
-/// What kept a block from being read.
+/// The reason why a block cannot be read.
 struct Failure {
   enum class Kind : std::uint8_t {
     Faulty,      ///< not Klartext: an error

@@ -40,7 +40,7 @@ void require(BlockReader& in, const Expr& operand, bool string, const char* begi
                  : "a number is needed here: TONUMB makes one of a text");
 }
 
-/// What `read` reads, which must be a number or, for `string`, a text.
+/// The result of `read`, which must be a number or, for `string`, a text.
 template <class Read>
 Expr parse_typed(BlockReader& in, bool string, Read read) {
   in.skip_blanks();

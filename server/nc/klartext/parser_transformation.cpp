@@ -134,7 +134,7 @@ Statement parse_mode(BlockReader& in) {
   return mode;
 }
 
-/// What FUNCTION TCPM says, each once, and the words for it.
+/// Options of FUNCTION TCPM, each once, and their words.
 constexpr struct {
   std::string_view name;
   std::array<std::string_view, 3> words;

@@ -8,8 +8,8 @@
 #include "nc/klartext/expression.hpp"
 #include "nc/klartext/word_names.hpp"
 
-/// What a block says, one small struct per kind of block. All are trivially copyable: texts, words
-/// and lists lie in the Program's pools.
+/// The content of a block, one small struct per kind of block. All are trivially copyable: texts,
+/// words and lists lie in the Program's pools.
 namespace fitgauge::klartext {
 
 enum class Unit : std::uint8_t { Millimetre, Inch };
@@ -129,7 +129,7 @@ constexpr std::string_view words_of(CycleFamily family) {
   }
 }
 
-/// What stands right of a cycle parameter's `=`.
+/// The right side of a cycle parameter's `=`.
 enum class CycleValue : std::uint8_t {
   Expression,  ///< `Q262=+25`, `Q262=+Q5`, `QS400="0.1-0.1"`
   Auto,        ///< AUTO, FAUTO
@@ -171,7 +171,7 @@ struct CyclePart {
   std::uint16_t number = 0;
   std::uint8_t part = 0;
   Text text{};  ///< all after the number as written: the title of part 0, dialog text and words
-  /// What was understood of the text; of a part 0 that is empty but for TCH PROBE 0.0.
+  /// The parsed part of the text; of a part 0 that is empty but for TCH PROBE 0.0.
   Slice<Word> words{};
   friend bool operator==(const CyclePart&, const CyclePart&) = default;
 };

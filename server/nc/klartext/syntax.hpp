@@ -38,7 +38,7 @@ struct Block {
 static_assert(std::is_trivially_copyable_v<Block> && sizeof(Block) == 56,
               "a long program is one array of blocks");
 
-/// What the parser fills and a Program freezes. The pools are filled in the order of the source.
+/// Pools that the parser fills and a Program freezes, in the order of the source.
 struct ProgramParts {
   std::string file_name{};  ///< as given by the caller
   std::string source{};     ///< UTF-8, lines end with LF, no byte order mark
@@ -50,7 +50,7 @@ struct ProgramParts {
   std::vector<Expr> operands{};
   std::string texts{};
 
-  /// What they occupy, at most: a pool has twice its size when it has grown, but for those that
+  /// The most memory of the pools: a pool has twice its size when it has grown, but for those that
   /// were reserved.
   std::size_t memory_bytes() const;
 };

@@ -9,7 +9,7 @@
 
 namespace fitgauge::machine {
 
-/// What stands in the spindle, as the control's tables have it.
+/// The tool in the spindle, as the control's tables have it.
 struct SpindleTool {
   int number = 0;  ///< 0: the spindle is empty
   bool is_probe = false;
@@ -19,7 +19,7 @@ struct SpindleTool {
   double spindle_deg = 0;
 };
 
-/// What a move needs beside its way.
+/// Settings of a move other than its way.
 struct Motion {
   Feed feed;
   SpindleTool tool;
@@ -29,7 +29,7 @@ struct Motion {
   bool is_retract = false;
 };
 
-/// What axes cannot do, the control does without or refuses.
+/// Abilities that axes lack; the control does without or refuses.
 struct AxesCapabilities {
   bool curves = true;  ///< follows any path; else it is given straight pieces within 0.5 µm
   bool probes = true;

@@ -5,7 +5,7 @@
 
 namespace fitgauge::machine {
 
-/// What a bore removes: a cone (cylinder without taper) with lobes around a tilted axis, open
+/// The void of a bore: a cone (cylinder without taper) with lobes around a tilted axis, open
 /// upwards, closed by a flat bottom. Its fields measure the material around it: positive inside the
 /// void. Immutable: thread-safe.
 class BoreVoid {
@@ -18,7 +18,7 @@ class BoreVoid {
   Field floor(const Vec3& at) const;
   /// A lower bound of the distance to the wall, below it by at most `roughness`.
   double wall_bound(const Vec3& at) const;
-  /// What `wall_bound` may fall short by, in mm: 0 for a bore without lobes.
+  /// The largest error of `wall_bound`, in mm: 0 for a bore without lobes.
   double roughness() const { return 2 * amplitude_; }
 
   /// How far a ball that lies in the void can move along the unit vector `direction` before it

@@ -59,7 +59,8 @@ class Frames {
   void set_rotation(const PlaneRotation& rotation);
   /// @pre no factor is 0.
   void set_scaling(const Scaling& scaling);
-  /// What cycle 247 resets: datum shift (that before tilting too), mirror, rotation, scaling.
+  /// The frames that cycle 247 resets: datum shift (that before tilting too), mirror, rotation,
+  /// scaling.
   void reset_transformations();
 
   const PresetFrame& preset() const { return preset_; }

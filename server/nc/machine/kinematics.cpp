@@ -15,7 +15,7 @@ bool stands_before(const RotaryAxis& a, const RotaryAxis& b) {
   return a.mount == AxisMount::Table ? a.axis < b.axis : a.axis > b.axis;
 }
 
-/// What the axis does to what it carries.
+/// The transformation of an axis.
 Transform turned(const RotaryAxis& axis, double angle, const Displacements& rest) {
   return Transform::translation(rest[index(axis.axis) - 3]) *
          Transform::rotation_around(axis.centre, axis.direction, angle);
@@ -44,7 +44,7 @@ struct Joint {
   std::size_t letter;  ///< 0 to 2 for A, B, C
 };
 
-/// What the axes are turned by where they show 0.
+/// Angles of the axes at their display 0.
 Vec3 zeros_of(const std::vector<RotaryAxis>& axes) {
   Vec3 zeros;
   for (const RotaryAxis& axis : axes) zeros[index(axis.axis) - 3] = axis.zero_deg;

@@ -39,7 +39,7 @@ struct ProbeMove {
   Feed retract_feed;
 };
 
-/// What a contact measured. Points are those the control computes from its scales, the effective
+/// The result of a contact. Points are those the control computes from its scales, the effective
 /// length and radius and CAL_OF; input coordinates at the moment of contact unless named otherwise.
 struct ContactPoint {
   Vec3 tip;            ///< the ball's south pole (a cutter's tip on the tool touch probe)

@@ -16,8 +16,8 @@
 
 namespace fitgauge::machine {
 
-/// What a run is simulated on: machine, workpiece, seed. Plain values with the defaults of the HTTP
-/// contract; `validate` says whether they make sense together.
+/// The setup of a simulated run: machine, workpiece, seed. Plain values with the defaults of the
+/// HTTP contract; `validate` says whether they make sense together.
 
 /// An axis, and of a rotary one its kinematics as drawn and as really built.
 struct AxisSetup {
@@ -107,7 +107,7 @@ struct MachineSetup {
   std::vector<ProbeSetup> probes{ProbeSetup{}};
   ToolTouchProbeSetup tt;
   KinematicsOptions kinematics_options;
-  /// What the touch probe is calibrated against; fixed to the table.
+  /// Calibration standards of the touch probe; fixed to the table.
   std::optional<CalibrationRing> calibration_ring;
   std::optional<Boss> calibration_stud;
   std::optional<CalibrationSphere> calibration_sphere;

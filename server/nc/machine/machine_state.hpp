@@ -19,7 +19,7 @@ enum class SpindleState : std::int8_t {
   StoppedAfterM4 = 3,    ///< M5
 };
 
-/// What M functions and FUNCTION blocks switch.
+/// Modes that M functions and FUNCTION blocks switch.
 struct Modes {
   SpindleState spindle = SpindleState::Undefined;
   double spindle_rpm = 0;
@@ -52,7 +52,7 @@ struct AxisRange {
   friend bool operator==(const AxisRange&, const AxisRange&) = default;
 };
 
-/// What the builder's parameters say about cycles 451 to 453.
+/// The machine builder's parameters of cycles 451 to 453.
 struct KinematicsOptions {
   bool tcpm = true;  ///< M128 and FUNCTION TCPM are available
   /// mStrobeRotAxPos: A, B, C are positioned by an M function.

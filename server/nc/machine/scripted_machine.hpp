@@ -8,7 +8,7 @@
 
 namespace fitgauge::machine {
 
-/// What a probing move of a log found.
+/// The result of a probing move of a log.
 struct ScriptedContact {
   std::optional<Vec3> ball_centre;  ///< in mm; nothing: the move ended without contact
   CoordinateSystem system = CoordinateSystem::Input;

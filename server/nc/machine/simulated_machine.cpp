@@ -19,7 +19,7 @@ Kinematics as_built(const MachineSetup& setup) {
   return Kinematics(std::move(axes));
 }
 
-/// What stands on the table: the workpiece and the calibration standards. Only the ring has a hole,
+/// Objects on the table: the workpiece and the calibration standards. Only the ring has a hole,
 /// so it comes first.
 std::vector<Feature> on_table(const Setup& setup) {
   std::vector<Feature> features;

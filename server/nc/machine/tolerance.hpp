@@ -1,6 +1,6 @@
 #pragma once
 
-/// What counts as equal, by what is compared: the one place for machine, cycles and interpreter.
+/// Tolerances of equality, by what is compared: the one place for machine, cycles and interpreter.
 /// Results are written in whole nanometres (decision 21), and a double keeps 1e-13 mm at one metre;
 /// what is decided lies between. Where a search begins, steps and ends is no decision about a part
 /// and stands at the search.

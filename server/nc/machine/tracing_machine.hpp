@@ -16,7 +16,7 @@ enum class MoveKind : std::uint8_t { Rapid, Feed, Probe, Arc };
 /// "rapid", "feed", "probe", "arc".
 std::string_view name(MoveKind kind);
 
-/// What an arc has beside its ends. The machine's forms hold where no scaling factor of its own
+/// The data of an arc other than its ends. The machine's forms hold if no scaling factor of its own
 /// makes an ellipse of it.
 struct TracedArc {
   Vec3 centre;          ///< in input coordinates, at the height of the start
@@ -26,7 +26,7 @@ struct TracedArc {
   Vec3 machine_axis{};  ///< unit vector
 };
 
-/// What a probing move touched.
+/// The contact of a probing move.
 struct TracedContact {
   Vec3 surface;  ///< the point of the surface, in input coordinates
   Vec3 machine_surface;

@@ -81,7 +81,8 @@ std::optional<double> contact(const Triangle& triangle, const BallPath& ball) {
   const double descent = -dot(ball.direction, normal);
   if (height >= ball.radius) {
     if (descent <= 0) return std::nullopt;
-    // What a ball can touch of a triangle is convex: the face comes first where its foot is inside.
+    // The contact surface of a ball and a triangle is convex: the face comes first if its foot is
+    // inside.
     const double way = (height - ball.radius) / descent;
     const Vec3 foot = ball.at(way) - normal * ball.radius;
     const auto inside = [&](const Vec3& from, const Vec3& to, const Vec3& third) {

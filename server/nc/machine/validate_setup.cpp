@@ -30,7 +30,7 @@ class Findings {
     if (value > 0 && value <= most) return;
     add(where, fmt::format("Must be more than 0 and at most {}.", most));
   }
-  /// What a machine can drive, so that every move takes a finite time.
+  /// Limits of a machine's drives, so that every move takes a finite time.
   void feed(const std::string& where, double mm_min) {
     constexpr double kSlowest = 0.001;
     within(where, mm_min, kSlowest, kLongestMm);

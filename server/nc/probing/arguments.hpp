@@ -9,7 +9,7 @@
 
 namespace fitgauge::probing {
 
-/// What a cycle parameter holds when the block runs: nothing, a number (mm, degrees, mm/min) or a
+/// The value of a cycle parameter when the block runs: nothing, a number (mm, degrees, mm/min) or a
 /// text.
 using ArgumentValue = std::variant<std::monostate, double, std::string>;
 

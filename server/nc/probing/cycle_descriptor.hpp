@@ -63,7 +63,7 @@ enum class CycleKind : std::uint8_t {
 /// `measuring`, `preset`, ...
 std::string_view word(CycleKind kind);
 
-/// What a number counts. Cycles compute in mm, degrees and mm/min: lengths and feeds of an INCH
+/// The unit of a number. Cycles compute in mm, degrees and mm/min: lengths and feeds of an INCH
 /// program are converted on the way in and out (see CycleHost).
 enum class Unit : std::uint8_t { None, Length, Angle, Feed };
 
@@ -133,7 +133,7 @@ struct CycleOutput {
   Unit unit = Unit::None;
 };
 
-/// What a cycle is, as the linker, the documentation and GET /v1/cycles see it. Static data.
+/// The description of a cycle for the linker, the documentation and GET /v1/cycles. Static data.
 struct CycleDescriptor {
   CycleFamily family = CycleFamily::TchProbe;
   std::uint16_t number = 0;

@@ -27,7 +27,7 @@ struct FastProbing {
   bool interrupts = true;                  ///< Q400: Q281 = 2 stops the program
 };
 
-/// What cycle 450 has saved, by name.
+/// Records of cycle 450, by name.
 using KinematicsRecords = std::map<std::string, machine::Kinematics>;
 
 /// Cycle 1493: each touch of the next cycle, or of all until the program ends, is repeated.
@@ -37,7 +37,7 @@ struct Extrusion {
   bool is_modal = false;
 };
 
-/// What cycles leave for later cycles of a run. The host owns it, gives the same one to every cycle
+/// State for later cycles of a run. The host owns it, gives the same one to every cycle
 /// and calls `end_program` at END PGM, M2 and M30 of the main program.
 struct CycleMemory {
   FastProbing fast_probing;
@@ -52,7 +52,7 @@ struct CycleMemory {
   }
 };
 
-/// What a cycle needs from the program it runs in; the interpreter implements it. Lengths and feeds
+/// The program around a cycle; the interpreter implements it. Lengths and feeds
 /// are in mm and mm/min: the host converts for an INCH program, by the unit given.
 class CycleHost {
  public:

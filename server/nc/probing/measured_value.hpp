@@ -11,7 +11,7 @@
 
 namespace fitgauge::probing {
 
-/// What a value is, which decides what being out of tolerance means.
+/// The kind of a value, which decides the meaning of "out of tolerance".
 enum class ValueRole : std::uint8_t {
   HoleSize,   ///< too small is rework, too large is reject
   ShaftSize,  ///< too large is rework, too small is reject

@@ -31,7 +31,7 @@ struct MeasuredSize {
   std::optional<gauging::Verdict> verdict{};  ///< nothing without limits
 };
 
-/// What the number of points lets one say about the form of a circular feature.
+/// The judgement of form that the number of points of a circular feature allows.
 struct Form {
   bool assessable = false;
   std::string reason{};                 ///< which deviations stay invisible

@@ -139,7 +139,7 @@ inline constexpr CycleParameter kReferenceAngle = angle(307, "Angle of the refer
 inline constexpr CycleParameter kTransfer = choice(
     303, "Measured value transfer: 0 datum table, 1 preset table, -1 of old programs", -1, 1, 1);
 
-/// What 421, 422 and 430 give.
+/// Results of 421, 422 and 430.
 inline constexpr std::array<CycleOutput, 9> kCircleResults{
     {{151, "Centre, main axis", Unit::Length},
      {152, "Centre, secondary axis", Unit::Length},

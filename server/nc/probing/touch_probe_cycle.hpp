@@ -8,7 +8,7 @@
 
 namespace fitgauge::probing {
 
-/// What one execution works on; the arguments are complete.
+/// The input of one execution; the arguments are complete.
 struct CycleContext {
   const Arguments& arguments;
   machine::Machine& machine;
@@ -17,7 +17,7 @@ struct CycleContext {
 
 using CycleFunction = CycleResult<void> (*)(const CycleContext&);
 
-/// What several values say together, or a text says. Values that are not known yet are missing.
+/// Checks of several values together, or of a text. Unknown values are missing.
 using ArgumentCheck = CycleResult<void> (*)(const Arguments&);
 
 /// A cycle: what it is and what it does. Static data without state, shared by all threads.

@@ -34,7 +34,7 @@ constexpr klartext::QRef parameter_of(std::uint32_t cell) {
   return {klartext::QSpace::Q, static_cast<std::uint16_t>(cell)};
 }
 
-/// What an instruction does with its operands `a`, `b` and its result or target `c`.
+/// Operations of an instruction on its operands `a`, `b` and its result or target `c`.
 enum class Op : std::uint8_t {
   // c = a op b, all cells
   Add,

@@ -21,7 +21,7 @@ using klartext::DiagnosticCode;
 using klartext::Severity;
 using probing::CycleDescriptor;
 
-/// What a word means; a bit each.
+/// Meanings of a word; a bit each.
 enum Sense : unsigned {
   kInside = 1U << 0U,
   kOutside = 1U << 1U,

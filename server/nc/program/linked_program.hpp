@@ -20,7 +20,7 @@ inline std::string_view program_extension(const ControlPath& caller) {
   return caller.key().ends_with(".i") ? ".I" : ".H";
 }
 
-/// What the linker fills and a LinkedProgram freezes.
+/// Pools that the linker fills and a LinkedProgram freezes.
 struct LinkedParts {
   std::vector<Instruction> code;        ///< ends with Op::End
   std::vector<std::uint32_t> block_of;  ///< for each instruction the index of its block

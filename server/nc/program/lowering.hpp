@@ -19,7 +19,7 @@ class CodeWriter {
     block_of_.reserve(program.blocks().size());
   }
 
-  /// What follows belongs to that block.
+  /// The following code belongs to that block.
   void begin_block(std::uint32_t index);
   /// The block is passed over in the flow and only counted.
   void count_block() { ++pending_blocks_; }
@@ -37,7 +37,7 @@ class CodeWriter {
   void assign(std::uint32_t target, const klartext::Expr& expr);
   std::uint32_t constant(double value);
 
-  /// What the code occupies while it is written, at most.
+  /// The most memory of the code while it is written.
   std::size_t memory_bytes() const;
 
   std::vector<Instruction> take_code() { return std::move(code_); }

@@ -192,7 +192,7 @@ constexpr std::array<CycleParameter, N> pick(const int (&numbers)[N]) {
   return picked;
 }
 
-// What a block of each cycle may have, in the order of the control's dialog.
+// Parameters of each cycle, in the order of the control's dialog.
 constexpr auto k20 = pick({1, 2, 3, 4, 5, 6, 7, 8, 9});
 constexpr auto k21 = pick({10, 11, 13});
 constexpr auto k22 = pick({10, 11, 12, 18, 19, 208, 401, 404, 438});

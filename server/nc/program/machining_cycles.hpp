@@ -9,7 +9,7 @@
 /// motion of the tool: positions, depths and feeds as on the control; no material is removed.
 namespace fitgauge::interpreter {
 
-/// What a machining cycle moves along.
+/// The path of a machining cycle.
 enum class MachiningShape : std::uint8_t {
   Drilling,           ///< 200, 201, 203, 205, 240, 241 and 1: down and up the tool axis
   Boring,             ///< 202: drilling with a withdrawal at the bottom

@@ -33,7 +33,7 @@ std::shared_ptr<const LinkedFile> ProgramCache::get(const ControlDisk& disk,
 
 std::shared_ptr<const LinkedFile> ProgramCache::get(ControlFile file) {
   const std::string key = key_of(file.path, file.revision);
-  // What a run has written has no revision that other runs share.
+  // Files that a run wrote have no revision that other runs share.
   const bool cached = file.source != FileSource::Run;
   if (cached) {
     if (auto linked = at_hand(key)) return linked;

@@ -32,7 +32,7 @@ struct MachiningDefinition {
 /// A cycle of the machine builder that the setup ignores.
 struct IgnoredCycle {};
 
-/// What CYCL CALL, M99 and M89 run: the last call-active cycle, a machining cycle or a program
+/// The target of CYCL CALL, M99 and M89: the last call-active cycle, a machining cycle or a program
 /// (CYCL DEF 12); and what cycles and PATTERN DEF leave for it.
 struct ActiveCycle {
   std::variant<std::monostate, MachiningDefinition, ControlPath, IgnoredCycle> definition;

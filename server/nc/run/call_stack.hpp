@@ -31,7 +31,7 @@ class CallStack {
   /// The instruction to return to, or nothing outside of a subprogram.
   std::optional<std::uint32_t> return_from_label();
 
-  /// What is put aside of the caller.
+  /// The saved state of the caller.
   struct Caller {
     std::uint32_t return_to = 0;
     std::vector<double> locals;

@@ -70,7 +70,7 @@ class Channel {
   std::optional<SpatialAngles> spatial_angles;  ///< while A, B, C are those of AXIS SPAT
   bool turns_along_vector = false;              ///< PATHCTRL VECTOR
   ActiveCycle active_cycle;
-  /// What PREDEF takes, by the number of the Q parameter: mm, degrees, mm/min (GLOBAL DEF).
+  /// Values of PREDEF, by the number of the Q parameter: mm, degrees, mm/min (GLOBAL DEF).
   std::map<int, double> predefined;
   FormattedPrinter printer;
   TableAccess tables;

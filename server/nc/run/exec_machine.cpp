@@ -38,7 +38,7 @@ NcResult<int> tool_number(Channel& channel, const Expr& tool) {
   return static_cast<int>(*value);
 }
 
-/// What FN 27 has written into tool.t since the last TOOL CALL holds from this one on.
+/// Applies the values that FN 27 wrote to tool.t since the last TOOL CALL.
 NcResult<void> read_written_tools(Channel& channel) {
   for (const auto& [number, nr, value] : channel.tables.take_tool_cells()) {
     const machine::Tool* found = channel.machine().state().tools.find(number);

@@ -59,7 +59,7 @@ class Executor : ExecutorSteps {
 #define FITGAUGE_OP(name) op_##name
 // NOLINTNEXTLINE(bugprone-macro-parentheses): a statement
 #define FITGAUGE_NEXT() goto* kHandlers[static_cast<std::size_t>(pc->op)]
-// What is known of a variable is forgotten: on the rare way out everything is read again, so that
+// The state of a variable is forgotten: on the rare way out everything is read again, so that
 // no step of the usual way keeps it in a register.
 #define FITGAUGE_FORGET(variable) asm volatile("" : "+r"(variable) : : "memory")
 #else
@@ -124,7 +124,7 @@ void Executor<kFollowed>::loop(const Instruction* first) {
       &&op_LabelEnd,    &&op_Repeat,        &&op_Statement,   &&op_End};
   static_assert(std::size(kHandlers) == static_cast<std::size_t>(Op::End) + 1);
 #endif
-  // What the loop works with lies in registers; the members are brought up to date on the way out.
+  // The loop keeps its state in registers; the members are updated on the way out.
   const Instruction* code = code_;
   double* cells = cells_;
   std::int64_t fuel = fuel_;

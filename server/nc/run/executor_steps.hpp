@@ -8,8 +8,8 @@
 
 namespace fitgauge::interpreter {
 
-/// What the loop over the code of a run leaves to a function: everything but arithmetic and plain
-/// jumps.
+/// Steps that the loop over the code of a run leaves to a function: everything but arithmetic and
+/// plain jumps.
 class ExecutorSteps {
  protected:
   /// @param announces the loop tells the observer of every block itself

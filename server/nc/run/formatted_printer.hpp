@@ -61,7 +61,7 @@ class FormattedPrinter {
 
 class Channel;
 
-/// What a mask says about lines whose QS is undefined or empty.
+/// The mask's treatment of lines whose QS is undefined or empty.
 enum class EmptyLines : std::uint8_t {
   Unspecified,  ///< an undefined QS is an error (decision 3)
   Hide,         ///< M_EMPTY_HIDE: such lines are left out

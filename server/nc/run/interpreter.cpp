@@ -28,7 +28,7 @@ RunStatus status_of(NcErrorKind kind) {
   return RunStatus::Failed;
 }
 
-/// What a control does at the end of a run, also after an error: collected output is written.
+/// The end of a run, also after an error: collected output is written.
 NcResult<void> close_files(Channel& channel) {
   auto printed = channel.printer.close();
   auto tables = channel.tables.close();
@@ -66,7 +66,7 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
     channel.log.finish(*ending.error, last);
   }
   environment.observer.ends();
-  // What is reported are the QL of the main program, also when the run ended in another.
+  // The reported QL are those of the main program, also when the run ended in another.
   while (!channel.calls.is_in_main()) {
     const CallStack::Caller caller = channel.calls.return_from_program();
     channel.parameters.enter(channel.linked(), caller.locals);

@@ -20,7 +20,7 @@
 
 namespace fitgauge::interpreter {
 
-/// What happens at STOP, M0, M1 and Q281 = 2: the run goes on as if NC Start was pressed, or ends.
+/// The action at STOP, M0, M1 and Q281 = 2: the run continues as after NC Start, or ends.
 enum class OnStop : std::uint8_t { Continue, End };
 
 struct RunOptions {
@@ -44,7 +44,7 @@ struct RunOptions {
   klartext::MaskLanguage language = klartext::MaskLanguage::English;  ///< of the control's dialog
 };
 
-/// What a run works on. All must outlive the run; machine and observer belong to it alone, the
+/// The input of a run. All must outlive the run; machine and observer belong to it alone, the
 /// others may be shared with other runs.
 struct RunEnvironment {
   machine::Machine& machine;

@@ -52,7 +52,7 @@ struct Heights {
   double bottom = 0;     ///< Q201 below it, of 232 Q386
 };
 
-/// What one execution of a cycle works with.
+/// The input of one execution of a cycle.
 struct Machining {
   const MachiningDefinition& definition;
   ToolMotion motion;
@@ -102,7 +102,7 @@ NcResult<void> run_pattern(Channel& channel, const MachiningDefinition& pattern)
 /// CYCL CALL PAT.
 NcResult<void> run_points(Channel& channel);
 
-/// What M99 runs where the tool stands.
+/// The cycle that M99 runs at the position of the tool.
 NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition);
 
 }  // namespace fitgauge::interpreter

@@ -39,7 +39,7 @@ NcResult<double> number_value(Channel& channel, const klartext::CycleParameter& 
   return feed;
 }
 
-/// What the active GLOBAL DEF says, in mm, degrees or mm/min.
+/// Values of the active GLOBAL DEF, in mm, degrees or mm/min.
 NcResult<double> predefined_value(const Channel& channel, int parameter) {
   const auto found = channel.predefined.find(parameter);
   if (found != channel.predefined.end()) return found->second;
@@ -49,7 +49,7 @@ NcResult<double> predefined_value(const Channel& channel, int parameter) {
                                     parameter, definition.number, definition.name));
 }
 
-/// What a word of an old cycle is in the cycle of today. `scale`: 2 makes a diameter of a radius.
+/// A word of an old cycle in the current cycle. `scale`: 2 makes a diameter of a radius.
 struct OldWord {
   int cycle;
   int part;

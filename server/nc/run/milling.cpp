@@ -14,7 +14,7 @@ using machine::Feed;
 /// Counter-clockwise inside for climb milling, which M3 and Q351 = 1 ask for.
 double turn_inside(const Machining& cycle) { return cycle.value(351) < 0 ? -1 : 1; }
 
-/// What stays at the side: the allowance when only roughing.
+/// The rest at the side: the allowance when only roughing.
 double side_allowance(const Machining& cycle) {
   return cycle.value(215) == 1 ? cycle.value(368) : 0;
 }

@@ -87,7 +87,7 @@ NcResult<void> read_m(Channel& channel, const Word& word, std::vector<MCall>& ca
   return {};
 }
 
-/// What follows an M function. Of those that only leave a note it has no effect.
+/// The words after an M function. Words of M functions that only leave a note have no effect.
 NcResult<void> read_argument(Channel& channel, const Word& word, std::vector<MCall>& calls) {
   if (!calls.empty() && calls.back().number == 128) {
     return channel.note(

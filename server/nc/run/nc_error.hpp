@@ -57,7 +57,7 @@ inline NcResult<void> checked(const machine::MachineResult<void>& result) {
   return {};
 }
 
-/// What stands for an M function or cycle of the machine builder: a program, or nothing at all.
+/// The replacement of an M function or cycle of the machine builder: a program, or nothing.
 struct BuilderAction {
   std::optional<ControlPath> program;
 };

@@ -37,7 +37,7 @@ class QParameters {
   void undefine(klartext::QRef parameter);
   bool is_defined(klartext::QRef parameter) const;
 
-  /// What a call of another program puts aside: the QL and the counters of repeats.
+  /// State that a call of another program saves: the QL and the counters of repeats.
   std::vector<double> save_locals(const LinkedProgram& program) const;
   /// Makes the cells those of `program`: with saved locals, or fresh ones.
   void enter(const LinkedProgram& program, std::span<const double> saved = {});

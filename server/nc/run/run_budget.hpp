@@ -10,7 +10,7 @@
 
 namespace fitgauge::interpreter {
 
-/// What one run may use. Beyond any of these it ends with LimitExceeded, but for the two depths,
+/// The budget of one run. Beyond any of these it ends with LimitExceeded, but for the two depths,
 /// which are the control's own (error 1025).
 struct RunLimits {
   std::uint64_t blocks = 1'000'000;
@@ -35,7 +35,7 @@ class RunBudget {
   /// Takes back what is left of a portion and grants a new one of at least `needed` blocks.
   /// @errors limit (blocks, time), cancelled.
   NcResult<std::int64_t> refuel(std::int64_t left, std::int64_t needed);
-  /// What is left of a portion when its executor ends before the run.
+  /// The rest of a portion if its executor ends before the run.
   void give_back(std::int64_t left) { granted_ -= static_cast<std::uint64_t>(left); }
   /// To be called for each block that is more than arithmetic, and in loops.
   /// @errors limit (time, memory), cancelled.

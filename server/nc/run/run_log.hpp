@@ -13,7 +13,7 @@
 
 namespace fitgauge::interpreter {
 
-/// What is left of the run's output budget; every text that is kept is charged to it.
+/// The rest of the run's output budget; every stored text is charged to it.
 class OutputBudget {
  public:
   explicit OutputBudget(std::size_t bytes) : total_(bytes), left_(bytes) {}
@@ -26,7 +26,7 @@ class OutputBudget {
   std::size_t left_;
 };
 
-/// What a run tells: screen, messages, measurements. Owns them until they are taken.
+/// The output of a run: screen, messages, measurements. Owns them until they are taken.
 class RunLog {
  public:
   RunLog(OutputBudget& budget, RunObserver& observer) : budget_(budget), observer_(observer) {}

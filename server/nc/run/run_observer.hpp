@@ -23,7 +23,7 @@ struct Place {
   const klartext::Block& source() const { return program->program().blocks()[index]; }
 };
 
-/// What follows a run while it runs; called on the run's thread, so it must not block.
+/// An observer of a run; called on the run's thread, so it must not block.
 class RunObserver {
  public:
   RunObserver() = default;

@@ -30,7 +30,7 @@ enum class MessageKind : std::uint8_t {
 /// `error`, `stop`, `limit`, `cancelled`, `note`.
 std::string_view word(MessageKind kind);
 
-/// What the control's message line would show, and the block it belongs to.
+/// A line for the control's message line, and its block.
 struct RunMessage {
   MessageKind kind = MessageKind::Error;
   int number = 0;  ///< the control's error number, 0 where it has none
@@ -56,7 +56,7 @@ struct OpenedTable {
   FileSource source = FileSource::Stored;
 };
 
-/// What a measuring cycle found, and where it stands in the program.
+/// The result of a measuring cycle, and its place in the program.
 struct Measurement {
   probing::MeasuringRecord record;
   std::string program;

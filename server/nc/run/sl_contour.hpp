@@ -18,8 +18,9 @@ struct SlContour {
   bool is_pocket = true;  ///< machined inside; else an island, which stays
 };
 
-/// What the label's subprogram programs. RL around to the left and RR to the right are a pocket,
-/// the other two an island; without RL and RR it is a pocket. An open contour is closed by a line.
+/// The kind of contour in the label's subprogram. RL around to the left and RR to the right are a
+/// pocket, the other two an island; without RL and RR it is a pocket. An open contour is closed by
+/// a line.
 /// @errors those of its blocks; 1024 no such label, or it encloses nothing.
 NcResult<SlContour> read_contour(Channel& channel, const klartext::Label& label);
 
@@ -35,7 +36,7 @@ struct SlPath {
 /// material remains. @param reach from the contour to the tool's centre
 SlPath path_along(const SlContour& contour, double reach, bool is_climb);
 
-/// What the subprogram of an SL contour programs, kept instead of moved. It may transform
+/// The contour of a subprogram of an SL cycle, stored instead of moved. It may transform
 /// coordinates: the curves are those of the input system in which the cycle was called. Depths,
 /// feeds and M functions do not count there.
 class SlDrawing {

@@ -8,7 +8,7 @@
 #include "nc/program/linked_program.hpp"
 #include "nc/run/nc_error.hpp"
 
-/// What each kind of block does, one function for each; a family lies in one exec_* file.
+/// One function for each kind of block; a family lies in one exec_* file.
 namespace fitgauge::interpreter {
 
 class Channel;
@@ -61,7 +61,7 @@ NcResult<Next> execute(Channel& channel, const klartext::Stop& stop);
 NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const BoundCycle& bound);
 NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_t last);
 NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call);
-/// What M99, M89 and CYCL CALL run at the current position.
+/// The cycle that M99, M89 and CYCL CALL run at the current position.
 NcResult<Next> call_active_cycle(Channel& channel);
 
 // exec_pattern.cpp

@@ -64,7 +64,7 @@ Forwarder::State Forwarder::state() const {
     const std::lock_guard lock(mutex_);
     state = state_;
   }
-  // What was committed since the last look counts too.
+  // Commits since the last check count too.
   const std::int64_t confirmed = confirmed_;
   state.rows = std::max<std::int64_t>(0, std::max(seen_.load(), outbox_.committed()) - confirmed);
   if (state.rows == 0) state.oldest.reset();

@@ -109,7 +109,7 @@ class Forwarder {
 
  private:
   using Steady = std::chrono::steady_clock;
-  /// What became of a batch.
+  /// The result of a batch.
   enum class Sent { Nothing, Taken, Failed, Refused };
 
   void run(const std::stop_token& stop);
@@ -131,7 +131,7 @@ class Forwarder {
   Follower follower_;
   bool lacks_records_ = false;  ///< the centre said so of records that were taken as its own
   std::atomic<std::int64_t> confirmed_{0};
-  std::atomic<std::int64_t> seen_{0};  ///< records there were at the last look
+  std::atomic<std::int64_t> seen_{0};    ///< records there were at the last look
   std::optional<std::int64_t> noted_{};  ///< the last note there; none: the centre accepts none
   std::int64_t most_rows_ = app::LogOutbox::kMostRows;
   std::chrono::milliseconds pause_{0};

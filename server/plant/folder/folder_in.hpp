@@ -57,7 +57,7 @@ struct Look {
 Look look_of(const struct stat& status);
 
 /// A file of a folder, which is read from its begin as often as it must be, a piece at a time.
-/// What was read counts when it is_unchanged() afterwards.
+/// The content counts only if it is_unchanged() afterwards.
 class RestingFile {
  public:
   /// @returns nothing when it is gone, or another kind of entry. @errors StorageUnavailable: it
@@ -108,7 +108,7 @@ Result<FileRows> read_file_rows(const FolderInOptions& options,
 /// An error of the rows with the lines of the file.
 Error at_lines_of(const FileRows& rows, Error error);
 
-/// What became of a file.
+/// The result of a file.
 struct TakenFile {
   bool was_taken_before = false;
   std::size_t measurements = 0;
@@ -123,7 +123,7 @@ Result<std::optional<TakenFile>> take_file(const FolderInOptions& options, const
                                            std::string_view file_name, const RestingFile& file,
                                            const RestingFile* description);
 
-/// What is wrong with a file, for the one who wrote it: lines, and what to do.
+/// The errors of a file for its writer: lines and remedies.
 std::string told(std::string_view file_name, const Error& error);
 
 /// Whether an error is one of the storage, not of the file.

@@ -45,7 +45,7 @@ std::string_view key_of(const app::Measurement& measurement, Split split) {
   return text.value_or("");
 }
 
-/// What a name of a file may have; the numbers before it keep two apart that become alike.
+/// Characters of a file name; the numbers before it keep equal names apart.
 std::string plain(std::string_view key) {
   std::string name(key.substr(0, kLongestKeyInName));
   std::replace_if(
@@ -56,7 +56,7 @@ std::string plain(std::string_view key) {
 
 /// Writes NAME-FIRST-LAST.csv, where the numbers are the positions of the measurements in the log;
 /// beside, and renamed when it is whole and on disk.
-/// What a DFQ cannot hold is a dead letter.
+/// Measurements that a DFQ cannot express are dead letters.
 class FolderOut final : public Outlet {
  public:
   FolderOut(FolderOutOptions options, const Plant& plant)

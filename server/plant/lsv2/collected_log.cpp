@@ -38,7 +38,7 @@ std::string_view kept(CollectedLog& log, std::string_view text, std::size_t most
   return log.texts.emplace_back(first_characters(text, most));
 }
 
-/// What every measurement of a file says.
+/// Fields of every measurement of a file.
 Measurement begun(CollectedLog& log, const Origin& origin) {
   Measurement measurement;
   measurement.received_at = origin.now;

@@ -72,7 +72,7 @@ struct CollectedLog {
   std::deque<std::string> texts{};
 };
 
-/// What a file holds.
+/// Content of a file.
 struct Collected {
   std::vector<std::shared_ptr<CollectedLog>> logs{};
   std::vector<std::string> unread{};  ///< `line 5: …`
@@ -91,7 +91,7 @@ struct Origin {
 /// first length, indeterminate. Angles and figures of axes stay in the file.
 Collected collect(const Origin& origin, const std::string& bytes);
 
-/// What a file has given.
+/// Results of a file.
 struct Taken {
   std::uint64_t logs = 0;          ///< read, whether new or not
   std::uint64_t measurements = 0;  ///< stored by this call

@@ -23,7 +23,7 @@ struct MqttOptions {
   bool retain = true;
 };
 
-/// What a reason code of MQTT 5 says of the message alone (5.0, 3.4.2.1).
+/// Reason codes of MQTT 5 about the message alone (5.0, 3.4.2.1).
 bool is_of_the_message(int reason) {
   constexpr int kTopicNameInvalid = 0x90;
   constexpr int kPayloadFormatInvalid = 0x99;
@@ -122,7 +122,8 @@ Delivery Mqtt::publish(const Items& items, const std::stop_token& stop, const Co
     const auto reason = link_.client().wait_settled(ahead.front().ticket, kLongestSilence, stop);
     if (!reason || (*reason != 0 && !is_of_the_message(*reason))) {
       if (stop.stop_requested()) return delivery;
-      // What is on its way comes again over a new connection: a broker that is out of step ends.
+      // Messages on their way are sent again over a new connection: a broker that is out of step
+      // ends.
       delivery.failure =
           link_.give_up(reason ? mqtt_reason(*reason) : "the broker does not acknowledge messages");
       return delivery;

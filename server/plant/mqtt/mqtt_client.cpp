@@ -39,7 +39,7 @@ std::string_view text_of_connack(int reason, bool version_5) {
 
 }  // namespace
 
-/// What runs on the client's thread: everything of libmosquitto is called there alone.
+/// Work on the client's thread, the only one that calls libmosquitto.
 class MqttClient::Loop {
  public:
   Loop(MqttClient& client, const std::optional<MqttMessage>& will) : client_(client) {

@@ -15,7 +15,7 @@ using app::Measurement;
 
 constexpr std::size_t kLongest = 500;
 
-/// What a topic can have beside the texts of a measurement.
+/// Fields of a topic other than the texts of a measurement.
 struct OtherName {
   std::string_view name;
   std::string (*of)(const Measurement& measurement);
@@ -68,7 +68,7 @@ std::pair<char32_t, std::size_t> front_character(std::string_view text) {
 
 Error invalid(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
 
-/// What may stand in a template as it is.
+/// Characters that a template may have unchanged.
 bool is_literal(std::string_view text) {
   while (!text.empty()) {
     const auto [c, size] = front_character(text);

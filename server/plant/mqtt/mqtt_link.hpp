@@ -45,7 +45,7 @@ class TopicTemplate {
 /// Of a broker that is asked for an answer.
 inline constexpr std::chrono::seconds kLongestSilence{20};
 
-/// What a broker says by a reason code, or the library of a message it does not send.
+/// The meaning of a broker's reason code, or of the library's error for a message.
 std::string mqtt_reason(int reason);
 
 /// The client of an outlet: a new one for each connection. For one thread.

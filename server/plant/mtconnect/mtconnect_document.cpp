@@ -47,7 +47,7 @@ std::uint64_t instance_of(const Agent& agent) {
   return std::uint64_t{number} + 1;
 }
 
-/// What the device is does not change.
+/// The description of the device is constant.
 std::string model_change(const Agent& agent) {
   return fmt::format(R"(deviceModelChangeTime="{}")", format_rfc3339(agent.began));
 }

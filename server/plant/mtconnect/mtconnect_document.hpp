@@ -17,7 +17,7 @@
 
 namespace fitgauge::mtconnect {
 
-/// What the device Gauge observes.
+/// Observations of the device Gauge.
 struct DataItem {
   std::string_view id;
   std::string_view type;
@@ -61,7 +61,7 @@ constexpr std::int64_t measurement_at(std::uint64_t sequence) {
   return static_cast<std::int64_t>(sequence / 2);
 }
 
-/// What every document says of the agent.
+/// The agent's part of every document.
 struct Agent {
   std::string_view origin;   ///< of the data folder for ever: 16 hexadecimal digits
   std::string_view history;  ///< what its ids end with now
@@ -131,7 +131,7 @@ std::string error_document(const Agent& agent, std::string_view code, std::strin
 
 namespace fitgauge::api {
 
-/// What every document of the agent says now.
+/// The current header of every document of the agent.
 mtconnect::Agent mtconnect_agent(const Services& services);
 http::Response mtconnect_response(int status, std::string text);
 

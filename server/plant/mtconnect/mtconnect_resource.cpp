@@ -20,7 +20,7 @@ using mtconnect::Streams;
 constexpr std::string_view kXml = "text/xml";
 constexpr std::size_t kResultsOfAsset = 100;
 
-/// What a document of one request is made of.
+/// The input of the document of one request.
 struct Gathered {
   SharedResponder responder;
   Agent agent;
@@ -60,7 +60,7 @@ void probe(const Services& services, const http::Request&, http::Responder respo
   });
 }
 
-/// What current shows: the newest of the log, or of the log as it was.
+/// The content of `current`: the newest measurement of the log, now or at an earlier sequence.
 struct Current {
   SharedGathered gathered;
   std::uint64_t at = 0;  ///< the last sequence that is seen
@@ -166,7 +166,7 @@ void current(const Services& services, const http::Request& request, http::Respo
 void answer_assets(const Gathered& gathered) {
   qif::QifWriter writer;
   std::for_each(gathered.newest.rbegin(), gathered.newest.rend(), [&writer](const auto& kept) {
-    // What XML cannot hold is left out, as there is nobody to tell.
+    // Characters that XML cannot hold are left out, because nobody could correct them.
     [[maybe_unused]] const auto added = add_to_qif(writer, **kept);
   });
   const Timestamp at =

@@ -24,7 +24,7 @@ constexpr std::int64_t kMostObservations = 10'000;
 constexpr std::int64_t kMostMilliseconds = 3'600'000;
 constexpr std::string_view kBoundary = "fitgauge-mtconnect";
 
-/// What a document of observations is asked for.
+/// The request for a document of observations.
 struct Sample {
   std::optional<std::uint64_t> from{};  ///< none: from the first, or backwards from the last
   std::size_t count = 100;
@@ -38,7 +38,7 @@ struct Sampled {
   std::uint64_t next = 1;  ///< the sequence to ask from next
 };
 
-/// What is read for one document.
+/// The rows of one document.
 struct Gathering {
   Agent agent;
   std::vector<std::unique_ptr<app::KeptMeasurement>> measurements{};

@@ -129,7 +129,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   void accept() {
     acceptor_.async_accept([this](error_code error, http::Socket socket) {
       if (!error) {
-        // What is out of memory here must not be the last agent that is taken in.
+        // Missing memory here must not end the acceptance of agents.
         guarded("an agent that connects", [&] { take_in(std::move(socket)); });
         return accept();
       }
@@ -146,7 +146,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
     if (agents_.size() >= options_.most_agents) {
       return tell(peer, "too many agents are connected");
     }
-    // What waits in the kernel is bounded as well.
+    // Waiting bytes in the kernel are bounded too.
     socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
     socket.set_option(asio::ip::tcp::no_delay(true), ignored);
     socket.set_option(asio::socket_base::keep_alive(true), ignored);

@@ -16,7 +16,7 @@
 
 namespace fitgauge::mtconnect {
 
-/// What an agent may hold and how long it may take.
+/// Bounds of an agent: memory and time.
 struct SessionOptions {
   std::size_t full = std::size_t{256} << 10;  ///< bytes that wait for it; then others wait as well
   std::chrono::milliseconds longest_full = std::chrono::seconds(10);

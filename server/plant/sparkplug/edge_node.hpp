@@ -65,7 +65,7 @@ inline constexpr std::string_view kRebirth = "Node Control/Rebirth";
 /// Whether a command asks for all births. What is no payload asks for nothing.
 bool asks_for_rebirth(std::string_view payload);
 
-/// What every device reports of its last measurement: the same metrics, whatever is measured, so
+/// Metrics of a device's last measurement: the same metrics for every quantity, so
 /// that a birth names all that will ever come.
 struct DeviceMetric {
   std::string_view name;
@@ -86,7 +86,7 @@ class EdgeNode {
 
   /// A session, numbered as its CONNECT is: 0 to 255.
   void begin_session(std::uint8_t number);
-  /// What the broker publishes when the session is cut off, and the node before it ends one.
+  /// The message that the broker publishes if the session breaks, and the node before it ends one.
   MqttMessage death() const;
   /// The births of the node and of all its devices.
   void give_birth();

@@ -44,7 +44,7 @@ std::optional<Telegram> ControlConversation::answer(const Telegram& telegram) {
     transfer_ = std::monostate();
     return refusal(replied.error());
   }
-  // What does not fit, a long path in the smallest buffer, cannot be said.
+  // A long path that does not fit in the smallest buffer has no answer.
   if (*replied && kHeadBytes + (*replied)->payload.size() >= buffer_) {
     return refusal(ControlError::BadFileName);
   }

@@ -16,12 +16,12 @@ namespace {
 constexpr std::string_view kFile = "FILE";
 /// The longest file, as over HTTP.
 constexpr std::size_t kLongestFile = std::size_t{8} << 20;
-/// What a name in a list holds beside its letters.
+/// The bytes of a name in a list, without its letters.
 constexpr std::size_t kEntryBytes = sizeof(DiskEntry);
-/// What R_DI says is free, whatever the host has.
+/// Free bytes in the answer to R_DI, independent of the host.
 constexpr std::uint32_t kFreeBytes = 0x7FFFFFFF;
 
-/// What a mode that sends lines puts in place of a line's end.
+/// The byte at the end of a line in a mode that sends lines.
 std::string lines_on_the_wire(std::string_view bytes) {
   std::string wire;
   wire.reserve(bytes.size());

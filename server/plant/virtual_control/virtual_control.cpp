@@ -61,7 +61,7 @@ Result<void> bring_files(app::FileService& files, const ControlModel& model,
   return {};
 }
 
-/// What a run has written lies on the disk when it is over, as at a control.
+/// Files of a run are on the disk at its end, as on a control.
 void keep_files(app::FileService& files, const std::shared_ptr<app::ActiveRun>& run) {
   run->on_end([&files, run](const Result<app::FinishedRun>&) {
     const auto written = run->look(app::Look::StateAndFiles, {}).files;

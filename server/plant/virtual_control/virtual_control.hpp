@@ -21,7 +21,7 @@
 
 namespace fitgauge::virtual_control {
 
-/// What differs from one control to the other.
+/// Differences between controls.
 struct ControlModel {
   std::string_view name;  ///< as `control-model` and R_VR say it
   std::string_view nc_software;
@@ -100,7 +100,7 @@ class ByteBudget {
   std::size_t left_;
 };
 
-/// What one transfer holds of the budget; given back with it.
+/// The part of the budget that one transfer uses; released with it.
 class ByteShare {
  public:
   explicit ByteShare(ByteBudget& budget) : budget_(&budget) {}
@@ -126,7 +126,7 @@ class ByteShare {
   std::size_t taken_ = 0;
 };
 
-/// What all clients share.
+/// State that all clients share.
 struct ControlState {
   const ControlModel& model;
   bool is_writable = false;

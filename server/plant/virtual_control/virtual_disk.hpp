@@ -76,7 +76,7 @@ class VirtualDisk {
 
  private:
   using RunFiles = std::shared_ptr<const std::vector<interpreter::WrittenFile>>;
-  /// What the newest run has written and no client has replaced or removed since.
+  /// Files of the newest run that no client has replaced or removed.
   std::map<std::string, std::pair<const interpreter::WrittenFile*, Timestamp>> run_files();
   /// Every file whose path begins so, by key.
   Answer<std::map<std::string, DiskEntry>> files_below(std::string_view prefix);

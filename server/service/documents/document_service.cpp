@@ -13,7 +13,7 @@
 namespace fitgauge::app {
 namespace {
 
-/// What differs between the kinds.
+/// Differences between the kinds.
 struct Facts {
   std::string_view noun;
   ErrorCode unknown;
@@ -52,7 +52,7 @@ Result<void> check_change(const DocumentService::Precondition& precondition, Doc
                called(kind, name) + " has changed since you read it: read it again"};
 }
 
-/// What a centre has given is changed there. @errors Forbidden
+/// Documents of a centre are changed there. @errors Forbidden
 Result<void> check_owner(const store::Stores& stores, DocumentKind kind, const std::string& name) {
   if (kind != DocumentKind::Setup && kind != DocumentKind::Plan &&
       kind != DocumentKind::Catalogue) {

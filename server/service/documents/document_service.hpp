@@ -41,7 +41,7 @@ class DocumentService {
   /// in the transaction that makes it. An empty one allows every change.
   using Precondition = std::function<bool(std::optional<std::string_view> text)>;
 
-  /// What is written, and under which condition.
+  /// The new text and its precondition.
   struct Change {
     DocumentKind kind = DocumentKind::Uncertainty;
     std::string name{};

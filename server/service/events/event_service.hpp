@@ -96,7 +96,7 @@ struct Event {
   std::string_view payload{};  ///< JSON
 };
 
-/// What happened, in order, for readers that come back. Thread-safe; nothing here blocks.
+/// Events in order, for readers that reconnect. Thread-safe; nothing here blocks.
 class EventService {
  public:
   /// @param retention how many measurements and how many stored events a reader may be behind.
@@ -109,7 +109,7 @@ class EventService {
         signal_(signal),
         retention_(retention) {}
 
-  /// What a reader reads from: those at the same place get the same page.
+  /// The place of a reader: readers at the same place get the same page.
   struct Place {
     std::optional<EventPosition> after{};  ///< none: from now on, so that there is no event
     std::optional<Source> source{};        ///< of the measurements; none: all
@@ -127,7 +127,7 @@ class EventService {
   using PageDone = std::function<void(const Result<Page>&)>;
 
   /// The events of up to 200 measurements and as many stored ones, written by a reader thread.
-  /// Whoever asks for a page that no thread has begun to read shares it.
+  /// Readers that ask for a page before a thread has begun to read it share the page.
   /// @param write the same for all. @errors StorageUnavailable, StorageBusy.
   void read(const Place& place, Write write, PageDone done);
 

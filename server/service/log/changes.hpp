@@ -29,7 +29,7 @@ JsonValue without_secrets(JsonValue settings);
 /// A change as /v1/changes answers it.
 std::string change_json(const store::Change& change);
 
-/// What a leaf of the tree of changes is the hash of: the same, with the SHA-256 of the texts where
+/// The data of a leaf of the tree of changes: the change, with the SHA-256 of the texts where
 /// it would be longer than an entry of a tile.
 std::string change_entry(const store::Change& change);
 

@@ -5,7 +5,7 @@
 namespace fitgauge::app {
 namespace {
 
-/// What the store refuses in a row that no version of the service has written.
+/// Checks of the store for rows that no version of the service has written.
 std::string_view refusal_of(const Measurement& m) {
   const Length u = m.standard_uncertainty.value_or(Length());
   for (const auto& uncertainty :

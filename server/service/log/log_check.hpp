@@ -16,7 +16,7 @@
 
 namespace fitgauge::app {
 
-/// What is said of a measurement whose record no longer gives its leaf.
+/// The finding for a measurement whose record does not match its leaf.
 std::string altered_finding();
 
 /// Makes a log again, that of this folder or one that was forwarded, from its records while they
@@ -35,10 +35,10 @@ class LogCheck {
   /// Takes a checkpoint to compare with. @param place what a finding calls it.
   void expect(const std::string& place, std::string_view note);
 
-  /// What is wrong with the next measurement of this log, if anything.
+  /// The finding for the next measurement of this log, if any.
   std::optional<std::string> add(const store::MeasurementRow& row);
 
-  /// What is wrong with the whole, after the last measurement.
+  /// The finding for the whole log, after the last measurement.
   std::vector<std::string> finish();
 
   /// The size and the root of what was read, for people; and which checkpoints say nothing of it.

@@ -41,7 +41,7 @@ std::optional<std::size_t> row_in(const ForwardedBatch& batch, std::int64_t numb
 
 }  // namespace
 
-/// What stands here of a batch's log.
+/// The state of a batch's log at this centre.
 struct LogIntake::Known {
   std::int64_t number = 0;  ///< 0: nothing yet
   std::optional<store::OriginsStore::Base> base{};
@@ -52,7 +52,7 @@ struct LogIntake::Known {
   std::optional<tlog::Hash> root_at_end{};    ///< where the batch ends within what is here
 };
 
-/// What the tree says of a batch.
+/// The result of the tree for a batch.
 struct LogIntake::Judged {
   Outcome outcome = Outcome::Taken;
   std::vector<tlog::Hash> leaves{};
@@ -180,7 +180,7 @@ Result<void> LogIntake::trust(const ForwardedBatch& batch, Known& known) const {
     return std::find(known.keys.begin(), known.keys.end(), wanted) != known.keys.end();
   };
   if (known.keys.empty()) add(*key);
-  // Whatever order they come in: a key may be signed for by one that another note has brought.
+  // In any order: the signature of a key can come from a key of another note.
   for (bool more = true; more;) {
     more = false;
     for (const std::string& note : batch.hand_overs) {
@@ -374,7 +374,8 @@ Result<void> LogIntake::store_notes(store::Stores& stores, const ForwardedBatch&
 
 void LogIntake::tell_branch(const ForwardedBatch& batch, const Known& known) const {
   if (batch.rows.empty() || !known.base ||
-      known.before.size() != static_cast<std::uint64_t>(known.base->size)) return;
+      known.before.size() != static_cast<std::uint64_t>(known.base->size))
+    return;
   tell_("log_branched",
         fmt::format("{} goes on behind {} measurements of {}: an older copy of that folder was put "
                     "back, or may have been. What {} has here beyond them stays",

@@ -68,7 +68,7 @@ class LogIntake {
         clock_(clock),
         tell_(std::move(tell)) {}
 
-  /// What the centre has of a log.
+  /// The part of a log that the centre has.
   struct Head {
     std::uint64_t size = 0;
     tlog::Hash root{};

@@ -17,8 +17,8 @@ namespace fitgauge::app {
 
 class TableCatalog;
 
-/// What of this folder's log a centre does not have yet. The log itself is the outbox: kept beside
-/// it is only how far the centre has confirmed it. Everything here blocks. Thread-safe.
+/// The part of this folder's log that a centre does not have yet. The log itself is the outbox:
+/// kept beside it is only how far the centre has confirmed it. Everything here blocks. Thread-safe.
 class LogOutbox {
  public:
   static constexpr std::int64_t kMostRows = 10'000;

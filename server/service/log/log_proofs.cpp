@@ -14,7 +14,7 @@
 #include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
-// What the log answers: proofs, of forwarded records under a signature of this folder too, and
+// Answers of the log: proofs, of forwarded records under a signature of this folder too, and
 // tiles. How it grows stands in log_service.cpp.
 
 namespace fitgauge::app {

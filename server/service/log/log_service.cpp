@@ -134,7 +134,7 @@ void LogService::run(const std::stop_token& stop) {
   }
 }
 
-/// What one commit adds to the tree.
+/// The leaves that one commit adds to the tree.
 struct LogService::Stretch {
   tlog::Frontier grown;
   std::vector<store::LogStore::Node> nodes{};
@@ -191,7 +191,7 @@ void LogService::sign() {
   std::vector<const tlog::SigningKey*> keys;
   for (const tlog::SigningKey& key : signers_) keys.push_back(&key);
   std::string text = head->checkpoint.text();
-  // Who holds the old key says which one comes next: anybody can put a second signature under a
+  // The owner of the old key names the next key: anybody can put a second signature under a
   // note.
   if (keys.size() > 1) text += next_key_line(signers_.front().verifier());
   head->note = tlog::sign_note(text, keys);

@@ -132,7 +132,7 @@ class LogService {
   /// The keys of that name: verifier_keys() under it.
   std::string changes_keys() const;
 
-  /// What verification needs to know of the log, as it is now.
+  /// The current state of the log for verification.
   struct Facts {
     std::string name;
     std::int64_t size = 0;

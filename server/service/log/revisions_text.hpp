@@ -16,7 +16,7 @@ struct ReadRevisions {
   TextArena texts;
 };
 
-/// What `GET /v1/log/revisions` answers.
+/// The answer of `GET /v1/log/revisions`.
 std::string revisions_text(const app::RevisionPage& page);
 /// Reads that. A kind that is not known here is left out.
 /// @errors those of JSON; RequestInvalid, LogRecordInvalid.

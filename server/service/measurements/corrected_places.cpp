@@ -11,7 +11,7 @@ void CorrectedPlaces::add(std::int64_t id, std::int64_t correction_of) {
 void CorrectedPlaces::finish_adding() {
   std::sort(corrections_.begin(), corrections_.end(),
             [](const Correction& a, const Correction& b) { return a.id < b.id; });
-  // What is corrected was stored before, so that its own chain is followed already.
+  // A corrected record was stored earlier, so that its chain is followed already.
   for (auto correction = corrections_.begin(); correction != corrections_.end(); ++correction) {
     const auto earlier =
         std::lower_bound(corrections_.begin(), correction, correction->replaced,

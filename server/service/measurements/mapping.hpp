@@ -20,7 +20,7 @@ Result<iso286::TableData> from_store(const store::TableContent& content);
 /// @pre it has the number of its revision, if it names one
 store::MeasurementRow to_store(const Measurement& measurement);
 
-/// What the numbers in a row are called outside; valid as long as the catalog and the origins.
+/// Outside names of the numbers in a row; valid as long as the catalog and the origins.
 struct RowNames {
   std::function<std::string_view(std::int64_t number)> revision_id;
   /// The digits of the id that this number of an origin has.

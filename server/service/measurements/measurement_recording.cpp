@@ -58,7 +58,7 @@ class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
     Done<Answer> done;
     Answer answer{};
   };
-  /// What one job stores: kRowsAtATime measurements, and what the last request has beyond.
+  /// The rows of one job: kRowsAtATime measurements, and the rest of the last request.
   struct Load {
     Load() { requests.reserve(kRowsAtATime); }
     void add(std::span<const Measurement> rows, Render render, Done<Answer> done);
@@ -182,7 +182,7 @@ namespace {
 
 /// The measurements of one long request on their way from the thread that reads them to the writer,
 /// which stores the first ones while the last are still being read. Owns the pieces under way.
-/// Whatever needs no database is done on the reading side: it numbers the rows and makes
+/// Work without the database is done on the reading side: it numbers the rows and makes
 /// their leaves itself.
 /// Thread-safe; each side is one thread. The reading side stops waiting when the outcome is there,
 /// the writer after finish() or fail().
@@ -346,8 +346,7 @@ void MeasurementService::record(std::vector<Measurement> measurements,
 }
 
 void MeasurementService::add_note(const RecordName& name, Note note,
-                                  const std::optional<IdempotencyScope>& scope,
-                                  Done<Answer> done) {
+                                  const std::optional<IdempotencyScope>& scope, Done<Answer> done) {
   auto work = [this, name,
                note = std::move(note)](store::Stores& stores) mutable -> Result<Answer> {
     const auto row = existing_row_of(stores, name, origins_);

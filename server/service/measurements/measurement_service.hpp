@@ -30,7 +30,7 @@ class TableCatalog;
 /// A response that can be stored under an idempotency key and replayed.
 using Answer = store::StoredAnswer;
 
-/// What makes a request the same as an earlier one.
+/// The identity of a request.
 struct IdempotencyScope {
   std::string caller;
   std::string method;
@@ -54,7 +54,7 @@ struct ListPage {
   std::int64_t as_of = 0;            ///< the state all pages of the list are read in
 };
 
-/// What figures are computed from. The text is valid during the visitor's call.
+/// The input of figures. The text is valid during the visitor's call.
 struct MeasuredRun {
   struct Value {
     std::int64_t id = 0;
@@ -68,7 +68,7 @@ struct MeasuredRun {
   std::span<const Value> values{};
 };
 
-/// What is said of values when all of them are read.
+/// Facts of values after all of them are read.
 struct ReadValues {
   std::string as_of;              ///< the id of the newest measurement there was
   std::vector<MovedValue> moves;  ///< of corrections, to the places of what they replace

@@ -164,7 +164,7 @@ void add_programs(const References& references, const iso286::ToleranceTables& t
   for (const auto& [name, text] : references.files) files.write("TNC:\\" + name, text);
   const nc::ProjectingDisk disk(files, project(tables));
   nc::ProgramCache programs;
-  // What the parameters of numbers hold at the end, and the verdict.
+  // Numeric parameters at the end, and the verdict.
   const auto run = [&](std::string_view program, const std::string& name,
                        const machine::Setup& setup,
                        std::vector<nc::ParameterValue> parameters = {}) {

@@ -13,7 +13,7 @@ namespace fitgauge::app::qualification {
 
 using Words = std::vector<std::string>;
 
-/// What others published or computed apart from the product, with the data of it: the files of
+/// Figures that others published or computed apart from the product, with their data: the files of
 /// `references` and the programs of clients/nc, as compiled in, by their paths below those folders.
 struct References {
   References();
@@ -41,7 +41,7 @@ struct Check {
   void compare();  ///< sets `digits` and `passed`
 };
 
-/// What the product computes, by the id of the check in expected.txt.
+/// Figures of the product, by the id of the check in expected.txt.
 struct Figures {
   std::map<std::string, long double> values;
 

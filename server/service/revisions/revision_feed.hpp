@@ -75,7 +75,7 @@ namespace fitgauge::app {
 class Origins;
 class TableCatalog;
 
-/// What this centre hands on to its stations: the tables with own columns, keys of viewers and
+/// Revisions of this centre for its stations: the tables with own columns, keys of viewers and
 /// operators by their hashes, setups, plans, and corrections of a station's records. Thread-safe.
 class RevisionFeed {
  public:
@@ -84,7 +84,7 @@ class RevisionFeed {
   RevisionFeed(store::Database& database, const TableCatalog& tables, const Origins& origins)
       : database_(database), tables_(tables), origins_(origins) {}
 
-  /// What has changed behind a position; all there is, where this folder has not given it out.
+  /// Changes after a position; all changes if this folder did not give the position out.
   /// Of each thing its last revision alone.
   /// @param station the digits of its origin: whose corrections are meant.
   /// @errors those of storage.

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kBetweenLooks{250};
 
-/// What the store says of runs.
+/// States of runs in the store.
 struct Seen {
   std::vector<std::int64_t> to_be_cancelled;
   std::vector<std::int64_t> begun;
@@ -93,7 +93,7 @@ void ActiveRun::show(LiveState state) {
     ++shows_of_files_;
     wanted_.store(Look::Nothing, std::memory_order_relaxed);
   } else {
-    // Who has asked for the files meanwhile gets them with the next state.
+    // Readers that asked for the files get them with the next state.
     if (wanted() == Look::State) wanted_.store(Look::Nothing, std::memory_order_relaxed);
     state.files = std::move(live_.files);
   }

@@ -23,7 +23,7 @@
 
 namespace fitgauge::app {
 
-/// What a control shows of its machine while a program runs, at one moment between two blocks.
+/// The display of a control while a program runs, at one moment between two blocks.
 struct LiveState {
   std::string program{};    ///< the one that runs now, called or main
   std::uint32_t block = 0;  ///< its number, as written or counted
@@ -38,7 +38,7 @@ struct LiveState {
   std::shared_ptr<const std::vector<interpreter::WrittenFile>> files{};
 };
 
-/// What a reader asks a run for.
+/// The request of a reader of a run.
 enum class Look : std::uint8_t { Nothing, State, StateAndFiles };
 
 /// How a run ended, for those who wait for it.
@@ -73,7 +73,7 @@ class ActiveRun {
 
   // For those who follow it.
 
-  /// What is new since a follower last looked.
+  /// News since the last read of a follower.
   struct News {
     std::uint64_t version = 0;  ///< rises with every change
     RunState state = RunState::Queued;
@@ -100,7 +100,7 @@ class ActiveRun {
 
   // For the thread that runs or ends it.
 
-  /// What a reader waits for.
+  /// The condition of a waiting reader.
   Look wanted() const { return wanted_.load(std::memory_order_relaxed); }
   void show(LiveState state);
 
@@ -147,12 +147,12 @@ class Database;
 
 namespace fitgauge::app {
 
-/// What daemons that share a database tell each other of their runs, through it: which are to be
+/// Messages about runs between daemons that share a database, through it: which are to be
 /// cancelled, and how those stand that somebody follows at another daemon than the one that runs
 /// them. Looks four times a second, and only while there is such a run. Thread-safe.
 class SharedRuns {
  public:
-  /// What this daemon runs.
+  /// Runs of this daemon.
   struct Own {
     std::function<bool()> has_any;
     std::function<void(std::int64_t id)> cancel;  ///< where it is this daemon's

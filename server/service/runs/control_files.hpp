@@ -14,7 +14,7 @@
 
 namespace fitgauge::app {
 
-/// What becomes of a file that is not there: a setup may be stored before its parts are.
+/// The treatment of a missing file: a setup may be stored before its parts are.
 enum class MissingFiles : std::uint8_t { Allowed, Refused };
 
 /// The STL files of one disk: a mesh that some order still holds is not read again, so that orders

@@ -23,14 +23,14 @@
 #include "service/runs/run_service.hpp"
 #include "tables/tabfile/tab_table.hpp"
 
-// What is done for a run before it is started.
+// Checks of a run before its start.
 
 namespace fitgauge::app {
 namespace {
 
 constexpr std::array<std::string_view, 5> kTableExtensions = {".tab", ".t", ".tp", ".pr", ".d"};
 
-/// What refuses a table stands in one of its lines: `line 12`.
+/// The place of a table's error, one of its lines: `line 12`.
 std::vector<klartext::Diagnostic> check_table(const interpreter::ControlFile& file,
                                               Allowance& allowance) {
   const auto table = tabfile::read_tab_file(*file.bytes, allowance);
@@ -79,7 +79,7 @@ Result<std::string> format_file(const interpreter::ControlPath& path,
   return klartext::format_program(parsed.program);
 }
 
-/// What one check or one reading of tables may take.
+/// The budget of one check or one reading of tables.
 constexpr std::chrono::seconds kPreparingTime{5};
 constexpr std::size_t kPreparingMemory = std::size_t{48} << 20;
 

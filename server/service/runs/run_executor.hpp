@@ -8,7 +8,7 @@
 
 namespace fitgauge::app {
 
-/// What a run needs beside its order; shared by all runs.
+/// Services of a run; shared by all runs.
 struct RunSurroundings {
   const interpreter::ControlDisk& disk;
   interpreter::ProgramCache& programs;

@@ -24,7 +24,7 @@ RunService::RunService(store::Database& database, const TableCatalog& tables, co
       control_tables_(stored_),
       meshes_(stored_),
       orders_(orders),
-      // What may be queued is limited where runs are started.
+      // The start of runs limits the queue.
       running_("a run", options.workers, options.workers + options.queue) {}
 
 RunService::~RunService() { stop(); }
@@ -131,7 +131,7 @@ void RunService::end(ActiveRun& active, ExecutedRun executed) {
   Result<FinishedRun> kept = Error{ErrorCode::Internal, "the end of the run could not be stored"};
   guarded("the end of a run", [&] { kept = keep(report, executed.trace, active.order().caller); });
   {
-    // Who hears of the end finds its place free.
+    // The place is free before listeners hear of the end.
     const std::lock_guard lock(mutex_);
     ++ended_[static_cast<std::size_t>(state_of(report.result.status))];
     active_.erase(report.id);

@@ -138,7 +138,7 @@ Result<FinishedRun> RunService::keep(const RunReport& report, std::string_view t
     stores.events.append(kFinishedEvent, event, now);
     return true;
   };
-  // What a run has done is not thrown away because the writer is busy for a moment.
+  // The results of a run are not discarded because the writer is busy for a moment.
   for (int attempt = 0;; ++attempt) {
     const auto stored = database_.writer().wait(store);
     if (stored) return finished;

@@ -23,7 +23,7 @@ namespace fitgauge::app {
 
 struct ControlTables;
 
-/// What a run measures, for its records; empty: unknown.
+/// The part of a run, for its records; empty: unknown.
 struct RunSubject {
   std::string part_id{};
   std::string order{};
@@ -35,7 +35,7 @@ struct RunOrder {
   machine::Setup setup;  ///< validated
   interpreter::RunOptions options;
   std::string request;  ///< kept with the run, so that it can be repeated
-  /// What each probing move of a real machine found, in order; nothing: the machine is simulated.
+  /// Contacts of each probing move of a real machine, in order; absent: the machine is simulated.
   std::optional<std::vector<machine::ScriptedContact>> contacts{};
   RunSubject subject{};
   std::optional<std::string> caller{};

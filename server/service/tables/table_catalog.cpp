@@ -67,7 +67,7 @@ Result<store::LoadedTables> load_or_import(store::Stores& stores, Timestamp now)
   return stores.tables.load_latest().value();
 }
 
-/// What a reader of events is told; the name of a column needs no escape in JSON.
+/// The text for readers of events; the name of a column needs no escape in JSON.
 std::string change_text(const TableCatalog::ColumnName& column, std::string_view revision) {
   return fmt::format(R"({{"feature":"{}","tolerance_class":"{}","table_revision":"{}"}})",
                      word(column.feature), column.name, revision);
@@ -80,7 +80,7 @@ auto find_column(std::vector<iso286::CustomColumn>& columns, iso286::Feature fea
   });
 }
 
-/// What the log of changes has of a column: its rows, as they are sent; none if it is not there.
+/// The rows of a column in the log of changes, as they are sent; none if it does not exist.
 std::optional<std::string> column_text(std::vector<iso286::CustomColumn>& columns,
                                        const TableCatalog::ColumnName& column) {
   const auto found = find_column(columns, column.feature, column.name);

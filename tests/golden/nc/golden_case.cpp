@@ -112,8 +112,8 @@ std::optional<Ran> Case::execute(const std::string& name, RunObserver& observer)
   machine::SimulatedMachine machine(setup_.machine);
   machine::TracingMachine tracing(machine, {.keep = {}, .longest = 10'000, .lines = true});
   const GoldenClock clock;
-  RunResult result = interpreter::run(file->program, {tracing, disk, programs_, clock, observer},
-                                      setup_.options);
+  RunResult result =
+      interpreter::run(file->program, {tracing, disk, programs_, clock, observer}, setup_.options);
   const RunMessage last = result.messages.empty() ? RunMessage{} : result.messages.back();
   outcome_ = fmt::format("{} line {}: {}", word(result.status), last.line, last.text);
   return Ran{std::move(result), tracing.lines()};
@@ -123,7 +123,8 @@ std::string Case::run(const std::string& name) {
   RunObserver observer;
   const auto ran = execute(name, observer);
   if (ran) return describe(*ran, setup_.trace);
-  return "refused: " + klartext::render(programs_.get(*disk_.find(path(name)))->diagnostics.front());
+  return "refused: " +
+         klartext::render(programs_.get(*disk_.find(path(name)))->diagnostics.front());
 }
 
 }  // namespace fitgauge::interpreter::golden

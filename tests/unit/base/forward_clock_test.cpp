@@ -99,8 +99,8 @@ TEST_CASE_FIXTURE(Fixture,
   machine.set_by(24h * 365);
   const std::int64_t wrong = now();
   REQUIRE(reports.size() == 1);
-  CHECK(reports[0].find("clock_set_ahead: the clock of the machine jumped ahead by 31536000 s, to ") ==
-        0);
+  CHECK(reports[0].find(
+            "clock_set_ahead: the clock of the machine jumped ahead by 31536000 s, to ") == 0);
   machine.set_by(-24h * 365);
   CHECK(now() == wrong);
   machine.advance(1min);

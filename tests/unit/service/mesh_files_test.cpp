@@ -79,8 +79,9 @@ TEST_CASE("a file that cannot be used is named with its place") {
 
   disk.write(kFlange, machine::binary_stl(machine::torus(20, 5, 400, 200)));
   setup.features.push_back(setup.features.at(1));
-  CHECK(refusal(files.load(setup, "", MissingFiles::Refused))
-            .starts_with("/workpiece/features/2/file: the meshes of a workpiece must have at most"));
+  CHECK(
+      refusal(files.load(setup, "", MissingFiles::Refused))
+          .starts_with("/workpiece/features/2/file: the meshes of a workpiece must have at most"));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ CycleResult<void> reset_basic_rotation(machine::Machine& machine);
 /// The same, with a note when there was one. @errors when the run's output budget is used up.
 CycleResult<void> begin_without_rotation(const CycleContext& context);
 
-/// What every alignment cycle begins with: resets an active basic rotation.
+/// The begin of every alignment cycle: resets an active basic rotation.
 /// @errors 1008 and 1007 with mirror and scaling active; those of ProbingMotion::begin.
 CycleResult<ProbingMotion> begin_alignment(const CycleContext& context);
 

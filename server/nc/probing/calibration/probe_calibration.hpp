@@ -40,7 +40,7 @@ struct ReversalResult {
   machine::Vec3 error;  ///< of CAL_OF1 and CAL_OF2: to be added, in machine coordinates
 };
 
-/// What a calibration found; values it does not determine stay as they are in the tables.
+/// The result of a calibration; values it does not determine stay as they are in the tables.
 struct ProbeCalibration {
   std::optional<double> radius{};                        ///< effective ball radius, in mm
   std::optional<std::array<double, 2>> centre_offset{};  ///< CAL_OF1, CAL_OF2, with CAL_ANG 0

@@ -36,7 +36,7 @@ machine::Vec3 turning_point(const machine::Vec3& sphere, const machine::RotaryAx
 Line line_of(const machine::RotaryAxis& axis, const machine::Vec3& sphere,
              const MeasuringTool& tool, const machine::RotaryAxis* carrier = nullptr);
 
-/// What one fit works on; the parts outlive it.
+/// The input of one fit; the parts outlive it.
 struct AdjustedPoses {
   std::span<const PoseGroup> groups;
   const machine::Kinematics& model;

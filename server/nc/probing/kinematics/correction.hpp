@@ -6,7 +6,7 @@
 
 namespace fitgauge::probing {
 
-/// What the machine lets a fit correct: with insignificant_corrections "note" everything.
+/// Corrections that the machine allows: with insignificant_corrections "note" all of them.
 FitOptions fit_options(const CycleContext& context, bool directions);
 
 /// Takes the corrected model into the machine, if there is something to correct, and notes what is

@@ -25,7 +25,7 @@ constexpr std::array<CycleOutput, 6> kResults{
      {145, "Optimised standard deviation of B, mm; -1 no such axis", Unit::None},
      {146, "Optimised standard deviation of C, mm; -1 no such axis", Unit::None}}};
 
-/// What a machine's builder would lay down: five positions over the range of the axis, at most
+/// Defaults in place of a machine builder's: five positions over the range of the axis, at most
 /// half a turn to either side.
 std::vector<double> positions_of(const machine::AxisRange& range) {
   constexpr double kHalfTurn = 180;

@@ -19,7 +19,7 @@ using machine::Kinematics;
 using machine::RotaryAxis;
 using machine::Vec3;
 
-/// What belongs together: the location, the direction or the zero of one axis.
+/// A group of unknowns: the location, the direction or the zero of one axis.
 bool is_of(const Unknown& unknown, std::size_t axis, ErrorKind kind) {
   return unknown.axis == axis && unknown.kind == kind;
 }
@@ -53,7 +53,7 @@ double restless_axes(const Kinematics& model, Axis axis) {
   return static_cast<double>(found - axes.begin() + heads);
 }
 
-/// What one mm of an unknown is: mm, or a rotation vector in degrees.
+/// The unit of an unknown: mm, or a rotation vector in degrees.
 Vec3 step_of(const Unknown& unknown, const Line& line) {
   const Vec3& across = line.across.at(unknown.side);
   const Vec3& along = line.modelled.direction;
@@ -182,7 +182,8 @@ bool drop_insignificant(std::vector<Unknown>& unknowns, const std::vector<AxisEr
   return false;
 }
 
-/// What is insignificant beside others may be significant without them: what is left is corrected.
+/// An unknown that is insignificant beside others may be significant without them: the remaining
+/// ones are corrected.
 void mark_corrected(std::vector<AxisErrors>& errors, const std::vector<Unknown>& unknowns) {
   for (std::size_t k = 0; k < errors.size(); ++k) {
     for (const ErrorKind kind : kKinds) {

@@ -55,7 +55,7 @@ struct FoundError {
   bool is_significant = true;
 };
 
-/// What the poses say about one rotary axis. What they cannot see has no value.
+/// The result of the poses for one rotary axis. Quantities that they cannot show have no value.
 struct AxisErrors {
   machine::Axis axis = machine::Axis::C;
   std::optional<FoundError> location;  ///< in mm across the axis, at the height of the sphere

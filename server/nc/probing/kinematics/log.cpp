@@ -60,7 +60,7 @@ Valuation valuation_of(double number) {
   return {"scrap", "✗ Poor positions: measure a larger range or more of them"};
 }
 
-/// What the positions can and cannot say.
+/// The abilities of the positions.
 std::string judged(const AxisErrors& errors, bool directions) {
   if (!errors.location) return parts::no_location;
   const auto [style, words] = valuation_of(errors.valuation);
@@ -70,7 +70,7 @@ std::string judged(const AxisErrors& errors, bool directions) {
   return html;
 }
 
-/// What was found of an error and how sure it is. @param what "the location error".
+/// An error and its uncertainty. @param what "the location error".
 std::string error_rows(std::string_view label, std::string_view what, const FoundError& found,
                        std::string (*text)(double)) {
   std::string html =

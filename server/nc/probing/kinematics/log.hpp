@@ -7,7 +7,7 @@
 
 namespace fitgauge::probing {
 
-/// What a log of kinematics tells.
+/// The content of a log of kinematics.
 struct KinematicsReport {
   std::string_view mode;  ///< in words
   const KinematicsMeasurement& measurement;

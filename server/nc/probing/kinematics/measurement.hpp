@@ -12,7 +12,7 @@
 
 namespace fitgauge::probing {
 
-/// What a block says about one rotary axis, and where it is to be measured.
+/// A block's settings of one rotary axis, and its positions.
 struct AxisPlan {
   machine::Axis axis = machine::Axis::A;
   double start = 0;      ///< degrees
@@ -38,7 +38,7 @@ std::vector<double> measuring_positions(double start, double end, int points, do
 CycleResult<std::vector<AxisPlan>> plan_positions(const Arguments& arguments,
                                                   const machine::MachineState& state);
 
-/// What was measured of one rotary axis.
+/// The measurements of one rotary axis.
 struct AxisMeasurement {
   AxisPlan plan;
   PoseGroup poses;  ///< the reference at 0 first, then the positions

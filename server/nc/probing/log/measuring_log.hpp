@@ -45,8 +45,8 @@ class MeasuringLog {
 /// The sections of measured values: nominal, limits, actual, deviations.
 void add_values(MeasuringLog& log, std::span<const MeasuredValue> values);
 
-/// What Q281 says: 0 nothing, 1 the file beside the program, 2 the screen and a stop, unless cycle
-/// 441 has switched that off.
+/// The target of the log (Q281): 0 nothing, 1 the file beside the program, 2 the screen and a stop,
+/// unless cycle 441 has switched that off.
 CycleResult<void> deliver_log(const CycleContext& context, MeasuringLog log);
 
 /// A log that is one HTML page, beside the program that runs. It needs no other file, prints well

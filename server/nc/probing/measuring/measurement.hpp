@@ -10,7 +10,7 @@
 
 namespace fitgauge::probing {
 
-/// What Q330 does to the row of the named tool.
+/// The effect of Q330 on the row of the named tool.
 struct ToolCorrection {
   enum class Target : std::uint8_t { Radius, Length };
   Target target = Target::Radius;
@@ -35,7 +35,7 @@ ToolCorrection length_correction(Length deviation);
 /// @errors 1092 the tool table has no such tool; 1065 the tool is locked now.
 CycleResult<void> correct_tool(const CycleContext& context, const ToolCorrection& correction);
 
-/// What a measuring cycle with status has found; the values in the order of the log.
+/// The result of a measuring cycle with status; the values in the order of the log.
 struct Measurement {
   std::vector<MeasuredValue> values;
   std::optional<Length> measuring_height{};  ///< Q261, the last line of the log
@@ -43,7 +43,7 @@ struct Measurement {
   std::optional<Form> form{};
 };
 
-/// What every measuring cycle begins with: resets an active basic rotation and, with a
+/// The begin of every measuring cycle: resets an active basic rotation and, with a
 /// status among its results, clears Q180 to Q182.
 /// @errors 1108 scaling factors that differ by axis: a circle would be an ellipse; those of
 ///   ProbingMotion::begin.
@@ -54,8 +54,8 @@ void publish(CycleHost& host, std::span<const MeasuredValue> values);
 /// Judged by the worst of the values that have limits. @pre there are values.
 MeasuringRecord record_of(const CycleContext& context, const Measurement& measurement);
 
-/// What it ends with: results, status, log (Q281), record, tool correction (Q330), and last the
-/// stop of Q309 (decision 6).
+/// The end of every measuring cycle: results, status, log (Q281), record, tool correction (Q330),
+/// and last the stop of Q309 (decision 6).
 /// @errors 1092 and 1065 of the tool; a tolerance stop with the error of the worst value.
 CycleResult<void> finish_measurement(const CycleContext& context, const Measurement& measurement);
 

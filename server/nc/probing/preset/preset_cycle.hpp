@@ -11,7 +11,7 @@
 
 namespace fitgauge::probing {
 
-/// What 412, 413 and 416 give.
+/// Results of 412, 413 and 416.
 inline constexpr std::array<CycleOutput, 3> kPresetCircleResults{
     {{151, "Centre, main axis", Unit::Length},
      {152, "Centre, secondary axis", Unit::Length},
@@ -20,7 +20,7 @@ inline constexpr std::array<CycleOutput, 3> kPresetCircleResults{
 /// Sets Q151 to Q153 and records the diameter against Q262, without limits and verdict.
 void publish_circle(const CycleContext& context, Side side, const ProbedCircle& probed);
 
-/// What a preset cycle has found: a point, and what it shall read in some axes of the plane
+/// The result of a preset cycle: a point, and its new coordinates in some axes of the plane
 /// coordinates.
 struct DatumPoint {
   Vec3 point{};  ///< in plane coordinates of the input system
@@ -28,7 +28,7 @@ struct DatumPoint {
   Vec3 datum{};  ///< the new coordinates of the point, of the named axes
 };
 
-/// What every preset cycle begins with, before any motion.
+/// The begin of every preset cycle, before any motion.
 /// @errors 1078 Q303 = -1 with Q305 not 0: where to write is not defined; 1008 and 1007 with mirror
 ///   and scaling active; those of ProbingMotion::begin.
 CycleResult<ProbingMotion> begin_preset(const CycleContext& context);
@@ -77,13 +77,13 @@ inline constexpr std::array kPlaneDatum =
 /// Sets the datum of the working plane to Q331, Q332 at a point; see finish_preset.
 DatumPoint plane_datum(const Arguments& arguments, Point2 point);
 
-/// What preset cycles end with: with Q381 = 1 a touch in the probe axis at Q382, Q383, Q384 for the
+/// The end of preset cycles: with Q381 = 1 a touch in the probe axis at Q382, Q383, Q384 for the
 /// datum Q333, then the transfer of all by Q303 and Q305.
 CycleResult<void> finish_preset(const CycleContext& context, ProbingMotion& motion,
                                 const DatumPoint& found,
                                 std::optional<double> basic_rotation = std::nullopt);
 
-/// What 417 and 419 do with their one point: Q160, and Q333 as its new coordinate along an axis (0
+/// The use of the one point of 417 and 419: Q160, and Q333 as its new coordinate along an axis (0
 /// main, 1 secondary, 2 probe axis).
 CycleResult<void> set_datum_of_axis(const CycleContext& context, const WorkingPlane& plane,
                                     const Vec3& surface, std::size_t axis);

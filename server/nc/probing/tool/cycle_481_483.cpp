@@ -46,7 +46,7 @@ constexpr std::array k483Results{kLengthDeviation, kRadiusDeviation, kToolStatus
 enum class Mode : std::uint8_t { First, Check, CheckOnly };
 enum class Status : std::uint8_t { WithinTolerance, Worn, Broken };
 
-/// What the block asks for, in either form.
+/// The request of the block, in either form.
 struct ToolOrder {
   Mode mode;
   double clearance_height;

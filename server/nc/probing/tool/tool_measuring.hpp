@@ -5,7 +5,7 @@
 
 namespace fitgauge::probing {
 
-/// What a control keeps in its machine parameters for the tool touch probe and no program changes.
+/// Machine parameters of the tool touch probe, which no program changes.
 namespace tt_parameters {
 inline constexpr double kSafetyDistance = 5;         ///< safetyDistStylus, mm: before every touch
 inline constexpr double kDepth = 5;                  ///< offsetToolAxis, mm: tool end below the top

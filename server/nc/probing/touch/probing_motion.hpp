@@ -31,7 +31,7 @@ struct Touch {
   double arc_sweep = 0;           ///< in degrees, positive counter-clockwise
 };
 
-/// What a touch measured, in plane coordinates.
+/// The result of a touch, in plane coordinates.
 struct Contact {
   Vec3 ball_centre;
   Vec3 surface;  ///< ball centre moved by the effective radius along the probing direction

@@ -7,7 +7,7 @@
 
 #include "plant/lsv2/link/requests.hpp"
 
-// What a control answers, one struct a telegram; with Accepted, EndOfData and FileBlock, which both
+// Answers of a control, one struct a telegram; with Accepted, EndOfData and FileBlock, which both
 // sides send.
 
 namespace fitgauge::control_link {

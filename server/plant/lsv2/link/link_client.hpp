@@ -10,7 +10,7 @@
 
 namespace fitgauge::control_link {
 
-/// What a control says it is.
+/// The identity of a control.
 struct ControlIdentity {
   std::string control{};      ///< TNC640
   std::string nc_software{};  ///< 340595 08 SP1
@@ -65,7 +65,7 @@ class LinkClient {
     return {};
   }
 
-  /// What both sides may send.
+  /// Telegrams of both sides.
   std::size_t buffer() const { return buffer_; }
 
  private:

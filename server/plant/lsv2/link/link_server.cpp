@@ -37,7 +37,7 @@ class Connection {
              Time now);
 
   const std::string& peer() const { return peer_; }
-  /// What it waits for.
+  /// The awaited event.
   pollfd interest() const;
   /// When it is to end unless something happens, and why.
   std::pair<Time, std::string_view> deadline(const LinkServerOptions& options) const;

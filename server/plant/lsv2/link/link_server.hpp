@@ -21,7 +21,7 @@ class Conversation {
   Conversation& operator=(const Conversation&) = delete;
   virtual ~Conversation() = default;
 
-  /// What is sent for a telegram; nothing where the protocol has no answer. May wait for the disk:
+  /// The answer to a telegram; absent if the protocol has no answer. May wait for the disk:
   /// the other clients wait meanwhile, as at a control.
   virtual std::optional<Telegram> answer(const Telegram& telegram) = 0;
   /// The agreed size; telegrams of both sides are shorter.

@@ -14,7 +14,7 @@
 
 namespace fitgauge::control_link {
 
-/// What a control answers where it refuses: the code of a T_ER telegram.
+/// The refusal of a control: the code of a T_ER telegram.
 enum class ControlError : std::uint8_t {
   BadFormat = 20,
   Unexpected = 21,  ///< a telegram out of order
@@ -154,7 +154,7 @@ struct Telegram {
 
 /// Bytes of the length and the name before a payload.
 inline constexpr std::size_t kHeadBytes = 8;
-/// What both sides may send until they agree on more: a telegram is shorter than its buffer.
+/// Size of telegrams until both sides agree on more: a telegram is shorter than its buffer.
 inline constexpr std::size_t kSmallestBuffer = 256;
 inline constexpr std::size_t kLargestBuffer = 4096;
 

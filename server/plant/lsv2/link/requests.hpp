@@ -11,9 +11,9 @@
 
 namespace fitgauge::control_link {
 
-// What only a virtual control of ours says.
+// Answers that only our virtual control gives.
 
-/// What it says in place of a PLC's version.
+/// The text in place of a PLC's version.
 inline constexpr std::string_view kVirtualPlc = "fitgauge";
 /// The machine parameter that stands for the NC start key, which LSV-2 does not have: a program's
 /// path written to it starts the program, an empty text stops it.
@@ -39,7 +39,7 @@ ControlResult<Message> decode(const Telegram& telegram) {
   return message;
 }
 
-// What a client asks of a control, one struct a telegram. Paths are the control's: `TNC:\x.h`, or
+// Requests of a client, one struct a telegram. Paths are the control's: `TNC:\x.h`, or
 // relative to the connection's directory.
 
 #define FITGAUGE_TELEGRAM(letters, ...)                         \

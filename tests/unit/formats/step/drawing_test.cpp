@@ -198,7 +198,8 @@ TEST_CASE("a size that is not above 0 and limits in the wrong order are named") 
 }
 
 TEST_CASE("names are bounded, and unique however long they are") {
-  std::string text = replaced(housing(), R"('Bore \X2\00D8\X0\ A')", fmt::format("'{:x>5000}'", ""));
+  std::string text =
+      replaced(housing(), R"('Bore \X2\00D8\X0\ A')", fmt::format("'{:x>5000}'", ""));
   text = replaced(std::move(text), "#190=ANGULAR",
                   "#98=DRAUGHTING_MODEL_ITEM_ASSOCIATION('','',#120,$,#114);#99=DRAUGHTING_MODEL_"
                   "ITEM_ASSOCIATION('','',#180,$,#114);#190=ANGULAR");
@@ -230,8 +231,9 @@ TEST_CASE("what a file may not have is an error with its line") {
         std::string::npos);
   CHECK(error_of(replaced(housing(), "AP242_", "IFC4_")).find("line 6: FILE_SCHEMA is not") !=
         std::string::npos);
-  CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(8.)", "LENGTH_MEASURE(8.E30)"))
-            .find("100 km") != std::string::npos);
+  CHECK(
+      error_of(replaced(housing(), "LENGTH_MEASURE(8.)", "LENGTH_MEASURE(8.E30)")).find("100 km") !=
+      std::string::npos);
   CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(8.)", "LENGTH_MEASURE(8.E400)"))
             .find("100 km") != std::string::npos);
   CHECK(error_of(housing() + "more").starts_with("line "));

@@ -33,7 +33,8 @@ TEST_CASE("a custom column named like a class of the standard answers from then 
   CHECK(word(limits.basis) == "custom");
   CHECK(limits.size_range.over == Length::millimetres(24));
   CHECK(tables.limits_of_size(size_mm("40"), "H7").error().message ==
-        "H7 is not defined for 40 mm: the custom tolerance class covers sizes over 18 up to and including "
+        "H7 is not defined for 40 mm: the custom tolerance class covers sizes over 18 up to and "
+        "including "
         "30 mm. The nearest class defined there is H6");
 }
 
