@@ -14,7 +14,7 @@ namespace sql {
 class Connection;
 }
 
-/// What is kept as a text under a name. The codes are stored: never change one, never use one
+/// Kinds of documents: texts with a name. The codes are stored: never change one, never use one
 /// again.
 enum class DocumentKind : std::uint8_t {
   Uncertainty = 1,

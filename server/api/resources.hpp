@@ -142,7 +142,7 @@ inline std::string feature_words() { return schema::words({"hole", "shaft"}); }
 inline std::string rule_words() { return schema::words({"simple", "guard_band", "conformance"}); }
 inline std::string source_words() { return schema::words({"gauge", "simulation"}); }
 
-/// What examples.json says.
+/// The content of examples.json.
 extern const std::string_view kExamples;
 /// Gives each schema its example: that of examples.json, else one of its members and of the
 /// examples it names.

@@ -271,7 +271,7 @@ std::size_t LogFollower::ripe() const {
     const bool is_read = read_to_ >= progress_.planned || pending_.size() >= kPage;
     return is_read ? pending_.size() : 0;
   }
-  // What a station has received by a clock that was ahead is not young.
+  // Measurements that a station received by a clock that was ahead are not young.
   const bool is_young = age >= 0 && std::chrono::nanoseconds(age) < options_.gather;
   return pending_.size() >= kPage || !is_young ? pending_.size() : 0;
 }

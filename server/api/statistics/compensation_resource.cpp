@@ -85,7 +85,7 @@ struct CorrectedParts {
   }
 };
 
-/// What the values have in common.
+/// Properties that the values share.
 struct Selected {
   std::optional<std::string> characteristic{};
   std::optional<std::string> machine{};

@@ -11,7 +11,7 @@
 
 namespace fitgauge::api {
 
-/// What readers of events learn of the next offset of some values.
+/// The next offset of some values, for readers of events.
 struct OffsetNews {
   std::string_view event{};  ///< kOffsetChanged or kOffsetFailed
   std::string data{};        ///< JSON: the proposal, or why there is none

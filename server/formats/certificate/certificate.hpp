@@ -37,7 +37,7 @@ struct Column {
   std::string Line::*text = nullptr;  ///< null: a drawing of the tolerance with the value
 };
 
-/// Who makes reports out.
+/// The issuer of reports.
 struct Letterhead {
   std::vector<std::string> address{};
   Picture logo{};

@@ -23,7 +23,7 @@ struct Type1Study {
   long double cgk = 0;  ///< (0.1 T - |bias|) / (3 s)
 };
 
-/// What Cg compares: so much of the tolerance with so many standard deviations.
+/// The comparison of Cg: a part of the tolerance and a number of standard deviations.
 struct Type1Rule {
   int percent = 20;
   int spread = 6;

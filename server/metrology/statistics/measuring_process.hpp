@@ -14,7 +14,7 @@ namespace fitgauge::metrology {
 enum class Component : std::uint8_t {  // clang-format off
   Cal, Re, Bi, Lin, Evr, MsRest, Evo, Av, Ia, Gv, Stab, T, Obj, MpRest };  // clang-format on
 
-/// Who says a component: a `Master` study finds it, a study of `Parts` does, or neither.
+/// The source of a component: a `Master` study, a study of `Parts`, or neither.
 enum class ComponentOf : std::uint8_t { Given, Master, Parts };
 struct ComponentRow {
   std::string_view name;

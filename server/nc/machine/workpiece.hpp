@@ -46,7 +46,7 @@ class Workpiece {
   /// Unit vector away from the material nearest to `at`, to 1e-6; nothing on a ridge between two.
   std::optional<Vec3> normal(const Vec3& at) const;
 
-  /// What `contact` finds, found by tracing alone, step by step: what it is held to. Slow.
+  /// The result of `contact` by tracing alone, step by step: the reference for `contact`. Slow.
   std::optional<double> traced_contact(const Vec3& start, const Vec3& direction, double radius,
                                        double longest) const;
 

@@ -127,7 +127,8 @@ NcResult<void> off_circle(Machining& cycle, Vec2 centre, double turn, double hei
   return cycle.motion.arc(middle, centre, std::copysign(180, turn), height, feed);
 }
 
-/// What a stud keeps at its side: blocks without Q215 are of controls that leave the allowance.
+/// The allowance at the side of a stud: blocks without Q215 are of controls that leave the
+/// allowance.
 double stud_allowance(const Machining& cycle) {
   return cycle.definition.gives(215) ? side_allowance(cycle) : cycle.value(368);
 }

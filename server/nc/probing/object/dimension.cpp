@@ -92,7 +92,7 @@ std::optional<Limits> limits_of_class(Length nominal, std::string_view name) {
   return size ? limits_from(kTables.limits_of_size(*size, name)) : std::nullopt;
 }
 
-/// What stands behind a nominal dimension. Nothing where it cannot be read.
+/// The tolerance after a nominal dimension. Nothing if it cannot be read.
 std::optional<Limits> limits_behind(Length nominal, ToleranceReader& reader) {
   bool is_negative = reader.take('-');
   if (!is_negative && !reader.take('+')) return limits_of_class(nominal, reader.rest());

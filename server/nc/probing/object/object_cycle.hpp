@@ -10,7 +10,7 @@
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/circle_probing.hpp"
 
-/// What cycles 1400 to 1434 have in common: toleranced dimensions, clearance (Q1125), extrusion
+/// The common part of cycles 1400 to 1434: toleranced dimensions, clearance (Q1125), extrusion
 /// (1493), results from Q950 on with the status Q183, the page TCHPRAUTO.html, transfer of position
 /// (Q1120) and rotation (Q1121) into the active preset, and Q309.
 namespace fitgauge::probing {
@@ -37,7 +37,7 @@ struct ObjectAngle {
   double deviation;
 };
 
-/// What a cycle has found out.
+/// The result of a cycle.
 struct ObjectFound {
   std::vector<ObjectPoint> points{};
   std::vector<MeasuredValue> sizes{};
