@@ -15,7 +15,9 @@ export class Trace {
     this.bytes = bytes;
     this.programs = [];
     const begins = HEAD.every((byte, i) => bytes[i] === byte) ? startsOf(bytes) : null;
-    const moves = begins ? null : JSON.parse(new TextDecoder().decode(bytes)).moves;
+    const { moves, blocks } = begins ? tailOf(bytes, begins.at(-1)) : JSON.parse(new TextDecoder().decode(bytes));
+    /** Of a run that watched parameters: each block as it ran. */
+    this.blocks = blocks ?? null;
     this.length = begins ? begins.length - 1 : moves.length;
     this.kinds = new Uint8Array(this.length);
     this.lines = new Int32Array(this.length);
@@ -98,11 +100,14 @@ export class Trace {
 
 /** Where each move begins; behind them where the list ends. */
 function startsOf(bytes) {
-  const tail = bytes.length - 1 - [...bytes.subarray(-64)].reverse().indexOf(NEWLINE);
+  const tail = bytes.lastIndexOf(NEWLINE);
   const starts = [];
   for (let at = HEAD.length; at < tail; at = bytes.indexOf(NEWLINE, at) + 1) starts.push(at);
   return TAIL.every((byte, i) => bytes[tail + i] === byte) ? [...starts, tail + 1] : null;
 }
+
+/** What stands behind the moves. @param from the bracket that ends their list */
+const tailOf = (bytes, from) => JSON.parse(`{${new TextDecoder().decode(bytes.subarray(from + 2))}`);
 
 /** The quote that ends a text of JSON. */
 function endOfText(bytes, from) {

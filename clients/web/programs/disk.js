@@ -26,6 +26,16 @@ export async function readFile(path) {
   }
 }
 
+const CALL = /CALL\s+PGM\s+"?([^\s";]+)/gi;
+const MOST_CALLED = 8;
+/** The texts of the programs that a text calls by their names; what is not there has none. */
+export async function calledTexts(path, text) {
+  const folder = path.slice(0, path.lastIndexOf('/') + 1);
+  const names = [...new Set([...text.matchAll(CALL)].map(([, name]) => (/[\\/:]/.test(name) ? relative(name) : folder + name)))].slice(0, MOST_CALLED);
+  const read = await Promise.all(names.map((name) => readFile(/\.\w+$/.test(name) ? name : `${name}.h`).catch(() => null)));
+  return read.map((file) => file?.text).filter(Boolean);
+}
+
 /** @param conditions headers such as If-Match. @returns the tag of what is stored now */
 export async function writeFile(path, bytes, conditions = {}) {
   return (await request('PUT', fileUrl(path), { body: bytes, headers: conditions })).headers.get('ETag');

@@ -102,6 +102,11 @@ export class Editor {
     }));
   }
 
+  /** Puts another text in the place of this one, as an edit. */
+  replace(text) {
+    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+  }
+
   /** Shows what a check found in this text. */
   mark(found) {
     this.view.dispatch({ effects: setFindings.of(found) });

@@ -4,6 +4,7 @@ import { h, refill } from '../dom.js';
 import { number, t } from '../i18n.js';
 import { fileName } from './disk.js';
 import { placeText } from './findings.js';
+import { StepPanel } from './step_panel.js';
 
 const AXES = ['X', 'Y', 'Z'];
 const place = (point) => AXES.filter((axis) => axis in point).map((axis) => `${axis} ${number(String(point[axis]))}`).join('  ');
@@ -12,15 +13,16 @@ const changed = ({ start_mm: start, end_mm: end }) => AXES.filter((axis) => axis
   .flatMap((axis, i) => [i > 0 && '  ', h(start[axis] === end[axis] ? 'span' : 'strong', place({ [axis]: end[axis] }))]);
 
 export class MoveSlider {
-  /** @param trace a Trace; @param onMove takes the move that is shown */
-  constructor(trace, onMove) {
+  /** @param trace a Trace; @param program that was run; @param times where the time of each tool is shown; @param onMove takes the move that is shown, and the block where that is another one */
+  constructor(trace, program, times, onMove) {
     Object.assign(this, { trace, onMove });
     this.said = h('output');
     this.slider = h('input', { type: 'range', min: 0, max: trace.length - 1, 'aria-label': t('programs.move'), oninput: () => this.#show() });
     this.slider.value = trace.length - 1;
-    const button = (sign, name, find) => h('button', { type: 'button', 'aria-label': t(name), title: t(name), onclick: () => this.#go(find()) }, sign);
-    this.element = h('div.moves', h('div.steps', button('«', 'programs.block_back', () => this.#block(-1)), button('‹', 'programs.step_back', () => this.#at - 1), this.slider,
-      button('›', 'programs.step', () => this.#at + 1), button('»', 'programs.block', () => this.#block(1))), this.said);
+    this.panel = trace.blocks?.length ? new StepPanel(trace, program, times, (block, last) => this.#showBlock(block, last)) : null;
+    const button = (sign, name, find) => h('button', { type: 'button', 'aria-label': t(name), title: t(name), onclick: () => find() }, sign);
+    this.element = h('div.moves', h('div.steps', button('«', 'programs.block_back', () => this.#block(-1)), button('‹', 'programs.step_back', () => this.#go(this.#at - 1)), this.slider,
+      button('›', 'programs.step', () => this.#go(this.#at + 1)), button('»', 'programs.block', () => this.#block(1))), this.said, this.panel?.element ?? []);
     this.#say(trace.at(trace.length - 1));
   }
 
@@ -33,15 +35,24 @@ export class MoveSlider {
     this.#show();
   }
 
-  /** The first move of the next block, or of the block before. @param way 1 or -1 */
+  /** To the next block, or the one before: of a run without blocks to the first move of another line. @param way 1 or -1 */
   #block(way) {
+    if (this.panel) return this.panel.step(way);
     const blockOf = (i) => JSON.stringify([this.trace.at(i).program, this.trace.at(i).line]);
     const isInside = (i) => i >= 0 && i < this.trace.length;
     const own = blockOf(this.#at);
     let at = this.#at + way;
     while (isInside(at) && blockOf(at) === own) at += way;
     if (way < 0) while (isInside(at - 1) && blockOf(at - 1) === blockOf(at)) at -= 1;
-    return at;
+    return this.#go(at);
+  }
+
+  /** A block that moved nothing is shown at the last move before it. */
+  #showBlock(block, last) {
+    const move = this.trace.at(Math.max(last, 0));
+    this.slider.value = Math.max(last, 0);
+    this.#say(move);
+    this.onMove(move, block);
   }
 
   /** Goes to the first move that a line of a program commands; another time to the next one. */
@@ -55,6 +66,7 @@ export class MoveSlider {
 
   #show() {
     const move = this.trace.at(this.#at);
+    this.panel?.showMove(this.#at);
     this.#say(move);
     this.onMove(move);
   }

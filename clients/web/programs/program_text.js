@@ -7,6 +7,8 @@ import { CalledProgram } from './called_program.js';
 import { check, fileName, isProgram, readFile, relative, writeFile } from './disk.js';
 import { Editor } from './editor.js';
 import { findingList } from './findings.js';
+import { TableEditor } from './table_editor.js';
+import { isTable } from './table_text.js';
 
 /** A pause in typing after which the text is checked; longer texts only by the button. */
 const PAUSE_MS = 400;
@@ -33,7 +35,10 @@ export class ProgramText {
     this.list = h('ol.findings');
     this.note = h('p.aside', { hidden: true });
     this.called = new CalledProgram(onLine);
-    this.element = h('div.texts', h('div.listing', this.editor.element, this.note, this.list), this.called.element);
+    this.table = new TableEditor(this.editor);
+    this.looks = ['table', 'text'].map((look) => h('button', { type: 'button', 'aria-pressed': 'false', onclick: () => this.#look(look) }, t(`table.as_${look}`)));
+    this.switch = h('div.switch', { role: 'group', 'aria-label': t('table.title'), hidden: true }, this.looks);
+    this.element = h('div.texts', this.switch, h('div.listing', this.table.element, this.editor.element, this.note, this.list), this.called.element);
     leaving.addEventListener('abort', () => {
       clearTimeout(this.#timer);
       this.editor.destroy();
@@ -68,10 +73,21 @@ export class ProgramText {
     this.note.textContent = reason && t(`programs.${reason}`, { name: fileName(path), size: file.size });
     this.editor.element.hidden = file.text === null;
     this.editor.show(draft?.text ?? file.text ?? '', { label: t('editor.text', { name: fileName(path) }), isProgram: isProgram(path), readOnly: Boolean(reason) });
+    this.switch.hidden = this.table.element.hidden = true;
+    if (!reason && isTable(path) && this.table.show()) this.#look('table');
     this.show([]);
     this.onState();
     if (!reason) this.#checkSoon(0);
     return true;
+  }
+
+  /** A table as cells, or as its text. */
+  #look(look) {
+    const isCells = look === 'table' && this.table.show();
+    this.switch.hidden = false;
+    this.table.element.hidden = !isCells;
+    this.editor.element.hidden = isCells;
+    this.looks.forEach((button, i) => button.setAttribute('aria-pressed', String((i === 0) === isCells)));
   }
 
   /** Checks the text as it stands. @returns the findings */

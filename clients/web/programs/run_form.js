@@ -5,8 +5,9 @@ import { field, h, refill } from '../dom.js';
 import { readEvents } from '../events.js';
 import { toJson } from '../exact.js';
 import { dateTime, explain, t } from '../i18n.js';
-import { listRuns, listSetups, onControl, readParameters, readSetup, writeSetup } from './disk.js';
+import { calledTexts, listRuns, listSetups, onControl, readParameters, readSetup, writeSetup } from './disk.js';
 import { runReport, screenOf } from './run_report.js';
+import { parametersIn } from './steps.js';
 import { WorkpieceForm } from './workpiece_form.js';
 
 /** So many earlier runs of a program are offered. */
@@ -15,9 +16,10 @@ const MOST_RUNS = 10;
 export class RunForm {
   /**
    * @param onDiagnostics takes what a refused program has wrong; @param onRun the id of a run; @param onMove the move that is shown
-   * @param beforeRun stores what is to be run
+   * @param beforeRun stores what is to be run; @param textOf gives the text of the program that is open
    */
-  constructor({ onDiagnostics, onRun, onMove, beforeRun }) {
+  constructor({ onDiagnostics, onRun, onMove, beforeRun, textOf }) {
+    this.textOf = textOf;
     this.onMove = onMove;
     this.beforeRun = beforeRun;
     this.earlier = h('nav.earlier', { 'aria-label': t('programs.earlier') });
@@ -29,6 +31,7 @@ export class RunForm {
     this.workpiece = new WorkpieceForm((features) => this.#shaped(features));
     this.setupName = h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false' });
     this.parameters = h('textarea', { rows: 1, spellcheck: 'false', placeholder: 'Q1 = 25' });
+    this.watch = h('input', { type: 'text', name: 'watch', autocomplete: 'off', spellcheck: 'false', placeholder: 'Q1 QS3' });
     this.subject = Object.fromEntries(['part_id', 'order'].map((name) => [name, h('input', { type: 'text', name, autocomplete: 'off', spellcheck: 'false', maxlength: 200 })]));
     this.note = h('p.note', { role: 'alert' });
     this.start = h('button.primary', { type: 'submit' }, t('programs.run'));
@@ -38,7 +41,7 @@ export class RunForm {
     this.element = h('section.run', h('h2', t('programs.run_title')),
       h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.run(); } },
         h('div.pair', field(t('programs.setup'), this.setup), field(t('programs.parameters'), this.parameters),
-          Object.entries(this.subject).map(([name, input]) => field(t(`field.${name}`), input))),
+          Object.entries(this.subject).map(([name, input]) => field(t(`field.${name}`), input)), field(t('steps.watch'), this.watch)),
         h('p.actions', this.start, this.cancel),
         h('details', { ontoggle: ({ target }) => target.open && this.#showWorkpiece() }, h('summary', t('programs.setup_text')), this.workpiece.element,
           h('details', h('summary', t('programs.setup_whole')), field(t('programs.setup_json'), this.setupText)),
@@ -155,14 +158,15 @@ export class RunForm {
     });
   }
 
-  /** The order of a run. A setup that is chosen goes by its name, one that is typed by its text. */
-  #order() {
+  /** The order of a run. @param texts of the programs whose parameters are watched where none is named. A setup that is chosen goes by its name, one that is typed by its text. */
+  #order(texts) {
     const parameters = toJson(readParameters(this.parameters.value, (text) => t('programs.parameter_malformed', { text })));
     const setup = this.setup.value ? JSON.stringify(this.setup.value) : this.setupText.value.trim() || '{}';
     if (!this.setup.value) JSON.parse(setup);
     const subject = Object.entries(this.subject).filter(([, input]) => input.value.trim())
       .map(([name, input]) => `,"${name}":${JSON.stringify(input.value.trim())}`).join('');
-    return `{"program":${JSON.stringify(onControl(this.program))},"setup":${setup},"parameters":${parameters}${subject}}`;
+    const watch = this.watch.value.trim() ? this.watch.value.trim().toUpperCase().split(/[\s,;]+/) : parametersIn(texts.join('\n'));
+    return `{"program":${JSON.stringify(onControl(this.program))},"setup":${setup},"parameters":${parameters},"watch":${JSON.stringify(watch)}${subject}}`;
   }
 
   /** Runs the program as it is set up here: one run at a time, however often it is asked for. */
@@ -172,9 +176,10 @@ export class RunForm {
     const { program } = this;
     await this.#try(async () => {
       await this.beforeRun();
+      const texts = [this.textOf(), ...await calledTexts(program, this.textOf())];
       if (this.program !== program) return;
       const response = await request('POST', url(['runs']), {
-        body: this.#order(), headers: { 'Content-Type': 'application/json', Prefer: 'respond-async' },
+        body: this.#order(texts), headers: { 'Content-Type': 'application/json', Prefer: 'respond-async' },
       });
       const run = await response.json();
       this.running = run.id;

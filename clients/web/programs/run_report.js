@@ -16,8 +16,8 @@ export const screenOf = (lines) => h('pre.screen', { tabindex: 0, 'aria-label': 
 
 /** @param onMoves takes the slider through the moves and their figure once they are there; @param onMove the move it shows */
 export async function runReport(run, { onMoves, onMove }) {
-  const path = h('div');
-  drawPath(run, path, { onMoves, onMove });
+  const [path, times] = [h('div'), h('div')];
+  drawPath(run, path, times, { onMoves, onMove });
   return [
     h('div.line', h('p.headline', t(`run.${run.status}`)), run.verdict && verdictMark(run.verdict),
       h('p.aside', t('programs.ran', { blocks: run.blocks_executed, seconds: number((run.machining_time_s ?? 0).toFixed(1)) }))),
@@ -26,6 +26,7 @@ export async function runReport(run, { onMoves, onMove }) {
       h('strong', message.number ? `${message.number} ` : '', message.text),
       h('span.aside', [fileName(message.program ?? ''), message.line && placeText(message)].filter(Boolean).join(' · '))))),
     run.measurements?.length > 0 && measured(run.measurements),
+    times,
     run.screen?.length > 0 && screenOf(run.screen),
     files(run),
     parameters(run.parameters ?? {}),
@@ -47,7 +48,7 @@ function measured(measurements) {
     h('thead', h('tr', head.map((name) => h('th', { scope: 'col', class: NUMBERS.has(name) && 'number' }, t(name))))), h('tbody', rows)));
 }
 
-async function drawPath(run, place, { onMoves, onMove }) {
+async function drawPath(run, place, times, { onMoves, onMove }) {
   try {
     const space = prepareSpace();
     const [bytes, order] = await Promise.all([
@@ -56,9 +57,9 @@ async function drawPath(run, place, { onMoves, onMove }) {
     if (!trace.length) return;
     const figure = await pathView(trace, order.setup?.workpiece?.features ?? [], space,
       { radius: radiusOf(order.setup?.machine?.tools), sphere: order.setup?.machine?.calibration_sphere });
-    const slider = new MoveSlider(trace, (move) => {
+    const slider = new MoveSlider(trace, run.program, times, (move, block) => {
       figure.show(move);
-      onMove(move);
+      onMove(block ?? move);
     });
     place.replaceChildren(figure.element, slider.element);
     onMoves(slider, figure);

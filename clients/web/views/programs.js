@@ -20,7 +20,7 @@ export function mount(main, route) {
   });
   const form = new RunForm({
     onDiagnostics: (found) => source.show(found), onRun: (run, setup) => remember({ run, setup }),
-    onMove: ({ program: where, line }) => source.showLine(where, line), beforeRun: store,
+    onMove: ({ program: where, line }) => source.showLine(where, line), beforeRun: store, textOf: () => source.editor.text,
   });
   const name = h('span');
   const state = h('span.aside', { role: 'status' });

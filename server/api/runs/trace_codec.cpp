@@ -76,11 +76,11 @@ void write_move(std::string& out, const machine::TracedMove& move, const app::Tr
   json.end_object();
 }
 
-void write_block(std::string& out, const app::TracePlace& place,
+void write_block(std::string& out, const app::TracePlace& place, std::size_t moves,
                  std::span<const interpreter::ParameterValue> values) {
   JsonWriter json(out);
   json.begin_object().key("block").value(*place.block).member("line", place.line);
-  json.member("program", place.program).key("values");
+  json.member("program", place.program).member("moves", moves).key("values");
   write_parameters(json, values);
   json.end_object();
 }
@@ -210,6 +210,7 @@ void add_trace_schema(Schemas& schemas) {
       schema::object({{"block", schema::count(), "Its number, as written or counted"},
                       {"line", schema::count(), ""},
                       {"program", schema::text(), ""},
+                      {"moves", schema::count(), "Of the run, when the block was done"},
                       {"values", schema::map(R"({"type":["number","string"]})"),
                        "After the block, of the watched parameters that are defined then"}});
   schemas.push_back(

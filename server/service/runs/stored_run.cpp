@@ -66,8 +66,7 @@ TraceWriter::TraceWriter(const TraceFormat& format, std::vector<machine::Axis> a
 
 void TraceWriter::add(const machine::TracedMove& move, const TracePlace& place) {
   text_.clear();
-  if (!is_empty_) text_ = format_.separator;
-  is_empty_ = false;
+  if (moves_++ != 0) text_ = format_.separator;
   format_.move(text_, move, place, axes_);
   packed_.add(text_);
 }
@@ -79,7 +78,7 @@ void TraceWriter::add(const TracePlace& place,
   const std::size_t before = text.size();
   if (blocks_->dropped == 0) {
     if (before != 0) text += ',';
-    format_.block(text, place, values);
+    format_.block(text, place, moves_, values);
   }
   if (blocks_->dropped == 0 && text.size() <= WatchedBlocks::kLongest) return;
   text.resize(before);

@@ -98,7 +98,8 @@ struct TraceFormat {
                      std::span<const machine::Axis> axes)>
       move{};
   /// A block that has run, with those of the watched parameters that are defined then.
-  std::function<void(std::string& out, const TracePlace&,
+  /// @param moves of the run until then
+  std::function<void(std::string& out, const TracePlace&, std::size_t moves,
                      std::span<const interpreter::ParameterValue> values)>
       block{};
   /// @param dropped moves that came after the longest trace was full
@@ -168,7 +169,7 @@ class TraceWriter {
   GzipWriter packed_;
   std::string text_;  ///< of the last move
   std::optional<WatchedBlocks> blocks_;
-  bool is_empty_ = true;
+  std::size_t moves_ = 0;  ///< added so far
 };
 
 /// The trace of a run without a move.

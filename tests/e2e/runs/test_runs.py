@@ -186,6 +186,7 @@ class Runs(ControlTest):
                           (4, 5, program, {"Q1": 2, "QS2": "two"}), (5, 6, program, {"Q1": 2, "QS2": "two"}),
                           (3, 4, program, {"Q1": 3, "QS2": "two"}), (4, 5, program, {"Q1": 3, "QS2": "two"}),
                           (5, 6, program, {"Q1": 3, "QS2": "two"}), (6, 7, program, {"Q1": 3, "QS2": "two"})])
+        self.assertEqual([b["moves"] for b in trace["blocks"]], [0] * 8)
         self.assertEqual((trace["dropped"], trace["blocks_dropped"]), (0, 0))
         unwatched = self.daemon.post("/v1/runs", {"program": program}).json["id"]
         self.assertNotIn("blocks", self.daemon.get(f"/v1/runs/{unwatched}/trace").json)

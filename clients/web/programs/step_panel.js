@@ -1,0 +1,103 @@
+/** Below the moves of a run: the block, what it has changed, and breakpoints. */
+
+import { h, refill } from '../dom.js';
+import { number, t } from '../i18n.js';
+import { readJson, store } from '../stored.js';
+import { fileName, readFile, relative } from './disk.js';
+import { placeText } from './findings.js';
+import { readBreaks, Steps } from './steps.js';
+
+const text = (value) => (value === undefined ? '–' : typeof value === 'string' ? `"${value}"` : number(String(value)));
+
+export class StepPanel {
+  /** @param trace with blocks; @param program that was run; @param times where the time of each tool is shown; @param onBlock takes a block and the index of the last move at its end (-1: none) */
+  constructor(trace, program, times, onBlock) {
+    Object.assign(this, { program, times, onBlock, steps: new Steps(trace) });
+    this.at = this.steps.length - 1;
+    this.kept = `breaks.${relative(program).toLowerCase()}`;
+    this.said = h('p', { role: 'status' });
+    this.changed = h('dl.parameters');
+    this.all = h('dl.parameters');
+    this.breaks = h('input', { type: 'text', name: 'breaks', autocomplete: 'off', spellcheck: 'false', placeholder: '31, 82551.h:35, Q5 > 10', onchange: () => this.#keep() });
+    this.breaks.value = readJson(this.kept, '', 'session');
+    this.note = h('p.note', { role: 'alert' });
+    const button = (name, act) => h('button', { type: 'button', onclick: act }, t(name));
+    this.element = h('section.stepping', { 'aria-label': t('steps.title') }, this.said, this.changed,
+      h('details', h('summary', t('steps.watched')), this.all),
+      h('div.line.breaks', h('label.field', h('span.label', t('steps.breaks')), this.breaks),
+        button('steps.here', () => this.#toggle()), button('steps.back_to', () => this.#find(-1)), button('steps.on_to', () => this.#find(1))),
+      this.note);
+    this.#say();
+    this.#drawTimes().catch(() => {});
+  }
+
+  /** The block of a move. */
+  showMove(move) {
+    this.at = this.steps.blockAt[move] ?? this.at;
+    this.#say();
+  }
+
+  /** Goes so many blocks on, or back. */
+  step(way) {
+    this.goTo(this.at + way);
+  }
+
+  goTo(at) {
+    this.at = Math.min(Math.max(at, 0), this.steps.length - 1);
+    this.#say();
+    this.onBlock(this.steps.blocks[this.at], this.steps.lastMove[this.at]);
+  }
+
+  #say() {
+    const block = this.steps.blocks[this.at];
+    this.said.textContent = [t('steps.of', { at: this.at + 1, count: this.steps.length }), `${fileName(block.program)} ${placeText(block)}`].join(' · ');
+    const changes = this.steps.changesAt(this.at);
+    refill(this.changed, changes.length ? changes.map(([name, before, after]) => h('div', h('dt', name), h('dd', before === undefined ? text(after) : `${text(before)} → ${text(after)}`))) : h('p.aside', t('steps.unchanged')));
+    refill(this.all, Object.entries(block.values).map(([name, value]) => h('div', h('dt', name), h('dd', text(value)))));
+  }
+
+  get #place() {
+    const { block, program } = this.steps.blocks[this.at];
+    return fileName(program).toLowerCase() === fileName(this.program).toLowerCase() ? String(block) : `${fileName(program)}:${block}`;
+  }
+
+  #toggle() {
+    const list = this.breaks.value.split(',').map((one) => one.trim()).filter(Boolean);
+    const place = this.#place;
+    this.breaks.value = (list.includes(place) ? list.filter((one) => one !== place) : [...list, place]).join(', ');
+    this.#keep();
+  }
+
+  /** @returns the breakpoints, or null where one cannot be read */
+  #keep() {
+    store(this.kept, JSON.stringify(this.breaks.value), 'session');
+    this.note.textContent = '';
+    try {
+      return readBreaks(this.breaks.value, this.program, (typed) => t('steps.malformed', { text: typed }));
+    } catch (problem) {
+      this.note.textContent = problem.message;
+      return null;
+    }
+  }
+
+  #find(way) {
+    const breaks = this.#keep();
+    if (!breaks) return;
+    const found = this.steps.find(breaks, this.at, way);
+    if (found < 0) this.note.textContent = t('steps.none');
+    else this.goTo(found);
+  }
+
+  /** How long each tool was in the spindle, by the programs as they are on the disk. */
+  async #drawTimes() {
+    const { programs } = this.steps.trace;
+    const texts = new Map(await Promise.all([...new Set(programs.concat(this.steps.blocks.map(({ program }) => program)))].map(async (path) =>
+      [path, ((await readFile(relative(path)).catch(() => ({}))).text ?? '').split(/\r?\n/)])));
+    const times = this.steps.toolTimes((path, line) => texts.get(path)?.[line - 1]);
+    const seconds = (value) => `${number(value.toFixed(1))} s`;
+    const kinds = ['rapid', 'feed', 'arc', 'probe'].filter((kind) => times.some((one) => one.seconds[kind] > 0));
+    refill(this.times, h('div.wide', { tabindex: 0, role: 'region', 'aria-label': t('steps.times') }, h('table', h('caption', t('steps.times')),
+      h('thead', h('tr', h('th', { scope: 'col' }, t('field.tool')), kinds.map((kind) => h('th.number', { scope: 'col' }, t(`programs.kind.${kind}`))), h('th.number', { scope: 'col' }, t('steps.total')))),
+      h('tbody', times.map((one) => h('tr', h('th', { scope: 'row' }, one.tool ?? '–'), kinds.map((kind) => h('td.number', seconds(one.seconds[kind]))), h('td.number', seconds(one.total))))))));
+  }
+}

@@ -1,0 +1,90 @@
+/** A run block by block: what each block has moved and changed, where a breakpoint stops, and how long each tool was in the spindle. */
+
+import { KINDS } from '../figures/trace.js';
+import { fileName } from './disk.js';
+
+const PLACE = /^(?:([^\s:]+)\s*:\s*)?(\d+)$/;
+const CONDITION = /^(Q[LRS]?\d+)(?:\s*(<=|>=|<>|!=|==?|<|>)\s*(.+))?$/i;
+const COMPARE = {
+  '<': (one, other) => one < other, '>': (one, other) => one > other, '<=': (one, other) => one <= other, '>=': (one, other) => one >= other,
+  '=': (one, other) => one === other, '==': (one, other) => one === other, '<>': (one, other) => one !== other, '!=': (one, other) => one !== other,
+};
+const CALL = /^\s*(?:N?\d+\s+)?\/?\s*TOOL\s+CALL\s+("[^"]*"|Q[LRS]?\d+|\d+(?:\.\d+)?)/i;
+const CALL_ISO = /^\s*(?:N?\d+\s+)?[^(;]*?\bT(\d+)\b/i;
+
+const isSame = (one, other) => fileName(one).toLowerCase() === fileName(other).toLowerCase();
+
+/** The names of parameters in a text, each once, at most as many as a run watches. */
+export function parametersIn(text, most = 32) {
+  return [...new Set([...text.replace(/;.*$/gm, '').matchAll(/\bQ[LRS]?\d+\b/gi)].map(([name]) => name.toUpperCase()))].slice(0, most);
+}
+
+/**
+ * Breakpoints as they are typed, by commas: `31` or `82551.h:35` (a block), `Q5` (whenever it changes), `Q5 > 10` (when that becomes true).
+ * @param complain makes the text of what is none. @returns functions of (steps, index)
+ */
+export function readBreaks(typed, program, complain) {
+  return typed.split(',').map((text) => text.trim()).filter(Boolean).map((text) => {
+    const place = PLACE.exec(text);
+    if (place) return ({ blocks }, i) => blocks[i].block === Number(place[2]) && isSame(blocks[i].program, place[1] ?? program);
+    const [whole, left, sign, right] = CONDITION.exec(text) ?? [];
+    if (!whole) throw new Error(complain(text));
+    const name = left.toUpperCase();
+    if (!sign) return (steps, i) => steps.changesAt(i).some(([changed]) => changed === name);
+    const wanted = /^[+-]?\d+([.,]\d+)?$/.test(right) ? Number(right.replace(',', '.')) : right.replace(/^"(.*)"$/, '$1');
+    const isTrue = (values) => {
+      const other = CONDITION.test(right) ? values[right.toUpperCase()] : wanted;
+      return values[name] !== undefined && other !== undefined && COMPARE[sign](values[name], other);
+    };
+    return ({ blocks }, i) => isTrue(blocks[i].values) && !(i > 0 && isTrue(blocks[i - 1].values));
+  });
+}
+
+export class Steps {
+  /** @param trace with blocks */
+  constructor(trace) {
+    this.trace = trace;
+    this.blocks = trace.blocks;
+    this.length = this.blocks.length;
+    /** The last move that was made when a block was done; -1 before the first. */
+    this.lastMove = new Int32Array(this.length);
+    this.blockAt = new Int32Array(trace.length);
+    let next = 0;
+    this.blocks.forEach(({ moves }, i) => {
+      while (next < Math.min(moves, trace.length)) this.blockAt[next++] = i;
+      this.lastMove[i] = next - 1;
+    });
+  }
+
+  /** [name, value before, value after] of what a block has changed. */
+  changesAt(i) {
+    const before = this.blocks[i - 1]?.values ?? {};
+    return Object.entries(this.blocks[i].values).filter(([name, value]) => before[name] !== value).map(([name, value]) => [name, before[name], value]);
+  }
+
+  /** The next block from `i` at which one of the breakpoints stops; -1 without one. @param way 1 or -1 */
+  find(breaks, i, way) {
+    for (let at = i + way; at >= 0 && at < this.length; at += way) if (breaks.some((stops) => stops(this, at))) return at;
+    return -1;
+  }
+
+  /** [{tool, seconds: by kind of move, total}] in the order of their first use. @param lineOf the text of a line of a program, or undefined */
+  toolTimes(lineOf) {
+    const tools = new Map();
+    let tool = null;
+    let next = 0;
+    this.blocks.forEach(({ line, program, values }, i) => {
+      const text = lineOf(program, line) ?? '';
+      const called = (CALL.exec(text) ?? (/\.i$/i.test(program) && CALL_ISO.exec(text)) ?? [])[1];
+      if (called) tool = /^Q/i.test(called) ? String(values[called.toUpperCase()] ?? called) : called.replace(/^"|"$/g, '');
+      for (; next <= this.lastMove[i]; ++next) {
+        const own = tools.get(tool) ?? { tool, seconds: Object.fromEntries(KINDS.map((kind) => [kind, 0])), total: 0 };
+        const { kind, seconds } = this.trace.at(next);
+        own.seconds[kind] += seconds;
+        own.total += seconds;
+        tools.set(tool, own);
+      }
+    });
+    return [...tools.values()];
+  }
+}
