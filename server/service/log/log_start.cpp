@@ -96,24 +96,22 @@ Result<void> LogService::load() {
 Result<void> LogService::load_keys(const std::vector<std::string>& known) {
   auto keys = read_log_keys(options_.directory);
   if (!keys) return keys.error();
-  bool is_foreign = false;
+  const bool is_in_order = !keys->empty() && keys->front().verifier().name() == name_;
   for (const tlog::SigningKey& key : *keys) {
     const auto history =
         std::find_if(histories_.begin(), histories_.end(),
                      [&](const History& each) { return each.name == key.verifier().name(); });
-    if (history == histories_.end()) {
-      is_foreign = true;
-    } else if (history->end) {
-      if (!history->signer) history->signer = key;
-      older_.push_back(key);
-    } else {
+    if (history != histories_.end() && !history->end) {
       signers_.push_back(key);
+      continue;
     }
+    // One that this database does not know may be of a later copy of it, which comes back.
+    if (history != histories_.end() && !history->signer) history->signer = key;
+    older_.push_back(key);
   }
-  if (is_foreign) set_aside(kLogKeyFile, "of another log");
   const bool is_made = signers_.empty();
   if (is_made) signers_.push_back(tlog::SigningKey::make(name_));
-  if (is_made || is_foreign) {
+  if (is_made || !is_in_order) {
     if (const auto written = write_keys(); !written) return written;
   }
   if (is_made) {
@@ -147,7 +145,7 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
   return {};
 }
 
-/// Those of former histories go on signing what a centre lacks of them.
+/// Those of other histories are kept: they sign what a centre lacks of them.
 Result<void> LogService::write_keys() const {
   std::vector<tlog::SigningKey> all = signers_;
   all.insert(all.end(), older_.begin(), older_.end());
