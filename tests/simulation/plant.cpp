@@ -1,0 +1,329 @@
+#include "plant.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/json/json_value.hpp"
+
+namespace fitgauge::simulation {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kStations = 2;
+constexpr int kActs = 24;
+constexpr std::int64_t kLongestRest = 600 * kSecond;
+/// A station asks its centre every five seconds what it has.
+constexpr int kQuietLooks = 4;
+constexpr std::int64_t kBetweenLooks = 2 * kSecond;
+constexpr std::int64_t kHour = 3600 * kSecond;
+
+}  // namespace
+
+Plant::Plant(const fs::path& folder, std::uint64_t seed, Counts& counts)
+    : folder_(folder), random_(seed), counts_(counts) {
+  fs::remove_all(folder_);
+  network() = {};
+  for (int i = 0; i <= kStations; ++i) {
+    const std::string name = i == 0 ? "centre" : fmt::format("station{}", i);
+    Site& site = *sites_.emplace_back(std::make_unique<Site>());
+    site.is_station = i != 0;
+    const std::string receiver = name + "-mes";
+    site.node = std::make_unique<Node>(name, folder_ / name, i == 0 ? "" : "centre", receiver);
+    network().hosts[receiver] = [this, &site](const Exchange& exchange) {
+      return receive(site, exchange);
+    };
+    if (i == 0) {
+      network().hosts["centre"] = [&site](const Exchange& exchange) {
+        return site.node->answer(exchange);
+      };
+    }
+    site.node->start();
+  }
+}
+
+Plant::~Plant() {
+  network().hosts.clear();
+  for (auto site = sites_.rbegin(); site != sites_.rend(); ++site) (*site)->node->end();
+  fs::remove_all(folder_);
+}
+
+void Plant::broken(const Site& site, const std::string& what) const {
+  throw Broken(fmt::format("{}: {}", site.node->machine.name, what));
+}
+
+std::string Plant::story() const {
+  std::string story;
+  for (const auto& site : sites_) {
+    const auto& told = site->node->told;
+    story += fmt::format("  {}: {}\n", site->node->machine.name, site->node->state());
+    const std::size_t first = told.size() > 25 ? told.size() - 25 : 0;
+    for (std::size_t i = first; i < told.size(); ++i) story += fmt::format("    {}\n", told[i]);
+  }
+  return story;
+}
+
+void Plant::sees(const Site& site, const std::string& who, const std::string& id,
+                 const std::string& part) {
+  const auto [known, is_new] = parts_.emplace(id, part);
+  if (!is_new && known->second != part) {
+    broken(site, fmt::format("{} has {} of {}, which was given to {} before", who, id, part,
+                             known->second));
+  }
+}
+
+/// As the guide to webhooks says: what has an id that was taken is a repeat.
+std::optional<Reply> Plant::receive(Site& site, const Exchange& exchange) {
+  if (network().weather.refused > 0 && simulation::draw(world_random(), 20) == 0)
+    return Reply{.status = 503};
+  const std::string id = exchange.header("webhook-id");
+  const auto event = parse_json(exchange.body);
+  if (!event) broken(site, "a webhook has no JSON");
+  const JsonValue* const part = event->member("data").find("part_id");
+  if (!site.received.emplace(id, part == nullptr ? "" : part->text).second) ++site.repeats;
+  return Reply{};
+}
+
+void Plant::day() {
+  static constexpr Weather kFair{};
+  const auto share = [this] { return draw(2) == 0 ? 0 : draw(150); };
+  network().weather = draw(3) == 0 ? kFair : Weather{share(), share(), share(), share()};
+  for (int i = 0; i < kActs; ++i) act();
+  network().weather = kFair;
+  settle();
+  check();
+  sleep_till_morning();
+  ++counts_.days;
+}
+
+void Plant::act() {
+  Site& site = any();
+  Node& node = *site.node;
+  const std::uint64_t what = draw(100);
+  if (what < 55) {
+    post(site);
+  } else if (what < 65) {
+    sleep_for(static_cast<std::int64_t>(draw(3000)) * kMillisecond);
+  } else if (what < 70) {
+    node.machine.writes_to_live = static_cast<std::int64_t>(1 + draw(60));
+  } else if (what < 74) {
+    kill(site);
+  } else if (what < 77) {
+    node.end();
+  } else if (what < 80) {
+    if (!std::exchange(node.machine.is_full, draw(2) == 0) && node.machine.is_full)
+      ++counts_.full_disks;
+  } else if (what < 84) {
+    harm_clock(site);
+  } else if (what < 88) {
+    copy(site);
+  } else if (what < 91) {
+    restore(site);
+  } else if (what < 95) {
+    read(site);
+  } else if (!node.is_up()) {
+    node.start();
+  }
+  for (const auto& each : sites_) bury(*each);
+}
+
+/// A client's post of a new part, and all that were not answered, again.
+void Plant::post(Site& site) {
+  site.posts.push_back({.part = fmt::format("part-{}", ++part_)});
+  ask_again(site);
+}
+
+void Plant::ask_again(Site& site) {
+  for (Post& post : site.posts) {
+    if (!post.id.empty()) continue;
+    const auto id = site.node->post(post.part, "key-" + post.part);
+    const bool is_lost = draw(4) == 0;  // the answer, that is
+    if (!id || is_lost) {
+      ++counts_.repeated;
+      return;
+    }
+    post.id = *id;
+    sees(site, "the answer", post.id, post.part);
+    ++counts_.acknowledged;
+    note(std::hash<std::string>()(post.part));
+  }
+}
+
+void Plant::bury(Site& site) {
+  Machine& machine = site.node->machine;
+  if (!machine.is_dead) return;
+  site.node->end();
+  machine.is_dead = false;
+  machine.writes_to_live = 0;
+  ++counts_.kills;
+}
+
+void Plant::kill(Site& site) {
+  site.node->machine.is_dead = true;
+  bury(site);
+}
+
+void Plant::harm_clock(Site& site) {
+  static constexpr std::int64_t kJumps[] = {1, 5, 3600, 30 * 3600, 40 * 86'400, 400 * 86'400};
+  const std::int64_t jump = kJumps[draw(std::size(kJumps))] * kSecond;
+  site.node->machine.wall_ns += draw(3) == 0 ? -jump : jump;
+  ++counts_.jumps;
+  if (site.node->is_up()) post(site);
+  sleep_for(static_cast<std::int64_t>(draw(2000)) * kMillisecond);
+  if (draw(2) == 0) site.node->machine.wall_ns = 0;
+}
+
+/// By `backup`, or of the folder of a station at rest that its centre has all of.
+void Plant::copy(Site& site) {
+  Node& node = *site.node;
+  Copy copy{.path = folder_ / fmt::format("{}.{}", node.machine.name, ++site.copied)};
+  copy.is_folder = site.is_station && node.is_up() && node.is_quiet() && draw(2) == 0;
+  if (copy.is_folder) {
+    node.end();
+    if (node.machine.is_dead) return;
+    fs::copy(node.folder, copy.path, fs::copy_options::recursive);
+  } else if (!node.backup(copy.path)) {
+    return;
+  }
+  for (const Post& post : site.posts) {
+    if (!post.id.empty() && !post.is_taken_back) copy.ids.insert(post.id);
+  }
+  if (site.copies.size() == 3) {
+    fs::remove_all(site.copies.front().path);
+    site.copies.erase(site.copies.begin());
+  }
+  site.copies.push_back(std::move(copy));
+}
+
+/// Puts a copy back: a backup in the place of the database, with the files beside it or without
+/// them, or a folder in the place of the folder.
+void Plant::restore(Site& site) {
+  Node& node = *site.node;
+  if (site.copies.empty()) return;
+  const Copy& copy = site.copies[draw(site.copies.size())];
+  if (copy.is_folder && !(node.is_up() && node.is_quiet())) return;
+  node.end();
+  bury(site);
+  node.machine.writes_to_live = 0;
+  if (copy.is_folder) {
+    fs::remove_all(node.folder);
+    fs::copy(copy.path, node.folder, fs::copy_options::recursive);
+  } else {
+    for (const char* suffix : {"", "-wal", "-shm"})
+      fs::remove(node.folder / fmt::format("fitgauge.db{}", suffix));
+    fs::copy_file(copy.path, node.folder / "fitgauge.db");
+    if (draw(3) == 0) fs::remove(node.folder / "fitgauge.checkpoint");
+  }
+  for (Post& post : site.posts) {
+    if (post.id.empty() || post.is_taken_back || copy.ids.contains(post.id)) continue;
+    post.is_taken_back = true;
+    ++counts_.taken_back;
+  }
+  site.notes.clear();
+  // Records that stations send again may come in another order, which their ids do not say: the
+  // guide to backups has readers of a centre begin anew.
+  if (!site.is_station) site.cursor.clear();
+  ++counts_.restores;
+}
+
+/// A reader that comes back with the last id it has; one that is not known begins anew.
+void Plant::read(Site& site) {
+  if (!site.node->is_up()) return;
+  auto found = site.node->list(site.cursor);
+  if (!found && !std::exchange(site.cursor, "").empty()) found = site.node->list();
+  if (!found || found->empty()) return;
+  for (const Listed& listed : *found) site.read.emplace(listed.id, listed.part);
+  site.cursor = found->back().id;
+}
+
+/// All is mended: soon everything is where it should be.
+void Plant::settle() {
+  for (const auto& site : sites_) {
+    site->node->machine.is_full = false;
+    site->node->machine.writes_to_live = 0;
+    site->node->machine.wall_ns = 0;
+  }
+  const std::int64_t until = world_now() + kLongestRest;
+  for (int quiet_looks = 0;;) {
+    bool is_quiet = true;
+    for (const auto& site : sites_) {
+      bury(*site);
+      if (!site->node->is_up()) site->node->start();
+      if (!site->node->is_up()) is_quiet = false;
+      if (!site->node->is_up()) continue;
+      ask_again(*site);
+      const bool is_asked = std::none_of(site->posts.begin(), site->posts.end(),
+                                         [](const Post& post) { return post.id.empty(); });
+      is_quiet = is_quiet && is_asked && site->node->is_quiet() && site->node->is_ready();
+    }
+    quiet_looks = is_quiet ? quiet_looks + 1 : 0;
+    if (quiet_looks == kQuietLooks) return;
+    if (world_now() > until) break;
+    sleep_for(kBetweenLooks);
+  }
+  for (const auto& site : sites_) {
+    if (!site->node->is_up()) broken(*site, "does not start");
+    if (!site->node->is_ready()) broken(*site, "is not ready");
+    if (!site->node->is_quiet()) broken(*site, "has something that does not go out");
+  }
+  broken(*sites_.front(), "a post is not answered");
+}
+
+void Plant::check() {
+  for (const auto& site : sites_) {
+    read(*site);
+    check_site(*site);
+  }
+  std::map<std::string, std::string> centre;
+  const std::vector<Listed> there = sites_.front()->node->list().value();
+  for (const Listed& listed : there) centre.emplace(listed.id, listed.part);
+  for (const auto& site : sites_) {
+    if (site->is_station) check_centre(*site, centre);
+  }
+}
+
+void Plant::check_site(Site& site) {
+  const auto listed = site.node->list();
+  if (!listed) broken(site, "cannot be listed");
+  std::map<std::string, std::string> here;
+  std::set<std::string> parts;
+  for (const Listed& each : *listed) {
+    sees(site, "the list", each.id, each.part);
+    if (!here.emplace(each.id, each.part).second) broken(site, "lists twice " + each.id);
+    if (site.is_station && !parts.insert(each.part).second) broken(site, "has twice " + each.part);
+  }
+  for (const Post& post : site.posts) {
+    if (!post.is_taken_back && !here.contains(post.id))
+      broken(site, fmt::format("has lost {}, {}", post.id, post.part));
+  }
+  for (const auto& [id, part] : here) {
+    if (!site.received.contains(id))
+      broken(site, fmt::format("its receiver has not got {}, {}", id, part));
+    if (!site.read.contains(id))
+      broken(site, fmt::format("its reader has not got {}, {}", id, part));
+  }
+  for (const auto& [id, part] : site.received) sees(site, "the receiver", id, part);
+  for (const auto& [id, part] : site.read) sees(site, "the reader", id, part);
+  site.notes.emplace(fmt::format("day {}", counts_.days), site.node->head());
+  for (const std::string& finding : site.node->verify(site.notes))
+    broken(site, "verify: " + finding);
+  note(here.size());
+}
+
+void Plant::check_centre(const Site& station, const std::map<std::string, std::string>& centre) {
+  const std::vector<Listed> here = station.node->list().value();
+  for (const Listed& listed : here) {
+    if (!centre.contains(listed.id))
+      broken(station, fmt::format("the centre has not got {}, {}", listed.id, listed.part));
+  }
+}
+
+/// The machines sleep, and their clocks go on.
+void Plant::sleep_till_morning() {
+  const std::int64_t night = 16 * kHour;
+  for (const auto& site : sites_) site->node->machine.slept_ns += night;
+}
+
+}  // namespace fitgauge::simulation
