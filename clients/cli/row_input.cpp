@@ -164,7 +164,7 @@ Outcome<RowInput> RowInput::open_table(const MeasureOptions& options, sheet::Sho
   if (!file) return file.error();
   auto rows =
       sheet::ShopRows::open(reading(*file), is_known ? reading(*file) : reading_again(*file),
-                            std::move(table), sheet::kMeasurementFields);
+                            std::move(table));
   if (!rows) return cannot_read(name, rows.error());
   return RowInput(std::make_shared<State>(name, *std::move(rows)));
 }

@@ -56,14 +56,6 @@ std::optional<std::pair<std::string, std::string>> letters_and_grade(std::string
   return std::pair(std::string(name.substr(0, letters)), std::string(grade));
 }
 
-/// The 64 bits of the origin and those of the number: unique over all data folders.
-std::string guid_of(const OutgoingValue& value) {
-  const std::string digits = ascii_upper(
-      fmt::format("{:0>16}{:016x}", value.origin, static_cast<std::uint64_t>(value.number)));
-  return fmt::format("{{{}-{}-{}-{}-{}}}", digits.substr(0, 8), digits.substr(8, 4),
-                     digits.substr(12, 4), digits.substr(16, 4), digits.substr(20));
-}
-
 std::string_view carried(const Comment& comment, int number) {
   for (const CarriedField& field : comment.fields) {
     if (field.number == number) return field.text;
@@ -190,7 +182,8 @@ DfqWriter::Fields DfqWriter::value_fields(const OutgoingValue& value, const Comm
   if (!comment.text.empty()) fields.emplace_back(k::kText, comment.text);
   if (!value.part_id.empty()) fields.emplace_back(k::kPartIdent, value.part_id);
   if (!value.order.empty()) fields.emplace_back(k::kOrder, value.order);
-  if (carried(comment, k::kGuid).empty()) fields.emplace_back(k::kGuid, guid_of(value));
+  const std::string guid = ascii_upper(guid_of(value.origin, value.number));
+  if (carried(comment, k::kGuid).empty()) fields.emplace_back(k::kGuid, "{" + guid + "}");
   for (const CarriedField& field : comment.fields) {
     const bool is_cell = std::find(kCells.begin(), kCells.end(), field.number) != kCells.end();
     const bool is_there = std::any_of(fields.begin(), fields.end(), [&](const auto& other) {

@@ -116,6 +116,12 @@ Result<FieldLine> parse_field_line(std::string_view line) {
   return field;
 }
 
+std::string guid_of(std::string_view origin, std::int64_t number) {
+  std::string digits = fmt::format("{:0>16}{:016x}", origin, static_cast<std::uint64_t>(number));
+  for (const std::size_t at : {20U, 16U, 12U, 8U}) digits.insert(at, "-");
+  return digits;
+}
+
 Error at_line(std::uint32_t line, std::string_view what) {
   return {kMalformed, fmt::format("line {} {}", line, what), fmt::format("line {}", line)};
 }

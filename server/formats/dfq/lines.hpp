@@ -30,6 +30,9 @@ bool is_field_line(std::string_view line);
 /// @errors kMalformed, without a place: an index that is no number.
 Result<FieldLine> parse_field_line(std::string_view line);
 
+/// The 64 bits of the origin and those of the number: unique over all data folders.
+std::string guid_of(std::string_view origin, std::int64_t number);
+
 /// An error of line `line`: "line 7 has …".
 Error at_line(std::uint32_t line, std::string_view what);
 

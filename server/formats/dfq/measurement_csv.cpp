@@ -34,12 +34,9 @@ bool is_ascii(std::string_view text) {
 }  // namespace
 
 MeasurementCsv::MeasurementCsv(Read read, MeasurementOptions options)
-    : options_(std::move(options)), reader_(std::move(read), options_.encoding) {
-  for (const std::string_view name : kNames) {
-    if (!header_.empty()) header_ += ';';
-    header_ += name;
-  }
-  header_ += '\n';
+    : options_(std::move(options)),
+      reader_(std::move(read), options_.encoding),
+      header_(fmt::format("{}\n", fmt::join(kNames, ";"))) {
   for (const auto& [column, field] : options_.columns) {
     if (!is_field_line(column) || column.size() != 5) continue;  // a column of a table
     const auto number = parse_field_line(column);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "formats/dfq/lines.hpp"
 
 namespace fitgauge::qif {
 namespace {
@@ -33,13 +34,6 @@ std::string tolerance(const OutgoingValue& value) {
   if (value.upper) out += fmt::format("<MaxValue>{}</MaxValue>", format_mm(*value.upper));
   if (value.lower) out += fmt::format("<MinValue>{}</MinValue>", format_mm(*value.lower));
   return out += "<DefinedAsLimit>true</DefinedAsLimit></Tolerance>";
-}
-
-std::string qpid_of(const OutgoingValue& value) {
-  const std::string digits =
-      fmt::format("{:0>16}{:016x}", value.origin, static_cast<std::uint64_t>(value.number));
-  return fmt::format("{}-{}-{}-{}-{}", digits.substr(0, 8), digits.substr(8, 4),
-                     digits.substr(12, 4), digits.substr(16, 4), digits.substr(20));
 }
 
 /// The QIF name of a characteristic of that quantity: of a chamfer its length, of a deviation a
@@ -126,7 +120,7 @@ Result<void> QifWriter::add(const OutgoingValue& value) {
                                    std::pair("tolerance_class", value.class_name)}) {
     if (const auto checked = check(name, text); !checked) return checked;
   }
-  if (is_empty()) qpid_ = qpid_of(value);
+  if (is_empty()) qpid_ = aqdef::guid_of(value.origin, value.number);
   const std::uint32_t item = item_of(value);
   std::string part;
   if (value.part_id) {

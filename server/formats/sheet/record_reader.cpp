@@ -16,17 +16,15 @@ bool is_exported(const JsonValue& record) {
                      [&record](std::string_view name) { return record.find(name) != nullptr; });
 }
 
-/// The field that a member was given as; empty where it was computed, or says another once more.
-std::string_view field_of(std::string_view member, bool has_drawn_limits) {
+}  // namespace
+
+std::string_view field_of_export(std::string_view member, bool has_drawn_limits) {
   for (const auto& [of_export, field] : kLimitsOfExport) {
     if (member == of_export) return has_drawn_limits ? field : std::string_view();
   }
-  const bool is_field = std::find(kMeasurementFields.begin(), kMeasurementFields.end(), member) !=
-                        kMeasurementFields.end();
+  const bool is_field = aqdef::place_of(member) < kMeasurementFields.size();
   return is_field && member != "designation" ? member : std::string_view();
 }
-
-}  // namespace
 
 Error at_table_line(ErrorCode code, std::size_t line, std::string_view what) {
   return {code, fmt::format("line {} {}", line, what), fmt::format("line {}", line)};
@@ -161,7 +159,7 @@ Result<void> append_as_given(std::string& out, std::string_view line) {
   const bool has_drawn_limits = record->text_of("basis") == "explicit";
   char before = '{';
   for (const auto& [member, value] : record->members) {
-    const std::string_view field = field_of(member, has_drawn_limits);
+    const std::string_view field = field_of_export(member, has_drawn_limits);
     if (field.empty()) continue;
     out += std::exchange(before, ',');
     append_json_string(out, field);

@@ -150,6 +150,9 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kL
      {"upper_deviation_um", "upper_um"},
      {"lower_deviation_um", "lower_um"}}};
 
+/// The field that a member was given as; empty if it was computed, or says another once more.
+std::string_view field_of_export(std::string_view member, bool has_drawn_limits);
+
 /// Why a record of a simulation is none of a gauge.
 inline constexpr std::string_view kOfSimulation =
     "is of a simulation, and would come in as measured: export with source=gauge";

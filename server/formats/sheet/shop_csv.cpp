@@ -37,8 +37,8 @@ char separator_of(std::string_view header) {
 
 class ShopRows::Converter {
  public:
-  Converter(Utf8Input input, ShopCsvOptions options, std::span<const std::string_view> fields)
-      : options_(std::move(options)), fields_(fields), records_(std::move(input)) {}
+  Converter(Utf8Input input, ShopCsvOptions options)
+      : options_(std::move(options)), records_(std::move(input)) {}
 
   /// @errors CsvMalformed, TextEncoding
   Result<std::string> read_header();
@@ -48,7 +48,6 @@ class ShopRows::Converter {
   /// The field of a column: empty where it is left out, as it is where nobody knows it.
   std::string field_of(std::string_view column) const;
   std::string header_of(const Record& record);
-  std::string field_of_export(std::string_view column) const;
   /// @errors CsvMalformed: it is not of a gauge.
   Result<void> check_export(const Record& record);
   Result<void> convert_row(const Record& record, std::string& rows);
@@ -56,7 +55,6 @@ class ShopRows::Converter {
   const std::string* cell(const Record& record, std::string_view field) const;
 
   const ShopCsvOptions options_;
-  const std::span<const std::string_view> fields_;
   RecordReader records_;
   Record record_;
   std::vector<std::string> header_;   ///< fields; empty: left out
@@ -71,18 +69,10 @@ std::string ShopRows::Converter::field_of(std::string_view column) const {
   for (const auto& [from, to] : options_.columns) {
     if (ascii_iequals(bare(from), name)) return to;
   }
-  for (const std::string_view field : fields_) {
+  for (const std::string_view field : kMeasurementFields) {
     if (ascii_iequals(field, name)) return std::string(field);
   }
   return options_.leaves_out_others ? std::string() : std::string(name);
-}
-
-std::string ShopRows::Converter::field_of_export(std::string_view column) const {
-  for (const auto& [of_export, field] : kLimitsOfExport) {
-    if (column == of_export) return std::string(field);
-  }
-  const bool is_field = std::find(fields_.begin(), fields_.end(), column) != fields_.end();
-  return is_field ? std::string(column) : std::string();
 }
 
 Result<void> ShopRows::Converter::check_export(const Record& record) {
@@ -105,7 +95,7 @@ std::string ShopRows::Converter::header_of(const Record& record) {
     source_ = place("source");
   }
   for (const std::string& column : record.cells) {
-    header_.push_back(is_export ? field_of_export(column) : field_of(column));
+    header_.push_back(is_export ? std::string(field_of_export(column, true)) : field_of(column));
   }
   has_clock_ = std::find(header_.begin(), header_.end(), kDate) != header_.end();
   std::string header;
@@ -224,11 +214,10 @@ ShopRows::ShopRows(ShopRows&&) noexcept = default;
 ShopRows& ShopRows::operator=(ShopRows&&) noexcept = default;
 ShopRows::~ShopRows() = default;
 
-Result<ShopRows> ShopRows::open(const Read& first, Read again, ShopCsvOptions options,
-                                std::span<const std::string_view> fields) {
+Result<ShopRows> ShopRows::open(const Read& first, Read again, ShopCsvOptions options) {
   auto input = Utf8Input::open(first, std::move(again), options.encoding);
   if (!input) return input.error();
-  auto converter = std::make_unique<Converter>(*std::move(input), std::move(options), fields);
+  auto converter = std::make_unique<Converter>(*std::move(input), std::move(options));
   auto header = converter->read_header();
   if (!header) return header.error();
   return ShopRows(std::move(converter), *std::move(header));

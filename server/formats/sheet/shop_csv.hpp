@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -40,10 +39,8 @@ class ShopRows {
  public:
   /// @param first and again read the same table from its begin, one after the other; `first` only
   ///   where the encoding is to be detected.
-  /// @param fields the names of a measurement's fields; outlive it.
   /// @errors TextEncoding, CsvMalformed
-  static Result<ShopRows> open(const Read& first, Read again, ShopCsvOptions options,
-                               std::span<const std::string_view> fields);
+  static Result<ShopRows> open(const Read& first, Read again, ShopCsvOptions options);
   ShopRows(ShopRows&&) noexcept;
   ShopRows& operator=(ShopRows&&) noexcept;
   ~ShopRows();

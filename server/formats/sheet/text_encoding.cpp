@@ -143,24 +143,11 @@ std::optional<Encoding> encoding_from_word(std::string_view word) {
 }
 
 Result<std::string> to_utf8(std::string_view bytes, Encoding encoding) {
-  if (encoding == Encoding::Detected) {
-    const bool is_utf16 = has_utf16_mark(bytes) || looks_like_utf16(bytes);
-    encoding = is_utf16 ? Encoding::Utf16 : is_utf8(bytes) ? Encoding::Utf8 : Encoding::Windows1252;
-  }
-  if (encoding == Encoding::Windows1252) return utf8_from_windows1252(bytes);
-  if (encoding == Encoding::Utf8) {
-    if (bytes.starts_with(kUtf8Mark)) bytes.remove_prefix(kUtf8Mark.size());
-    if (const std::size_t at = valid_utf8(bytes); at < bytes.size()) return no_utf8(at);
-    return std::string(bytes);
-  }
-  const bool is_big = is_big_endian(bytes);
-  if (has_utf16_mark(bytes)) bytes.remove_prefix(kBigMark.size());
-  std::string text;
-  text.reserve(bytes.size());
-  const auto done = append_utf16(text, bytes, is_big, 0);
-  if (!done) return done.error();
-  if (*done < bytes.size()) return no_utf16(*done);
-  return text;
+  const bool is_detected = encoding == Encoding::Detected && !is_utf8(bytes);
+  if (encoding == Encoding::Windows1252 || is_detected) return utf8_from_windows1252(bytes);
+  if (bytes.starts_with(kUtf8Mark)) bytes.remove_prefix(kUtf8Mark.size());
+  if (const std::size_t at = valid_utf8(bytes); at < bytes.size()) return no_utf8(at);
+  return std::string(bytes);
 }
 
 Result<Encoding> detected_encoding(const Read& read) {

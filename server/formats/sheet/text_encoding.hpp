@@ -42,17 +42,16 @@ std::string squeezed(std::string_view text);
 /// The next line, without its end, from the front of a text.
 std::string_view take_text_line(std::string_view& text);
 
-/// The text as UTF-8 without a byte-order mark. Detected: what its mark says; UTF-16 where every
-/// second byte of the beginning is 0; UTF-8 where it is valid; else Windows-1252. UTF-16 without a
-/// mark is read in the order that its beginning shows, else little-endian.
+/// A text of a file that is not UTF-16 as UTF-8. Detected: UTF-8 if it is valid, else Windows-1252.
 /// @errors TextEncoding with the byte.
 Result<std::string> to_utf8(std::string_view bytes, Encoding encoding);
 
-/// Returns the encoding of a text, as to_utf8 detects it. Reads to the end of the text.
+/// The encoding of a text: of its mark; UTF-16 if every second byte of the beginning is 0, read
+/// in the order that this shows; UTF-8 if it is valid; else Windows-1252. Reads to its end.
 Result<Encoding> detected_encoding(const Read& read);
 
-/// The same as to_utf8 of a text of any size, piece by piece. Not thread-safe; of no more use after
-/// an error.
+/// A text of any size as UTF-8 without a byte-order mark, piece by piece. Not thread-safe; of no
+/// more use after an error.
 class Utf8Input {
  public:
   /// @param first and again read the same text from its begin, one after the other; `first` only

@@ -57,8 +57,7 @@ Result<void> append_all(Source& source, FileRows& rows) {
 }
 
 Result<void> append_table(const FolderInOptions& options, const RestingFile& file, FileRows& rows) {
-  auto table = sheet::ShopRows::open(file.from_begin(), file.from_begin(), options.csv,
-                                     sheet::kMeasurementFields);
+  auto table = sheet::ShopRows::open(file.from_begin(), file.from_begin(), options.csv);
   if (!table) return table.error();
   rows.text += table->header();
   return append_all(*table, rows);

@@ -11,11 +11,8 @@
 namespace fitgauge::sheet {
 namespace {
 
-constexpr std::array<std::string_view, 6> kFields = {"designation", "measured_mm", "part_id",
-                                                     "measured_at", "comment",     "machine"};
-
 std::string converted(const Read& first, Read again, const ShopCsvOptions& options) {
-  auto rows = ShopRows::open(first, std::move(again), options, kFields);
+  auto rows = ShopRows::open(first, std::move(again), options);
   if (!rows) return "error: " + rows.error().message;
   std::string text = rows->header();
   for (;;) {
@@ -115,7 +112,7 @@ TEST_CASE("a row that does not end is refused before it is held") {
     given += count;
     return count;
   };
-  const auto rows = ShopRows::open({}, endless, {.encoding = Encoding::Windows1252}, kFields);
+  const auto rows = ShopRows::open({}, endless, {.encoding = Encoding::Windows1252});
   REQUIRE_FALSE(rows.has_value());
   CHECK(rows.error().message == "line 1 begins a row of more than 1024 KiB: is a quote open?");
   CHECK(given < (2U << 20));
