@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "api/statistics/next_offset.hpp"
+#include "base/thread.hpp"
+
 namespace fitgauge::connections {
 namespace {
 
