@@ -39,6 +39,7 @@ using Reply = boost::system::result<std::string, Refusal>;
 
 struct Server {
   OpenPrograms programs;
+  Levels levels;
   bool is_initialized = false;
   bool is_shut_down = false;
   bool is_over = false;
@@ -115,6 +116,7 @@ void publish(Server& server) {
   for (auto& [uri, program] : server.programs.all()) {
     if (!program.is_stale) continue;
     server.programs.check(program);
+    apply_levels(server.levels, program.found);
     std::vector<std::string> findings;
     for (const auto& found : program.found) findings.push_back(json_of(program, found));
     JsonObject params;
@@ -359,9 +361,11 @@ std::optional<Reply> next_message(bool& is_lost) {
 
 }  // namespace
 
-Outcome<ExitCode> run_nc_lsp(const Context&) {
+Outcome<ExitCode> run_nc_lsp(const Context&, const std::vector<std::string>& levels) {
+  const auto read = read_levels(levels);
+  if (!read) return read.error();
   std::ios::sync_with_stdio(false);
-  Server server;
+  Server server{.programs = {}, .levels = *read};
   for (bool is_lost = false; !server.is_over;) {
     // Findings follow once no other keystroke waits.
     if (std::cin.rdbuf()->in_avail() <= 0) publish(server);

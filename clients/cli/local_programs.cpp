@@ -1,6 +1,7 @@
 #include "cli/nc_commands.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <optional>
 
@@ -21,48 +22,14 @@ namespace fitgauge::cli {
 namespace {
 
 using klartext::Diagnostic;
+using klartext::DiagnosticCode;
 using klartext::Severity;
-
-using Levels = std::map<std::string, std::optional<Severity>, std::less<>>;
 
 constexpr std::string_view kCodes[] = {
 #define KLARTEXT_DIAGNOSTIC(name, id) id,
 #include "nc/klartext/diagnostic_codes.inc"
 #undef KLARTEXT_DIAGNOSTIC
 };
-
-Outcome<Levels> read_levels(const std::vector<std::string>& written) {
-  Levels levels;
-  for (const std::string& level : written) {
-    const std::size_t equals = level.find('=');
-    const std::string_view said =
-        equals == level.npos ? "" : std::string_view(level).substr(equals + 1);
-    std::optional<Severity> severity;
-    for (const Severity each : {Severity::Note, Severity::Warning, Severity::Error}) {
-      if (said == word(each)) severity = each;
-    }
-    if (!severity && said != "off") {
-      return Failure{
-          ExitCode::Usage,
-          fmt::format("--level must be CODE=off, note, warning or error; got '{}'", level)};
-    }
-    const std::string code = level.substr(0, equals);
-    if (std::ranges::find(kCodes, code) == std::end(kCodes))
-      return Failure{ExitCode::Usage, fmt::format("--level: unknown finding '{}'", code)};
-    levels[code] = severity;
-  }
-  return levels;
-}
-
-/// An error of the program stays one: it does not run.
-void apply(const Levels& levels, std::vector<Diagnostic>& found) {
-  std::erase_if(found, [&](Diagnostic& each) {
-    const auto level = levels.find(id(each.code));
-    if (level == levels.end() || each.severity == Severity::Error) return false;
-    each.severity = level->second.value_or(each.severity);
-    return !level->second;
-  });
-}
 
 std::string sarif_of(const Diagnostic& found) {
   JsonObject region;
@@ -98,29 +65,95 @@ void print(const Context& context, std::string_view format, const std::vector<Di
   }
 }
 
+/// What a file of the service has. @errors as of the service
+Outcome<std::vector<Diagnostic>> found_there(const Context& context, const std::string& file) {
+  const auto answer = expect_ok(
+      context.client.send({.method = "POST", .target = file_target(file) + "?action=check"}),
+      context.client.url());
+  if (!answer) return answer.error();
+  const auto document = read_document(*answer, context.client.url());
+  if (!document) return document.error();
+  std::vector<Diagnostic> all;
+  for (const JsonValue& item : document->member("diagnostics").items) {
+    Diagnostic& found = all.emplace_back();
+    for (const Severity each : {Severity::Note, Severity::Warning, Severity::Error})
+      if (item.text_of("severity") == word(each)) found.severity = each;
+    const auto* code = std::ranges::find(kCodes, item.text_of("code"));
+    if (code != std::end(kCodes)) found.code = static_cast<DiagnosticCode>(code - kCodes);
+    found.message = item.text_of("message");
+    found.program = item.text_of("program");
+    found.source = item.text_of("source");
+    const auto number = [&item](std::string_view name) {
+      const std::string_view text = item.text_of(name);
+      std::uint32_t value = 0;
+      const bool is_read =
+          std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc();
+      return is_read ? std::optional(value) : std::nullopt;
+    };
+    found.range.begin = {number("line").value_or(0), number("column").value_or(0)};
+    found.block = number("block");
+  }
+  return all;
+}
+
+Outcome<std::vector<Diagnostic>> found_here(const std::string& file) {
+  const auto name = local_program(file);
+  if (!name) return name.error();
+  const FolderDisk disk(file);
+  Allowance unlimited;
+  interpreter::ProgramCache programs;
+  auto found = interpreter::check(*name, disk, programs, unlimited);
+  if (!found) return Failure{ExitCode::LocalFile, file + ": " + found.error().message};
+  for (Diagnostic& each : *found) each.program = disk.name_here(each.program);
+  return *std::move(found);
+}
+
 }  // namespace
 
-Outcome<ExitCode> run_nc_check_local(const Context& context, const CheckOptions& options) {
+Outcome<Levels> read_levels(const std::vector<std::string>& written) {
+  Levels levels;
+  for (const std::string& level : written) {
+    const std::size_t equals = level.find('=');
+    const std::string_view said =
+        equals == level.npos ? "" : std::string_view(level).substr(equals + 1);
+    std::optional<Severity> severity;
+    for (const Severity each : {Severity::Note, Severity::Warning, Severity::Error}) {
+      if (said == word(each)) severity = each;
+    }
+    if (!severity && said != "off") {
+      return Failure{
+          ExitCode::Usage,
+          fmt::format("--level must be CODE=off, note, warning or error; got '{}'", level)};
+    }
+    const std::string code = level.substr(0, equals);
+    if (std::ranges::find(kCodes, code) == std::end(kCodes))
+      return Failure{ExitCode::Usage, fmt::format("--level: unknown finding '{}'", code)};
+    levels[code] = severity;
+  }
+  return levels;
+}
+
+void apply_levels(const Levels& levels, std::vector<Diagnostic>& found) {
+  std::erase_if(found, [&](Diagnostic& each) {
+    const auto level = levels.find(id(each.code));
+    if (level == levels.end() || each.severity == Severity::Error) return false;
+    each.severity = level->second.value_or(each.severity);
+    return !level->second;
+  });
+}
+
+Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options) {
   const auto levels = read_levels(options.levels);
   if (!levels) return levels.error();
   std::vector<Diagnostic> all;
   std::optional<Failure> failed;
   for (const std::string& file : options.files) {
-    const auto name = local_program(file);
-    if (!name) {
-      failed = name.error();
-      continue;
-    }
-    const FolderDisk disk(file);
-    Allowance unlimited;
-    interpreter::ProgramCache programs;
-    auto found = interpreter::check(*name, disk, programs, unlimited);
+    auto found = options.from_control ? found_there(context, file) : found_here(file);
     if (!found) {
-      failed = Failure{ExitCode::LocalFile, file + ": " + found.error().message};
+      failed = found.error();
       continue;
     }
-    for (Diagnostic& each : *found) each.program = disk.name_here(each.program);
-    apply(*levels, *found);
+    apply_levels(*levels, *found);
     all.insert(all.end(), found->begin(), found->end());
   }
   print(context, !options.format.empty() ? options.format : context.json ? "json" : "text", all);
@@ -136,7 +169,33 @@ struct ReadProgram {
   klartext::Program program;
   bool is_iso = false;
   bool has_crlf = false;
+  bool has_mark = false;  ///< the byte order mark of UTF-8
+  bool is_utf8 = true;    ///< else Windows-1252
+
+  /// A text in the encoding and with the line ends that the file has.
+  std::string as_written(std::string_view text) const;
 };
+
+constexpr std::string_view kMark = "\xEF\xBB\xBF";
+
+std::string ReadProgram::as_written(std::string_view text) const {
+  std::map<std::string, char> bytes;
+  for (int byte = 0x80; byte < 0x100; ++byte)
+    bytes[utf8_from_windows1252(std::string(1, static_cast<char>(byte)))] = static_cast<char>(byte);
+  std::string written(has_mark ? kMark : "");
+  for (std::size_t at = 0, next = 0; at < text.size(); at = next) {
+    next = at + 1;
+    while (next < text.size() && (static_cast<unsigned char>(text[next]) & 0xC0) == 0x80) ++next;
+    const auto character = std::string(text.substr(at, next - at));
+    const auto byte = bytes.find(character);
+    if (!is_utf8 && byte != bytes.end()) {
+      written += byte->second;
+    } else {
+      written += has_crlf && character == "\n" ? "\r\n" : character;
+    }
+  }
+  return written;
+}
 
 /// A program of this machine, or of the service. @errors those of reading it, and ProgramFailed for
 /// one with errors.
@@ -154,11 +213,16 @@ Outcome<ReadProgram> read_program(const Context& context, const std::string& fil
     bytes = *std::move(read);
   }
   const bool is_iso = iso::is_iso(bytes, file);
-  const bool has_crlf = bytes.find("\r\n") != bytes.npos;
+  ReadProgram read{.program = {},
+                   .is_iso = is_iso,
+                   .has_crlf = bytes.find("\r\n") != bytes.npos,
+                   .has_mark = bytes.starts_with(kMark),
+                   .is_utf8 = is_utf8(bytes)};
   auto parsed = iso::parse_program(std::move(bytes), file);
   if (const Diagnostic* found = parsed.not_printed())
     return Failure{ExitCode::ProgramFailed, klartext::render(*found)};
-  return ReadProgram{std::move(parsed.program), is_iso, has_crlf};
+  read.program = std::move(parsed.program);
+  return read;
 }
 
 /// The text of a conversion; what was found is printed. @errors ProgramFailed for a block without
@@ -169,12 +233,6 @@ Outcome<std::string> text_of(const std::string& file, iso::Conversion converted)
   if (!klartext::contains_error(converted.findings)) return std::move(converted.text);
   return Failure{ExitCode::ProgramFailed,
                  file + " has blocks that DIN/ISO cannot express: nothing was written"};
-}
-
-std::string with_crlf(std::string_view text) {
-  std::string lines;
-  for (const char each : text) lines.append(each == '\n' ? "\r\n" : std::string_view(&each, 1));
-  return lines;
 }
 
 bool is_iso_name(std::string_view file) {
@@ -197,7 +255,7 @@ Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& opt
       context.print("{}", *formatted);
       continue;
     }
-    const auto written = write_file(file, read->has_crlf ? with_crlf(*formatted) : *formatted);
+    const auto written = write_file(file, read->as_written(*formatted));
     if (!written) return written.error();
   }
   return ExitCode::Good;
@@ -220,7 +278,7 @@ Outcome<ExitCode> run_nc_convert(const Context& context, const ConvertOptions& o
   if (!text) return text.error();
   if (const auto allowed = may_replace(options.target, options.force); !allowed)
     return allowed.error();
-  const auto written = write_file(options.target, *text);
+  const auto written = write_file(options.target, read->as_written(*text));
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }
 

@@ -31,16 +31,6 @@ void print_diagnostics(const JsonValue& document, std::FILE* stream) {
   }
 }
 
-/// 0: notes at most, 1: warnings, 2: errors.
-int worst_of(const JsonValue& document) {
-  int worst = 0;
-  for (const JsonValue& found : document.member("diagnostics").items) {
-    const std::string_view severity = found.text_of("severity");
-    worst = std::max(worst, severity == "error" ? 2 : severity == "warning" ? 1 : 0);
-  }
-  return worst;
-}
-
 bool names_folder(std::string_view path) { return path.ends_with('/') || path.ends_with('\\'); }
 
 /// A parameter's value as JSON: a QS holds a text, every other one a number.
@@ -121,29 +111,6 @@ Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options) 
   if (const auto allowed = may_replace(file, options.force); !allowed) return allowed.error();
   const auto written = write_file(file, answer->body);
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
-}
-
-Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options) {
-  if (!options.from_control) return run_nc_check_local(context, options);
-  if (!options.format.empty() || !options.levels.empty()) {
-    return Failure{ExitCode::Usage,
-                   "--format and --level are for local files: remove them with --from-control"};
-  }
-  int worst = 0;
-  for (const std::string& path : options.files) {
-    const auto answer =
-        send(context, {.method = "POST", .target = file_target(path) + "?action=check"});
-    if (!answer) return answer.error();
-    const auto document = read_document(*answer, context.client.url());
-    if (!document) return document.error();
-    if (context.json) {
-      context.print_document(answer->body);
-    } else {
-      print_diagnostics(*document, stdout);
-    }
-    worst = std::max(worst, worst_of(*document));
-  }
-  return static_cast<ExitCode>(worst);
 }
 
 Outcome<std::string> run_order(const RunOptions& options) {

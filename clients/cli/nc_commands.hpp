@@ -1,28 +1,38 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/context.hpp"
 #include "cli/json_object.hpp"
+#include "nc/klartext/diagnostic.hpp"
 
 namespace fitgauge::cli {
 
 // `fitgauge nc …`: the control's disk and its programs. A path is written as on the control or
 // with strokes: TNC:\nc_prog\8255.h is nc_prog/8255.h.
 
+/// Severity of a finding by its code; none switches it off.
+using Levels = std::map<std::string, std::optional<klartext::Severity>, std::less<>>;
+
+/// `cycle.dialog_contradicts=error`: off, note, warning or error. @errors Usage
+Outcome<Levels> read_levels(const std::vector<std::string>& written);
+/// An error of the program stays one: it does not run.
+void apply_levels(const Levels& levels, std::vector<klartext::Diagnostic>& found);
+
 struct CheckOptions {
   std::vector<std::string> files;
   bool from_control = false;  ///< the files are those of the service
   std::string format{};       ///< text, json or sarif; text when empty, json with --json
-  std::vector<std::string>
-      levels{};  ///< `cycle.dialog_contradicts=error`: off, note, warning or error
+  std::vector<std::string> levels{};
 };
 
-/// `nc check FILE…`, of files here without a service: programs and what they call in their folder.
-/// Exit code 0: nothing or notes, 1: warnings, 2: errors. @errors LocalFile, Usage for a level that
-/// cannot be read.
-Outcome<ExitCode> run_nc_check_local(const Context& context, const CheckOptions& options);
+/// `nc check FILE…`, of files here without a service or of those of the service: programs and what
+/// they call. Exit code 0: nothing or notes, 1: warnings, 2: errors. @errors LocalFile, Usage for a
+/// level that cannot be read.
+Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options);
 
 struct FormatOptions {
   std::vector<std::string> files;
@@ -30,8 +40,8 @@ struct FormatOptions {
   bool from_control = false;
 };
 
-/// `nc format FILE…`: as a control lists a program. @errors LocalFile, ProgramFailed for what
-/// cannot be read.
+/// `nc format FILE…`: as a control lists a program; a file keeps its encoding and line ends.
+/// @errors LocalFile, ProgramFailed for what cannot be read.
 Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& options);
 
 struct ConvertOptions {
@@ -64,10 +74,6 @@ Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options);
 
 /// The messages of a run, on standard error.
 void print_messages(const JsonValue& run);
-
-/// `nc check --from-control PATH…` of the service's files, else run_nc_check_local. Exit code 0:
-/// nothing or notes, 1: warnings, 2: errors.
-Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options);
 
 struct RunOptions {
   std::string program;  ///< which of them runs
@@ -114,7 +120,8 @@ Outcome<ExitCode> run_replay(const Context& context, const ReplayOptions& option
 /// `nc lsp`: a language server (LSP 3.17) on standard input and output, for both dialects, without
 /// a service: diagnostics, hover, completion, definition, rename, formatting and remedies. Single
 /// thread; what it cannot read is answered with an error of JSON-RPC. Good when it ends after
-/// `shutdown`. @errors LocalFile when the input ends before.
-Outcome<ExitCode> run_nc_lsp(const Context& context);
+/// `shutdown`. @errors LocalFile when the input ends before, Usage for a level that cannot be read.
+/// @param levels as of `nc check`
+Outcome<ExitCode> run_nc_lsp(const Context& context, const std::vector<std::string>& levels);
 
 }  // namespace fitgauge::cli

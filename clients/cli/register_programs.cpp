@@ -33,8 +33,16 @@ void add_nc_files(CLI::App& nc, Action& chosen) {
 }
 
 void add_nc_programs(CLI::App& nc, Action& chosen) {
-  add_words(nc, "lsp", "Serve an editor: a language server on standard input and output", chosen,
-            {}, 0, [](const Context& context, const Words&) { return run_nc_lsp(context); });
+  const auto add_levels = [](CLI::App& command, std::vector<std::string>& levels) {
+    command.add_option("--level", levels, "Level of a code: CODE=off, note, warning or error")
+        ->expected(1)
+        ->take_all();
+  };
+  const auto levels = std::make_shared<std::vector<std::string>>();
+  add_levels(
+      *add_command(nc, "lsp", "Serve an editor: a language server on standard input and output",
+                   chosen, levels, run_nc_lsp),
+      *levels);
   const auto checked = std::make_shared<CheckOptions>();
   CLI::App* check = add_command(nc, "check", "Check programs, local or on the control", chosen,
                                 checked, run_nc_check);
@@ -42,9 +50,7 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   check->add_flag("--from-control", checked->from_control, "Use files of the service");
   check->add_option("--format", checked->format, "Format of the findings: text, json, sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
-  check->add_option("--level", checked->levels, "Level of a code: CODE=off, note, warning or error")
-      ->expected(1)
-      ->take_all();
+  add_levels(*check, checked->levels);
 
   const auto formatted = std::make_shared<FormatOptions>();
   CLI::App* format = add_command(nc, "format", "Format programs as a control does", chosen,

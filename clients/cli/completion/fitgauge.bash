@@ -114,6 +114,7 @@ _fitgauge() {
         '') options='check format convert lsp run put get ls' ;;
         check) options='--from-control --format --level' ;;
         format) options='--in-place --from-control' ;;
+        lsp) options=--level ;;
         convert) options='--from-control --force' ;;
         get) options=--force ;;
         run) options='--from-control --files-to --force --setup --setup-file --set --on-stop --language --part-id --order --block-skip' ;;

@@ -24,8 +24,10 @@ function recognize(document) {
 export async function activate(context) {
   context.subscriptions.push(workspace.onDidOpenTextDocument(recognize));
   workspace.textDocuments.forEach(recognize);
-  const command = workspace.getConfiguration('fitgauge').get('path');
-  client = new LanguageClient('fitgauge', 'fitgauge', { command, args: ['nc', 'lsp'] }, {
+  const settings = workspace.getConfiguration('fitgauge');
+  const command = settings.get('path');
+  const levels = settings.get('levels').flatMap((level) => ['--level', level]);
+  client = new LanguageClient('fitgauge', 'fitgauge', { command, args: ['nc', 'lsp', ...levels] }, {
     documentSelector: [{ language: LANGUAGE }],
   });
   try {

@@ -243,6 +243,12 @@ class Programs(ClientTest):
         self.client.write("t.h", "0 BEGIN PGM T MM\r\n1 L  X+5 FMAX\r\n2 END PGM T MM\r\n")
         self.assert_runs(0, "nc", "format", "--in-place", "t.h")
         self.assertEqual((self.client.folder / "t.h").read_bytes(), b"0 BEGIN PGM T MM\r\n1 L X+5 FMAX\r\n2 END PGM T MM\r\n")
+        for name, text in (("t.h", "0 BEGIN PGM T MM\n1 L  X+5 ;Höhe 5 € Ø\n2 END PGM T MM\n"),
+                           ("t.i", "%T G71 *\nN10 G00 G90  X+5 G40 * ;Höhe 5 € Ø\nN99999999 %T G71 *\n")):
+            for encoding in ("cp1252", "utf-8", "utf-8-sig"):
+                (self.client.folder / name).write_bytes(text.encode(encoding))
+                self.assert_runs(0, "nc", "format", "--in-place", name)
+                self.assertEqual((self.client.folder / name).read_bytes(), text.replace("  ", " ").encode(encoding))
         self.assertIn("unknown finding", self.assert_fails(4, "nc", "check", "t.h", "--level", "program.misssing=off"))
 
     def test_programs_run_here_as_at_the_service(self):
@@ -310,6 +316,10 @@ class Programs(ClientTest):
         self.client.write("bad.h", "0 BEGIN PGM BAD MM\n1 LX 5\n2 END PGM BAD MM\n")
         self.assert_runs(0, "nc", "put", "bad.h", "bad.h")
         self.assertIn("TNC:\\bad.h:2:", self.assert_runs(2, "nc", "check", "--from-control", "bad.h"))
+        self.client.write("calls.h", "BEGIN PGM C MM\nCALL PGM gone.h\nEND PGM C MM\n")
+        self.assert_runs(0, "nc", "put", "calls.h", "calls.h")
+        for level, code in (("off", 0), ("note", 0), ("warning", 1), ("error", 2)):
+            self.assert_runs(code, "nc", "check", "--from-control", "calls.h", "--level", f"file.missing={level}")
         refused = self.client.run("nc", "run", "--from-control", "bad.h")
         self.assertEqual(refused.returncode, 9)
         self.assertIn("TNC:\\bad.h:2:", refused.stderr_text)

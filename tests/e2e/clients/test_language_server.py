@@ -117,6 +117,13 @@ class Editing(ServerTest):
         self.assertEqual([(each["code"], each["severity"]) for each in note],
                          [("block.continuation_missing", INFORMATION)])
 
+    def test_a_shop_sets_what_a_finding_counts_for(self):
+        calls = "BEGIN PGM C MM\nCALL PGM gone.h\nEND PGM C MM\n"
+        for level, severities in (("off", []), ("note", [INFORMATION]), ("error", [ERROR])):
+            client = self.start(self.client.folder, options=("--level", f"file.missing={level}"))
+            client.initialize()
+            self.assertEqual([each["severity"] for each in client.open("c.h", calls)], severities, level)
+
     def test_changes_are_those_of_a_text_of_utf16_units(self):
         self.client.open("a.h", "BEGIN PGM A MM\r\nQS1 = \"\U0001f600\"\r\nCALL LBL 5\r\nEND PGM A MM\r\n")
         at = lambda line, first, last: {"start": {"line": line, "character": first}, "end": {"line": line, "character": last}}

@@ -19,9 +19,9 @@ def frame(message):
 class LanguageClient:
     """A server with the folder that its programs lie in; `text` holds the programs as the editor has them."""
 
-    def __init__(self, folder, snippets=True):
+    def __init__(self, folder, snippets=True, options=()):
         self.folder = pathlib.Path(folder)
-        self.process = subprocess.Popen([FITGAUGE, "nc", "lsp"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        self.process = subprocess.Popen([FITGAUGE, "nc", "lsp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE)
         self.messages = queue.Queue()
         threading.Thread(target=self._read, daemon=True).start()
