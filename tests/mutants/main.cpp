@@ -1,0 +1,251 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "support/deep.hpp"
+#include "trial.hpp"
+
+/// Draws mutants of the right programs of the tree, checks each and runs it on the part that its
+/// original is right for. A mutant is found by a warning or error of the check, or by a run that
+/// ends otherwise, judges otherwise, or gives another result. It is equivalent, and counted apart,
+/// if check, run, every command to the machine, results and files are the same, also with each of
+/// the other values that stand for the one that is changed: nothing reads it. All others count as
+/// missed, also those that no check can know: they touch the same points on another free way, or
+/// other points of the same feature with the same result. Two columns have them.
+namespace fitgauge::mutants {
+namespace {
+
+namespace fs = std::filesystem;
+using interpreter::golden::read_file;
+
+struct Options {
+  std::uint64_t seed = 1;
+  std::size_t count = static_cast<std::size_t>(rounds(60, 500));
+  std::optional<std::size_t> mutant{};
+  bool shows_missed = false;
+  double least = 85;  ///< percent found; 60 mutants scatter by 3
+};
+
+/// A subject with what its original does.
+struct Original {
+  Subject subject;
+  std::string text;
+  Outcome outcome;
+  std::vector<Site> sites;
+};
+
+struct Seed {
+  const char* name;
+  const char* file;
+  const char* setup;
+};
+
+constexpr Seed kSeeds[] = {
+    {"8255", "8255.h", "live\nblock 0 0 -40 100 80 0\nbore 50 40 0 30 25.013\n"},
+    {"8255", "82551.h", "live\nblock 0 0 -40 100 80 0\nbore 50 40 0 30 25.013\n"},
+    {"8255", "82551.h",
+     "live\nQS1 = \"h7\"\nblock 0 0 -40 100 80 0\nboss 50 40 20 20 24.986\nQ31 = 10\n"},
+    {"8210", "8210.h",
+     "surface 0 0 0 100 0 0 0 80 0 100 80 0 10 10 0.12 90 10 0.08 50 40 0.35 10 70 0.21 90 70 "
+     "0.17\n"},
+    {"444", "444.h", "surface 0 0 0 100 0 0.01 50 40 0.02 0 80 -0.015 100 80 0.045\n"},
+};
+
+struct Originals {
+  std::vector<Original> all;
+  std::size_t alarms = 0;  ///< of right programs
+};
+
+void add(Originals& originals, Subject subject) {
+  Original original{std::move(subject), "", {}, {}};
+  original.text = read_file(original.subject.folder / original.subject.file);
+  original.outcome = outcome_of(original.subject, original.text);
+  const Outcome& outcome = original.outcome;
+  for (const Finding& alarm : outcome.alarms)
+    fmt::print("right program {}: {}\n", original.subject.folder.filename().string(), alarm.text);
+  originals.alarms += outcome.alarms.size();
+  if (outcome.touched.empty() && !outcome.tests_itself) return;
+  const fs::path called = original.subject.folder / "82551.h";
+  original.sites = sites_of(original.text, fs::exists(called) ? read_file(called) : "");
+  // A block that is not reached does nothing to the part.
+  std::erase_if(original.sites, [&](const Site& site) {
+    return site.kind != Kind::Unit && !outcome.lines.contains(site.first_line);
+  });
+  if (!original.sites.empty()) originals.all.push_back(std::move(original));
+}
+
+Originals originals() {
+  Originals all;
+  const fs::path& golden = interpreter::golden::kFolder;
+  std::set<fs::path> folders{fs::directory_iterator(golden), fs::directory_iterator()};
+  for (const fs::path& folder : folders) {
+    const std::string setup =
+        fs::exists(folder / "setup.txt") ? read_file(folder / "setup.txt") : "";
+    if (fs::exists(folder / "main.h")) add(all, {folder, setup, "main.h", "main.h"});
+    if (fs::exists(folder / "main.i")) add(all, {folder, setup, "main.i", "main.i"});
+  }
+  for (const Seed& seed : kSeeds) {
+    const fs::path folder = golden / "../../../clients/nc" / seed.name;
+    add(all, {folder, seed.setup, std::string(seed.name) + ".h", seed.file});
+  }
+  return all;
+}
+
+struct Mutant {
+  const Original* original = nullptr;
+  const Site* site = nullptr;
+  std::vector<Edit> edits{};
+};
+
+/// Of any kind with the same likelihood, in any program that has such a place.
+Mutant draw(const std::vector<Original>& originals, std::uint64_t seed, std::size_t number) {
+  Random random(seed * 1'000'003 + number);
+  const auto kind = static_cast<Kind>(random() % kKinds);
+  for (;;) {
+    const Original& original = originals[random() % originals.size()];
+    std::vector<const Site*> sites;
+    for (const Site& site : original.sites)
+      if (site.kind == kind) sites.push_back(&site);
+    if (sites.empty()) continue;
+    const Site* site = sites[random() % sites.size()];
+    return {&original, site, site->draw(random)};
+  }
+}
+
+Judgement judge(const Mutant& mutant) {
+  const Original& original = *mutant.original;
+  const auto judged = [&](std::vector<Edit> edits) {
+    const auto outcome = outcome_of(original.subject, edited(original.text, std::move(edits)));
+    return compare(original.outcome, outcome, mutant.site->target);
+  };
+  Judgement judgement = judged(mutant.edits);
+  if (judgement.found != Found::Nothing) return judgement;
+  const auto& others = mutant.site->others;
+  const bool is_read = std::ranges::any_of(
+      others, [&](const Edit& other) { return judged({other}).found != Found::Nothing; });
+  if (!is_read) judgement.found = Found::Equivalent;
+  return judgement;
+}
+
+/// The lines that differ, `-` and `+`.
+std::string difference(const Mutant& mutant) {
+  const std::string& before = mutant.original->text;
+  const std::string after = edited(before, mutant.edits);
+  const auto lines = [](const std::string& text) {
+    std::vector<std::string> all{""};
+    for (const char each : text) each == '\n' ? all.push_back("") : all.back().push_back(each);
+    return all;
+  };
+  const auto old = lines(before);
+  const auto now = lines(after);
+  std::string text =
+      fmt::format("{}/{} line {}, {}\n", mutant.original->subject.folder.filename().string(),
+                  mutant.original->subject.file, mutant.site->first_line, word(mutant.site->kind));
+  const std::size_t fewer = old.size() - now.size();  // one block at most is left out
+  for (std::size_t i = 0, j = 0; i < old.size(); ++i) {
+    const bool is_out = fewer > 0 && i + 1 >= mutant.site->first_line && i < mutant.site->last_line;
+    if (is_out || old[i] != now[j]) text += "  - " + old[i] + "\n";
+    if (!is_out && old[i] != now[j]) text += "  + " + now[j] + "\n";
+    if (!is_out) ++j;
+  }
+  return text;
+}
+
+/// Whether a finding names the block that is changed.
+bool is_at_its_line(const Mutant& mutant, const Judgement& judgement) {
+  const Site& site = *mutant.site;
+  return judgement.line >= site.first_line && judgement.line <= site.last_line;
+}
+
+int report(const Options& options) {
+  const auto [all, alarms] = originals();
+  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+    const auto has_kind = [&](const Site& site) { return site.kind == static_cast<Kind>(kind); };
+    if (std::ranges::none_of(
+            all, [&](const Original& each) { return std::ranges::any_of(each.sites, has_kind); }))
+      throw std::runtime_error(
+          fmt::format("no program has a place for {}", word(static_cast<Kind>(kind))));
+  }
+  if (options.mutant) {
+    const Mutant mutant = draw(all, options.seed, *options.mutant);
+    const Judgement judgement = judge(mutant);
+    fmt::print("{}{}: line {}: {}\n", difference(mutant), word(judgement.found), judgement.line,
+               judgement.reason);
+    return 0;
+  }
+  std::map<Kind, std::array<std::size_t, kFound>> counts;
+  std::array<std::size_t, kFound> sum{};
+  std::array<std::size_t, kFound> at_line{};
+  std::set<std::pair<const Original*, std::string>> distinct;
+  for (std::size_t i = 0; i < options.count; ++i) {
+    const Mutant mutant = draw(all, options.seed, i);
+    const Judgement judgement = judge(mutant);
+    const auto at = static_cast<std::size_t>(judgement.found);
+    ++counts[mutant.site->kind][at];
+    ++sum[at];
+    at_line[at] += is_at_its_line(mutant, judgement) ? 1U : 0U;
+    distinct.emplace(mutant.original, edited(mutant.original->text, mutant.edits));
+    const bool is_missed = judgement.found > Found::Record && judgement.found < Found::Equivalent;
+    if (is_missed && options.shows_missed)
+      fmt::print("{} {}: {}  {}\n", i, word(judgement.found), difference(mutant), judgement.reason);
+  }
+  const auto row = [](std::string_view name, const std::array<std::size_t, kFound>& numbers) {
+    fmt::print("{:14}", name);
+    for (const std::size_t number : numbers) fmt::print("{:>11}", number);
+    fmt::print("\n");
+  };
+  fmt::print("{:14}", "");
+  for (std::size_t i = 0; i < kFound; ++i) fmt::print("{:>11}", word(static_cast<Found>(i)));
+  fmt::print("\n");
+  for (const auto& [kind, numbers] : counts) row(word(kind), numbers);
+  row("all", sum);
+  row("at its line", at_line);
+  const auto of = [&](Found found) { return sum[static_cast<std::size_t>(found)]; };
+  const std::size_t missed = of(Found::Touches) + of(Found::Way) + of(Found::Nothing);
+  const std::size_t counted = options.count - of(Found::Equivalent);
+  const double found =
+      counted == 0 ? 100.0
+                   : 100.0 * static_cast<double>(counted - missed) / static_cast<double>(counted);
+  fmt::print(
+      "{} programs; {} mutants of seed {}, {} of them distinct; {} equivalent, {} missed, {:.2f} % "
+      "found\n",
+      all.size(), options.count, options.seed, distinct.size(), of(Found::Equivalent), missed,
+      found);
+  return alarms == 0 && found >= options.least ? 0 : 1;
+}
+
+Options read(int count, char** arguments) {
+  Options options;
+  for (int i = 1; i < count; ++i) {
+    const std::string_view option = arguments[i];
+    if (option == "--missed") {
+      options.shows_missed = true;
+      continue;
+    }
+    if (i + 1 >= count)
+      throw std::runtime_error(
+          "mutants [--seed N] [--count N | --mutant K] [--least PERCENT] [--missed]");
+    const std::string value = arguments[++i];
+    if (option == "--seed") options.seed = std::stoull(value);
+    if (option == "--count") options.count = std::stoull(value);
+    if (option == "--mutant") options.mutant = std::stoull(value);
+    if (option == "--least") options.least = std::stod(value);
+  }
+  return options;
+}
+
+}  // namespace
+}  // namespace fitgauge::mutants
+
+int main(int count, char** arguments) try {
+  return fitgauge::mutants::report(fitgauge::mutants::read(count, arguments));
+} catch (const std::exception& error) {
+  fmt::print(stderr, "{}\n", error.what());
+  return 2;
+}

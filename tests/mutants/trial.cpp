@@ -1,0 +1,154 @@
+#include "trial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "nc/klartext/diagnostic.hpp"
+#include "nc/program/parameter.hpp"
+
+namespace fitgauge::mutants {
+namespace {
+
+using interpreter::golden::Case;
+
+/// Follows the lines of one file.
+class Follower final : public interpreter::RunObserver {
+ public:
+  explicit Follower(std::string path) : path_(std::move(path)) {}
+  bool follows_every_block() const override { return true; }
+  void entered(const interpreter::Place& place) override {
+    is_here_ = ascii_iequals(place.path(), path_);
+    if (is_here_) lines.insert(line = place.line());
+  }
+  std::set<std::uint32_t> lines;
+  std::uint32_t line = 0;
+
+ private:
+  std::string path_;
+  bool is_here_ = false;
+};
+
+std::string text_of(const interpreter::ParameterValue& parameter) {
+  const auto* number = std::get_if<double>(&parameter.value);
+  return number != nullptr ? fmt::format("{:.5f}", *number + 0.0)
+                           : std::get<std::string>(parameter.value);
+}
+
+void add(Outcome& outcome, const interpreter::RunResult& result) {
+  outcome.end = word(result.status);
+  for (const auto& message : result.messages) {
+    if (message.kind == interpreter::MessageKind::Note) continue;
+    outcome.end += fmt::format("; {} {}", message.number, message.text);
+    outcome.end_line = message.line;
+  }
+  for (const auto& measured : result.measurements) {
+    const auto& record = measured.record;
+    const std::string cycle = fmt::format("cycle {}", record.cycle);
+    const auto verdict = record.verdict ? gauging::word(*record.verdict) : "none";
+    outcome.verdicts.push_back({fmt::format("{} {}", cycle, verdict), measured.line});
+    for (const auto& size : record.sizes) {
+      outcome.values.push_back(
+          {fmt::format("{} {} = {}", cycle, size.characteristic, size.measured.count()),
+           measured.line});
+      std::string limits =
+          fmt::format("{} {} {}", cycle, size.characteristic, size.nominal.count());
+      if (size.limits)
+        limits += fmt::format(" {} {}", size.limits->lower.count(), size.limits->upper.count());
+      outcome.records.push_back({std::move(limits), measured.line});
+    }
+  }
+  if (result.verdict) outcome.verdicts.push_back({std::string(gauging::word(*result.verdict)), 0});
+  for (const auto& line : result.screen) outcome.written.push_back({line, 0});
+  for (const auto& preset : result.presets) {
+    const auto& origin = preset.frame.origin;
+    const auto& rotation = preset.frame.basic_rotation_deg;
+    outcome.written.push_back(
+        {fmt::format("preset {} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f}", preset.number, origin.x,
+                     origin.y, origin.z, rotation.x, rotation.y, rotation.z),
+         0});
+  }
+  outcome.written.push_back({fmt::format("preset {} active", result.active_preset), 0});
+  for (const auto& parameter : result.parameters)
+    outcome.parameters[interpreter::name(parameter.parameter)] = text_of(parameter);
+  for (const auto& file : result.files) outcome.files += file.path.text() + "\n" + file.bytes;
+}
+
+/// The first finding of one that the other lacks at its place.
+const Finding* first_difference(const std::vector<Finding>& original,
+                                const std::vector<Finding>& mutant) {
+  for (std::size_t i = 0; i < mutant.size(); ++i)
+    if (i >= original.size() || mutant[i].text != original[i].text) return &mutant[i];
+  if (mutant.size() == original.size()) return nullptr;
+  static const Finding kFewer{"fewer", 0};
+  return mutant.empty() ? &kFewer : &mutant.back();
+}
+
+}  // namespace
+
+Outcome outcome_of(const Subject& subject, const std::string& text) {
+  Case trial(subject.folder, subject.setup);
+  trial.add(subject.file, text);
+  trial.setup().options.limits.blocks = 20'000;
+  Outcome outcome;
+  for (const auto& found : trial.diagnostics(subject.main)) {
+    if (found.severity == klartext::Severity::Note) continue;
+    outcome.alarms.push_back(
+        {fmt::format("{}: {} | {}", id(found.code), found.message, found.source),
+         found.range.begin.line});
+  }
+  Follower follower(Case::path(subject.file).text());
+  const auto ran = trial.execute(subject.main, follower);
+  if (!ran) return outcome;
+  outcome.lines = std::move(follower.lines);
+  add(outcome, ran->result);
+  for (const std::string& command : ran->commands) {
+    outcome.commands.push_back({command, 0});
+    if (command.starts_with("PROBE ")) outcome.touched.push_back({command, 0});
+    // Data of tools, the probe and the rotary axes, which the run leaves behind.
+    if (command.starts_with("TOOL ") || command.starts_with("PROBE DATA") ||
+        command.starts_with("TT ") || command.starts_with("KINEMATICS"))
+      outcome.written.push_back({command, 0});
+  }
+  outcome.tests_itself = text.find("D14 ") != text.npos || text.find("FN 14") != text.npos;
+  return outcome;
+}
+
+std::string_view word(Found found) {
+  constexpr std::array<std::string_view, kFound> kWords{
+      "check", "run", "verdict", "value", "record", "touches", "way", "nothing", "equivalent"};
+  return kWords[static_cast<std::size_t>(found)];
+}
+
+Judgement compare(const Outcome& original, const Outcome& mutant, const std::string& target) {
+  for (const Finding& alarm : mutant.alarms) {
+    const auto is_same = [&](const Finding& each) { return each.text == alarm.text; };
+    if (std::ranges::count_if(mutant.alarms, is_same) >
+        std::ranges::count_if(original.alarms, is_same))
+      return {Found::Check, alarm.line, alarm.text};
+  }
+  if (mutant.end != original.end) return {Found::Run, mutant.end_line, mutant.end};
+  if (const auto* found = first_difference(original.verdicts, mutant.verdicts))
+    return {Found::Verdict, found->line, found->text};
+  if (const auto* found = first_difference(original.values, mutant.values))
+    return {Found::Value, found->line, found->text};
+  if (const auto* found = first_difference(original.written, mutant.written))
+    return {Found::Value, found->line, found->text};
+  for (const auto& [name, value] : original.parameters) {
+    const auto here = mutant.parameters.find(name);
+    if (name != target && (here == mutant.parameters.end() || here->second != value))
+      return {Found::Value, 0,
+              name + " = " + (here == mutant.parameters.end() ? "" : here->second)};
+  }
+  if (const auto* found = first_difference(original.records, mutant.records))
+    return {Found::Record, found->line, found->text};
+  if (original.files != mutant.files) return {Found::Record, 0, "files"};
+  if (const auto* found = first_difference(original.touched, mutant.touched))
+    return {Found::Touches, 0, found->text};
+  if (const auto* found = first_difference(original.commands, mutant.commands))
+    return {Found::Way, 0, found->text};
+  return {Found::Nothing, 0, ""};
+}
+
+}  // namespace fitgauge::mutants

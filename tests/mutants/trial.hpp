@@ -1,0 +1,71 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "golden_case.hpp"
+#include "mutation.hpp"
+
+namespace fitgauge::mutants {
+
+/// A right program: its folder, what it runs on, and the file of it that is mutated.
+struct Subject {
+  std::filesystem::path folder;
+  std::string setup;
+  std::string main;
+  std::string file;
+};
+
+struct Finding {
+  std::string text;
+  std::uint32_t line = 0;
+  friend auto operator<=>(const Finding&, const Finding&) = default;
+};
+
+/// All that a check and a run give.
+struct Outcome {
+  std::vector<Finding> alarms;    ///< warnings and errors of the check
+  std::string end;                ///< status and messages
+  std::uint32_t end_line = 0;     ///< of the last message
+  std::vector<Finding> verdicts;  ///< of the cycles and the run
+  std::vector<Finding> values;    ///< measured sizes
+  std::vector<Finding> records;   ///< nominal sizes and limits
+  std::vector<Finding> written;   ///< presets, tool data, screen: what the program leaves behind
+  std::map<std::string, std::string> parameters;
+  std::string files;
+  std::vector<Finding> commands;  ///< to the machine
+  std::vector<Finding> touched;   ///< those of them that probe
+  std::set<std::uint32_t> lines;  ///< of the file that is mutated, entered by the run
+  bool tests_itself = false;
+};
+
+Outcome outcome_of(const Subject& subject, const std::string& text);
+
+enum class Found : std::uint8_t {
+  Check,      ///< a warning or an error before the run
+  Run,        ///< the run fails, collides or stops
+  Verdict,    ///< another verdict
+  Value,      ///< another measured value, datum, tool length, line of the screen or parameter
+  Record,     ///< the records and logs have another nominal size or limit, with the same verdict
+  Touches,    ///< not found: it touches other points, with the same results
+  Way,        ///< not found: it touches the same points and moves freely between them another way
+  Nothing,    ///< not found: nothing differs, and the value is read somewhere
+  Equivalent  ///< nothing differs, nor with any other value there
+};
+constexpr std::size_t kFound = 9;
+std::string_view word(Found found);
+
+struct Judgement {
+  Found found{};
+  std::uint32_t line = 0;  ///< where it shows; of the mutant
+  std::string reason{};
+};
+
+/// What a mutant does that its original does not.
+/// @param target the parameter that the mutated block sets, which differs anyway
+Judgement compare(const Outcome& original, const Outcome& mutant, const std::string& target);
+
+}  // namespace fitgauge::mutants
