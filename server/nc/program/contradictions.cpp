@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -79,6 +80,11 @@ bool contradict(unsigned said, unsigned meant, std::span<const unsigned> groups)
     return (said & group) != 0 && (meant & group) != 0 && (said & meant & group) == 0;
   });
 }
+
+/// The nominal size of a cycle, and a limit of it.
+constexpr int kLimitsOfSize[][2] = {{262, 275}, {262, 276}, {262, 277}, {262, 278},
+                                    {282, 284}, {282, 285}, {283, 286}, {283, 287},
+                                    {311, 288}, {311, 289}, {262, 288}, {262, 289}};
 
 /// The results of cycles.
 constexpr std::size_t kFirstResult = 150;
@@ -296,6 +302,17 @@ class Contradictions {
       warn(DiagnosticCode::OrderContradicts, places[upper],
            fmt::format("the maximum Q{} = {} lies below the minimum Q{} = {}: exchange them", upper,
                        values[upper], lower, values[lower]));
+    }
+    for (const auto& [nominal, limit] : kLimitsOfSize) {
+      // Grade IT16 of ISO 286 with its largest deviation lies within.
+      if (!is_probing || !values.contains(nominal) || !values.contains(limit) ||
+          values[limit] == 0 ||
+          std::abs(values[limit] - values[nominal]) <= std::max(2.0, values[nominal] / 10))
+        continue;
+      warn(DiagnosticCode::OrderContradicts, places[limit],
+           fmt::format("the limit Q{} = {} is far from the nominal size Q{} = {}: correct one of "
+                       "them",
+                       limit, values[limit], nominal, values[nominal]));
     }
     if (!is_probing && values.contains(201) && values[201] > 0) {
       warn(DiagnosticCode::OrderContradicts, places[201],

@@ -8,10 +8,10 @@
 namespace fitgauge::interpreter {
 
 /// Adds what a program says against itself, as warnings: a dialog text or comment that means
-/// another cycle or parameter, depths and heights of the wrong sign or order, a cutter or a turning
-/// spindle that probes, results that no cycle gives, parameters behind a line without `~`. Then
-/// drops the notes and warnings that a comment switches off: `check:ignore`, alone or with codes
-/// behind it, in the line or in the comment line above it.
+/// another cycle or parameter, depths and heights of the wrong sign or order, limits far from the
+/// nominal size, a cutter or a turning spindle that probes, results that no cycle gives, parameters
+/// behind a line without `~`. Then drops the notes and warnings that a comment switches off:
+/// `check:ignore`, alone or with codes behind it, in the line or in the comment line above it.
 void check_contradictions(const klartext::Program& program,
                           std::vector<klartext::Diagnostic>& diagnostics);
 
