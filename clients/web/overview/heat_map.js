@@ -89,9 +89,10 @@ export class HeatMap {
       s('rect', box), record && mark(record, box), isHere && s('rect.ring', box));
   }
 
-  #touch({ offsetX, offsetY }) {
-    const row = Math.floor((offsetY - HEAD) / CELL.height);
-    const part = this.parts?.[Math.floor((offsetX - this.left) / this.cell)];
+  #touch({ clientX, clientY }) {
+    const { left, top } = this.picture.getBoundingClientRect();
+    const row = Math.floor((clientY - top - HEAD) / CELL.height);
+    const part = this.parts?.[Math.floor((clientX - left - this.left) / this.cell)];
     if (!part || row < 0 || row >= this.standings.length) return;
     this.#go(row, part.name);
   }

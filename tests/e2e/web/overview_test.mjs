@@ -39,12 +39,12 @@ describe('the overview', () => {
     await page.waitForFunction((part) => document.querySelector('.heat .detail').textContent.startsWith(part), `SN-${1000 + PARTS - 1}`);
     await page.keyboard.press('ArrowLeft');
     await page.waitForFunction((part) => document.querySelector('.heat .detail').textContent.startsWith(part), `SN-${1000 + PARTS - 2}`);
-    const box = await page.$eval('.heat .picture .cell[data-verdict="reject"]', (cell) => { const { x, y, width, height } = cell.getBoundingClientRect(); return [x + width / 2, y + height / 2]; });
+    const box = await page.$eval('.heat .picture .cell[data-verdict="reject"] > rect', (cell) => { cell.scrollIntoView({ block: 'center' }); const { x, y, width, height } = cell.getBoundingClientRect(); return [x + width / 2, y + height / 2]; });
     await page.mouse.click(...box);
     await page.waitForFunction(() => /SN-1012.*bore-B.*Reject.*25\.024 mm/.test(document.querySelector('.heat .detail').textContent));
     await page.click('.heat summary');
+    await page.waitForFunction((count) => document.querySelectorAll('.heat tbody tr').length === count, PARTS);
     const rows = await page.$$eval('.heat tbody tr', (all) => all.map((row) => row.textContent));
-    assert.equal(rows.length, PARTS);
     assert.match(rows.find((row) => row.startsWith('SN-1012')), /Reject 25\.024/);
     assert.match(rows.find((row) => row.startsWith('SN-1025')), /–/);
     assert.deepEqual(await findings(page), []);

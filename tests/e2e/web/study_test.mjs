@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';
 
-import { close, findings, hashOf, open, picture } from './support/browser.mjs';
+import { browserName, close, findings, hashOf, open, picture } from './support/browser.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 /** Ten parts, three operators, three trials: parts 2 µm apart, an operator half a micrometre off, trials 0.3 µm apart. */
@@ -76,7 +76,7 @@ describe('a gauge', () => {
       const least = await page.$$eval('.framed text', (texts) => Math.min(...texts.map((text) => parseFloat(getComputedStyle(text).fontSize) * text.ownerSVGElement.getScreenCTM().a)));
       assert.ok(least >= 12, `${width}: ${least}`);
     }
-    await page.emulateMedia({ forcedColors: 'active', colorScheme: 'dark' });
+    if (browserName === 'chromium') await page.emulateMedia({ forcedColors: 'active', colorScheme: 'dark' });
     await picture(page, 'study-forced-colours');
     await close(page);
   });

@@ -86,8 +86,10 @@ export async function launch() {
 /** The driver of Firefox fills a field with keys that come as fast as those of a scanner, which the page reads as a scan. */
 function fillAsChromium(page) {
   page.fill = async (selector, text) => {
+    // A date is no text that could be inserted.
+    if (await page.$eval(selector, ({ type }) => type === 'date')) return page.locator(selector).fill(text);
     await page.focus(selector);
-    await page.$eval(selector, (field, wanted) => {
+    return page.$eval(selector, (field, wanted) => {
       field.select();
       document.execCommand(wanted ? 'insertText' : 'delete', false, wanted);
     }, text);
