@@ -13,9 +13,6 @@ namespace fitgauge::api {
 std::string measurement_csv_header();
 void append_measurement_csv(std::string& out, const app::Measurement& measurement);
 
-/// Appends a note as it is answered.
-void append_note_json(std::string& out, const app::Note& note);
-
 /// Writes `"verdicts":{…}`; `unjudged` where there are any.
 void write_verdict_counts(JsonWriter& json, const app::VerdictTally& verdicts);
 

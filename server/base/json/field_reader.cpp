@@ -159,11 +159,6 @@ std::int64_t FieldReader::integer_or(std::string_view name, std::int64_t fallbac
   return fallback;
 }
 
-bool FieldReader::boolean_or(std::string_view name, bool fallback) {
-  const JsonValue* value = take(name, false, {Kind::Boolean}, "true or false");
-  return value == nullptr ? fallback : value->boolean;
-}
-
 std::optional<std::string> FieldReader::optional_text(std::string_view name) {
   const JsonValue* value = take(name, false, {Kind::String}, "a string");
   return value == nullptr ? std::nullopt : std::optional(value->text);

@@ -87,7 +87,6 @@ class FieldReader {
   // Members that may be absent.
   std::int64_t integer_or(std::string_view name, std::int64_t fallback, std::int64_t least,
                           std::int64_t most);
-  bool boolean_or(std::string_view name, bool fallback);
   std::optional<std::string> optional_text(std::string_view name);
   const JsonValue* optional(std::string_view name);
 

@@ -95,7 +95,6 @@ class MqttClient {
     Ticket ticket;
     std::variant<Publish, Subscribe, Unsubscribe, Leave> what;
   };
-  class Descriptors;
   class Loop;
 
   void run(const std::optional<MqttMessage>& will, const std::stop_token& stop);
