@@ -162,9 +162,8 @@ Outcome<RowInput> RowInput::open_table(const MeasureOptions& options, sheet::Sho
   const auto file =
       shared(is_known ? InputFile::open(options.input) : open_to_read_again(options.input));
   if (!file) return file.error();
-  auto rows =
-      sheet::ShopRows::open(reading(*file), is_known ? reading(*file) : reading_again(*file),
-                            std::move(table));
+  auto rows = sheet::ShopRows::open(
+      reading(*file), is_known ? reading(*file) : reading_again(*file), std::move(table));
   if (!rows) return cannot_read(name, rows.error());
   return RowInput(std::make_shared<State>(name, *std::move(rows)));
 }
