@@ -16,7 +16,7 @@ export class StepPanel {
     this.at = this.steps.length - 1;
     this.kept = `breaks.${relative(program).toLowerCase()}`;
     this.said = h('p', { role: 'status' });
-    this.changed = h('dl.parameters');
+    this.changed = h('div');
     this.all = h('dl.parameters');
     this.breaks = h('input', { type: 'text', name: 'breaks', autocomplete: 'off', spellcheck: 'false', placeholder: '31, 82551.h:35, Q5 > 10', onchange: () => this.#keep() });
     this.breaks.value = readJson(this.kept, '', 'session');
@@ -52,7 +52,8 @@ export class StepPanel {
     const block = this.steps.blocks[this.at];
     this.said.textContent = [t('steps.of', { at: this.at + 1, count: this.steps.length }), `${fileName(block.program)} ${placeText(block)}`].join(' · ');
     const changes = this.steps.changesAt(this.at);
-    refill(this.changed, changes.length ? changes.map(([name, before, after]) => h('div', h('dt', name), h('dd', before === undefined ? text(after) : `${text(before)} → ${text(after)}`))) : h('p.aside', t('steps.unchanged')));
+    refill(this.changed, changes.length ? h('dl.parameters', changes.map(([name, before, after]) => h('div', h('dt', name), h('dd', before === undefined ? text(after) : `${text(before)} → ${text(after)}`)))) : h('p.aside', t('steps.unchanged')));
+    this.all.hidden = !Object.keys(block.values).length;
     refill(this.all, Object.entries(block.values).map(([name, value]) => h('div', h('dt', name), h('dd', text(value)))));
   }
 
