@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
+#include <new>
 #include <string_view>
 
 #include "plant.hpp"
@@ -37,21 +39,46 @@ std::string_view planted;
 
 std::uint64_t number(const char* text) { return std::strtoull(text, nullptr, 10); }
 
-/// @returns the digest of the run; none: it is broken.
-std::optional<std::uint64_t> run(const Order& order, std::uint64_t seed, std::uint64_t days,
-                                 Counts& counts) {
+/// The outcome of a run.
+struct Outcome {
+  Counts counts{};
+  std::uint64_t digest = 0;
+  bool is_whole = false;
+};
+
+void run(const Order& order, std::uint64_t seed, std::uint64_t days, Outcome& outcome) {
+  begin_world();
   seed_world(seed);
   sqlite3_randomness(0, nullptr);  // it draws anew
-  Plant plant(order.folder, seed, counts);
-  const std::uint64_t first = counts.days;
+  Plant plant(order.folder, seed, outcome.counts);
   try {
-    while (counts.days < first + days) plant.day();
+    while (outcome.counts.days < days) plant.day();
+    outcome.digest = digest();
+    outcome.is_whole = true;
   } catch (const Broken& broken) {
-    fmt::print("seed {}, day {}: {}\n{}", seed, counts.days - first + 1, broken.what(),
+    fmt::print("seed {}, day {}: {}\n{}", seed, outcome.counts.days + 1, broken.what(),
                plant.story());
-    return std::nullopt;
   }
-  return digest();
+}
+
+/// Each run has a process of its own: what was before it changes nothing.
+Outcome outcome_of(const Order& order, std::uint64_t seed, std::uint64_t days) {
+  void* const shared =
+      mmap(nullptr, sizeof(Outcome), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  auto* const outcome = new (shared) Outcome;
+  if (fork() == 0) {
+    run(order, seed, days, *outcome);
+    std::fflush(stdout);
+    _exit(0);
+  }
+  int status = 0;
+  wait(&status);
+  const Outcome result = *outcome;
+  munmap(shared, sizeof(Outcome));
+  if (status != 0)
+    fmt::print("seed {}, day {}: the process ended with {}\n", seed, result.counts.days + 1,
+               status);
+  return result;
 }
 
 }  // namespace
@@ -72,25 +99,23 @@ int main(int count, char** arguments) {
     if (name == "--folder") order.folder = arguments[i + 1];
   }
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  begin_world();
-  Counts counts;
-  for (std::uint64_t seed = order.seed; counts.days < order.days; ++seed) {
-    const std::uint64_t days = std::min(kDaysOfARun, order.days - counts.days);
-    const auto digest = run(order, seed, days, counts);
-    if (!digest) return planted.empty() ? 1 : 0;
-    if (order.runs_twice) {
-      Counts again;
-      if (run(order, seed, days, again) != digest) {
-        fmt::print("seed {}: the same seed gave another run\n", seed);
-        return 1;
-      }
+  Counts all;
+  for (std::uint64_t seed = order.seed; all.days < order.days; ++seed) {
+    const std::uint64_t days = std::min(kDaysOfARun, order.days - all.days);
+    const Outcome outcome = outcome_of(order, seed, days);
+    if (!outcome.is_whole) return planted.empty() ? 1 : 0;
+    if (order.says_all) fmt::print("seed {}: {} days, {:016x}\n", seed, days, outcome.digest);
+    if (order.runs_twice && outcome_of(order, seed, days).digest != outcome.digest) {
+      fmt::print("seed {}: the same seed gave another run\n", seed);
+      return 1;
     }
-    if (order.says_all) fmt::print("seed {}: {} days, {:016x}\n", seed, days, *digest);
+    all.add(outcome.counts);
   }
   fmt::print(
       "{} days: {} records, {} posts unanswered, {} kills, {} restores that took {} records back, "
-      "{} jumps of a clock, {} full disks\n",
-      counts.days, counts.acknowledged, counts.repeated, counts.kills, counts.restores,
-      counts.taken_back, counts.jumps, counts.full_disks);
+      "{} jumps "
+      "of a clock, {} full disks\n",
+      all.days, all.acknowledged, all.repeated, all.kills, all.restores, all.taken_back, all.jumps,
+      all.full_disks);
   return planted.empty() ? 0 : 1;
 }

@@ -208,8 +208,12 @@ void Plant::restore(Site& site) {
   bury(site);
   node.machine.writes_to_live = 0;
   if (copy.is_folder) {
+    // All but the keys: the guide to backups keeps the newest.
+    const fs::path keys = folder_ / "keys";
+    fs::rename(node.folder / "fitgauge.log.key", keys);
     fs::remove_all(node.folder);
     fs::copy(copy.path, node.folder, fs::copy_options::recursive);
+    fs::rename(keys, node.folder / "fitgauge.log.key");
   } else {
     for (const char* suffix : {"", "-wal", "-shm"})
       fs::remove(node.folder / fmt::format("fitgauge.db{}", suffix));

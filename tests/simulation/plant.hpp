@@ -29,6 +29,17 @@ struct Counts {
   std::uint64_t taken_back = 0;
   std::uint64_t jumps = 0;
   std::uint64_t full_disks = 0;
+
+  void add(const Counts& more) {
+    days += more.days;
+    acknowledged += more.acknowledged;
+    repeated += more.repeated;
+    kills += more.kills;
+    restores += more.restores;
+    taken_back += more.taken_back;
+    jumps += more.jumps;
+    full_disks += more.full_disks;
+  }
 };
 
 /// Stations, their centre and the receivers of all, and one who knows what was promised.
