@@ -80,7 +80,7 @@ class Service {
         {.report = [this](const RunReport& report) { return keep(report); },
          .trace = {.move = [](std::string& out, const machine::TracedMove&, const TracePlace&,
                               std::span<const machine::Axis>) { out += "a move, "; },
-                   .block = [](std::string&, const TracePlace&,
+                   .block = [](std::string&, const TracePlace&, std::size_t,
                                std::span<const interpreter::ParameterValue>) {},
                    .tail =
                        [](std::size_t, const std::optional<WatchedBlocks>&) {
