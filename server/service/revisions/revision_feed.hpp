@@ -19,9 +19,9 @@ namespace fitgauge::app {
 
 /// The refusal to change at a station what its centre has given. @param what `the plan 'X'`
 inline Error centre_decides(std::string_view what) {
-  return {
-      ErrorCode::Forbidden,
-      std::string(what) + " belongs to the centre: change it there, and wait half a minute for it"};
+  return {ErrorCode::Forbidden,
+          std::string(what) +
+              " must be changed at the centre: the change arrives here within half a minute"};
 }
 
 using store::RevisionKind;

@@ -108,7 +108,7 @@ class Gauge(ClientTest):
 
 class Refusals(ClientTest):
     def test_a_refusal_is_one_line_with_its_exit_code(self):
-        self.assertIn("'H99' is no class", self.assert_fails(7, "limits", "25H99"))
+        self.assertIn("unknown tolerance class 'H99'", self.assert_fails(7, "limits", "25H99"))
         self.assertIn("25", self.assert_fails(7, "limits", "25..5H7"))
         self.assertIn("--help", self.assert_fails(4, "limits"))
         self.assert_fails(4, "nonsense")

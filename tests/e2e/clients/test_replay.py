@@ -105,7 +105,7 @@ class Replay(ClientTest):
         self.client.write("other.txt", "hello\n")
         self.assertIn("other.txt:1:", self.assert_fails(5, "replay", "nc_prog/bore.h", "other.txt", "--contacts", "contacts.json"))
         self.client.write("contacts.json", "[[1,2]]")
-        self.assertIn("a contact is [X, Y, Z]", self.assert_fails(7, "replay", "nc_prog/bore.h", "log.txt", "--contacts",
+        self.assertIn("a contact must be [X, Y, Z]", self.assert_fails(7, "replay", "nc_prog/bore.h", "log.txt", "--contacts",
                                                                   "contacts.json"))
 
 

@@ -393,7 +393,7 @@ class Together(unittest.TestCase):
                          [["0"]], "it makes nothing")
         self.cluster.query("CREATE SCHEMA fitgauge; CREATE TABLE fitgauge.schema_migrations (number int8, checksum bytea)",
                            "empty")
-        for address, says in ((self.cluster.address("empty"), "lists no migration"),
+        for address, says in ((self.cluster.address("empty"), "has no list of migrations"),
                               (self.cluster.address("absent"), '"absent" does not exist'),
                               ("postgresql:///x?host=/nonexistent", "/nonexistent")):
             refused = check(address)

@@ -177,11 +177,11 @@ class Tampered(StorageTest):
         self.assertIn(text, verified.stdout)
 
     def test_a_whole_log_has_no_findings(self):
-        self.assertIn("without a checkpoint kept elsewhere", self.verify().stdout)
+        self.assertIn("give --checkpoint FILE", self.verify().stdout)
         verified = self.verify(self.kept)
         self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
         self.assertIn(f": {self.ROWS} measurements, root ", verified.stdout)
-        self.assertNotIn("kept elsewhere", verified.stdout)
+        self.assertNotIn("--checkpoint FILE", verified.stdout)
         # An older one is no finding.
         self.daemon.start()
         self.daemon.measure(PART)
@@ -222,7 +222,7 @@ class Tampered(StorageTest):
         alter(self.daemon.database, *UNTRIGGERED, "DELETE FROM measurements WHERE id > 290")
         self.assert_found("the newest were cut off")
         # Their ids are never given out again: it does not start.
-        self.assert_refused(self.daemon, "holds 290", "cut off")
+        self.assert_refused(self.daemon, "contains 290", "newest measurements are missing")
 
     def test_rows_cut_off_with_all_that_the_folder_knows_of_them(self):
         (self.daemon.data / "fitgauge.checkpoint").unlink()

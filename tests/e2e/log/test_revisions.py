@@ -108,7 +108,7 @@ class Revisions(Centre):
                                    ("DELETE", "/v1/setups/bench", None)):
             answer = station.request(method, path, body)
             self.assertEqual(answer.status, 403, answer)
-            self.assertIn("came from the centre", answer.json["detail"])
+            self.assertIn("must be changed at the centre", answer.json["detail"])
         self.put(station, "/v1/plans/own", PLAN, 200)
         self.put(station, "/v1/plans/another", PLAN, 201)
         # The negative control: without a centre the folder is its own again.

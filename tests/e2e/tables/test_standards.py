@@ -107,7 +107,7 @@ class Standards(DaemonTest):
             self.assert_problem(self.daemon.get(f"/v1/fits/{path}"), status, code)
         for path, written in (("25%20ISO%20492-P6/K6", "'25 ISO 492-P6/K6'"), ("52%20g6/ISO%20492-P6", "'52 g6/ISO 492-P6'")):
             detail = self.daemon.get(f"/v1/fits/{path}").json["detail"]
-            self.assertIn(f"{written} is no fit of a bearing", detail)
+            self.assertIn(f"unknown fit of a bearing {written}", detail)
 
     def test_tables_answer_by_size(self):
         names = {s["name"]: s for s in self.limits("/v1/standards")["standards"]}
