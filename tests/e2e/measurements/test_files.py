@@ -123,7 +123,7 @@ class Files(DaemonTest):
     def test_what_a_file_cannot_hold_is_said(self):
         self.daemon.measure([{"designation": "25 H7", "measured_mm": 25.01, "order": "x" * 21}])
         identity = self.daemon.stored()[0]["id"]
-        for query, words in (("format=dfq", f"a DFQ cannot hold {identity}: K0053"), ("format=dfq&part_id=nobody", "no measurement matches"),
+        for query, words in (("format=dfq", f"a DFQ cannot contain {identity}: K0053"), ("format=dfq&part_id=nobody", "no measurement matches"),
                              ("format=dfq&time_zone=Mars", "time_zone"), ("format=xlsx&part_number=1", "part_number is for format=dfq"),
                              ("format=dfq&part_number=" + "x" * 100, "K1001")):
             answer = self.download(query, 400)
