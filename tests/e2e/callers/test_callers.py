@@ -205,7 +205,7 @@ class Keys(Callers):
     def test_a_role_that_is_none(self):
         made = self.daemon.command("key", "create", "--name", "x", "--role", "king")
         self.assertEqual(made.returncode, 2)
-        self.assertIn("viewer, operator, admin or station", made.stderr)
+        self.assertIn("viewer, operator, admin, station", made.stderr)
 
 
 class Ends(Callers):

@@ -215,7 +215,7 @@ class Collecting(unittest.TestCase):
         wait_for(lambda: len(all_measurements(shop.collector)) == 3)
         state = wait_for(lambda: (now := shop.states()["m0"])["failures"] and now)
         self.assertEqual((state["state"], state["lag_s"], state["last_success_at"]), ("failing", None, None))
-        self.assertIn("is not reached", state["last_error"])
+        self.assertIn("cannot be reached", state["last_error"])
         wait_for(lambda: shop.states()["m1"]["state"] == "ok")
         shop.start_control(0)
         self.put(shop.controls[0], "nc_prog/b.txt", log(1))

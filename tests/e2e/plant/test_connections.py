@@ -52,7 +52,7 @@ class Stored(DaemonTest):
         self.put("away", CONTROL, 201)
         answer = self.daemon.post("/v1/connections/away/test", None).json
         self.assertFalse(answer["ok"])
-        self.assertIn("127.0.0.1:1 is not reached", answer["detail"])
+        self.assertIn("127.0.0.1:1 cannot be reached", answer["detail"])
         self.daemon.request("DELETE", "/v1/connections/away")
 
 

@@ -85,7 +85,7 @@ class Commands(ClientTest):
     def test_what_is_no_control_is_said(self):
         with socket.socket() as unused:
             unused.bind(("127.0.0.1", 0))
-            self.assertIn("is not reached", self.assert_fails(6, "control", "ls", f"127.0.0.1:{unused.getsockname()[1]}"))
+            self.assertIn("cannot be reached", self.assert_fails(6, "control", "ls", f"127.0.0.1:{unused.getsockname()[1]}"))
         self.assertIn("HOST:PORT", self.assert_fails(4, "control", "ls", "a:b:c"))
         self.assert_fails(6, "control", "ls", f"127.0.0.1:{self.daemon.port}")
 

@@ -229,7 +229,7 @@ class Lost(Mqtt):
         wait_for(lambda: len(silent.taken) >= most, lambda: self.state(daemon))
         self.assertEqual(self.state(daemon)["position"], 0)
         self.wait_state(daemon, "failing", "away")
-        self.assertIn("is not reached", self.state(daemon, "away")["last_error"])
+        self.assertIn("cannot be reached", self.state(daemon, "away")["last_error"])
         self.assertLessEqual(len(silent.taken), most * silent.connects)
         self.assertEqual(daemon.stop(), 0)  # nor does the end of the service
 
@@ -301,7 +301,7 @@ class Access(Mqtt):
         broker.kill()
         said = daemon.post("/v1/connections/dash/test", None).json
         self.assertFalse(said["ok"])
-        self.assertIn("is not reached", said["detail"])
+        self.assertIn("cannot be reached", said["detail"])
 
     def test_bad_settings_are_named(self):
         daemon = self.daemon()
