@@ -117,7 +117,7 @@ class Dfq(Folders):
         self.assertEqual(self.parts(daemon), ["SN-1", "SN-1", "SN-2"])
         self.drop("lone.dfx", dfq(VALUES))
         self.wait(lambda: "lone.dfx" in self.files("failed"))
-        self.assertIn("its description, lone.dfd, is not in the folder", self.told("lone.dfx"))
+        self.assertIn("its description lone.dfd is not in the folder", self.told("lone.dfx"))
         self.assertEqual(self.files(), ["other.dfd"])
         self.drop("bad.dfd", dfq(HEAD.replace("K0100 2", "K0100 3")))
         self.drop("bad.dfx", dfq(VALUES))
