@@ -421,7 +421,7 @@ class Uncertainty(DaemonTest):
                 ("a", [a, b], "/model", "field.invalid", "does not use 'b'"),
                 ("a = b", [a, b], "/model", "field.invalid", "character 3"),
                 ("ln(0 - a) + b", [a, b], "/model", "field.invalid", "no value at the estimates"),
-                ("a", [{**a, "sensitivity": 2}], "/contributions/0/sensitivity", "field.conflict", "leave it out"),
+                ("a", [{**a, "sensitivity": 2}], "/contributions/0/sensitivity", "field.conflict", "remove it"),
                 ("a", [{**a, "name": "sin"}], "/contributions/0/name", "field.invalid", "no function"),
                 ("a" * 101, [{**a, "name": "a" * 101}], "/contributions/0/name", "field.invalid", "1 to 100"),
                 ("a", [{"name": "a", "standard_uncertainty": 1}], "/contributions/0/value", "field.missing", "value"),

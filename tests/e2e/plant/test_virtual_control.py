@@ -233,7 +233,7 @@ class Settings(unittest.TestCase):
         daemon = Daemon("--control-listen", "127.0.0.1:0", "--control-model", "TNC9")
         self.addCleanup(daemon.cleanup)
         self.assertEqual(daemon.spawn().process.wait(PATIENCE), 2)
-        self.assertIn("control-model must be one of TNC640", daemon.log)
+        self.assertIn("control-model must be one of: TNC640", daemon.log)
 
     def test_the_end_of_the_service_waits_for_no_long_trace(self):
         daemon = Daemon(*WRITABLE)

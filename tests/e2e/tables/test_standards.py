@@ -137,7 +137,7 @@ class Standards(DaemonTest):
         self.assertIn("positions a to d", self.limits("/v1/standards/iso965-1?size_mm=10")["left_out"])
         refused = self.daemon.get("/v1/limits/M10-6a")
         self.assert_problem(refused, 404, "class.unknown")
-        self.assertIn("no second source", refused.json["detail"])
+        self.assertIn("is not available", refused.json["detail"])
         first = self.daemon.get("/v1/standards/iso492")
         again = self.daemon.get("/v1/standards/iso492", If_None_Match=first.headers["etag"])
         self.assertEqual(again.status, 304)
