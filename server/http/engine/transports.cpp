@@ -4,6 +4,7 @@
 #include <openssl/err.h>
 
 #include <algorithm>
+#include <array>
 #include <new>
 #include <string>
 #include <utility>
@@ -57,12 +58,8 @@ Result<std::shared_ptr<ssl::context>> load_tls(const TlsOptions& options) {
 
 TlsConnection::TlsConnection(IoThread& thread, Peer peer, Socket socket,
                              const std::shared_ptr<ssl::context>& context)
-    : Connection(thread, std::move(peer)),
-      socket_(std::move(socket)),
-      session_(SSL_new(context->native_handle()), &SSL_free) {
-  if (session_ == nullptr) throw std::bad_alloc();
+    : Connection(thread, std::move(peer)), socket_(std::move(socket)), context_(context) {
   socket_.non_blocking(true);
-  SSL_set_fd(session_.get(), socket_.native_handle());
 }
 
 template <class Step, class Done>
@@ -85,7 +82,29 @@ void TlsConnection::drive(Step step, Done done) {
   });
 }
 
-void TlsConnection::start() {
+void TlsConnection::await_record(std::size_t awaited) {
+  std::array<unsigned char, SSL3_RT_HEADER_LENGTH> head{};  // RFC 8446, 5.1: type, version, length
+  error_code error;
+  const std::size_t read = socket_.receive(asio::buffer(head), Socket::message_peek, error);
+  if (error && error != asio::error::would_block) return close();
+  std::size_t record = head.size();
+  if (read == head.size()) record += std::size_t{head[3]} * 256 + head[4];
+  const bool possible =
+      read == 0 || (head[0] == SSL3_RT_HANDSHAKE && record <= SSL3_RT_MAX_PACKET_SIZE);
+  const std::size_t come = socket_.available(error);
+  const bool waits = possible && come >= awaited && (read < head.size() || come < record);
+  socket_.set_option(Socket::receive_low_watermark(waits ? static_cast<int>(record) : 1), error);
+  if (!waits) return shake_hands();  // also when no more comes: OpenSSL refuses it
+  const auto ready = [this, self = shared_from_this(), record](const error_code& failed) {
+    if (failed || !fitgauge::guarded("a handshake", [&] { await_record(record); })) close();
+  };
+  socket_.async_wait(Socket::wait_read, ready);
+}
+
+void TlsConnection::shake_hands() {
+  session_.reset(SSL_new(context_->native_handle()));
+  if (session_ == nullptr) throw std::bad_alloc();
+  SSL_set_fd(session_.get(), socket_.native_handle());
   drive([](SSL* session) { return SSL_accept(session); },
         [this](const error_code& error, std::size_t) { error ? close() : begin(); });
 }

@@ -133,18 +133,50 @@ class IdleConnections(ConnectionTest):
 
 class HalfHandshakes(ConnectionTest):
     @unittest.skipIf(SANITIZED, "the memory of the release is measured")
-    def test_each_needs_at_most_40_kilobytes(self):
+    def test_each_needs_4_kilobytes_before_its_first_record_and_46_after(self):
         daemon = self.start_tls()
         session, hello = ssl.create_default_context(), ssl.MemoryBIO()
         with self.assertRaises(ssl.SSLWantReadError):
             session.wrap_bio(ssl.MemoryBIO(), hello, server_hostname="localhost").do_handshake()
         hello = hello.read()
-        for name, sent in (("a begin", hello[:3]), ("all but the last byte", hello[:-1]), ("no answer", hello)):
+        some = (("a begin", hello[:3], 4), ("all but the last byte", hello[:-1], 4), ("no answer", hello, 46))
+        for name, sent, kilobytes in some:  # OpenSSL 3.0 takes 43 for the session and the record
             with self.subTest(name):
                 self.send(daemon, 100, sent)  # what is allocated once is not theirs
                 before = daemon.memory("VmRSS")
                 self.send(daemon, 1000, sent)
-                self.assertLess((daemon.memory("VmRSS") - before) / 1000, 40 << 10)
+                self.assertLess((daemon.memory("VmRSS") - before) / 1000, kilobytes << 10)
+
+    def test_a_handshake_may_come_byte_by_byte_and_ends_with_its_client(self):
+        daemon = self.start_tls()
+        begin = b"\x16\x03\x01"
+        for hello in (b"", begin[:1], begin + b"\0\x09half", begin + b"\xff\xfftoo long", begin + b"\0\0", b"GET"):
+            connection, = self.connect(daemon, 1)
+            connection.sendall(hello)
+            connection.shutdown(socket.SHUT_WR)
+            with self.subTest(hello):
+                try:
+                    while connection.recv(4096):
+                        pass
+                except ConnectionResetError:
+                    pass
+        incoming, outgoing = ssl.MemoryBIO(), ssl.MemoryBIO()
+        session = daemon.tls.wrap_bio(incoming, outgoing, server_hostname="localhost")
+        connection, = self.connect(daemon, 1)
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        while True:
+            try:
+                session.do_handshake()
+                break
+            except ssl.SSLWantReadError:
+                for byte in outgoing.read():
+                    connection.sendall(bytes([byte]))
+                incoming.write(connection.recv(4096))
+        session.write(b"GET /livez HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
+        connection.sendall(outgoing.read())
+        while received := connection.recv(4096):
+            incoming.write(received)
+        self.assertTrue(session.read().startswith(b"HTTP/1.1 200"))
 
     def start_tls(self):
         folder = tempfile.TemporaryDirectory()
