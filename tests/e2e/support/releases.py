@@ -1,8 +1,8 @@
 """Data folders as releases left them, and how one is made.
 
-    python3 -m support.releases 0.1.0      (in tests/e2e, with FITGAUGED)
+    python3 -m support.releases 1.0.0      (in tests/e2e, with FITGAUGED)
 
-writes releases/0.1.0.tar.gz: the data folder, and what its daemon answered of it: `records.ndjson` with every record,
+writes releases/1.0.0.tar.gz: the data folder, and what its daemon answered of it: `records.ndjson` with every record,
 `proofs.json` with the proof of each by its id, `keys` of the log, and `answers.json` with other answers by their path."""
 
 import io
