@@ -1,0 +1,126 @@
+/**
+ * The pictures of docs/guide/gauging-station.md show the page as it is: scan, measure, reject with its cause, outage,
+ * sample, certificate. PICTURES=write tests/e2e/web/run tests/e2e/web/pictures_test.mjs takes them anew.
+ */
+
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import path from 'node:path';
+import { after, before, describe, it } from 'node:test';
+
+import { close, launch, open } from './support/browser.mjs';
+import { Daemon } from './support/daemon.mjs';
+import { scan } from './support/scanner.mjs';
+
+const FOLDER = path.join('docs', 'images');
+const SCREEN = { viewport: { width: 1024, height: 768 }, deviceScaleFactor: 0.75, serviceWorkers: 'allow' };
+const PLAN = { name: 'Bearing housing', characteristics: [
+  { name: 'bore-A', designation: '25 H7', gauge: 'G-07', reaction: 'Stop, tell the setter', catalogue: 'turning' },
+  { name: 'slot', nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: 0 },
+] };
+const SAMPLED = { name: 'Flange', characteristics: [
+  { name: '4712-bore', designation: '25 H7' }, { name: '4712-seat', designation: '30 k6', subgroup_size: 5, frequency: 'each hour' },
+  { name: '4712-slot', designation: '8 P9', frequency: 'every 5th part' },
+] };
+
+const CATALOGUE = {
+  causes: ['Insert worn', 'Part clamped askew', 'Wrong offset', 'Part too warm'], measures: ['Insert changed', 'Offset corrected', 'Part scrapped'],
+};
+
+/** The share of squares of 8 pixels whose brightness differs by more than a fifth; 1 for another size. */
+const difference = (page, one, other) => page.evaluate(async (pictures) => {
+  const [a, b] = await Promise.all(pictures.map(async (base64) => {
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (byte) => byte.charCodeAt(0))]));
+    const drawing = new OffscreenCanvas(Math.ceil(image.width / 8), Math.ceil(image.height / 8)).getContext('2d');
+    drawing.imageSmoothingQuality = 'high';
+    drawing.drawImage(image, 0, 0, image.width / 8, image.height / 8);
+    return drawing.getImageData(0, 0, drawing.canvas.width, drawing.canvas.height);
+  }));
+  if (a.width !== b.width || a.height !== b.height) return 1;
+  let different = 0;
+  for (let at = 0; at < a.data.length; at += 4) {
+    const brightness = (data) => data[at] * 0.3 + data[at + 1] * 0.59 + data[at + 2] * 0.11;
+    if (Math.abs(brightness(a.data) - brightness(b.data)) > 51) different += 1;
+  }
+  return (different * 4) / a.data.length;
+}, [one, other].map((bytes) => bytes.toString('base64')));
+
+describe('pictures of the guide', () => {
+  const taken = new Map();
+  const committed = (name) => path.join(FOLDER, `station-${name}.png`);
+  let browser;
+  let daemon;
+  let blank;
+  before(async () => {
+    browser = await launch();
+    daemon = await new Daemon().start();
+    blank = await browser.newPage();
+  });
+  after(() => daemon.cleanup());
+
+  it('are taken', async () => {
+    await daemon.send('PUT', '/v1/plans/4711-A', PLAN);
+    await daemon.send('PUT', '/v1/plans/4712-A', SAMPLED);
+    await daemon.send('PUT', '/v1/catalogues/turning', CATALOGUE);
+    const page = await open(browser, daemon, '#/gauge?order=WO-4711', SCREEN);
+    const take = async (name) => taken.set(name, await page.screenshot());
+    const verdict = (state) => page.waitForSelector(`.verdict[data-verdict="${state}"]:not([data-provisional])`);
+    const measure = async (characteristic, value) => {
+      await page.waitForFunction((name) => document.querySelector('.tiles-of-plan [aria-current]')?.textContent.includes(name), characteristic);
+      await scan(page, value);
+    };
+    await page.waitForSelector('.plan select:visible');
+    await scan(page, '4711-A');
+    await page.waitForSelector('.echo .figures');
+    await scan(page, 'SN-00017');
+    await take('scan');
+    await measure('bore-A', '25.0131');
+    await verdict('good');
+    await take('measure');
+    await measure('slot', '8.021');
+    await scan(page, 'SN-00018');
+    await measure('bore-A', '25.0302');
+    await verdict('reject');
+    await take('reject');
+    await page.click('text=Insert worn');
+    await page.click('text=Insert changed');
+    await daemon.stop();
+    await measure('slot', '8.017');
+    await page.waitForSelector('.verdict[data-provisional="away"]');
+    await page.waitForSelector('.link[data-state="away"]');
+    await take('outage');
+    await daemon.start();
+    await page.waitForSelector('.link[data-state="up"]');
+    await page.getByRole('button', { name: 'Seen' }).click();
+    await scan(page, '4712-A');
+    await page.waitForSelector('.tiles-of-plan li:nth-child(3)');
+    for (const [part, bore, seat, slot] of [['SN-00041', '25.011', '30.009', '7.976'], ['SN-00042', '25.013', '30.008']]) {
+      await scan(page, part);
+      await measure('4712-bore', bore);
+      await measure('4712-seat', seat);
+      if (slot) await measure('4712-slot', slot);
+    }
+    await scan(page, 'SN-00043');
+    await measure('4712-bore', '25.012');
+    await verdict('good');
+    await take('sample');
+    await page.goto(`${daemon.url}/#/parts?order=WO-4711`);
+    await page.waitForSelector('.records tbody tr');
+    await page.click('.certificate summary');
+    await page.getByLabel('Company').fill('Muster GmbH');
+    await take('certificate');
+    await close(page);
+    if (process.env.PICTURES === 'write') for (const [name, bytes] of taken) fs.writeFileSync(committed(name), bytes);
+  });
+
+  for (const name of ['scan', 'measure', 'reject', 'outage', 'sample', 'certificate']) {
+    it(`${name} is of this page`, async () => {
+      const share = await difference(blank, taken.get(name), fs.readFileSync(committed(name)));
+      assert.ok(share < 0.02, `${(share * 100).toFixed(1)} % of ${committed(name)} is different; PICTURES=write takes it anew`);
+    });
+  }
+
+  it('are told apart', async () => {
+    assert.ok(await difference(blank, taken.get('reject'), taken.get('measure')) > 0.05);
+  });
+});
