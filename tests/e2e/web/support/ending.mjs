@@ -9,5 +9,5 @@ export function atEnd(close) {
   open.push(close);
 }
 
-// Scripts that are no tests, such as film.mjs, close what they open.
+// Outside of a test there is no end.
 if (process.env.NODE_TEST_CONTEXT) after(() => Promise.allSettled(open.reverse().map((close) => close())));
