@@ -18,8 +18,8 @@ constexpr std::array<std::string_view, 12> kClasses = {
     "R ISO 2768-c", "R ISO 2768-v", "C ISO 2768-f", "C ISO 2768-m", "C ISO 2768-c", "C ISO 2768-v"};
 
 constexpr std::string_view kBearing = "ISO 492-";
-constexpr std::array<std::string_view, 3> kBearingClasses = {"ISO 492-normal", "ISO 492-P6",
-                                                             "ISO 492-P5"};
+constexpr std::array<std::string_view, 4> kBearingClasses = {"ISO 492-normal", "ISO 492-P6",
+                                                             "ISO 492-P5", "ISO 492-P4"};
 
 Error not_a_general_tolerance(std::string_view text) {
   return {ErrorCode::DesignationMalformed,
@@ -121,15 +121,14 @@ Result<DesignatedLimits> bearing_limits(Length nominal, std::string_view toleran
   const auto* const known =
       std::find(kBearingClasses.begin(), kBearingClasses.end(), tolerance_class);
   if (known == kBearingClasses.end()) {
-    return Error{
-        ErrorCode::ClassUnknown,
-        fmt::format("unknown class '{}' of ISO 492: use ISO 492-normal, ISO 492-P6 or ISO 492-P5",
-                    first_characters(tolerance_class, 40))};
+    return Error{ErrorCode::ClassUnknown, fmt::format("unknown class '{}' of ISO 492: use {}",
+                                                      first_characters(tolerance_class, 40),
+                                                      fmt::join(kBearingClasses, ", "))};
   }
   const bool is_bore = feature == iso286::Feature::Hole;
   for (const Row& row : standard.table(is_bore ? "bores" : "outer_rings").rows) {
-    if (!row.holds(nominal)) continue;
     const std::string_view item = known->substr(kBearing.size());
+    if (!row.holds(nominal) || !row.length(item, Member::Upper)) continue;
     return DesignatedLimits{.standard = &standard,
                             .tolerance_class = *known,
                             .feature = feature,
@@ -141,8 +140,9 @@ Result<DesignatedLimits> bearing_limits(Length nominal, std::string_view toleran
   return Error{
       ErrorCode::ClassUndefinedForSize,
       fmt::format(
-          "ISO 492 has no {} of {} mm: use bores from 0.6 and outer rings from 2.5 to 630 mm",
-          is_bore ? "bore" : "outer ring", format_mm(nominal))};
+          "{} has no {} of {} mm: use bores from 0.6 and outer rings from 2.5 to 630 mm (P4: bores "
+          "to 250, outer rings to 400)",
+          *known, is_bore ? "bore" : "outer ring", format_mm(nominal))};
 }
 
 void append_designation(std::string& out, Length nominal, std::string_view tolerance_class) {

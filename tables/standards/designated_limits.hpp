@@ -54,8 +54,7 @@ Result<DesignatedLimits> thread_limits(std::string_view designation);
 /// Whether a class names one of bearings: `ISO 492-P6`.
 bool is_bearing_class(std::string_view text);
 /// The mean diameter of a radial bearing but a tapered roller bearing (ISO 492): its bore as a
-/// hole, its outer ring as a shaft. @param tolerance_class `ISO 492-normal`, `ISO 492-P6` or `ISO
-/// 492-P5`
+/// hole, its outer ring as a shaft. @param tolerance_class `ISO 492-normal`, or `-P6`, `-P5`, `-P4`
 /// @errors ClassUnknown; ClassUndefinedForSize.
 Result<DesignatedLimits> bearing_limits(Length nominal, std::string_view tolerance_class,
                                         iso286::Feature feature);

@@ -162,16 +162,17 @@ std::vector<Standard> make_all() {
                        .tables = {},
                        .revision = {}},
                       {{"keyways", "din6885_keyways"}}));
-  made.push_back(make(
-      {.name = "iso492",
-       .edition = "ISO 492:2014",
-       .title = "Radial bearings but tapered roller bearings: mean diameters",
-       .designation = {},
-       .sources = {"JIS B 1514-1:2017", "catalogues of three manufacturers"},
-       .left_out = "diameters over 630 mm, and class 4: no second source that is public was found",
-       .tables = {},
-       .revision = {}},
-      {{"bores", "iso492_bores"}, {"outer_rings", "iso492_outer_rings"}}));
+  made.push_back(
+      make({.name = "iso492",
+            .edition = "ISO 492:2014",
+            .title = "Radial bearings but tapered roller bearings: mean diameters",
+            .designation = {},
+            .sources = {"JIS B 1514-1:2017", "catalogues of three manufacturers"},
+            .left_out =
+                "diameters over 630 mm; class 4 ends at bores of 250 mm and outer rings of 400 mm",
+            .tables = {},
+            .revision = {}},
+           {{"bores", "iso492_bores"}, {"outer_rings", "iso492_outer_rings"}}));
   return made;
 }
 

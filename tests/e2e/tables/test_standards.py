@@ -95,12 +95,18 @@ class Standards(DaemonTest):
         self.assertEqual((ring["designation"], ring["type"], ring["max_clearance_um"], ring["min_clearance_um"]),
                          ("52 H7/ISO 492-normal", "clearance", 43, 0))
         self.assertEqual(ring["shaft"]["feature"], "shaft")
+        # Bore 25 in P4: 0 to -5 um; k5: +2 to +11 um. Outer ring 400 in P4: 0 to -15 um; H6: 0 to +36 um.
+        spindle = self.limits("/v1/fits/25%20ISO%20492-P4/k5")
+        self.assertEqual((spindle["max_clearance_um"], spindle["min_clearance_um"]), (-2, -16))
+        self.assertEqual(self.limits("/v1/fits/400H6/ISO%20492-P4")["max_clearance_um"], 51)
         self.assertEqual(ring, self.limits("/v1/fits/52%20H7%20%2F%20ISO%20492-normal"))
         self.assertEqual(bore["designation"], self.limits("/v1/fits/25%20ISO%20492-P6%2Fk6")["designation"])
         for path, status, code in (("25%20ISO%20492-P6/ISO%20492-P6", 400, "fit.malformed"),
                                    ("25%20ISO%20492-P6/K6", 400, "fit.malformed"),
                                    ("25x%20ISO%20492-P6/k6", 400, "designation.malformed"),
-                                   ("25%20ISO%20492-P4/k6", 404, "class.unknown"),
+                                   ("25%20ISO%20492-P3/k6", 404, "class.unknown"),
+                                   ("251%20ISO%20492-P4/k6", 422, "class.undefined_for_size"),
+                                   ("401H7/ISO%20492-P4", 422, "class.undefined_for_size"),
                                    ("700%20ISO%20492-P6/k6", 422, "class.undefined_for_size"),
                                    ("2H7/ISO%20492-P6", 422, "class.undefined_for_size"),
                                    ("25%20ISO%20492-P6/k99", 404, "class.unknown")):

@@ -137,8 +137,8 @@ describe('the numbers of other standards', () => {
     await page.waitForSelector('.standard [aria-label^="Bores"]');
     await page.fill('#find', '25');
     await page.waitForFunction(() => document.querySelectorAll('.standard tbody tr').length === 2);
-    assert.deepEqual(await texts('Bores, mean diameter'), ['18', '30', '0−10', '0−8', '0−6']);
-    assert.deepEqual(await texts('Outer rings, mean diameter'), ['18', '30', '0−9', '0−8', '0−6']);
+    assert.deepEqual(await texts('Bores, mean diameter'), ['18', '30', '0−10', '0−8', '0−6', '0−5']);
+    assert.deepEqual(await texts('Outer rings, mean diameter'), ['18', '30', '0−9', '0−8', '0−6', '0−5']);
     await page.fill('#find', '700');
     await page.waitForFunction(() => (document.querySelector('.note')?.textContent ?? '') !== '');
     await page.selectOption('#standard', 'hole');

@@ -154,8 +154,27 @@ TEST_CASE("bearings are those of catalogues") {
     CHECK(lower("outer_rings", size, "normal") == normal);
     CHECK(lower("outer_rings", size, "P5") == p5);
   }
+  // Class 4 as NTN prints it for spindle bearings (bores) and GOST 520-2002, table 8 (outer rings).
+  constexpr std::array<std::array<std::int64_t, 2>, 9> kFineBores = {
+      {{10, 4}, {18, 4}, {30, 5}, {50, 6}, {80, 7}, {120, 8}, {150, 10}, {180, 10}, {250, 12}}};
+  for (const auto& [size, p4] : kFineBores) CHECK(lower("bores", size, "P4") == p4);
+  constexpr std::array<std::array<std::int64_t, 2>, 11> kFineRings = {{{6, 4},
+                                                                       {18, 4},
+                                                                       {30, 5},
+                                                                       {50, 6},
+                                                                       {80, 7},
+                                                                       {120, 8},
+                                                                       {150, 9},
+                                                                       {180, 10},
+                                                                       {250, 11},
+                                                                       {315, 13},
+                                                                       {400, 15}}};
+  for (const auto& [size, p4] : kFineRings) CHECK(lower("outer_rings", size, "P4") == p4);
   for (const Table& table : bearings.tables) {
     for (const Row& row : table.rows) {  // the finer the class, the narrower, and all from 0
+      if (const auto p4 = row.length("P4", Member::Lower)) {
+        CHECK(*p4 >= *row.length("P5", Member::Lower));
+      }
       CHECK(*row.length("P5", Member::Lower) >= *row.length("P6", Member::Lower));
       CHECK(*row.length("P6", Member::Lower) >= *row.length("normal", Member::Lower));
       CHECK(*row.length("normal", Member::Upper) == Length());
