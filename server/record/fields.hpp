@@ -58,7 +58,9 @@ struct MeasurementFields {
   std::optional<std::string_view> correction_reason{};   ///< of a correction, and of no other
   std::optional<std::string_view> uncertainty_budget{};  ///< of the gauge, if it gave u
   std::optional<std::string_view> calibration_due{};     ///< of the gauge, as given, if overdue
-  std::optional<std::int64_t> added_uncertainty{};       ///< by the correction to 20 °C, in pm
+  std::optional<std::string_view> calibration_certificate{};  ///< of the gauge, if in date
+  std::optional<std::string_view> calibration_laboratory{};   ///< the same
+  std::optional<std::int64_t> added_uncertainty{};  ///< by the correction to 20 °C, in pm
 };
 
 /// Values that a request may give a field; none if the service fills it.
@@ -201,6 +203,10 @@ inline constexpr MeasurementField kMeasurementFields[] = {
     {"reason", &Of::correction_reason, "correction_reason", 36, kNotGiven},
     {"uncertainty", &Of::uncertainty_budget, "uncertainty_budget", 46, kNotGiven},
     {"calibration_due", &Of::calibration_due, "calibration_due", 47, kNotGiven},
+    {"calibration_certificate", &Of::calibration_certificate, "calibration_certificate", 67,
+     kNotGiven},
+    {"calibration_laboratory", &Of::calibration_laboratory, "calibration_laboratory", 68,
+     kNotGiven},
     {"added_uncertainty_um", &Of::added_uncertainty, 6, "added_uncertainty", 53, kNotGiven},
 };
 

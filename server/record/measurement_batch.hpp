@@ -28,6 +28,8 @@ struct GaugePeriod {
   std::optional<std::int64_t> degrees_of_freedom{};  ///< of the budget, in millionths
   std::string calibration_due{};                     ///< as it was given; empty: not at all
   std::optional<Timestamp> due{};                    ///< the same; a date lasts to its end in UTC
+  std::optional<std::string> certificate{};
+  std::optional<std::string> laboratory{};
   bool is_blocked = false;
 
   bool is_overdue(Timestamp at) const { return due && *due < at; }

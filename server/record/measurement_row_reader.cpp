@@ -249,6 +249,8 @@ void MeasurementRowReader::apply_gauge() {
   const bool needs = draft_.rule.kind != gauging::DecisionRule::Kind::Simple;
   if (const app::Measurement* other = draft_.gauge_of) {
     m.calibration_due = other->calibration_due;
+    m.calibration_certificate = other->calibration_certificate;
+    m.calibration_laboratory = other->calibration_laboratory;
     if (needs && !m.standard_uncertainty) {
       m.standard_uncertainty = other->standard_uncertainty;
       m.degrees_of_freedom = other->degrees_of_freedom;
@@ -263,6 +265,9 @@ void MeasurementRowReader::apply_gauge() {
   m.has_blocked_gauge = period.is_blocked;
   if (draft_.gauge_of == nullptr && period.is_overdue(m.measured_at)) {
     m.calibration_due = period.calibration_due;
+  } else if (draft_.gauge_of == nullptr && !period.is_blocked) {
+    m.calibration_certificate = period.certificate;
+    m.calibration_laboratory = period.laboratory;
   }
   if (needs && !m.standard_uncertainty && !given(RowField::Uncertainty) &&
       period.standard_uncertainty) {

@@ -79,19 +79,16 @@ std::string rule_words(const gauging::DecisionRule& rule) {
   switch (rule.kind()) {
     case gauging::DecisionRule::Kind::Simple:
       return "simple acceptance. Good: the value lies within the limits; its uncertainty does not "
-             "count (JCGM 106:2012, "
-             "8.2).";
+             "count (JCGM 106:2012, 8.2).";
     case gauging::DecisionRule::Kind::GuardBand:
       return "guard band. Good: the value lies inside both limits by U at least. Rework or reject: "
-             "outside by more than "
-             "U. Else indeterminate (ISO 14253-1:2017; JCGM 106:2012, 8.3).";
+             "outside by more than U. Else indeterminate (ISO 14253-1:2017; JCGM 106:2012, 8.3).";
     case gauging::DecisionRule::Kind::Conformance: break;
   }
   return fmt::format(
       "conformance. Good: the true value lies within the limits with a probability p of {} at "
-      "least. Rework "
-      "or reject: outside with that probability. Else indeterminate (ISO 14253-1:2017; JCGM "
-      "106:2012, 7).",
+      "least. Rework or reject: outside with that probability. Else indeterminate (ISO "
+      "14253-1:2017; JCGM 106:2012, 7).",
       format(rule.probability()));
 }
 
@@ -176,7 +173,9 @@ void CertificateDraft::add(const app::Measurement& m) {
   if (m.part_id) parts_.emplace(*m.part_id);
   if (m.gauge) {
     const std::string budget(m.uncertainty_budget.value_or(""));
-    gauges_.insert({gauge, budget, budget.empty() ? std::nullopt : m.standard_uncertainty, due});
+    gauges_.insert({gauge, budget, budget.empty() ? std::nullopt : m.standard_uncertainty, due,
+                    std::string(m.calibration_certificate.value_or("")),
+                    std::string(m.calibration_laboratory.value_or(""))});
   }
   if (!m.table_revision.empty()) ++revisions_[std::string(m.table_revision)];
   const auto verdict = static_cast<std::size_t>(m.result.verdict);
@@ -240,6 +239,8 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
     for (const UsedGauge& gauge : gauges_) {
       json.begin_object().member("name", gauge.name);
       if (!gauge.overdue_since.empty()) json.member("calibration_due", gauge.overdue_since);
+      if (!gauge.certificate.empty()) json.member("calibration_certificate", gauge.certificate);
+      if (!gauge.laboratory.empty()) json.member("calibration_laboratory", gauge.laboratory);
       if (!gauge.budget.empty()) json.member("uncertainty", gauge.budget);
       if (gauge.standard_uncertainty) json.member_um("uncertainty_um", *gauge.standard_uncertainty);
       json.end_object();
@@ -280,9 +281,15 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
     paper.statements[number - 1] = fmt::format("R{}: {}", number, words);
   paper.statements.emplace_back(
       "U: expanded uncertainty k\u00b7u with its coverage factor and coverage probability, as the "
-      "record has it. The results "
-      "relate to the values listed here alone; a size is at 20 \u00b0C (ISO 1) if the temperature "
-      "stands beside it.");
+      "record has it. The results relate to the values listed here alone; a size is at 20 \u00b0C "
+      "(ISO 1) if the temperature stands beside it.");
+  std::set<std::string> calibrations;
+  for (const UsedGauge& gauge : gauges_) {
+    if (gauge.certificate.empty() && gauge.laboratory.empty()) continue;
+    calibrations.insert(fmt::format("Gauge {}: calibration {}", gauge.name,
+                                    listed(gauge.certificate, gauge.laboratory)));
+  }
+  paper.statements.insert(paper.statements.end(), calibrations.begin(), calibrations.end());
   if (worst_verdict_ != gauging::Verdict::Unjudged) paper.worst = std::move(worst_);
   std::string made = fmt::format("Made {} UTC by fitgauge {}", time_text(made_at), kVersion);
   for (const auto& [revision, uses] : revisions_) made += ", tables " + revision;

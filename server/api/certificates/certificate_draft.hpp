@@ -59,6 +59,8 @@ class CertificateDraft {
     std::string budget{};
     std::optional<Length> standard_uncertainty{};  ///< of the budget
     std::string overdue_since{};
+    std::string certificate{};  ///< of its calibration in date
+    std::string laboratory{};
 
     friend auto operator<=>(const UsedGauge&, const UsedGauge&) = default;
   };

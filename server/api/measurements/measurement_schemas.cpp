@@ -71,6 +71,9 @@ schema::Fields record_fields() {
        "Of a gauge in use: the budget that `uncertainty_um` was taken from"},
       {"calibration_due", schema::text(),
        "Of a gauge in use whose calibration was overdue when it measured: since when"},
+      {"calibration_certificate", schema::text(),
+       "Of a gauge in use: the number of the calibration certificate in date when it measured"},
+      {"calibration_laboratory", schema::text(), "Of a gauge in use: who calibrated it"},
       {"calibration_overdue", schema::boolean(), "True where it was; else it is not there"},
       {"quantity", quantity_words(), "What it is; absent in records of older versions"},
       {"envelope_result", schema::words({"verified", "not_verified", "failed"}),
@@ -196,6 +199,8 @@ void add_measurement_schemas(Schemas& schemas) {
   const std::string gauge = schema::object(
       {{"name", schema::text(), ""},
        {"calibration_due", schema::text(), "Of one that was overdue: since when", false},
+       {"calibration_certificate", schema::text(), "Of the one in date: its number", false},
+       {"calibration_laboratory", schema::text(), "The same: who calibrated it", false},
        {"uncertainty", schema::text(), "The name of its budget", false},
        {"uncertainty_um", schema::number(), "What it came to", false}});
   schemas.push_back(

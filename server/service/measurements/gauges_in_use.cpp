@@ -62,6 +62,8 @@ GaugeBook book_of(const Documents& gauges, const Documents& calibrations,
     GaugePeriod period = {.from = *from, .calibration_due = std::string(body->text_of("due"))};
     period.due = parse_due(period.calibration_due);
     period.is_blocked = body->text_of("status") == "blocked";
+    if (body->find("certificate") != nullptr) period.certificate = body->text_of("certificate");
+    if (body->find("laboratory") != nullptr) period.laboratory = body->text_of("laboratory");
     const std::string budget = std::string(body->text_of("uncertainty"));
     set_budget(period, budget.empty() ? gauge->second.periods.front().budget : budget, combined);
     gauge->second.periods.push_back(std::move(period));

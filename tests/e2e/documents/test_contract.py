@@ -193,7 +193,11 @@ class Answers(ContractTest):
         self.expect("postMeasurements", 201, {"nominal_mm": 8, "feature": "shaft", "upper_um": 0, "measured_mm": 8})
         self.expect("putUncertainty", 201, {"contributions": [{"name": "a", "standard_uncertainty": 1}]}, name="ring")
         self.expect("putGaugeInUse", 201, {"uncertainty": "ring", "calibration_due": "2020-03-31"}, name="late")
-        self.expect("postMeasurements", 201, {"designation": "25 H7", "measured_mm": 25.01, "rule": "guard_band", "gauge": "late"})
+        late = {"designation": "25 H7", "measured_mm": 25.01, "rule": "guard_band", "gauge": "late", "order": "order"}
+        self.expect("postMeasurements", 201, {**late, "measured_at": "2026-01-01T00:00:00Z"})
+        self.expect("recordCalibration", 201, {"from": "2026-03-31", "due": "2099-03-31", "certificate": "K-1", "laboratory": "x"},
+                    name="late")
+        self.expect("postMeasurements", 201, late)
         enveloped = {"designation": "25 H7(E)", "measured_mm": 25.01, "go_gauge": "passes", "gauge": "another",
                      "rule": "guard_band", "uncertainty_um": 1, "degrees_of_freedom": 9}
         self.expect("postMeasurements", 201, enveloped)

@@ -155,6 +155,24 @@ class Certificates(DaemonTest):
         for word in ("0.05", "2020-12-31", "OVERDUE"):
             self.assertNotIn(word, text)
 
+    def test_the_calibration_in_date_is_named(self):
+        """Number and laboratory as the records have them: not of one that is overdue, nor of one that came later."""
+        self.daemon.request("PUT", "/v1/gauges-in-use/G-21", {"calibration_due": "2025-12-31"})
+        path = "/v1/gauges-in-use/G-21/calibrations"
+        calibration = {"from": "2026-01-01", "due": "2026-12-31", "certificate": "K-1234", "laboratory": "DKD lab"}
+        self.daemon.post(path, calibration)
+        for day in ("2025-06-01", "2026-06-01", "2027-01-01"):
+            self.daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "order": "WO-C", "gauge": "G-21",
+                                 "measured_at": f"{day}T08:00:00Z"})
+        self.daemon.post(path, {**calibration, "certificate": "K-9999"})
+        gauges = self.daemon.get("/v1/certificates?order=WO-C", Accept="application/json").json["gauges"]
+        self.assertEqual(gauges, [{"name": "G-21"}, {"name": "G-21", "calibration_certificate": "K-1234", "calibration_laboratory": "DKD lab"},
+                                  {"name": "G-21", "calibration_due": "2026-12-31"}])
+        text = re.sub(r"\s+", " ", self.pdf("order=WO-C")[0])
+        self.assertIn("Gauge G-21: calibration K-1234, DKD lab", text)
+        self.assertNotIn("K-9999", text)
+        self.assertEqual(self.daemon.command("verify").returncode, 0)
+
     def test_designations_of_other_standards_stand_as_they_are_written(self):
         for designation, size in (("M10x1.25-6g", "9.1"), ("R5 ISO 2768-m", "5.2"), ("12 ISO 2768-f", "12.05")):
             self.daemon.measure({"designation": designation, "measured_mm": size, "order": "WO-S", "part_id": "S"})

@@ -468,6 +468,8 @@ class Kept(DaemonTest):
             stored = self.daemon.get(f"/v1/measurements/{answer['id']}").json
             codes = [each["code"] for each in answer.pop("warnings", [])]
             self.assertEqual(stored, answer)
+            of_calibration = answer.get("calibration_certificate"), answer.get("calibration_laboratory")
+            self.assertEqual(of_calibration, ("K-1", "DKD") if answer["uncertainty"] == "second" else (None, None))
             return answer["uncertainty"], answer["uncertainty_um"], answer.get("calibration_due"), codes
 
         self.assertEqual(measure("2025-12-31T00:00:00Z"), ("first", 0.5, None, []))

@@ -334,7 +334,8 @@ TEST_CASE("a gauge in use says its uncertainty where the rule needs one, and tha
                            {{{.budget = "ring",
                               .standard_uncertainty = Length::nanometres(501),
                               .calibration_due = "2026-03-31",
-                              .due = due}}}},
+                              .due = due,
+                              .certificate = "K-1"}}}},
                           {"G-08", {{{.calibration_due = "2026-03-31", .due = due}}}}};
   const auto judged = [&](const std::string& fields, std::string_view type = "application/json") {
     const std::string body = R"({"designation":"25 H7","measured_mm":25.0005)" + fields + "}";
@@ -366,7 +367,9 @@ TEST_CASE("a gauge in use says its uncertainty where the rule needs one, and tha
         R"(,"gauge":"G-07","rule":"conformance","measured_at":"2026-03-31T23:59:59.999999999Z")",
         type);
     CHECK(has(in_time, R"("uncertainty":"ring")"));
-    CHECK_FALSE(has(in_time, "calibration"));
+    CHECK(has(in_time, R"("calibration_certificate":"K-1",)"));
+    CHECK_FALSE(has(in_time, "calibration_due"));
+    CHECK_FALSE(has(needed, "K-1"));
     const std::string simple = judged(R"(,"gauge":"G-07")", type);
     CHECK_FALSE(has(simple, "\"uncertainty"));
     CHECK(has(simple, "calibration_overdue"));
