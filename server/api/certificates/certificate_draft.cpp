@@ -74,6 +74,19 @@ std::string measured_text(const app::Measurement& m) {
   return text;
 }
 
+/// `; GG, 4 points from 22.5°, form 2.1 µm, factor 1; envelope verified`: how it was taken.
+std::string taken_text(const app::Measurement& m) {
+  std::string text;
+  if (m.size_operator && m.size_operator != "LP") text = fmt::format("; {}", *m.size_operator);
+  if (m.points) text += fmt::format(", {} points", *m.points);
+  if (m.start_angle) text += fmt::format(" from {}\u00b0", format_decimal(*m.start_angle, 6));
+  if (m.form) text += fmt::format(", form {} \u00b5m", format_um(Length::nanometres(*m.form)));
+  if (m.diameter_factor) text += fmt::format(", factor {}", format_decimal(*m.diameter_factor, 6));
+  const char* const found = m.has_failed_envelope() ? "failed" : "verified";
+  if (m.envelope) text += fmt::format("; envelope {}", m.go_gauge ? found : "not verified");
+  return text;
+}
+
 /// The rule in words, with its standard.
 std::string rule_words(const gauging::DecisionRule& rule) {
   switch (rule.kind()) {
@@ -207,7 +220,7 @@ void CertificateDraft::add(const app::Measurement& m) {
        .size = size_text(m),
        .limits = limits_text(m),
        .measured =
-           measured_text(m) +
+           measured_text(m) + taken_text(m) +
            (m.correction_reason ? fmt::format("; corrected: {}", *m.correction_reason) : ""),
        .deviation = m.has_nominal ? (Length() < deviation ? "+" : "") + format_um(deviation) : "",
        .verdict = std::string(word(m.result.verdict)),
@@ -282,7 +295,8 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
   paper.statements.emplace_back(
       "U: expanded uncertainty k\u00b7u with its coverage factor and coverage probability, as the "
       "record has it. The results relate to the values listed here alone; a size is at 20 \u00b0C "
-      "(ISO 1) if the temperature stands beside it.");
+      "(ISO 1) if the temperature stands beside it. Its operator (ISO 14405-1) stands beside it "
+      "unless that is LP.");
   std::set<std::string> calibrations;
   for (const UsedGauge& gauge : gauges_) {
     if (gauge.certificate.empty() && gauge.laboratory.empty()) continue;

@@ -119,10 +119,8 @@ void add_certificates_routes(std::vector<http::Route>& routes, const Services& s
       .description =
           "Every value of the order, the part or both, in storage order, with limits, verdict, "
           "rule, uncertainty, gauge, machine, operator and the signed head of the log that has "
-          "them; before them the "
-          "verdict of all and the worst value. A tagged PDF, or JSON by Accept; at most 10,000 "
-          "values, "
-          "whose records have at most 16 MiB.",
+          "them; before them the verdict of all and the worst value. A tagged PDF, or JSON by "
+          "Accept; at most 10,000 values, whose records have at most 16 MiB.",
       .parameters = parameters(),
       .response_types = {std::string(kPdf), std::string(kJson)},
       .access = "viewer",

@@ -155,6 +155,15 @@ class Certificates(DaemonTest):
         for word in ("0.05", "2020-12-31", "OVERDUE"):
             self.assertNotIn(word, text)
 
+    def test_how_a_size_was_taken_stands_beside_it(self):
+        given = {"measured_mm": "25.01", "order": "WO-E"}
+        for more in ({"designation": "25 H7", "size_operator": "GX"}, {"designation": "25 H7(E)"},
+                     {"designation": "25 H7(E)", "go_gauge": "passes"}, {"designation": "25 H7"}):
+            self.daemon.measure({**given, **more})
+        table = self.flat("order=WO-E").split("Measured at", 1)[1]
+        for words in ("25.010; GX", "25.010; envelope not verified", "25.010; envelope verified", "25.010 +10"):
+            self.assertEqual(table.count(words), 1, words)
+
     def test_the_calibration_in_date_is_named(self):
         """Number and laboratory as the records have them: not of one that is overdue, nor of one that came later."""
         self.daemon.request("PUT", "/v1/gauges-in-use/G-21", {"calibration_due": "2025-12-31"})
