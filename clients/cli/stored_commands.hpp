@@ -8,8 +8,8 @@
 
 namespace fitgauge::cli {
 
-// `fitgauge setups …`, `budgets …`, `gauges …` and `runs …`: what lies in the service beside the
-// control's files.
+// `fitgauge setups …`, `budgets …`, `gauges …`, `studies …` and `runs …`: what lies in the service
+// beside the control's files.
 
 /// Documents that are stored under a name.
 struct StoredKind {
@@ -19,12 +19,13 @@ struct StoredKind {
   std::string_view path;    ///< of the list; each is below it
   std::string_view member;  ///< of the list's answer
 };
-inline constexpr std::array<StoredKind, 3> kStoredKinds = {{
+inline constexpr std::array<StoredKind, 4> kStoredKinds = {{
     {"setups", "a setup", "Machines with the workpieces on their tables", "/v1/setups", "setups"},
     {"budgets", "an uncertainty budget", "Uncertainty budgets", "/v1/uncertainties",
      "uncertainties"},
     {"gauges", "a gauge in use", "Gauges in use: their uncertainty and calibration",
      "/v1/gauges-in-use", "gauges"},
+    {"studies", "a study of a gauge", "Gauge studies with their results", "/v1/studies", "studies"},
 }};
 
 /// `setups ls`

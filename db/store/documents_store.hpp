@@ -25,8 +25,9 @@ enum class DocumentKind : std::uint8_t {
   ConnectionProgress = 6,  ///< how far the connection of that name has come
   Catalogue = 7,
   Calibration = 8,  ///< of a gauge in use, named by app::calibration_name()
+  Study = 9,        ///< of a gauge in use
 };
-constexpr DocumentKind last_of(DocumentKind) { return DocumentKind::Calibration; }
+constexpr DocumentKind last_of(DocumentKind) { return DocumentKind::Study; }
 
 struct Document {
   DocumentKind kind = DocumentKind::Uncertainty;

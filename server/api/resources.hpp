@@ -71,7 +71,7 @@ void add_stored_statistics_routes(std::vector<http::Route>& routes, const Servic
 void add_compensation_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/uncertainty: an uncertainty budget, computed and not stored.
 void add_uncertainty_routes(std::vector<http::Route>& routes, const Services& services);
-/// /v1/uncertainties and /v1/gauges-in-use: budgets and gauges that are kept under a name.
+/// /v1/uncertainties, /v1/gauges-in-use and /v1/studies: what is kept under a name.
 void add_documents_routes(std::vector<http::Route>& routes, const Services& services);
 /// /v1/plans: inspection plans.
 void add_plans_routes(std::vector<http::Route>& routes, const Services& services);

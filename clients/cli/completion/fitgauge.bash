@@ -5,7 +5,7 @@ _fitgauge() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
   local common='--server --key-file --ca --cert --cert-key --json --retry --help'
   local commands='limits fit fits limit-gauge standards gauge import list export summary capability chart statistics
-    correct note plan nc setups budgets gauges runs control replay tables watch version completion'
+    correct note plan nc setups budgets gauges studies runs control replay tables watch version completion'
   COMPREPLY=()
 
   # What the option before takes.
@@ -87,7 +87,7 @@ _fitgauge() {
     plan)
       options='--part'
       ((${#words[@]} > 1)) || options+=' from' ;;
-    setups | budgets | gauges) ((${#words[@]} > 1)) || options='ls put get rm' ;;
+    setups | budgets | gauges | studies) ((${#words[@]} > 1)) || options='ls put get rm' ;;
     runs)
       case ${words[1]-} in
         '') options='ls show get cancel' ;;
@@ -121,7 +121,7 @@ _fitgauge() {
       esac ;;
   esac
   case ${words[*]} in
-    import | measure | tables\ set\ *\ * | plan\ from\ * | nc\ check\ * | nc\ format\ * | nc\ check | nc\ format | nc\ convert | nc\ convert\ * | nc\ run | nc\ run\ * | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
+    import | measure | tables\ set\ *\ * | plan\ from\ * | nc\ check\ * | nc\ format\ * | nc\ check | nc\ format | nc\ convert | nc\ convert\ * | nc\ run | nc\ run\ * | nc\ put | nc\ put\ * | nc\ get\ * | setups\ put\ * | setups\ get\ * | budgets\ put\ * | budgets\ get\ * | gauges\ put\ * | gauges\ get\ * | studies\ put\ * | studies\ get\ * | statistics\ * | control\ put\ * | control\ get\ *\ * | replay\ *) [[ $word == -* ]] || { _fitgauge_files; return; } ;;
   esac
   _fitgauge_words "$options $common"
 }

@@ -63,5 +63,20 @@ class StatisticsCalls(Transport):
         """The calibrations of a gauge, by their beginnings."""
         return self._get(path_of("gauges-in-use", name, "calibrations"))["calibrations"]
 
+    def studies(self) -> list[dict[str, str]]:
+        """The stored gauge studies: `name`, `gauge`, `at`, `kind` and `modified_at`."""
+        return self._get("/v1/studies")["studies"]
+
+    def put_study(self, name: str, study: Mapping[str, Any]) -> dict[str, Any]:
+        """Stores a study: `gauge`, `at`, `kind` (`grr`, `type1`) and the `input` of `statistics`. Gives it with its `result`."""
+        return loads(self._put(path_of("studies", name), dumps(study).encode(), "application/json").body)
+
+    def study(self, name: str) -> dict[str, Any]:
+        """A study with its input and its result."""
+        return self._get(path_of("studies", name))
+
+    def delete_study(self, name: str) -> None:
+        self._perform(Request("DELETE", path_of("studies", name), repeatable=True))
+
     def delete_gauge_in_use(self, name: str) -> None:
         self._perform(Request("DELETE", path_of("gauges-in-use", name), repeatable=True))

@@ -18,6 +18,7 @@ export default {
   'error.rule.invalid': 'Die Entscheidungsregel lässt sich nicht anwenden.',
   'error.rule.no_acceptance': 'Mit dieser Messunsicherheit könnte kein Wert angenommen werden.',
   'error.uncertainty.unknown': 'Dieses Unsicherheitsbudget gibt es nicht.',
+  'error.study.unknown': 'Diese Messmittelstudie gibt es nicht.',
   'error.gauge.unknown': 'Dieses Messmittel ist nicht verzeichnet.',
   'error.plan.unknown': 'Für diese Teilenummer gibt es keinen Plan.',
   'error.catalogue.unknown': 'Einen solchen Katalog von Ursachen gibt es nicht.',

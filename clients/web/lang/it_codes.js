@@ -18,6 +18,7 @@ export default {
   'error.rule.invalid': 'La regola decisionale non è applicabile.',
   'error.rule.no_acceptance': 'Con questa incertezza nessun valore può essere accettato.',
   'error.uncertainty.unknown': 'Questo bilancio d’incertezza non esiste.',
+  'error.study.unknown': 'Questo studio dello strumento non esiste.',
   'error.gauge.unknown': 'Questo strumento non è registrato.',
   'error.plan.unknown': 'Per questo codice pezzo non c’è un piano.',
   'error.catalogue.unknown': 'Non esiste un catalogo di cause con questo nome.',

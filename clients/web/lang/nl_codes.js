@@ -18,6 +18,7 @@ export default {
   'error.rule.invalid': 'De beslisregel is niet toepasbaar.',
   'error.rule.no_acceptance': 'Met deze meetonzekerheid kan geen waarde worden goedgekeurd.',
   'error.uncertainty.unknown': 'Dit onzekerheidsbudget bestaat niet.',
+  'error.study.unknown': 'Deze meetmiddelstudie bestaat niet.',
   'error.gauge.unknown': 'Dit meetmiddel is niet geregistreerd.',
   'error.plan.unknown': 'Voor dit onderdeelnummer is er geen plan.',
   'error.catalogue.unknown': 'Zo’n catalogus van oorzaken is er niet.',

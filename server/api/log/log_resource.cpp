@@ -116,8 +116,8 @@ void add_tree_routes(std::vector<http::Route>& routes, const Services& services)
   });
 }
 
-constexpr std::string_view kKinds[] = {"tables", "plan",       "budget",    "gauge", "calibration",
-                                       "setup",  "connection", "catalogue", "key"};
+constexpr std::string_view kKinds[] = {"tables", "plan",  "budget",     "gauge",     "calibration",
+                                       "study",  "setup", "connection", "catalogue", "key"};
 
 std::optional<std::string> text_of(const http::Request& request, std::string_view name) {
   const auto given = request.text(name);
@@ -190,9 +190,8 @@ void add_changes_routes(std::vector<http::Route>& routes, const Services& servic
       .pattern = "/v1/changes",
       .handler = with(services, list_changes),
       .summary = "What was changed of all that decides, by whom, with before and after",
-      .description =
-          "Tables, plans, budgets, gauges, calibrations, setups, catalogues, connections "
-          "and keys, without secrets. A change is never altered or deleted.",
+      .description = "Tables, plans, budgets, gauges, calibrations, studies, setups, catalogues, "
+                     "connections and keys, without secrets. A change is never altered or deleted.",
       .parameters = {{.name = "kind",
                       .type = http::Words{{std::begin(kKinds), std::end(kKinds)}},
                       .description = "Of this kind"},

@@ -57,6 +57,11 @@ http::Response written(bool created, std::string answer, std::string_view tag) {
   return std::move(response).with("ETag", std::string(tag));
 }
 
+/// The refusal of a write: at its member if what that names is not there.
+Error at_named(const Error& error) {
+  return error.code == ErrorCode::GaugeUnknown ? at_member("gauge", error) : at_budget(error);
+}
+
 /// Answers a change that was stored, once it is heard.
 void answer_change(const Services& services, const KindOfDocument& kind,
                    const SharedResponder& shared, http::Response response) {
@@ -83,10 +88,11 @@ void write(const Services& services, const KindOfDocument& kind, std::string nam
                             .text = std::move(checked.text),
                             .caller = caller_text(request),
                             .uncertainty = std::move(checked.uncertainty),
+                            .gauge = std::move(checked.gauge),
                             .precondition = std::move(precondition)},
                            [&services, &kind, shared, tag = std::move(tag),
                             answer = std::move(checked.answer)](Result<bool> created) {
-                             if (!created) return shared->fail(at_budget(created.error()));
+                             if (!created) return shared->fail(at_named(created.error()));
                              answer_change(services, kind, shared, written(*created, answer, tag));
                            });
 }
@@ -170,10 +176,10 @@ Result<void> describe_by_name(JsonWriter& json, const app::NamedDocument& docume
   return {};
 }
 
-NamedSchema names_schema(std::string name, std::string_view member) {
+NamedSchema names_schema(std::string name, std::string_view member, const schema::Fields& more) {
   const std::string document =
-      schema::object({{"name", schema::text(), "As in the path"},
-                      {"modified_at", schema::time(), "When it was stored, in UTC"}});
+      schema::object(schema::Fields{{"name", schema::text(), "As in the path"}} + more +
+                     schema::Fields{{"modified_at", schema::time(), "When it was stored, in UTC"}});
   return {std::move(name),
           schema::object({{std::string(member), schema::array(document), "By name"}})};
 }

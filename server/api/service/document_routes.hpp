@@ -22,6 +22,7 @@ struct CheckedDocument {
   std::string text{};                        ///< what is kept, and what a GET answers
   std::string answer{};                      ///< to its PUT; empty: nothing
   std::optional<std::string> uncertainty{};  ///< a budget that must be there
+  std::optional<std::string> gauge{};        ///< the same of a gauge in use
   std::optional<std::string> before{};       ///< the text it was made from; another refuses it
 };
 
@@ -65,9 +66,10 @@ struct KindOfDocument {
 /// The refusal of a write: of its member `uncertainty` where its budget is not there.
 Error at_budget(const Error& error);
 
-/// The schema of a list of names and times: the answer of a kind that is described by its name.
-/// @param example a name; empty: none
-NamedSchema names_schema(std::string name, std::string_view member);
+/// The schema of a list of names and times.
+/// @param more fields that the kind's `describe` writes
+NamedSchema names_schema(std::string name, std::string_view member,
+                         const schema::Fields& more = {});
 
 /// @param kind is static.
 void add_document_routes(std::vector<http::Route>& routes, const Services& services,

@@ -6,6 +6,7 @@
 
 #include "api/handlers.hpp"
 #include "api/service/document_routes.hpp"
+#include "api/statistics/statistics_answers.hpp"
 #include "api/statistics/uncertainty_resource.hpp"
 #include "api/wire/request_facts.hpp"
 #include "base/json/body_forms.hpp"
@@ -175,6 +176,79 @@ void list_calibrations(const Services& services, const http::Request& request,
       });
 }
 
+enum class StudyKind : std::uint8_t { OnMaster, OnParts };
+constexpr OneOf<2> kStudyKinds{"type1", "grr"};
+
+/// The form of the order and the answer of a figure, in their JSON.
+struct FigureText {
+  std::string_view of_master;
+  std::string_view of_parts;
+  static constexpr bool kHasDefault = false;
+
+  std::string schema(Side) const {
+    return schema::any_of({schema::ref(of_master), schema::ref(of_parts)});
+  }
+  bool read(FieldReader& fields, std::string_view name, JsonValue& to) const {
+    const JsonValue* given = fields.object(name);
+    if (given != nullptr) to = *given;
+    return given != nullptr;
+  }
+  void write(JsonWriter& json, const JsonValue& from) const { write_json(json, from); }
+  void write(JsonWriter& json, std::string_view from) const { json.raw(from); }
+};
+
+/// A study of a gauge, whose result its input gives.
+struct StudyOrder {
+  std::string gauge{};
+  std::string at{};
+  StudyKind kind{};
+  std::optional<std::string> comment{};
+  JsonValue input{};
+};
+void study_members(auto& v, auto& study) {
+  v.member("gauge", study.gauge, "The name of a gauge in use");
+  v.member("at", study.at, Due{}, "When it was made: a date, or an RFC 3339 time");
+  v.member("kind", study.kind, kStudyKinds, "As POST /v1/statistics/{kind}");
+  v.optional("comment", study.comment, Text{.longest = 2000});
+  v.member("input", study.input, FigureText{"Type1Order", "GaugeStudyOrder"},
+           "The body of POST /v1/statistics/{kind}");
+}
+void members(auto& v, StudyOrder& order) { study_members(v, order); }
+
+struct StudyAnswer {
+  StudyOrder order{};
+  std::string result{};
+};
+void members(auto& v, const StudyAnswer& study) {
+  study_members(v, study.order);
+  v.member("result", study.result, FigureText{"Type1Study", "GaugeStudy"},
+           "What was computed of the input when it was stored");
+}
+
+Result<CheckedDocument> check_study(const Services&, const std::string&, std::string_view text) {
+  const auto body = parse_json(text);
+  if (!body) return body.error();
+  auto order = read_whole<StudyOrder>(*body);
+  if (!order) return order.error();
+  auto result =
+      order->kind == StudyKind::OnMaster ? master_study(order->input) : gauge_study(order->input);
+  if (!result) {
+    Error error = result.error();
+    for (Error& each : error.details) each.where.insert(0, "/input");
+    return error;
+  }
+  const std::string stored = body_json(StudyAnswer{*order, *std::move(result)});
+  return CheckedDocument{.text = stored, .answer = stored, .gauge = std::move(order->gauge)};
+}
+
+Result<void> describe_study(JsonWriter& json, const app::NamedDocument& study) {
+  const auto body = parse_stored_json(study.text, "study");
+  if (!body) return body.error();
+  json.member("name", study.name);
+  for (const char* name : {"gauge", "at", "kind"}) json.member(name, body->text_of(name));
+  return {};
+}
+
 constexpr KindOfDocument kUncertainties{.kind = app::DocumentKind::Uncertainty,
                                         .path = "/v1/uncertainties",
                                         .one = "an uncertainty budget",
@@ -200,6 +274,19 @@ constexpr KindOfDocument kGauges{.kind = app::DocumentKind::GaugeInUse,
                                  .list_schema = "GaugeInUseNames",
                                  .check = check_gauge,
                                  .changed = reload_gauges};
+constexpr KindOfDocument kStudies{.kind = app::DocumentKind::Study,
+                                  .path = "/v1/studies",
+                                  .one = "a study of a gauge",
+                                  .contents = "its input, whose result is computed",
+                                  .many = "studies of gauges",
+                                  .member = "studies",
+                                  .operation = "Study",
+                                  .operations = "Studies",
+                                  .body_schema = "StudyOrder",
+                                  .answered = "Study",
+                                  .describe = describe_study,
+                                  .is_figure = true,
+                                  .check = check_study};
 
 }  // namespace
 
@@ -212,11 +299,18 @@ void add_documents_schemas(Schemas& schemas) {
                                         "By their beginnings"}})});
   schemas.push_back(names_schema("UncertaintyBudgetNames", "uncertainties"));
   schemas.push_back(names_schema("GaugeInUseNames", "gauges"));
+  schemas.push_back(order_schema<StudyOrder>("StudyOrder"));
+  schemas.push_back(answer_schema<StudyAnswer>("Study"));
+  schemas.push_back(names_schema("Studies", "studies",
+                                 {{"gauge", schema::text(), "Its gauge in use"},
+                                  {"at", schema::text(), "When it was made"},
+                                  {"kind", kStudyKinds.schema(Side::Answer), ""}}));
 }
 
 void add_documents_routes(std::vector<http::Route>& routes, const Services& services) {
   add_document_routes(routes, services, kUncertainties);
   add_document_routes(routes, services, kGauges);
+  add_document_routes(routes, services, kStudies);
   const http::Parameter name = path_parameter("name", "Of the gauge in use");
   routes.push_back({
       .method = http::Method::Post,

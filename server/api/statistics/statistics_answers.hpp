@@ -227,8 +227,9 @@ void members(auto& v, const CapabilityAnswer& answer) {
   v.member("reason", c.reason(), "Why indices are null");
 }
 
-/// The answer to a gauge study's body, by its method.
+/// The answer to a gauge study's body, by its method, and to one on a master.
 Result<std::string> gauge_study(const JsonValue& body);
+Result<std::string> master_study(const JsonValue& body);
 
 void add_gauge_study_schemas(Schemas& schemas);
 

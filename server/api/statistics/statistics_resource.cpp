@@ -273,23 +273,6 @@ Result<std::string> chart(const JsonValue& body) {
   return body_json(ChartAnswer{order->plan.kind, *std::move(made)});
 }
 
-Result<std::string> type1(const JsonValue& body) {
-  const auto order = read_whole<Type1Order>(body);
-  if (!order) return order.error();
-  const auto made =
-      metrology::study_type1(order->values, order->reference, order->tolerance, order->rule);
-  if (!made) return at_member("values", made.error());
-  Type1Answer answer{*made};
-  if (order->system) {
-    auto& system =
-        answer.system.emplace(*order->system, metrology::nearest_double(order->tolerance));
-    system.found[metrology::Component::Bi] =
-        static_cast<double>(std::abs(made->bias) / std::sqrt(3.0L));
-    system.found[metrology::Component::Evr] = static_cast<double>(made->standard_deviation);
-  }
-  return body_json(answer);
-}
-
 Result<std::string> pairing(const JsonValue& body) {
   const auto has_only = [&body](std::string_view other, std::string_view name) {
     return body.find(other) != nullptr && body.find(name) == nullptr;
@@ -306,6 +289,23 @@ Result<std::string> pairing(const JsonValue& body) {
 }
 
 }  // namespace
+
+Result<std::string> master_study(const JsonValue& body) {
+  const auto order = read_whole<Type1Order>(body);
+  if (!order) return order.error();
+  const auto made =
+      metrology::study_type1(order->values, order->reference, order->tolerance, order->rule);
+  if (!made) return at_member("values", made.error());
+  Type1Answer answer{*made};
+  if (order->system) {
+    auto& system =
+        answer.system.emplace(*order->system, metrology::nearest_double(order->tolerance));
+    system.found[metrology::Component::Bi] =
+        static_cast<double>(std::abs(made->bias) / std::sqrt(3.0L));
+    system.found[metrology::Component::Evr] = static_cast<double>(made->standard_deviation);
+  }
+  return body_json(answer);
+}
 
 void add_statistics_routes(std::vector<http::Route>& routes, const Services& services) {
   const std::initializer_list<Computation> computations = {
@@ -335,7 +335,7 @@ void add_statistics_routes(std::vector<http::Route>& routes, const Services& ser
        .reads = "ChartOrder",
        .answers = "ControlChart"},
       {.pattern = "/v1/statistics/type1",
-       .compute = type1,
+       .compute = master_study,
        .summary = "Repeatability and bias of a gauge on one master: Cg, Cgk",
        .operation = "studyGaugeOnMaster",
        .reads = "Type1Order",

@@ -29,6 +29,7 @@ const Facts& facts_of(DocumentKind kind) {
       {"progress of a connection", ErrorCode::ConnectionUnknown},
       {"catalogue", ErrorCode::CatalogueUnknown},
       {"calibration", ErrorCode::GaugeUnknown},
+      {"study", ErrorCode::StudyUnknown},
   };
   return kFacts[static_cast<std::size_t>(kind) - 1];
 }
@@ -74,6 +75,7 @@ Result<void> check_free(const store::Stores& stores, DocumentKind kind, const st
       {DocumentKind::GaugeInUse, DocumentKind::Uncertainty, "uncertainty"},
       {DocumentKind::Calibration, DocumentKind::Uncertainty, "uncertainty"},
       {DocumentKind::Plan, DocumentKind::GaugeInUse, "gauge"},
+      {DocumentKind::Study, DocumentKind::GaugeInUse, "gauge"},
       {DocumentKind::Plan, DocumentKind::Catalogue, "catalogue"}};
   std::vector<std::string> users;
   for (const Use& use : kUses) {

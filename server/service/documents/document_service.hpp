@@ -29,10 +29,11 @@ struct NamedDocument {
   Timestamp modified_at;
 };
 
-/// Uncertainty budgets, gauges in use, machine setups, plans, connections and catalogues. Nothing
-/// blocks but what says so; `done` comes exactly once, on a storage thread or, when refused at
-/// once, on the caller's. Thread-safe. A name that is not there is UncertaintyUnknown,
-/// GaugeUnknown, SetupUnknown, PlanUnknown, ConnectionUnknown or CatalogueUnknown.
+/// Uncertainty budgets, gauges in use, their studies, machine setups, plans, connections and
+/// catalogues. Nothing blocks but what says so; `done` comes exactly once, on a storage thread or,
+/// when refused at once, on the caller's. Thread-safe. A name that is not there is
+/// UncertaintyUnknown, GaugeUnknown, StudyUnknown, SetupUnknown, PlanUnknown, ConnectionUnknown or
+/// CatalogueUnknown.
 class DocumentService {
  public:
   template <class T>

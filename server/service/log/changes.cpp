@@ -12,8 +12,8 @@ constexpr std::size_t kLongestEntry = 65'535;
 
 /// As lists of changes name the kind; empty: its changes are not logged.
 std::string_view word(store::DocumentKind kind) {
-  constexpr std::string_view kWords[] = {"budget",     "gauge", "setup",     "plan",
-                                         "connection", "",      "catalogue", "calibration"};
+  constexpr std::string_view kWords[] = {"budget", "gauge",     "setup",       "plan", "connection",
+                                         "",       "catalogue", "calibration", "study"};
   return kWords[static_cast<std::size_t>(kind) - 1];
 }
 

@@ -7,8 +7,8 @@
 #include "base/json/json_value.hpp"
 #include "db/store/stores.hpp"
 
-// Changes of what decides: tables, plans, budgets, gauges, calibrations, setups, catalogues,
-// connections and keys. Each stands in the job that makes it.
+// Changes of what decides: tables, plans, budgets, gauges, calibrations, studies, setups,
+// catalogues, connections and keys. Each stands in the job that makes it.
 
 namespace fitgauge::app {
 

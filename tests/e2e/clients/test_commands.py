@@ -411,6 +411,12 @@ class Records(ClientTest):
         self.assertIn("G-07", self.assert_runs(0, "gauges", "ls"))
         self.assertEqual(self.assert_runs(0, "gauges", "get", "G-07"),
                          '{"uncertainty":"bore","calibration_due":"2030-01-01"}')
+        self.client.write("study.json", '{"gauge":"G-07","at":"2026-03-31","kind":"type1","input":'
+                          '{"values":[1,2,4],"reference":2,"tolerance":1}}')
+        self.assert_runs(0, "studies", "put", "March", "study.json")
+        self.assertIn("March", self.assert_runs(0, "studies", "ls"))
+        self.assertIn('"cg":', self.assert_runs(0, "studies", "get", "March"))
+        self.assert_runs(0, "studies", "rm", "March")
         self.assert_runs(0, "gauges", "rm", "G-07")
         self.assert_runs(0, "budgets", "rm", "bore")
 

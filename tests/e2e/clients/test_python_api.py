@@ -87,6 +87,11 @@ class EveryRoute(ControlTest):
         origin, size = client.changes_checkpoint().split("\n")[:2]
         self.assertEqual(origin, client.changes_keys()[0].split("+")[0])
         self.assertEqual(len(client.changes_tile(f"0/000.p/{size}")), 32 * int(size))
+        kept = client.put_study("G-07 of March", {"gauge": "G-07", "at": "2026-03-31", "kind": "grr", "input": {"measurements": study}})
+        self.assertIn("ndc", kept["result"])
+        self.assertEqual(client.study("G-07 of March"), kept)
+        self.assertEqual([(found["name"], found["gauge"]) for found in client.studies()], [("G-07 of March", "G-07")])
+        client.delete_study("G-07 of March")
         client.delete_gauge_in_use("G-07")
         client.delete_uncertainty("plug")
         pressed = client.press_fit({"joint_diameter_mm": 50, "length_mm": 40, "max_interference_um": 40,

@@ -80,6 +80,7 @@ BODIES = {
         {"kind": "folder_out", "folder": f"{FOLDERS}/out", "format": "csv", "part_number": "p", "part_description": "d",
          "split": "none", "every_s": 60, "time_zone": "UTC", **FOLLOWER}],
 }
+BODIES["putStudy"] = [{"gauge": "m3", "at": "2026-03-31", "kind": "type1", "comment": "c", "input": BODIES["studyGaugeOnMaster"][0]}]
 BODIES["replayConnection"] = [{"from": "2026-11-20T08:00:00Z"}]
 BODIES["putUncertainty"] = BODIES["combineUncertainties"]
 # Members that are held together: the first is at most the second.
@@ -104,6 +105,8 @@ class Bounds(DaemonTest):
         for name in ("p", "8255/8255"):
             cls.daemon.request("PUT", f"/v1/files/nc_prog/{name}.h", PROGRAM)
         cls.daemon.request("PUT", "/v1/setups/m3", SETUP)
+        for name in ("m3", "G-07"):  # of studies
+            cls.daemon.request("PUT", f"/v1/gauges-in-use/{name}", {"calibration_due": "2036-03-31"})
         stored = cls.daemon.measure({"designation": "25 H7", "measured_mm": 25.01})
         PATHS["id"] = stored.json["id"]
 

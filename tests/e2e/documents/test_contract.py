@@ -264,8 +264,9 @@ class Answers(ContractTest):
             data = {"values": lot[:30]} if kind == "i_mr" else {"subgroups": groups}
             self.expect("makeControlChart", 200, {"kind": kind, **data, "rules": [1, 2, 3, 4] if kind[0] in "ix" else [1],
                                                   "phase1": {"from": 0, "to": 5}})
-        self.expect("studyGaugeOnMaster", 200, {"values": [9.9, 10.1, 10.1, 9.9], "reference": 10, "tolerance": 6,
-                                                   "measuring_system": {"resolution": 0.1, "u_cal": 0.01}})
+        master = {"values": [9.9, 10.1, 10.1, 9.9], "reference": 10, "tolerance": 6,
+                  "measuring_system": {"resolution": 0.1, "u_cal": 0.01}}
+        self.expect("studyGaugeOnMaster", 200, master)
         rows = [{"part": part, "operator": who, "trial": trial, "value": value}
                 for who, trials in enumerate([[[0, 2], [4, 6]], [[2, 4], [2, 4]]])
                 for part, values in enumerate(trials) for trial, value in enumerate(values)]
@@ -305,6 +306,13 @@ class Answers(ContractTest):
         self.expect("listCalibrations", 200, name="G-07")
         self.expect("listCalibrations", 404, name="none")
         self.expect("recordCalibration", 404, calibration, name="none")
+        for status, study in ((201, {"kind": "type1", "input": master}), (200, {"kind": "grr", "input": {"measurements": rows}})):
+            self.expect("putStudy", status, {"gauge": "G-07", "at": "2026-03-31", "comment": "x", **study}, name="type 1")
+        self.expect("listStudies", 200)
+        self.expect("getStudy", 200, name="type 1")
+        self.expect("deleteGaugeInUse", 409, name="G-07")
+        self.expect("deleteStudy", 204, name="type 1")
+        self.expect("deleteStudy", 404, name="type 1")
         self.expect("deleteUncertainty", 409, name="plug")
         self.expect("listChanges", 200, kind="gauge", limit=1)
         for kind, plural in (("GaugeInUse", "GaugesInUse"), ("Uncertainty", "Uncertainties")):

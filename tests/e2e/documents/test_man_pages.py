@@ -12,11 +12,11 @@ from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT
 
 COMMANDS = ("limits", "fit", "fits", "limit-gauge", "standards", "gauge", "import", "list", "export", "summary",
-            "capability", "chart", "statistics", "correct", "note", "plan", "nc", "setups", "budgets", "gauges", "runs", "control", "replay",
+            "capability", "chart", "statistics", "correct", "note", "plan", "nc", "setups", "budgets", "gauges", "studies", "runs", "control", "replay",
             "tables", "watch", "version", "completion")
-SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "plan", "tables", "setups", "budgets", "gauges", "runs", "control")] + [
+SUBCOMMANDS = [(name,) for name in COMMANDS if name not in ("nc", "plan", "tables", "setups", "budgets", "gauges", "studies", "runs", "control")] + [
     ("control", name) for name in ("ls", "get", "put", "run", "state")] + [
-    (kind, name) for kind in ("setups", "budgets", "gauges") for name in ("ls", "put", "get", "rm")] + [
+    (kind, name) for kind in ("setups", "budgets", "gauges", "studies") for name in ("ls", "put", "get", "rm")] + [
     ("runs", name) for name in ("ls", "show", "get", "cancel")] + [
     ("nc", name) for name in ("ls", "put", "get", "check", "format", "run")] + [("tables", name) for name in ("export", "set", "reset")] + [("plan", "from")]
 

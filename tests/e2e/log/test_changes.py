@@ -52,6 +52,11 @@ class Changes(DaemonTest):
         self.put("/v1/gauges-in-use/G-9", {"calibration_due": "2027-03-31"})
         calibration = self.daemon.post("/v1/gauges-in-use/G-9/calibrations", {"from": "2026-07-01", "due": "2027-07-01"}).json
         self.assertEqual([each["after"] for each in self.changes("kind=calibration&name=G-9")], [calibration])
+        study = {"gauge": "G-9", "at": "2026-07-01", "kind": "type1", "input": {"values": [1, 2, 4], "reference": 2, "tolerance": 1}}
+        self.put("/v1/studies/of July", study)
+        self.put("/v1/studies/of July", study, 200)  # which changes nothing
+        logged = self.changes("kind=study&name=of%20July")
+        self.assertEqual([each["after"] for each in logged], [self.daemon.get("/v1/studies/of%20July").json])
         self.put("/v1/catalogues/c", {"causes": ["a"], "measures": ["b"]})
         self.put("/v1/plans/P-9", {"characteristics": [{"name": "bore", "designation": "25 H7"}]})
         self.put("/v1/setups/mill", SETUP)
@@ -61,7 +66,7 @@ class Changes(DaemonTest):
         self.put("/v1/connections/hook", {"kind": "mqtt", "broker": "mqtt://127.0.0.1:1", "user": "u", "password": "hidden",
                                           "topic": "a"})
         last = {each["kind"]: each for each in self.changes()}
-        self.assertEqual(set(last), {"budget", "gauge", "calibration", "catalogue", "plan", "setup", "tables", "key", "connection"})
+        self.assertEqual(set(last), {"budget", "gauge", "calibration", "study", "catalogue", "plan", "setup", "tables", "key", "connection"})
         self.assertEqual((last["tables"]["name"], last["tables"]["after"]), ("hole/SHOP", COLUMN))
         self.assertEqual((last["key"]["action"], last["key"]["before"], last["key"]["after"]), ("revoked", {"role": "viewer"}, None))
         self.assertTrue(last["connection"]["after"]["password_set"])
@@ -91,11 +96,13 @@ class Changes(DaemonTest):
                          {"from": "2026-07-01", "due": "2027-07-01", "uncertainty": "calibrated"})
         self.put("/v1/catalogues/causes", {"causes": ["a"], "measures": ["b"]})
         self.put("/v1/plans/P-1", PLAN)
+        self.put("/v1/studies/S-1", {"gauge": "G-1", "at": "2026-07-01", "kind": "type1",
+                                     "input": {"values": [1, 2, 4], "reference": 2, "tolerance": 1}})
         paths = ("/v1/uncertainties/used", "/v1/uncertainties/calibrated", "/v1/gauges-in-use/G-1", "/v1/catalogues/causes")
-        for path, by in zip(paths, ("gauge in use 'G-1'", "calibration 'G-1'", "plan 'P-1'", "plan 'P-1'")):
+        for path, by in zip(paths, ("gauge in use 'G-1'", "calibration 'G-1'", "plan 'P-1', study 'S-1'", "plan 'P-1'")):
             problem = self.assert_problem(self.daemon.request("DELETE", path), 409, "document.in_use")
             self.assertIn(by, problem["detail"])
-        for path in ("/v1/plans/P-1", *reversed(paths)):
+        for path in ("/v1/plans/P-1", "/v1/studies/S-1", *reversed(paths)):
             self.delete(path)
 
     def test_the_changes_are_a_tree_that_others_verify(self):
