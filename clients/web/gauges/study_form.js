@@ -1,4 +1,4 @@
-/** A gauge study: its readings in a grid that a gauge fills with Enter, or the records of a characteristic; the service computes it. */
+/** A gauge study: its readings in a grid that a gauge fills with Enter, or the records of a characteristic; the service computes and keeps it. */
 
 import { getJson, request, url } from '../api.js';
 import { parseDesignation } from '../designation.js';
@@ -8,12 +8,15 @@ import { limitsOf } from '../gauge/held.js';
 import { gaugeValue } from '../gauge/reading.js';
 import { explain, t } from '../i18n.js';
 import { readJson, store } from '../stored.js';
+import { StoredStudies } from './stored_studies.js';
 import { masterResult, variationResult } from './study_result.js';
 
 const KEPT = 'study';
-const BEGUN = { kind: 'grr', tolerance: '', parts: '10', operators: 'A, B, C', trials: '3', reference: '', values: '', cells: {} };
-const FIELDS = ['tolerance', 'parts', 'operators', 'trials', 'reference', 'values'];
-const KINDS = { grr: ['tolerance', 'parts', 'operators', 'trials'], type1: ['tolerance', 'reference', 'values'] };
+const BEGUN = { kind: 'grr', tolerance: '', parts: '10', operators: 'A, B, C', trials: '3', reference: '', values: '', resolution: '', u_cal: '', u_bi: '', u_evr: '', cells: {} };
+/** What the capability of the measuring process (ISO 22514-7) is computed of. */
+const PROCESS = ['resolution', 'u_cal', 'u_bi', 'u_evr'];
+const FIELDS = ['tolerance', 'parts', 'operators', 'trials', 'reference', 'values', ...PROCESS];
+const KINDS = { grr: ['tolerance', 'parts', 'operators', 'trials', ...PROCESS], type1: ['tolerance', 'reference', 'values', 'resolution', 'u_cal'] };
 const MOST = { parts: 100, operators: 20, trials: 20 };
 /** So many records make a study at the most. */
 const MOST_RECORDS = 1000;
@@ -35,8 +38,11 @@ export class StudyForm {
     this.note = h('p.note', { role: 'alert' });
     this.result = h('section.study-result', { 'aria-live': 'polite' });
     this.element = h('section.study', h('h2', t('study.title')), h('form.sheet', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#compute(); } },
-      h('div.study-fields', field(t('study.kind'), this.kind), Object.values(this.fields)), field(t('study.from'), this.taken), this.grid, this.note,
+      h('div.study-fields', field(t('study.kind'), this.kind), FIELDS.filter((name) => !PROCESS.includes(name)).map((name) => this.fields[name])),
+      h('details', h('summary', t('study.process')), h('div.study-fields', PROCESS.map((name) => this.fields[name]))), field(t('study.from'), this.taken), this.grid, this.note,
       h('p.actions', h('button.primary', { type: 'submit' }, t('study.compute')), h('button', { type: 'button', onclick: () => this.#clear() }, t('study.clear')))), this.result);
+    this.stored = new StoredStudies({ leaving, orderOf: () => this.#order(), onStudy: (study) => this.#open(study) });
+    this.element.append(this.stored.element);
     this.taking = this.taken.closest('.field');
     this.#show();
     this.#offer();
@@ -115,29 +121,29 @@ export class StudyForm {
       const { measurements } = await getJson(url(['measurements'], { characteristic, limit: MOST_RECORDS }), { signal: this.leaving });
       const records = measurements.filter(({ part_id: part, operator }) => part && operator);
       if (!records.length) throw Object.assign(new Error(t('study.no_records')));
-      const counts = new Map();
-      const cells = {};
-      for (const { part_id: part, operator, measured_mm } of records) {
-        const of = JSON.stringify([part, operator]);
-        counts.set(of, (counts.get(of) ?? 0) + 1);
-        cells[JSON.stringify([part, operator, String(counts.get(of))])] = String(measured_mm);
-      }
-      const all = (name) => [...new Set(records.map((record) => record[name]))].join(', ');
       const { tolerance_um: um } = records.at(-1);
-      Object.assign(this.state, { cells, parts: all('part_id'), operators: all('operator'), trials: String(Math.max(...counts.values())), tolerance: um === undefined ? '' : mmText(nmFromUm(um), 0) });
-      this.#keep();
-      this.drawn = '';
-      this.note.textContent = '';
-      this.#show();
+      this.#fill({ ...gridOf(records.map(({ part_id: part, operator, measured_mm: value }) => ({ part, operator, value }))), tolerance: um === undefined ? '' : mmText(nmFromUm(um), 0) });
     } catch (problem) {
       this.note.textContent = explain(problem);
     }
   }
 
-  async #compute() {
+  #fill(state) {
+    Object.assign(this.state, state);
+    this.#keep();
+    this.drawn = '';
     this.note.textContent = '';
+    this.#show();
+  }
+
+  /** Shows a study that was stored, as it was computed then. */
+  async #open({ kind, input, result }) {
+    const { tolerance = '', reference = '', measurements = [], values = [], measuring_process: process, measuring_system: system } = input;
+    const filled = { ...Object.fromEntries(PROCESS.map((name) => [name, (process ?? system)?.[name] ?? ''])), kind, tolerance, reference, values: values.join('\n') };
+    this.#fill({ ...Object.fromEntries(Object.entries(filled).map(([name, value]) => [name, String(value)])), ...(measurements.length && gridOf(measurements)) });
     try {
-      refill(this.result, this.state.kind === 'grr' ? await this.#variation() : await this.#master());
+      if (result.method && !result.tolerance_percent) throw new Error(t('study.other', { method: result.method }));
+      refill(this.result, (await this.#order()).shown(result));
       this.result.scrollIntoView({ block: 'nearest' });
     } catch (problem) {
       this.result.replaceChildren();
@@ -145,8 +151,27 @@ export class StudyForm {
     }
   }
 
-  #post(what, body) {
-    return request('POST', url(['statistics', what]), { body, signal: this.leaving }).then((answer) => answer.json());
+  async #compute() {
+    this.note.textContent = '';
+    try {
+      const { kind, input, shown } = await this.#order();
+      refill(this.result, shown(await (await request('POST', url(['statistics', kind]), { body: input, signal: this.leaving })).json()));
+      this.result.scrollIntoView({ block: 'nearest' });
+    } catch (problem) {
+      this.result.replaceChildren();
+      this.note.textContent = explain(problem);
+    }
+  }
+
+  /** The study as it is typed: {kind, input} for the service, and what shows its result. @throws Error that says what is missing */
+  #order() {
+    return this.state.kind === 'grr' ? this.#variation() : this.#master();
+  }
+
+  /** What is typed of the measuring process; undefined if nothing is. */
+  #process(kind) {
+    const typed = PROCESS.filter((name) => KINDS[kind].includes(name) && this.state[name].trim());
+    return typed.length ? Object.fromEntries(typed.map((name) => [name, new Decimal(valueOf(this.state[name].trim()))])) : undefined;
   }
 
   /** In mm as text, of a number or of a size and class; undefined without one. */
@@ -161,20 +186,37 @@ export class StudyForm {
     const { parts, operators, trials } = this.#names;
     const tolerance = await this.#tolerance();
     const all = parts.flatMap((part) => operators.flatMap((operator) => trials.map((trial) => ({ part, operator, trial, typed: (this.state.cells[JSON.stringify([part, operator, trial])] ?? '').trim() }))));
-    const missing = all.filter(({ typed }) => !typed).length;
-    if (missing) throw new Error(t('study.missing', { count: missing }));
-    const read = all.map(({ typed, ...of }) => ({ ...of, text: valueOf(typed) }));
-    const study = await this.#post('grr', { ...(tolerance && { tolerance: new Decimal(tolerance) }), measurements: read.map(({ text, ...of }) => ({ ...of, value: new Decimal(text) })) });
-    return variationResult(study, { readings: read.map(({ text, ...of }) => ({ ...of, value: Number(text) })), parts, operators });
+    const read = all.filter(({ typed }) => typed).map(({ typed, ...of }) => ({ ...of, text: valueOf(typed) }));
+    if (!read.length) throw new Error(t('study.empty'));
+    const measured = (name, names) => names.filter((one) => read.some((reading) => reading[name] === one));
+    const input = { ...(tolerance && { tolerance: new Decimal(tolerance) }), measurements: read.map(({ text, ...of }) => ({ ...of, value: new Decimal(text) })), measuring_process: this.#process('grr') };
+    return { kind: 'grr', input, shown: (study) => variationResult(study, { readings: read.map(({ text, ...of }) => ({ ...of, value: Number(text) })), parts: measured('part', parts), operators: measured('operator', operators) }) };
   }
 
   async #master() {
     const values = this.state.values.split(/[\s;]+/).filter(Boolean).map(valueOf);
     const reference = valueOf(this.state.reference.trim());
     const tolerance = await this.#tolerance() ?? valueOf('');
-    const study = await this.#post('type1', { values: values.map((text) => new Decimal(text)), reference: new Decimal(reference), tolerance: new Decimal(tolerance) });
-    return masterResult(study, { values: values.map(Number), reference: Number(reference), tolerance: Number(tolerance) });
+    const input = { values: values.map((text) => new Decimal(text)), reference: new Decimal(reference), tolerance: new Decimal(tolerance), measuring_system: this.#process('type1') };
+    return { kind: 'type1', input, shown: (study) => masterResult(study, { values: values.map(Number), reference: Number(reference), tolerance: Number(tolerance) }) };
   }
+}
+
+/** The grid of readings [{part, operator, trial, value}]; without a trial they count up within part and operator. */
+function gridOf(readings) {
+  const counts = new Map();
+  const cells = {};
+  const trials = new Set();
+  for (const { part, operator, trial, value } of readings) {
+    const of = JSON.stringify([part, operator]);
+    counts.set(of, (counts.get(of) ?? 0) + 1);
+    const name = String(trial ?? counts.get(of));
+    trials.add(name);
+    cells[JSON.stringify([String(part), String(operator), name])] = String(value);
+  }
+  const all = (name) => [...new Set(readings.map((reading) => reading[name]))].join(', ');
+  const counted = [...trials].every((name) => Number(name) >= 1 && Number(name) <= trials.size);
+  return { cells, parts: all('part'), operators: all('operator'), trials: counted ? String(trials.size) : [...trials].join(', ') };
 }
 
 /** The decimal of what was typed or sent by a gauge. @throws Error that says what is no value */
