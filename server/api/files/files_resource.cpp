@@ -88,6 +88,12 @@ void delete_file(const Services& services, const http::Request& request,
                  http::Responder responder) {
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
+  const auto runs_it = [&](const app::RunOrder& order) {
+    return order.program.key() == path->key();
+  };
+  if (const auto free = services.runs.check_unused(path->text(), runs_it); !free) {
+    return responder.fail(free.error());
+  }
   services.files.remove(
       *std::move(path), caller_text(request), precondition_of(request),
       answer_with(std::move(responder), [](bool) { return http::Response(204); }));

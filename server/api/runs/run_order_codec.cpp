@@ -252,6 +252,7 @@ NamedSchema run_order_schema() { return order_schema<RunOrderBody>("RunOrder"); 
 Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup,
                                        const app::ControlTables& tables) {
   FieldErrors errors;
+  std::string setup_name(body.text_of("setup"));
   if (const auto placed = put_setup_in_place(body, find_setup, errors); !placed) {
     return placed.error();
   }
@@ -269,6 +270,7 @@ Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_set
                        .request = json_text(body),
                        .contacts = std::move(order.contacts),
                        .subject = std::move(order.subject),
+                       .setup_name = std::move(setup_name),
                        .watch = std::move(order.watch)};
 }
 

@@ -64,7 +64,7 @@ Result<void> check_owner(const store::Stores& stores, DocumentKind kind, const s
   return centre_decides(called(kind, name));
 }
 
-/// Nothing current names what is removed. @errors DocumentInUse with the names
+/// No current document names what is removed. @errors DocumentInUse with the names
 Result<void> check_free(const store::Stores& stores, DocumentKind kind, const std::string& name) {
   struct Use {
     DocumentKind by;
@@ -80,27 +80,13 @@ Result<void> check_free(const store::Stores& stores, DocumentKind kind, const st
   std::vector<std::string> users;
   for (const Use& use : kUses) {
     if (use.of != kind) continue;
-    for (const store::Document& document : stores.documents.list(use.by)) {
-      const auto body = parse_json(document.text);
-      if (!body) continue;
-      const auto names_it = [&](const JsonValue& each) { return each.text_of(use.member) == name; };
-      const auto& list = body->member("characteristics").items;
-      if (!names_it(*body) && std::none_of(list.begin(), list.end(), names_it)) continue;
-      const std::string user = use.by == DocumentKind::Calibration
-                                   ? std::string(gauge_of_calibration(document.name))
-                                   : document.name;
-      // Calibrations outlive their gauge, and are nobody's then.
-      if (use.by == DocumentKind::Calibration &&
-          !stores.documents.find(store::DocumentKind::GaugeInUse, user)) {
-        continue;
-      }
-      users.push_back(called(use.by, user));
+    for (std::string& user : users_of(stores, use.by, [&](const JsonValue& each) {
+           return each.text_of(use.member) == name;
+         })) {
+      users.push_back(std::move(user));
     }
   }
-  if (users.empty()) return {};
-  return Error{ErrorCode::DocumentInUse,
-               fmt::format("{} is in use by {}: change or delete them first", called(kind, name),
-                           fmt::join(users, ", "))};
+  return check_unused(called(kind, name), users);
 }
 
 NamedDocument named_document(store::Document document) {
@@ -125,6 +111,40 @@ Result<std::vector<NamedDocument>> all_of(const store::Stores& stores, DocumentK
 }
 
 }  // namespace
+
+std::vector<std::string> users_of(const store::Stores& stores, DocumentKind kind,
+                                  const std::function<bool(const JsonValue&)>& names_it) {
+  std::vector<std::string> users;
+  for (const store::Document& document : stores.documents.list(kind)) {
+    const auto body = parse_json(document.text);
+    if (!body) continue;
+    const auto has_one = [&](const JsonValue& list) {
+      return std::any_of(list.items.begin(), list.items.end(), names_it);
+    };
+    const JsonValue& workpiece = body->member("workpiece");
+    if (!names_it(*body) && !has_one(body->member("characteristics")) &&
+        !has_one(workpiece.member("features")) && !has_one(workpiece.member("fixtures"))) {
+      continue;
+    }
+    const std::string user = kind == DocumentKind::Calibration
+                                 ? std::string(gauge_of_calibration(document.name))
+                                 : document.name;
+    // Calibrations outlive their gauge, and are nobody's then.
+    if (kind == DocumentKind::Calibration &&
+        !stores.documents.find(store::DocumentKind::GaugeInUse, user)) {
+      continue;
+    }
+    users.push_back(called(kind, user));
+  }
+  return users;
+}
+
+Result<void> check_unused(std::string_view what, const std::vector<std::string>& users) {
+  if (users.empty()) return {};
+  return Error{
+      ErrorCode::DocumentInUse,
+      fmt::format("{} is in use by {}: change or delete them first", what, fmt::join(users, ", "))};
+}
 
 std::string calibration_name(std::string_view gauge, Timestamp from) {
   return fmt::format("{}@{}", gauge, format_rfc3339(from));

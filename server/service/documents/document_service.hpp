@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "base/clock.hpp"
+#include "base/json/json_value.hpp"
 #include "base/result.hpp"
 #include "db/store/documents_store.hpp"
 
 namespace fitgauge::store {
 class Database;
-}
+struct Stores;
+}  // namespace fitgauge::store
 
 namespace fitgauge::app {
 
@@ -21,6 +23,13 @@ using store::DocumentKind;
 /// The name of a gauge's calibration from a time on, and the gauge of such a name.
 std::string calibration_name(std::string_view gauge, Timestamp from);
 std::string_view gauge_of_calibration(std::string_view name);
+
+/// The documents of a kind, as `plan '4711'`, of which the body, a characteristic, or a feature or
+/// fixture of the workpiece names something. Used inside a job.
+std::vector<std::string> users_of(const store::Stores& stores, DocumentKind kind,
+                                  const std::function<bool(const JsonValue&)>& names_it);
+/// @errors DocumentInUse, where there are users.
+Result<void> check_unused(std::string_view what, const std::vector<std::string>& users);
 
 /// A document as it was written.
 struct NamedDocument {

@@ -4,6 +4,7 @@
 
 #include "db/store/database.hpp"
 #include "db/store/stores.hpp"
+#include "service/documents/document_service.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -127,6 +128,15 @@ void FileService::remove(interpreter::ControlPath path, std::optional<std::strin
         const auto revision = revision_of(stores, path);
         if (!revision) return unknown(path);
         if (precondition && !precondition(revision)) return changed(path);
+        const auto names_it = [&](const JsonValue& feature) {
+          std::string file(feature.text_of("file"));
+          if (file.find(':') == std::string::npos) file.insert(0, "TNC:\\");
+          const auto named = ControlPath::parse(file);
+          return named && named->key() == path.key();
+        };
+        const auto free =
+            check_unused(path.text(), users_of(stores, DocumentKind::Setup, names_it));
+        if (!free) return free.error();
         if (!stores.files.remove(path.text(), now.nanoseconds, caller)) return unknown(path);
         return true;
       },

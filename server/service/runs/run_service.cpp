@@ -1,6 +1,7 @@
 #include "service/runs/run_service.hpp"
 
 #include "db/store/database.hpp"
+#include "service/documents/document_service.hpp"
 #include "service/measurements/mapping.hpp"
 
 namespace fitgauge::app {
@@ -191,6 +192,18 @@ std::shared_ptr<ActiveRun> RunService::newest() const {
 std::shared_ptr<ActiveRun> RunService::active(std::int64_t id) const {
   auto run = own(id);
   return run && !run->is_being_stored() ? run : nullptr;
+}
+
+Result<void> RunService::check_unused(std::string_view what,
+                                      const std::function<bool(const RunOrder&)>& names_it) const {
+  std::vector<std::string> users;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [id, entry] : active_) {
+    if (entry.run->state() == RunState::Queued && names_it(entry.run->order())) {
+      users.push_back("queued run " + entry.run->id_text());
+    }
+  }
+  return app::check_unused(what, users);
 }
 
 std::shared_ptr<ActiveRun> RunService::own(std::int64_t id) const {

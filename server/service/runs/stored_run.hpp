@@ -39,6 +39,7 @@ struct RunOrder {
   std::optional<std::vector<machine::ScriptedContact>> contacts{};
   RunSubject subject{};
   std::optional<std::string> caller{};
+  std::string setup_name{};  ///< of the stored setup it was ordered with; empty: its own
   /// Parameters whose values after each block stand in the trace.
   std::vector<klartext::QRef> watch{};
 };

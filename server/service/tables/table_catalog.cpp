@@ -6,6 +6,7 @@
 
 #include "base/json/json_writer.hpp"
 #include "db/store/database.hpp"
+#include "service/documents/document_service.hpp"
 #include "service/log/changes.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/revisions/revision_feed.hpp"
@@ -219,6 +220,18 @@ void TableCatalog::change(ColumnName column, Edit edit,
         stores.events.append(kChangedEvent, change_text(column, loaded.revision.id), now);
         // Audited here, so that nothing is left to do between the commit and the first reader.
         auto audited = std::make_shared<const TableState>(audit(loaded));
+        // Without a class of ISO 286 in its place.
+        if (audited->tables != nullptr && !audited->tables->find_class(column.name)) {
+          const auto names_it = [&](const JsonValue& characteristic) {
+            const auto designation =
+                iso286::parse_designation(characteristic.text_of("designation"));
+            return characteristic.text_of("tolerance_class") == column.name ||
+                   (designation && designation->class_name == column.name);
+          };
+          const auto free = check_unused(fmt::format("the custom tolerance class {}", column.name),
+                                         users_of(stores, DocumentKind::Plan, names_it));
+          if (!free) return free.error();
+        }
         return Changed{*created, std::move(loaded.revision), std::move(audited)};
       },
       [this, done = std::move(done)](Result<Changed> changed) {

@@ -105,6 +105,27 @@ class Changes(DaemonTest):
         for path in ("/v1/plans/P-1", "/v1/studies/S-1", *reversed(paths)):
             self.delete(path)
 
+    def test_a_class_of_a_plan_and_a_mesh_of_a_setup_are_not_deleted(self):
+        for name in ("X9", "Own1", "H7"):
+            self.put(f"/v1/tables/hole/classes/{name}", COLUMN)
+        self.put("/v1/plans/P-2", {"characteristics": [
+            {"name": "a", "designation": "25 X9"}, {"name": "b", "nominal_mm": 25, "tolerance_class": "Own1"},
+            {"name": "c", "designation": "25 H7"}]})
+        triangles = [((0, 0, 0), (0, 1, 0), (1, 0, 0)), ((0, 0, 0), (1, 0, 0), (0, 0, 1)),
+                     ((0, 0, 0), (0, 0, 1), (0, 1, 0)), ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
+        stl = "solid a\n" + "".join("facet normal 0 0 0\nouter loop\n" + "".join(
+            f"vertex {x} {y} {z}\n" for x, y, z in each) + "endloop\nendfacet\n" for each in triangles) + "endsolid a\n"
+        self.daemon.request("PUT", "/v1/files/parts/a.stl", stl, {"Content-Type": "model/stl"})
+        self.put("/v1/setups/meshed", {"workpiece": {"features": [{"type": "mesh", "file": "parts/a.stl"}]}})
+        self.delete("/v1/tables/hole/classes/H7")  # ISO 286 has it
+        for path, by in (("/v1/tables/hole/classes/X9", "plan 'P-2'"), ("/v1/tables/hole/classes/Own1", "plan 'P-2'"),
+                         ("/v1/files/parts/a.stl", "setup 'meshed'")):
+            problem = self.assert_problem(self.daemon.request("DELETE", path), 409, "document.in_use")
+            self.assertIn(by, problem["detail"])
+        for path in ("/v1/plans/P-2", "/v1/setups/meshed", "/v1/tables/hole/classes/X9", "/v1/tables/hole/classes/Own1",
+                     "/v1/files/parts/a.stl"):
+            self.delete(path)
+
     def test_the_changes_are_a_tree_that_others_verify(self):
         large = {"features": [{"type": "bore", "center_mm": [0, 0], "diameter_mm": 10}] * 1200}
         self.put("/v1/setups/large", {**SETUP, "workpiece": large})

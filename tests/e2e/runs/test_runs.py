@@ -131,13 +131,17 @@ class Runs(ControlTest):
 
     def test_too_many_runs_are_refused_until_there_is_room(self):
         endless = self.upload_program("endless3", *FOREVER)
+        self.daemon.request("PUT", "/v1/setups/queued", {})
         places = []
         while True:
-            answer = self.post_run(endless, headers={"Prefer": "respond-async"}, limits=LONG)
+            answer = self.post_run(endless, "queued", {"Prefer": "respond-async"}, limits=LONG)
             if answer.status != 202:
                 break
             places.append(answer.headers["location"])
         self.assert_problem(answer, 503, "service.overloaded")
+        for path in ("/v1/setups/queued", "/v1/files/endless3.h"):
+            problem = self.assert_problem(self.daemon.request("DELETE", path), 409, "document.in_use")
+            self.assertIn("queued run r", problem["detail"])
         self.assertIn("retry-after", answer.headers)
         for place in places:
             self.assertEqual(self.daemon.request("DELETE", place).status, 204)
