@@ -228,10 +228,12 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   connections::add_connection_schemas(schemas);
   auto started = http::Server::start(
       std::move(listening), api::make_routes(services, std::move(of_plant), schemas),
-      hooks(services,
-            api::Guard(app.keys(), mode,
-                       [](std::string_view what) { log_warning("proxy_suspected", what); }),
-            metrics));
+      hooks(
+          services,
+          api::Guard(
+              app.keys(), mode, [](std::string_view what) { log_warning("proxy_suspected", what); },
+              [&app] { return app.log().forked(); }),
+          metrics));
   if (!started) return started.error();
   http::Server& server = **started;
   auto control = start_control(config, services);

@@ -101,6 +101,9 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
   if (request.is_health_only()) {
     return Error{ErrorCode::Forbidden, "this port answers only /livez and /readyz"};
   }
+  if (closed_ && is_write(request.method()) && access >= Access::Operator) {
+    if (auto why = closed_()) return *std::move(why);
+  }
   const auto token = token_of(request);
   std::optional<app::KnownCaller> caller;
   if (token && !token->empty()) {

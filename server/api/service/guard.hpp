@@ -28,9 +28,11 @@ class Guard {
  public:
   /// @param proxy_seen is told once of a proxy that hides its clients, where that opens the service
   ///   to all of them.
+  /// @param closed why nothing is stored at present, if it is so: refuses every write of data.
   Guard(const app::KeyService& keys, AuthMode mode,
-        std::function<void(std::string_view)> proxy_seen = {})
-      : keys_(keys), mode_(mode), proxy_seen_(std::move(proxy_seen)) {}
+        std::function<void(std::string_view)> proxy_seen = {},
+        std::function<std::optional<Error>()> closed = {})
+      : keys_(keys), mode_(mode), proxy_seen_(std::move(proxy_seen)), closed_(std::move(closed)) {}
 
   /// The hook of http::ServerHooks; sets the request's caller.
   Result<std::optional<http::Response>> operator()(http::Request& request,
@@ -44,6 +46,7 @@ class Guard {
   const app::KeyService& keys_;
   AuthMode mode_;
   std::function<void(std::string_view)> proxy_seen_;
+  std::function<std::optional<Error>()> closed_;
   std::shared_ptr<std::atomic<bool>> warned_ = std::make_shared<std::atomic<bool>>(false);
 };
 

@@ -353,6 +353,10 @@ class Stations(Restored):
             for body in (PART, [PART] * 300):
                 answer = twin.measure(body)
                 self.assertEqual((answer.status, answer.json["code"]), (503, "log.forked"))
+            for path in ("plans/P", "setups/S", "files/a.h", "uncertainties/U", "tables/hole/classes/H7"):
+                answer = twin.request("PUT", f"/v1/{path}", {})
+                self.assertEqual((answer.status, answer.json["code"]), (503, "log.forked"), path)
+            self.assertEqual(twin.post("/v1/statistics/summary", {"values": [1, 2]}).status, 200, "nothing is stored")
             self.assertEqual(len(twin.stored()), 2, "what is there is read")
         self.store(self.station, "second")
         self.drained()
