@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
+#include <initializer_list>
 
 #include "api/handlers.hpp"
 #include "api/limits/limits_codec.hpp"
@@ -13,10 +15,49 @@
 namespace fitgauge::api {
 namespace {
 
+using Kind = gauging::DecisionRule::Kind;
+
+/// Parameters that change nothing without another one, which the reason names.
+struct Unused {
+  std::string_view name;
+  std::string_view reason;
+};
+std::vector<Unused> unused_of(const http::Request& request, Kind rule) {
+  std::vector<Unused> unused;
+  const auto without = [&](bool is_there, std::string_view reason,
+                           std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names) {
+      if (!is_there && request.has(name)) unused.push_back({name, reason});
+    }
+  };
+  const bool of_iso286 = !standards::is_designation(*request.text("designation"));
+  const bool part_expands =
+      request.has("part_material") || request.has("part_expansion_um_per_m_k");
+  const bool scale_expands =
+      request.has("scale_material") || request.has("scale_expansion_um_per_m_k");
+  without(part_expands, "without part_material or part_expansion_um_per_m_k",
+          {"temperature_c", "temperature_uncertainty_c", "part_expansion_uncertainty_um_per_m_k"});
+  without(scale_expands, "without scale_material or scale_expansion_um_per_m_k",
+          {"scale_temperature_c", "scale_temperature_uncertainty_c",
+           "scale_expansion_uncertainty_um_per_m_k"});
+  without(rule == Kind::GuardBand, "without rule=guard_band", {"coverage_factor"});
+  without(rule == Kind::Conformance, "without rule=conformance", {"probability"});
+  without(request.has("uncertainty_um"), "without uncertainty_um", {"degrees_of_freedom"});
+  without(of_iso286, "here: it is of the tables of ISO 286", {"revision"});
+  without(!of_iso286, "here: the class of ISO 286 says it", {"feature"});
+  return unused;
+}
+
+bool has(const std::vector<Unused>& unused, std::string_view name) {
+  return std::any_of(unused.begin(), unused.end(), [&](auto& each) { return each.name == name; });
+}
+
 /// @errors QueryInvalid
-Result<std::optional<ThermalCorrection>> correction_of(const http::Request& request) {
+Result<std::optional<ThermalCorrection>> correction_of(const http::Request& request,
+                                                       const std::vector<Unused>& unused) {
   app::MeasurementFields fields;
   for (const app::MeasurementField& field : app::kThermalFields) {
+    if (has(unused, field.name)) continue;
     if (field.text != nullptr) {
       fields.*field.text = request.text(field.name);
     } else {
@@ -28,31 +69,6 @@ Result<std::optional<ThermalCorrection>> correction_of(const http::Request& requ
     return Error{ErrorCode::QueryInvalid, made.error().message, made.error().where};
   }
   return made;
-}
-
-/// A warning of each parameter that changes nothing.
-std::vector<Warning> unused_parameters(const http::Request& request, bool is_simple) {
-  std::vector<Warning> warnings;
-  const auto warn = [&](std::string_view name, std::string_view reason) {
-    if (!request.has(name)) return;
-    warnings.push_back({"query.unused", fmt::format("{} changes nothing {}", name, reason)});
-  };
-  const auto expands = [&request](std::string_view body) {
-    return request.has(fmt::format("{}_material", body)) ||
-           request.has(fmt::format("{}_expansion_um_per_m_k", body));
-  };
-  if (!expands("part")) {
-    warn("temperature_c", "without part_material or part_expansion_um_per_m_k");
-  }
-  if (!expands("scale")) {
-    warn("scale_temperature_c", "without scale_material or scale_expansion_um_per_m_k");
-  }
-  if (is_simple) warn("coverage_factor", "without rule=guard_band");
-  if (!request.has("uncertainty_um")) warn("degrees_of_freedom", "without uncertainty_um");
-  if (standards::is_designation(*request.text("designation"))) {
-    warn("revision", "here: it is of the tables of ISO 286");
-  }
-  return warnings;
 }
 
 /// The limits of a designation, of whatever standard.
@@ -110,7 +126,9 @@ Result<http::Response> verdict(const http::Request& request,
   }
   MeasuredSize measured{.reading = *request.length("measured_mm")};
   if (const auto checked = check_measured(measured.reading); !checked) return checked.error();
-  const auto correction = correction_of(request);
+  const auto kind = *gauging::rule_from_word(request.text("rule").value_or("simple"));
+  const std::vector<Unused> unused = unused_of(request, kind);
+  const auto correction = correction_of(request, unused);
   if (!correction) return correction.error();
   if (*correction) {
     measured.corrected = (**correction)(measured.reading);
@@ -120,17 +138,19 @@ Result<http::Response> verdict(const http::Request& request,
   if (given) {
     if (const auto checked = check_uncertainty(*given); !checked) return checked.error();
   }
-  const auto kind = gauging::rule_from_word(request.text("rule").value_or("simple"));
-  if (given && kind == gauging::DecisionRule::Kind::Simple) {
+  if (given && kind == Kind::Simple) {
     return Error{ErrorCode::QueryUnused,
                  "rule simple does not use uncertainty_um: give rule=guard_band or "
                  "rule=conformance, or remove it",
                  "uncertainty_um"};
   }
-  const RuleWords words{.kind = *kind,
+  const auto used = [&](std::string_view name) {
+    return has(unused, name) ? std::nullopt : request.integer(name);
+  };
+  const RuleWords words{.kind = kind,
                         .standard_uncertainty = given,
-                        .coverage_millionths = request.integer("coverage_factor"),
-                        .probability_millionths = request.integer("probability"),
+                        .coverage_millionths = used("coverage_factor"),
+                        .probability_millionths = used("probability"),
                         .degrees_of_freedom = request.integer("degrees_of_freedom"),
                         .added_uncertainty = measured.added_uncertainty};
   const auto rule = make_rule(words);
@@ -139,8 +159,10 @@ Result<http::Response> verdict(const http::Request& request,
 
   const auto result = gauging::gauge({limits->quantity, limits->feature}, limits->of.upper,
                                      limits->of.lower, measured.decisive(), *rule);
-  std::vector<Warning> warnings =
-      unused_parameters(request, rule->kind() == gauging::DecisionRule::Kind::Simple);
+  std::vector<Warning> warnings;
+  for (const auto& [name, reason] : unused) {
+    warnings.push_back({"query.unused", fmt::format("{} changes nothing {}", name, reason)});
+  }
   warn_of_no_acceptance(*rule, limits->of.upper - limits->of.lower, warnings);
   return tagged_json(json_object([&](JsonWriter& json) {
                        limits->write_members(json);

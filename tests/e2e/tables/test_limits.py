@@ -119,7 +119,12 @@ class Limits(DaemonTest):
             self.assert_problem(self.daemon.get(f"/v1/verdicts/25H7?measured_mm=25{query}"), 400, "query.unused")
         self.assertEqual(warned(""), [])
         for name, query in (("temperature_c", "&temperature_c=30"), ("scale_temperature_c", "&scale_temperature_c=30"),
-                            ("coverage_factor", "&coverage_factor=3"), ("degrees_of_freedom", "&degrees_of_freedom=9")):
+                            ("coverage_factor", "&coverage_factor=3"), ("degrees_of_freedom", "&degrees_of_freedom=9"),
+                            ("temperature_uncertainty_c", "&temperature_uncertainty_c=1"),
+                            ("scale_expansion_uncertainty_um_per_m_k", "&scale_expansion_uncertainty_um_per_m_k=1"),
+                            ("probability", "&probability=0.9"), ("feature", "&feature=hole"),
+                            ("probability", "&probability=0.9&rule=guard_band&uncertainty_um=1"),
+                            ("coverage_factor", "&coverage_factor=3&rule=conformance&uncertainty_um=1")):
             self.assertEqual(warned(query), [("query.unused", name)])
         revision = self.daemon.get("/v1/tables").json["revision"]
         self.assertEqual(warned(f"&revision={revision}", "25%20ISO%202768-m"), [("query.unused", "revision")])
