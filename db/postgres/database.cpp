@@ -85,6 +85,7 @@ class SharedDatabase final : public Database {
     listener_.emplace(
         chosen.address, daemon, notifications_, [this](bool names) { heard(names); },
         [this](Listener::Figures figures) {
+          monitor_.server_is_away(!figures);
           const std::lock_guard lock(figures_mutex_);
           figures_ = figures;
         });

@@ -87,7 +87,7 @@ void Listener::run(const std::stop_token& stop) {
       std::this_thread::sleep_for(kBetweenAttempts);
     }
     notifications_.postpone();  // what was notified may be lost
-    told_(std::nullopt);
+    if (!stop.stop_requested()) told_(std::nullopt);
   }
 }
 

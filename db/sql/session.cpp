@@ -37,6 +37,10 @@ void HealthMonitor::writes_succeeded() {
   change([&] { write_failure_.clear(); });
 }
 
+void HealthMonitor::server_is_away(bool is_away) {
+  change([&] { server_is_away_ = is_away; });
+}
+
 Health HealthMonitor::health() const {
   const std::lock_guard lock(mutex_);
   return current();
@@ -45,6 +49,7 @@ Health HealthMonitor::health() const {
 Health HealthMonitor::current() const {
   if (!damage_.empty()) return {HealthState::Damaged, damage_};
   if (!write_failure_.empty()) return {HealthState::WritesFailing, write_failure_};
+  if (server_is_away_) return {HealthState::WritesFailing, "PostgreSQL does not answer"};
   if (!checking_.empty()) return {HealthState::Checking, checking_};
   return {};
 }

@@ -28,6 +28,7 @@ class HealthMonitor {
   void damaged(std::string reason);  ///< for good; the first reason stays
   void writes_failed(std::string reason);
   void writes_succeeded();
+  void server_is_away(bool is_away);  ///< of PostgreSQL
 
   Health health() const;
 
@@ -41,6 +42,7 @@ class HealthMonitor {
   std::string checking_;
   std::string damage_;
   std::string write_failure_;
+  bool server_is_away_ = false;
 };
 
 }  // namespace fitgauge::store

@@ -272,11 +272,18 @@ void list_measurements(const Services& services, const http::Request& request,
                      cursor->after, limit);
   }
   if (!limit && !query->last && form != Form::Json) {
-    http::Response response(
-        200, media_type(form),
-        http::StreamedBody{.source = std::make_shared<MeasurementStream>(
-                               services.measurements, *std::move(query), cursor->after, form)});
-    return responder.answer(std::move(response).with("Vary", "Accept"));
+    // A storage that cannot be read is an error before the first byte.
+    return services.measurements.list(
+        *query, cursor->after, 1, [](const app::Measurement&) {},
+        [&services, query = *query, after = cursor->after, form,
+         responder = share(std::move(responder))](const Result<app::ListPage>& page) {
+          if (!page) return responder->fail(page.error());
+          http::Response response(
+              200, media_type(form),
+              http::StreamedBody{.source = std::make_shared<MeasurementStream>(
+                                     services.measurements, query, after, form)});
+          responder->answer(std::move(response).with("Vary", "Accept"));
+        });
   }
   auto rows = std::make_shared<std::string>();
   services.measurements.list(

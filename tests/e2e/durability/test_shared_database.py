@@ -169,6 +169,18 @@ class Shared(unittest.TestCase):
         self.wait_until_ready(living, 200)
         self.assertEqual(front.get("/readyz").status, 200, "and is there as soon as they are")
 
+    def test_readiness_and_streams_tell_that_the_server_is_away(self):
+        daemon = self.daemons(1)[0]
+        self.assertEqual(daemon.get("/readyz").status, 200)
+        self.cluster.stop("immediate")
+        self.wait_until_ready([daemon], 503)
+        for form in ("csv", "ndjson"):
+            answer = daemon.get(f"/v1/measurements?format={form}")
+            self.assertEqual(answer.status, 503, answer)
+            self.assertIn("retry-after", answer.headers)
+        self.cluster.start()
+        self.wait_until_ready([daemon], 200)
+
     def wait_until_told(self, daemon, line):
         wait_for(lambda: line in daemon.get("/metrics").text, line)
 
