@@ -209,7 +209,7 @@ struct Commands {
   std::vector<std::string> checkpoints;
   std::string name;
   std::string role;
-  std::string expires;
+  std::optional<std::string> expires;
 };
 
 int dispatch(const CLI::App& app, const Arguments& arguments, const Commands& commands) {

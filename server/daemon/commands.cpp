@@ -158,7 +158,7 @@ Result<int> run_log_key(const Config& config) {
 }
 
 Result<int> run_key_create(const Config& config, const std::string& name, const std::string& role,
-                           const std::string& expires) {
+                           const std::optional<std::string>& expires) {
   const auto known = app::role_from_word(role);
   if (!known) {
     return Error{
@@ -166,12 +166,12 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
         fmt::format("role must be one of: viewer, operator, admin, station; got '{}'", role)};
   }
   std::optional<Timestamp> end;
-  if (!expires.empty()) {
-    const auto time = parse_rfc3339(expires);
+  if (expires) {
+    const auto time = parse_rfc3339(*expires);
     if (!time) {
       return Error{
           ErrorCode::ConfigInvalid,
-          fmt::format("expires must be a time such as 2027-01-01T00:00:00Z; got '{}'", expires)};
+          fmt::format("expires must be a time such as 2027-01-01T00:00:00Z; got '{}'", *expires)};
     }
     end = *time;
   }

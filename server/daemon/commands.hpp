@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,9 @@ Result<int> run_verify(const Config& config, const std::vector<std::string>& che
 Result<int> run_qualify(const Config& config, const std::string& folder, bool signs);
 /// `fitgauged log-key`: the log gets a new key, which signs from the next start on.
 Result<int> run_log_key(const Config& config);
-/// `fitgauged key create|revoke|list`. @param expires RFC 3339; empty: never.
+/// `fitgauged key create|revoke|list`. @param expires RFC 3339; none: never.
 Result<int> run_key_create(const Config& config, const std::string& name, const std::string& role,
-                           const std::string& expires);
+                           const std::optional<std::string>& expires);
 Result<int> run_key_revoke(const Config& config, const std::string& name);
 Result<int> run_key_list(const Config& config);
 

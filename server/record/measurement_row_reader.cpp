@@ -337,6 +337,9 @@ void MeasurementRowReader::apply_size() {
              fmt::format("{} is for sizes, not for a {}", name, word(*m.quantity)));
     }
   }
+  if (m.size_operator && m.size_operator->empty()) {
+    report(ErrorCode::FieldInvalid, "size_operator", "size_operator must not be empty");
+  }
   if (m.envelope && m.envelope != app::kEnvelopeRequired) {
     report(ErrorCode::FieldInvalid, "envelope", "envelope must be required or absent");
   }

@@ -265,7 +265,7 @@ class Ends(Callers):
         self.assertGreaterEqual(datetime.datetime.now(datetime.timezone.utc), end)
 
     def test_an_expiry_that_is_none(self):
-        for expires, code in (("tomorrow", 2), ("2020-01-01T00:00:00Z", 1)):
+        for expires, code in (("tomorrow", 2), ("", 2), ("2020-01-01T00:00:00Z", 1)):
             made = self.daemon.command("key", "create", "--name", "x", "--role", "viewer", "--expires", expires)
             self.assertEqual(made.returncode, code)
             self.assertIn("expire", made.stderr)
