@@ -26,6 +26,7 @@ enum class Group : std::uint8_t {
   Value,
   Tolerance,
   Face,
+  Surface,
   Part,
   Callout,
   Product,
@@ -51,6 +52,7 @@ constexpr std::array kEntities = {
     Entity{"PLUS_MINUS_TOLERANCE", Group::Tolerance},
     Entity{"GEOMETRIC_ITEM_SPECIFIC_USAGE", Group::Face},
     Entity{"ITEM_IDENTIFIED_REPRESENTATION_USAGE", Group::Face},
+    Entity{"OPEN_SHELL", Group::Surface},
     Entity{"SHAPE_ASPECT_RELATIONSHIP", Group::Part},
     Entity{"SHAPE_ASPECT_DERIVING_RELATIONSHIP", Group::Part},
     Entity{"DRAUGHTING_MODEL_ITEM_ASSOCIATION", Group::Callout},
@@ -95,8 +97,8 @@ struct Relation {
   std::size_t to;
 };
 constexpr std::array kRelations = {Relation{Group::Value, 0, 1}, Relation{Group::Tolerance, 1, 0},
-                                   Relation{Group::Face, 2, 4}, Relation{Group::Part, 2, 3},
-                                   Relation{Group::Callout, 2, 4}};
+                                   Relation{Group::Face, 2, 4},  Relation{Group::Surface, 1, 1},
+                                   Relation{Group::Part, 2, 3},  Relation{Group::Callout, 2, 4}};
 
 /// An instance that refers to another.
 using Link = std::pair<std::uint32_t, std::uint32_t>;
@@ -124,6 +126,7 @@ struct Found {
   std::string class_name{};
   std::optional<Feature> zone{};  ///< of the class
   bool is_angle = false;
+  bool is_open = false;  ///< all its faces are of open shells
 };
 
 std::string signed_um(std::optional<Length> length) {
@@ -136,13 +139,10 @@ class Walker {
       : file_(file), tables_(tables), to_(drawing), values_(file) {}
 
   void walk() {
-    each({Group::Value, Group::Tolerance, Group::Face, Group::Part, Group::Callout},
-         [&](auto id, const Entity& entity) {
-           const auto relation =
-               std::find_if(kRelations.begin(), kRelations.end(),
-                            [&](const Relation& r) { return r.group == entity.group; });
-           link(id, *relation, entity.name);
-         });
+    for (const Relation& relation : kRelations) {
+      each({relation.group},
+           [&](auto id, const Entity& entity) { link(id, relation, entity.name); });
+    }
     for (auto& each : links_) std::stable_sort(each.begin(), each.end(), by_first);
     each({Group::Product}, [&](auto id, const Entity& entity) {
       to_.part = seen_.empty() ? text_in(file_, id, entity.name, 0) : std::string();
@@ -184,11 +184,12 @@ class Walker {
 
   void link(std::uint32_t id, const Relation& relation, std::string_view name) {
     const auto all = record_of(file_, id, name);
+    const bool is_shell = relation.group == Group::Surface;  // links each face to itself
     if (all.size() <= std::max(relation.from, relation.to) ||
-        !all[relation.from].is(Kind::Reference))
+        (!is_shell && !all[relation.from].is(Kind::Reference)))
       return;
     for (const std::uint32_t to : references_in(file_, all[relation.to])) {
-      links(relation.group).emplace_back(all[relation.from].id, to);
+      links(relation.group).emplace_back(is_shell ? to : all[relation.from].id, to);
       if (++link_count_ > kMostLinks)
         return file_.fail(id, "more relations than are read: export fewer parts");
     }
@@ -225,18 +226,37 @@ class Walker {
     return free;
   }
 
-  std::vector<std::uint32_t> faces_of(std::uint32_t aspect) {
+  bool is_open(std::uint32_t face) { return !linked(Group::Surface, face).empty(); }
+
+  std::vector<Face> faces_of(std::uint32_t aspect) {
     constexpr std::size_t kMostAspects = 4096;
+    constexpr std::size_t kMostFaces = 256;
     std::vector<std::uint32_t> aspects{aspect};
-    std::vector<std::uint32_t> faces;
+    std::vector<Face> faces;
     std::set<std::uint32_t> known{aspect};
     for (std::size_t i = 0; i < aspects.size() && i < kMostAspects; ++i) {
-      for (const auto& [_, face] : linked(Group::Face, aspects[i])) faces.push_back(face);
+      for (const auto& [_, id] : linked(Group::Face, aspects[i])) {
+        if (faces.size() == kMostFaces) return faces;
+        auto face = read_face(file_, id);
+        if (face && is_open(id)) lay_on(*face, solids());
+        if (face) faces.push_back(*face);
+      }
       for (const auto& [_, part] : linked(Group::Part, aspects[i])) {
         if (known.insert(part).second) aspects.push_back(part);
       }
     }
     return faces;
+  }
+
+  /// The cylinders of solids that sizes and tolerances hang on; none if they are too many.
+  std::span<const Face> solids() {
+    constexpr std::size_t kMostLooked = 1024;
+    if (std::exchange(has_solids_, true) || links(Group::Face).size() > kMostLooked) return solids_;
+    for (const auto& [_, id] : links(Group::Face)) {
+      const auto face = is_open(id) ? std::nullopt : read_face(file_, id);
+      if (face && face->radius > 0) solids_.push_back(*face);
+    }
+    return solids_;
   }
 
   /// Nominal value, limits and words of the representation. @returns why it cannot be used
@@ -358,13 +378,14 @@ class Walker {
   }
 
   /// The feature of a size, by its name and its faces.
-  void take_aspect(std::uint32_t aspect, std::string_view name, DrawnSize& size) {
+  void take_aspect(std::uint32_t aspect, std::string_view name, Found& found, DrawnSize& size) {
     for (const auto& [part, quantity] : kQuantities) {
       if (name.find(part) == std::string_view::npos) continue;
       size.quantity = quantity;
       break;
     }
-    const Shape shape = shape_of(file_, faces_of(aspect));
+    const Shape shape = shape_of(faces_of(aspect));
+    found.is_open = shape.is_open;
     size.count = size.quantity == Quantity::Radius && shape.faces > 0 ? shape.faces : shape.count;
     // The length of a round face is a depth.
     if (size.quantity == Quantity::Width && shape.is_round) size.quantity = Quantity::Distance;
@@ -374,6 +395,7 @@ class Walker {
   std::string take_size(std::uint32_t id, const Entity& entity, DrawnSize& size) {
     if (entity.group == Group::Angle) return "an angle is not gauged here";
     size.quantity = Quantity::Distance;
+    Found found;
     if (entity.group == Group::Size) {
       auto own = record_of(file_, id, "DIMENSIONAL_SIZE");
       if (own.empty()) own = record_of(file_, id, entity.name);
@@ -381,9 +403,9 @@ class Walker {
       const auto aspect = std::adjacent_find(
           own.begin(), own.end(),
           [](const auto& a, const auto& b) { return a.is(Kind::Reference) && b.is(Kind::Text); });
-      if (aspect != own.end()) take_aspect(aspect->id, ascii_lower(text_of(aspect[1])), size);
+      if (aspect != own.end())
+        take_aspect(aspect->id, ascii_lower(text_of(aspect[1])), found, size);
     }
-    Found found;
     if (std::string why = take_values(id, found, size); !why.empty()) return why;
     size.nominal = *found.nominal;
     if (std::string why = take_tolerances(id, found, size); !why.empty()) return why;
@@ -409,9 +431,10 @@ class Walker {
     // Without faces a width is a distance: outside of its limits a part is a reject.
     if (size.quantity == Quantity::Width && !size.feature) size.quantity = Quantity::Distance;
     if (gauging::has_feature(size.quantity) && !size.feature) {
-      return fmt::format(
-          "{} mm, {} {} µm: its faces do not show a hole or a shaft, add it with its feature",
-          format_mm(size.nominal), signed_um(size.upper), signed_um(size.lower));
+      return fmt::format("{} mm, {} {} µm: its faces {}, add it with its feature",
+                         format_mm(size.nominal), signed_um(size.upper), signed_um(size.lower),
+                         found.is_open ? "are of an open shell, which has no side with material"
+                                       : "do not show a hole or a shaft");
     }
     return {};
   }
@@ -442,6 +465,8 @@ class Walker {
   std::array<std::vector<Link>, kEntities.size()> links_;
   std::map<std::string, int> names_;
   std::set<std::uint32_t> seen_;
+  std::vector<Face> solids_;
+  bool has_solids_ = false;
 };
 
 }  // namespace

@@ -305,6 +305,7 @@ std::vector<Parameter> Part21::parameters(std::string_view list) const {
     found.push_back(item);
     return found.size() < kMostItems;
   });
+  if (found.size() == kMostItems) fail(0, "a list has more than 65535 items: export fewer parts");
   return found;
 }
 

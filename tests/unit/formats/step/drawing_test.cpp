@@ -124,6 +124,41 @@ TEST_CASE("sizes are read as their callouts show them, in the forms of other wri
             .starts_with("8 0 -36 radius - 2X"));
 }
 
+TEST_CASE("faces of an open shell say nothing of the side") {
+  // Diameter 25 with deviations, on the solid faces #20 and #22, and on what each case adds.
+  const auto read = [](const std::vector<std::pair<std::string_view, std::string_view>>& changes) {
+    std::string text = replaced(housing(), "#113=LIMITS_AND_FITS('H','hole','7','')",
+                                "#97=ADVANCED_FACE('',(),#21,.T.);#98=ADVANCED_FACE('',(),#23,.T.);"
+                                "#99=OPEN_SHELL('',(#97,#98));#113=TOLERANCE_VALUE(#139,#184)");
+    for (const auto& [what, by] : changes) text = replaced(std::move(text), what, by);
+    const auto drawing = read_drawing(text, tables());
+    REQUIRE(drawing.has_value());
+    if (drawing->sizes[0].entity == "#100")
+      return fmt::format("{} {}X", limits_of(drawing->sizes[0]), drawing->sizes[0].count);
+    return drawing->not_read[0].why;
+  };
+  const std::pair<std::string_view, std::string_view> first{"#102,#4,#20)", "#102,#4,#97)"};
+  const std::pair<std::string_view, std::string_view> second{"#103,#4,#22)", "#103,#4,#98)"};
+  constexpr std::string_view open =
+      "25 mm, +100 0 µm: its faces are of an open shell, which has no side with material, add it "
+      "with its feature";
+  CHECK(read({}) == "25 100 0 diameter hole 2X");
+  CHECK(read({second}) == "25 100 0 diameter hole 2X");
+  CHECK(read({second, {"OPEN_SHELL", "CLOSED_SHELL"}}).find("do not show a hole") !=
+        std::string::npos);
+  // A solid cylinder that something else hangs on has the same axis and radius, another, or both.
+  const std::pair<std::string_view, std::string_view> apart{"#121,#4,#24)", "#121,#4,#29)"};
+  CHECK(read({first, second}) == "25 100 0 diameter shaft 2X");
+  CHECK(read({first, second, apart}) == open);
+  CHECK(read({first, second, {"#121,#4,#24)", "#121,#4,#22)"}}) == "25 100 0 diameter hole 2X");
+  CHECK(read({first, second, apart, {"#131,#4,#27)", "#131,#4,(#27,#20,#24))"}}) == open);
+  CHECK(read({first,
+              second,
+              {"ADVANCED_FACE('',(),#21,.T.);\n",
+               "ADVANCED_FACE('',(),#96,.T.);"
+               "#96=CYLINDRICAL_SURFACE('',#15,12.49);\n"}}) == open);
+}
+
 TEST_CASE("what is not gauged is listed with its name and why") {
   const auto drawing = read_drawing(housing(), tables());
   REQUIRE(drawing.has_value());
@@ -262,6 +297,17 @@ TEST_CASE("a million instances are read, one more than the bound is an error") {
   for (int i = 1; i <= 1'000'000; ++i) data += fmt::format("#{}=A(#{});\n", i, i % 1'000'000 + 1);
   CHECK(error_of(with_data(data)).empty());
   CHECK(error_of(with_data(data), 999'999).starts_with("line 1000002: more than 999999 instances"));
+}
+
+TEST_CASE("a list that is longer than what is read is an error, not cut") {
+  std::string faces = "#20";
+  for (int i = 1; i < 65'535; ++i) faces += ",#20";
+  const auto shell = [](const std::string& all) {
+    return error_of(
+        replaced(housing(), "ENDSEC;\nEND", "#99=OPEN_SHELL('',(" + all + "));ENDSEC;\nEND"));
+  };
+  CHECK(shell(faces).empty());
+  CHECK(shell(faces + ",#20").find("more than 65535 items") != std::string::npos);
 }
 
 TEST_CASE("edition 3 and texts in every coding are read") {
