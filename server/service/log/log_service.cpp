@@ -21,6 +21,7 @@ using std::chrono::seconds;
 
 constexpr seconds kBetweenSignings{1};
 constexpr hours kBetweenTellings{24};
+constexpr seconds kLastGrowth{1};  // after an upgrade the rest follows at the next start
 constexpr std::int64_t kLeavesAtATime = 4096;
 constexpr std::uint64_t kLeavesACommit = 1'000'000;
 
@@ -114,7 +115,7 @@ void LogService::run(const std::stop_token& stop) {
       next_signing_ = now + kBetweenSignings;
       lock.unlock();
       bool has_grown = false;
-      guarded("the log", [&] { has_grown = grow(stop).has_value(); });
+      guarded("the log", [&] { has_grown = grow([&stop] { return stop.stop_requested(); }).has_value(); });
       lock.lock();
       if (!has_grown) dirty_ = true;  // the storage tells of its failures itself
     }
@@ -132,6 +133,13 @@ void LogService::run(const std::stop_token& stop) {
   for (const Waiter& waiter : left) {
     guarded("a proof that was waited for", [&] { waiter.done(shutting_down()); });
   }
+  guarded("the log's end", [this] {
+    // Behind the jobs that wait for the writer, of which committed() hears no more.
+    const auto nothing = [](store::Stores&) -> Result<bool> { return true; };
+    if (!database_.writer().wait(nothing)) return;
+    const auto end = Steady::now() + kLastGrowth;
+    static_cast<void>(grow([end] { return Steady::now() >= end; }));
+  });
 }
 
 /// The leaves that one commit adds to the tree.
@@ -143,10 +151,10 @@ struct LogService::Stretch {
 
 /// Takes in what was stored since, keeps the nodes it completes, mostly in one commit, and signs.
 /// After an upgrade that may be a long way: it is gone in stretches.
-Result<void> LogService::grow(const std::stop_token& stop) {
-  for (bool more = true; more && !stop.stop_requested();) {
+Result<void> LogService::grow(const IsOver& is_over) {
+  for (bool more = true; more && !is_over();) {
     Stretch stretch{.grown = frontier_};
-    if (const auto taken = take_leaves(stop, stretch); !taken) return taken;
+    if (const auto taken = take_leaves(is_over, stretch); !taken) return taken;
     if (stretch.grown.size() == frontier_.size()) break;
     const auto kept = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
       stores.log.grow(static_cast<std::int64_t>(stretch.grown.size()), stretch.nodes);
@@ -161,10 +169,10 @@ Result<void> LogService::grow(const std::stop_token& stop) {
   return {};
 }
 
-Result<void> LogService::take_leaves(const std::stop_token& stop, Stretch& stretch) {
+Result<void> LogService::take_leaves(const IsOver& is_over, Stretch& stretch) {
   tlog::Frontier& grown = stretch.grown;
   const std::uint64_t end = grown.size() + kLeavesACommit;
-  while (stretch.more && grown.size() < end && !stop.stop_requested()) {
+  while (stretch.more && grown.size() < end && !is_over()) {
     const auto size = static_cast<std::int64_t>(grown.size());
     const auto leaves = database_.readers().wait(
         [this, size](const store::Stores& stores) -> Result<std::vector<tlog::Hash>> {

@@ -64,6 +64,8 @@ class LogService {
 
   /// Starts the thread that lets the tree grow, and tells the head once a day from then on.
   void start();
+  /// Signs once more before it returns, so that the folder knows what was stored last: no id of it
+  /// is given out again above an older copy.
   void stop();
   /// There may be new measurements. Called after each commit; does not block.
   void committed();
@@ -180,9 +182,10 @@ class LogService {
   Result<void> branch(const Loaded& loaded, const std::string& why);
   void run(const std::stop_token& stop);
   Steady::time_point next_wake() const;
-  Result<void> grow(const std::stop_token& stop);
+  using IsOver = std::function<bool()>;
+  Result<void> grow(const IsOver& is_over);
   struct Stretch;
-  Result<void> take_leaves(const std::stop_token& stop, Stretch& stretch);
+  Result<void> take_leaves(const IsOver& is_over, Stretch& stretch);
   void sign();
   void tell(std::string_view event, const std::string& detail) const;
   void end_waiters(std::unique_lock<std::mutex>& lock);

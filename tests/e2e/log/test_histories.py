@@ -162,6 +162,20 @@ class Folders(Restored):
         self.assertEqual([record["id"] for record in daemon.stored()], kept + third)
         self.assert_clean(daemon)
 
+    def test_what_is_stored_just_before_the_end_is_known_to_the_folder(self):
+        daemon = self.made().start()
+        kept = self.store(daemon, "d1")
+        daemon.stop()
+        copy = daemon.folder / "copy.db"
+        shutil.copy(daemon.database, copy)
+        daemon.start()
+        lost = self.store(daemon, "d2 d3")
+        self.assertEqual(daemon.stop(), 0)
+        self.assertEqual((daemon.data / "fitgauge.checkpoint").read_text().split("\n")[1], "3")
+        self.restore(daemon, copy)
+        daemon.start()
+        self.assert_unique(kept, lost, self.store(daemon, "n2 n3"))
+
     def test_a_correction_of_what_the_copy_holds(self):
         daemon = self.made().start()
         kept = self.store(daemon, "d1 d2")

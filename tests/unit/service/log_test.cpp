@@ -56,3 +56,15 @@ TEST_CASE("a head that a bug kept from being signed is signed a second later, wi
   CHECK(comes_true(is_signed));
   CHECK(thrown);
 }
+
+TEST_CASE("what is stored last before the end is in the checkpoint of the folder") {
+  Service service;
+  const auto checkpoint = [&] {
+    return tlog::parse_checkpoint(read_small_file(service.folder() / kCheckpointFile)->value());
+  };
+  service.record(1);
+  CHECK(comes_true([&] { return service->log().head()->checkpoint.size == 1; }));
+  service.record(2);  // a second too early for the next one
+  service->log().stop();
+  CHECK(checkpoint()->size == 3);
+}
