@@ -21,10 +21,9 @@ struct LogStore::Statements {
   sql::Statement set_name{c, "UPDATE log SET name = ?"};
   sql::Statement branches{c, fmt::format("SELECT {}, {} FROM log_branches ORDER BY number",
                                          kLogBranches.columns, kLogBranches.is_sound(c))};
-  sql::Statement is_copy{c, "SELECT 1 FROM log_marks WHERE mark = 'copy'"};
-  sql::Statement forked{c, "SELECT reason FROM log_marks WHERE mark = 'forked'"};
+  sql::Statement reason{c, "SELECT reason FROM log_marks WHERE mark = ?"};
   sql::Statement mark{c, kLogMarks.insert(c)};
-  sql::Statement not_forked{c, "DELETE FROM log_marks WHERE mark = 'forked'"};
+  sql::Statement unmark{c, "DELETE FROM log_marks WHERE mark = ?"};
   sql::Statement newest{
       c,
       "SELECT (SELECT coalesce(max(id), 0) FROM measurements), (SELECT "
@@ -32,7 +31,6 @@ struct LogStore::Statements {
       "coalesce(max(id), 0) FROM notes)"};
   sql::Statement add_branch{c, kLogBranches.insert(c)};
   sql::Statement set_origin{c, "UPDATE log SET origin = ?, name = ?"};
-  sql::Statement unmark{c, "DELETE FROM log_marks"};
   sql::Statement set_size{c, "UPDATE log SET size = ?1 WHERE size < ?1"};
   Seal seal{c, kLog};
   sql::Statement keys{c, "SELECT vkey FROM log_keys ORDER BY number DESC"};
@@ -44,6 +42,8 @@ struct LogStore::Statements {
   sql::Statement nodes{c,
                        "SELECT hash FROM log_nodes WHERE level = ? AND node >= ? AND node < ? "
                        "ORDER BY node"};
+
+  std::optional<std::string> reason_of(std::string_view name);
 };
 
 LogStore::LogStore(sql::Connection& connection)
@@ -104,16 +104,26 @@ std::vector<LogStore::Branch> LogStore::branches() const {
   return branches;
 }
 
-bool LogStore::is_copy() const { return statements_->is_copy.query().next(); }
+bool LogStore::is_copy() const { return statements_->reason.query("copy").next(); }
 
-std::optional<std::string> LogStore::forked() const {
-  Rows rows = statements_->forked.query();
+std::optional<std::string> LogStore::Statements::reason_of(std::string_view name) {
+  Rows rows = reason.query(name);
   return rows.next() ? std::optional(rows.get<std::string>(0)) : std::nullopt;
 }
 
+std::optional<std::string> LogStore::forked() const { return statements_->reason_of("forked"); }
+
 void LogStore::set_forked(const std::optional<std::string>& reason) {
-  statements_->not_forked.run();
+  statements_->unmark.run("forked");
   if (reason) statements_->mark.run("forked", *reason);
+}
+
+// Not in the comment of log_marks, which is fixed with its migration: 'centre', digits as reason.
+std::optional<std::string> LogStore::centre() const { return statements_->reason_of("centre"); }
+
+void LogStore::set_centre(std::string_view digits) {
+  statements_->unmark.run("centre");
+  statements_->mark.run("centre", digits);
 }
 
 void LogStore::begin_branch(std::int64_t size, const Origin& origin, std::string_view name) {
@@ -127,7 +137,7 @@ void LogStore::begin_branch(std::int64_t size, const Origin& origin, std::string
                               last[1], last[2], last[3]);
   statements_->set_origin.run(blob_of(origin), name);
   statements_->seal.renew(1);
-  statements_->unmark.run();
+  for (const char* const mark : {"copy", "forked"}) statements_->unmark.run(mark);
 }
 
 std::vector<std::string> LogStore::keys() const {

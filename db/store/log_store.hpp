@@ -49,6 +49,9 @@ class LogStore {
   /// Why no measurement is recorded, if the centre has another log of this name.
   std::optional<std::string> forked() const;
   void set_forked(const std::optional<std::string>& reason);
+  /// The digits of the history of the centre that this folder met last; none: it has met none.
+  std::optional<std::string> centre() const;
+  void set_centre(std::string_view digits);
   /// Ends the history that state() names with the `size` rows there are, and begins another.
   void begin_branch(std::int64_t size, const std::array<std::uint8_t, 16>& origin,
                     std::string_view name);

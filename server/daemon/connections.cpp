@@ -260,14 +260,14 @@ void tell_log(std::string_view event, const std::string& detail) {
                                                            : log_warning(event, detail);
 }
 
-std::optional<std::int64_t> ask_centre(const Config& config, std::string_view digits) {
+std::optional<app::AtCentre> ask_centre(const Config& config, std::string_view digits) {
   const auto until = std::chrono::steady_clock::now() + kPatienceAtStart;
   forwarder::CentreLink link(centre_of(config));
   const auto answer = link.get(fmt::format("/v1/log/revisions?station={}", digits),
                                [until] { return std::chrono::steady_clock::now() < until; });
   const auto read = api::read_revisions(answer.status == kOk ? answer.body : "");
   if (!read) return std::nullopt;
-  return (*read)->page.size;
+  return app::AtCentre{.centre = (*read)->page.origin, .rows = (*read)->page.size};
 }
 
 std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app,

@@ -35,8 +35,8 @@ Result<void> check_forwarding(const Config& config);
 /// As the log of the service has it: the event's name and a sentence.
 using Tell = std::function<void(std::string_view event, const std::string& detail)>;
 
-/// How many rows of a history the centre has; none where it does not say within some seconds.
-std::optional<std::int64_t> ask_centre(const Config& config, std::string_view digits);
+/// The centre's answer about a history; none where it does not say within some seconds.
+std::optional<app::AtCentre> ask_centre(const Config& config, std::string_view digits);
 
 /// Starts to forward the log to the centre; null when there is none.
 std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app,

@@ -73,7 +73,7 @@ struct ApplicationOptions {
   std::int64_t run_retention_days = 90;  ///< 0: for ever
   std::int64_t event_retention = 100'000;
   /// As LogOptions.
-  std::function<std::optional<std::int64_t>(std::string_view digits)> ask_centre{};
+  std::function<std::optional<AtCentre>(std::string_view digits)> ask_centre{};
   bool has_centre = false;              ///< what came from a centre is changed there alone
   std::string origin_name = "station";  ///< of the log of a new data folder
   /// Calls what it is given, on the writer thread: the `done` of everything a commit has stored.

@@ -136,14 +136,14 @@ bool Node::start() {
   options.job_threw = [tell](const std::string& what) { tell("job_threw", what); };
   const forwarder::CentreOptions there{.url = "http://" + centre_};
   if (!centre_.empty()) {
-    options.ask_centre = [there](std::string_view digits) -> std::optional<std::int64_t> {
+    options.ask_centre = [there](std::string_view digits) -> std::optional<app::AtCentre> {
       const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(3);
       forwarder::CentreLink link(there);
       const auto answer = link.get(fmt::format("/v1/log/revisions?station={}", digits),
                                    [until] { return std::chrono::steady_clock::now() < until; });
       const auto read = api::read_revisions(answer.status == 200 ? answer.body : "");
       if (!read) return std::nullopt;
-      return (*read)->page.size;
+      return app::AtCentre{.centre = (*read)->page.origin, .rows = (*read)->page.size};
     };
   }
   const auto failed = [&](const Error& error) {

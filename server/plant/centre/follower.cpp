@@ -91,7 +91,10 @@ bool Follower::take_page(CentreLink& link, const CentreLink::GoesOn& goes_on) {
   failure_.clear();
   refused_ = refused_ || taken->refused > 0;
   position_ = (*read)->page.position;
-  heard_ = {.history = station, .size = (*read)->page.size, .notes = (*read)->page.notes};
+  heard_ = {.history = station,
+            .centre = (*read)->page.origin,
+            .size = (*read)->page.size,
+            .notes = (*read)->page.notes};
   if (taken->taken > 0) {
     tell_("revisions_taken", fmt::format("{} up to {}", taken->taken, position_));
   }

@@ -89,6 +89,7 @@ bool Forwarder::wait(const std::stop_token& stop, milliseconds time) {
 void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
   const auto there = follower_.look(link_, goes_on);
   if (!there) return;
+  outbox_.meet(there->centre);
   // It was set back to an older copy: it gets what it has lost. Of a branch that it does not know
   // it may still have the records below.
   const std::int64_t has = std::max(there->size, outbox_.history_of(seen_).begin);

@@ -58,6 +58,7 @@ class Follower {
 
   struct Heard {
     std::string_view history{};           ///< of this folder
+    std::string centre{};                 ///< the digits of its own history
     std::int64_t size = 0;                ///< its records that the centre has
     std::optional<std::int64_t> notes{};  ///< as RevisionPage
   };

@@ -118,6 +118,18 @@ std::string_view LogOutbox::newest_history() const {
   return log_.history_of(rows ? *rows : std::numeric_limits<std::int64_t>::max()).digits;
 }
 
+void LogOutbox::meet(std::string_view centre) const {
+  const auto known = database_.readers().wait(
+      [](const store::Stores& stores) -> Result<std::optional<std::string>> {
+        return stores.log.centre();
+      });
+  if (!known || *known == centre) return;
+  static_cast<void>(database_.writer().wait([centre](store::Stores& stores) -> Result<bool> {
+    stores.log.set_centre(centre);
+    return true;
+  }));
+}
+
 void LogOutbox::set_forked(const std::optional<std::string>& why) const {
   static_cast<void>(log_.set_forked(why));  // what cannot be stored now is tried with the next
 }

@@ -64,6 +64,8 @@ class LogOutbox {
   std::string_view newest_history() const;
   /// Whether the note with this number is of that history.
   bool is_note_of(std::string_view history, std::int64_t number) const;
+  /// Keeps the digits of the centre's history. A failure of storage is left to the next call.
+  void meet(std::string_view centre) const;
   /// As LogService.
   void set_forked(const std::optional<std::string>& why) const;
 

@@ -31,15 +31,21 @@ namespace fitgauge::app {
 
 class TableCatalog;
 
+/// The state of a history at the centre.
+struct AtCentre {
+  std::string centre{};   ///< the digits of the centre's own history
+  std::int64_t rows = 0;  ///< of the history in question that are there
+};
+
 struct LogOptions {
   std::filesystem::path
       directory;                 ///< of the database; the key and the newest checkpoint lie there
   std::string name = "station";  ///< of the log, if this is its first start
   bool shares = false;           ///< one of several daemons that sign the same log
   bool attach = false;           ///< beside a running daemon: nothing is signed and nothing written
-  /// How many rows the centre has of the history with these digits; none where it does not say.
+  /// The centre's answer about the history with these digits; none where it does not say.
   /// Asked once, when the log is opened; not set where there is no centre. May block.
-  std::function<std::optional<std::int64_t>(std::string_view digits)> ask_centre{};
+  std::function<std::optional<AtCentre>(std::string_view digits)> ask_centre{};
   /// The event's name and a sentence, for the log of the service; called on any thread.
   std::function<void(std::string_view event, const std::string& detail)> tell{};
 };

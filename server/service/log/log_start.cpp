@@ -37,6 +37,7 @@ struct LogService::Loaded {
   std::int64_t rows = 0;
   bool is_copy = false;
   std::optional<std::string> forked{};
+  std::optional<std::string> centre{};
   std::vector<store::OriginsStore::Origin> origins{};
 };
 
@@ -48,6 +49,7 @@ Result<LogService::Loaded> LogService::read() const {
                   .rows = stores.measurements.log_size(),
                   .is_copy = stores.log.is_copy(),
                   .forked = stores.log.forked(),
+                  .centre = stores.log.centre(),
                   .origins = stores.origins.list()};
   });
 }
@@ -197,9 +199,13 @@ std::optional<std::string> LogService::why_to_branch(const Loaded& loaded) {
   if (!options_.ask_centre) return std::nullopt;
   const auto there = options_.ask_centre(digits_of_origin(loaded.state.origin));
   if (!there) return "the centre does not say whether it has more of this log";
-  if (*there <= loaded.rows) return std::nullopt;
-  return fmt::format("the centre has {} measurements of this log, and the database has {}", *there,
-                     loaded.rows);
+  if (there->rows > loaded.rows) {
+    return fmt::format("the centre has {} measurements of this log, and the database has {}",
+                       there->rows, loaded.rows);
+  }
+  if (!loaded.centre || *loaded.centre == there->centre) return std::nullopt;
+  return fmt::format("the centre has begun {} since it was {}, and may have lost measurements",
+                     there->centre, *loaded.centre);
 }
 
 Result<void> LogService::branch(const Loaded& loaded, const std::string& why) {

@@ -274,6 +274,25 @@ class Stations(Restored):
     def test_a_copy_of_the_folder_without_the_centre(self):
         self.put_back("copy", False)
 
+    def test_a_correction_of_what_lies_below_the_branch_reaches_the_centre(self):
+        kept = self.store(self.station, "s1 s2")
+        copy = self.backup(self.station)
+        self.store(self.station, "s3")
+        self.drained()
+        self.station.stop()
+        self.restore(self.station, copy)
+        self.station.start()
+        correction = {"measured_mm": 25.02, "reason": "x"}
+        made = self.station.post(f"/v1/measurements/{kept[0]}/corrections", correction)
+        self.assertEqual(made.status, 201, made)
+        again = self.station.post(f"/v1/measurements/{made.json['id']}/corrections", correction)
+        self.assertEqual(again.status, 201, again)
+        self.drained()
+        for (of, by) in ((kept[0], made), (made.json["id"], again)):
+            self.assertEqual(self.centre.get(f"/v1/measurements/{of}").json["corrected_by"], by.json["id"])
+        self.assert_clean(self.station)
+        self.assert_clean(self.centre)
+
     def test_what_the_centre_lacks_of_the_history_below_goes_first(self):
         self.store(self.station, "s1")
         self.drained()
@@ -310,6 +329,44 @@ class Stations(Restored):
         wait_for(lambda: "corrected_by" in self.station.get(f"/v1/measurements/{first[0]}").json,
                  lambda: self.station.log)
         self.assertEqual(self.station.get(f"/v1/measurements/{first[0]}").json["corrected_by"], made.json["id"])
+
+    def restored_centre(self):
+        """The centre stores what the station has stored meanwhile, and its copy from before is put back."""
+        copy = self.backup(self.centre)
+        lost = self.store(self.station, "s4 s5")
+        self.drained()
+        self.centre.stop()
+        self.restore(self.centre, copy)
+        return lost
+
+    def test_a_copy_of_the_folder_beside_a_centre_that_was_put_back(self):
+        kept = self.store(self.station, "s1 s2 s3")
+        self.drained()
+        put_back = self.copied("copy")
+        lost = self.restored_centre()
+        self.station.stop()
+        put_back()
+        self.centre.start()
+        self.station.start()
+        new = self.store(self.station, "x1 x2")
+        self.assert_unique(kept, lost, new)
+        self.station.wait_for_log("and may have lost measurements")
+        self.drained()
+        self.assertEqual(self.there(), dict(zip(kept + new, "s1 s2 s3 x1 x2".split())))
+        self.assert_clean(self.centre)
+        self.assert_clean(self.station)
+
+    def test_a_station_that_was_there_when_its_centre_was_put_back_goes_on(self):
+        kept = self.store(self.station, "s1 s2 s3")
+        self.drained()
+        lost = self.restored_centre()
+        self.centre.start()
+        wait_for(lambda: len(self.there()) == 5, lambda: self.station.log)
+        self.station.stop()
+        self.station.start()
+        new = self.store(self.station, "s6")
+        self.assertEqual({one.split("-")[1] for one in kept + lost + new}, {kept[0].split("-")[1]})
+        self.assertNotIn('"event":"log_branched"', self.station.log)
 
     def put_the_centre_back(self, station_sends_first):
         record = {"id": self.store(self.station, "s1 s2")[0]}
