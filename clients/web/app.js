@@ -9,13 +9,13 @@ import { enterKey } from './key_dialog.js';
 import { queue } from './queue.js';
 import { currentRoute, lastOf, remember } from './route.js';
 import { forget, readStored, store } from './stored.js';
-import { mount as fit } from './views/fit.js';
+import { pageFile } from './page_files.js';
 import { mount as gauge } from './views/gauge.js';
-import { mount as parts } from './views/parts.js';
 
-const VIEWS = { gauge, fit, parts };
-/** Those that no station begins with come when they are opened. */
+const VIEWS = { gauge };
+/** Those that no station begins with come when they are opened, with their texts and style. */
 const LATER = {
+  fit: () => import('./views/fit.js'), parts: () => import('./views/parts.js'),
   trend: () => import('./views/trend.js'), programs: () => import('./views/programs.js'), overview: () => import('./views/overview.js'),
   tables: () => import('./views/tables.js'), connections: () => import('./views/connections.js'),
   plans: () => import('./views/plans.js'), gauges: () => import('./views/gauges.js'), style: () => import('./views/style.js'),
@@ -50,7 +50,7 @@ async function show() {
  */
 async function later(view) {
   try {
-    const [{ mount }] = await Promise.all([LATER[view](), textsOf(view)]);
+    const [{ mount }] = await Promise.all([LATER[view](), textsOf(view), styleOfLater()]);
     forget('reloaded', 'session');
     return mount;
   } catch (problem) {
@@ -64,6 +64,17 @@ async function later(view) {
     location.reload();
     return new Promise(() => {});
   }
+}
+
+let styled = null;
+/** The style of all views but the station's, behind it. */
+function styleOfLater() {
+  styled ??= new Promise((resolve, reject) => {
+    const failed = () => { styled = null; link.remove(); reject(new TypeError('no style')); };
+    const link = h('link', { rel: 'stylesheet', href: pageFile('style/later.css'), onload: resolve, onerror: failed });
+    document.head.append(link);
+  });
+  return styled;
 }
 
 function drawViews(current) {

@@ -17,7 +17,7 @@ const LATER = {
   plans: { en: () => import('./lang/plans_en.js'), de: () => import('./lang/plans_de.js'), nl: () => import('./lang/plans_nl.js'), it: () => import('./lang/plans_it.js') },
   desk: { en: () => import('./lang/desk_en.js'), de: () => import('./lang/desk_de.js'), nl: () => import('./lang/desk_nl.js'), it: () => import('./lang/desk_it.js') },
 };
-const TEXTS_OF = { plans: 'plans', overview: 'desk', trend: 'desk', programs: 'desk', gauges: 'desk', style: 'desk' };
+const TEXTS_OF = { plans: ['desk', 'plans'] };
 const opened = new Set();
 
 let words = en;
@@ -40,11 +40,11 @@ export async function loadLanguage(wanted = preferred()) {
   document.documentElement.lang = wanted;
 }
 
-/** The texts of a view that has some of its own. */
+/** The texts of a view that is opened later. */
 export async function textsOf(view) {
-  const group = TEXTS_OF[view];
-  if (!group || opened.has(group)) return;
-  opened.add(group);
+  const groups = (TEXTS_OF[view] ?? ['desk']).filter((group) => !opened.has(group));
+  if (!groups.length) return;
+  for (const group of groups) opened.add(group);
   await loadLanguage(language);
 }
 

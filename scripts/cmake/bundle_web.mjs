@@ -1,7 +1,7 @@
 /**
  * node bundle_web.mjs PACKAGES PAGE OUT: makes what a browser loads, in OUT, of the modules of PAGE and the libraries
- * of PACKAGES/node_modules. The header, the station and whatever needs no library are in one file, app.js, with as few
- * pieces beside it as the views that come later allow; index.html names them all, so that none waits for another.
+ * of PACKAGES/node_modules. The header and the station are in one file, app.js, with as few pieces beside it as the
+ * views that come later allow; index.html names them all, so that none waits for another.
  * The licences of the libraries go to OUT/licences.txt.
  */
 
@@ -40,7 +40,7 @@ const styleAsText = {
   setup: ({ onLoad }) => onLoad({ filter: /node_modules.*\.css$/ }, ({ path: file }) => ({ contents: fs.readFileSync(file, 'utf8'), loader: 'text' })),
 };
 const built = [
-  await bundle([ENTRY, ...later, ...languages, 'style/page.css'], { format: 'esm', splitting: true, plugins: [onePiece, styleAsText] }),
+  await bundle([ENTRY, ...later, ...languages, 'style/page.css', 'style/later.css'], { format: 'esm', splitting: true, plugins: [onePiece, styleAsText] }),
   await bundle(workers, { format: 'iife' }),
 ];
 const files = built.flatMap(({ outputFiles }) => outputFiles);

@@ -1,7 +1,7 @@
 /**
  * What it takes to open the station where a round trip takes 100 ms: from the address to a field that takes keys, the
- * first time and the second, with the requests and bytes of each. Asked: 0.6 s the first time, and no round trip for
- * unchanged modules the second; 150 kB for gauge, fit and parts together.
+ * first time and the second, with the requests and bytes of each. Asked: 0.9 s and 60 kB the first time, and no
+ * round trip for unchanged modules the second.
  * FITGAUGED=build/release/bin/fitgauged tests/e2e/web/run tests/bench/web/load.mjs
  */
 
