@@ -2,6 +2,7 @@
 
 import { h } from '../dom.js';
 import { explain, t } from '../i18n.js';
+import { brokenBlocks, toggleBreak } from './breaks.js';
 import { fileName, readFile, relative } from './disk.js';
 import { Editor } from './editor.js';
 
@@ -20,7 +21,7 @@ export class CalledProgram {
   /** Shows a line; the text is asked for once. @param by the path of the program that is open */
   async show(program, line, by) {
     const isThere = this.#wanted?.program === program;
-    this.#wanted = { program, line };
+    this.#wanted = { program, line, by };
     this.element.hidden = false;
     if (isThere) return this.#reveal();
     this.name.textContent = t('programs.called', { name: fileName(program), by: fileName(by) });
@@ -37,12 +38,17 @@ export class CalledProgram {
       Object.assign(this.note, { hidden: false, textContent: explain(problem) });
     }
     if (!this.#editor) {
-      this.#editor = new Editor({ onChange() {}, onStore() {}, onLine: (at) => this.onLine(at, this.#wanted.program) });
+      this.#editor = new Editor({ onChange() {}, onStore() {}, onLine: (at) => this.onLine(at, this.#wanted.program), onBreak: (block) => toggleBreak(this.#wanted.by, this.#wanted.program, block) });
       this.element.append(h('div.listing', this.#editor.element));
     }
     this.#editor.element.hidden = this.text === null;
     this.#editor.show(this.text ?? '', { label: t('editor.text', { name: fileName(program) }), isProgram: true, readOnly: true });
+    this.showBreaks();
     return this.#reveal();
+  }
+
+  showBreaks() {
+    if (this.#wanted) this.#editor?.showBreaks(brokenBlocks(this.#wanted.by, this.#wanted.program));
   }
 
   #reveal() {

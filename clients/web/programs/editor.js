@@ -1,7 +1,7 @@
 /** A text one edits. It stands in a shadow root: only there does CodeMirror bring its style without loosening the page's policy. */
 
 import {
-  Decoration, defaultKeymap, drawSelection, EditorState, EditorView, highlightActiveLine, history, historyKeymap,
+  Decoration, defaultKeymap, drawSelection, EditorState, EditorView, gutter, GutterMarker, highlightActiveLine, history, historyKeymap,
   keymap, lineNumbers, search, searchKeymap, StateEffect, StateField,
 } from '../bundled/codemirror.js';
 import { h } from '../dom.js';
@@ -23,6 +23,9 @@ const THEME = EditorView.theme({
   '.cm-cursor': { borderLeftColor: 'var(--ink)', borderLeftWidth: '2px' },
   '.cm-gutters': { color: 'var(--soft)', backgroundColor: 'var(--sheet)', borderRight: '1px solid var(--line)' },
   '.cm-lineNumbers .cm-gutterElement': { minWidth: '3.5rem', paddingRight: '.75rem', cursor: 'pointer' },
+  '.cm-breaks': { minWidth: '1.5rem', cursor: 'pointer' },
+  '.cm-breaks .cm-gutterElement': { textAlign: 'center', color: 'var(--alarm)' },
+  '.cm-breaks .cm-gutterElement:hover': { backgroundColor: 'color-mix(in srgb, var(--alarm) 20%, transparent)' },
   '.cm-activeLine': { backgroundColor: 'color-mix(in srgb, var(--ink) 5%, transparent)' },
   '.cm-here': { backgroundColor: 'color-mix(in srgb, var(--focus) 16%, transparent)' },
   '&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, .cm-selectionBackground': { backgroundColor: 'color-mix(in srgb, var(--focus) 28%, transparent)' },
@@ -64,10 +67,33 @@ function marksOfFinding(doc, finding) {
 const findings = marked(setFindings, (doc, found) => found.flatMap((each) => marksOfFinding(doc, each)));
 const here = marked(setHere, (doc, line) => (line >= 1 && line <= doc.lines ? [Decoration.line({ class: 'cm-here' }).range(doc.line(line).from)] : []));
 
+const setBreaks = StateEffect.define();
+/** The blocks that have a breakpoint. */
+const breaks = StateField.define({
+  create: () => new Set(),
+  update: (blocks, { effects }) => effects.find((each) => each.is(setBreaks))?.value ?? blocks,
+});
+
+/** A breakpoint beside the line in which its block begins. */
+class BreakMark extends GutterMarker {
+  toDOM() {
+    return h('span', { title: t('steps.break') }, '●');
+  }
+}
+
+/** The number of the block that a line is of. */
+function blockAt(doc, line) {
+  const numbers = blockNumbers(doc).slice(0, line);
+  return Number(numbers.findLast((number) => number !== '') ?? NaN);
+}
+
 export class Editor {
-  /** @param onChange called when the text was edited; @param onLine takes the number of a line that was touched; @param onStore called on Ctrl+S */
-  constructor({ onChange, onLine, onStore }) {
-    Object.assign(this, { onChange, onLine, onStore });
+  /**
+   * @param onChange called when the text was edited; @param onLine takes the number of a line that was touched; @param onStore called on Ctrl+S
+   * @param onBreak takes the number of a block at which a breakpoint is set or removed
+   */
+  constructor({ onChange, onLine, onStore, onBreak }) {
+    Object.assign(this, { onChange, onLine, onStore, onBreak });
     this.element = h('div.editor');
     this.view = new EditorView({ root: this.element.attachShadow({ mode: 'open' }) });
     this.view.root.append(this.view.dom);
@@ -80,10 +106,22 @@ export class Editor {
   /** Another text, with a history of its own. Beside a program stand the numbers of its blocks, unless its text has them. */
   show(text, { label, isProgram, readOnly }) {
     const lineOf = (view, at) => view.state.doc.lineAt(at).number;
+    const toggle = (view, at) => {
+      const block = blockAt(view.state.doc, lineOf(view, at));
+      if (isProgram && block >= 0) this.onBreak(block);
+      return isProgram;
+    };
+    const mark = new BreakMark();
     this.view.setState(EditorState.create({
       doc: text,
       extensions: [
         THEME, findings, here, history(), drawSelection(), highlightActiveLine(), isProgram ? klartext : [], search({ top: true }),
+        breaks, isProgram ? gutter({
+          class: 'cm-breaks', renderEmptyElements: true,
+          lineMarker: ({ state }, { from }) => (state.field(breaks).has(Number(blockNumbers(state.doc)[state.doc.lineAt(from).number - 1] || NaN)) ? mark : null),
+          lineMarkerChange: ({ transactions }) => transactions.some(({ effects }) => effects.some((each) => each.is(setBreaks))),
+          domEventHandlers: { click: (view, block) => toggle(view, block.from) },
+        }) : [],
         isProgram && isNumbered(text) ? [] : lineNumbers({
           ...(isProgram && { formatNumber: (line, { doc }) => blockNumbers(doc)[line - 1] ?? '' }),
           domEventHandlers: { click: (view, block) => { this.onLine(lineOf(view, block.from)); return false; } },
@@ -91,7 +129,7 @@ export class Editor {
         EditorState.readOnly.of(readOnly),
         EditorState.phrases.of(Object.fromEntries(Object.entries(PHRASES).map(([phrase, name]) => [phrase, t(`editor.${name}`)]))),
         EditorView.contentAttributes.of({ 'aria-label': label, tabindex: '0' }),
-        keymap.of([{ key: 'Mod-s', preventDefault: true, run: () => { this.onStore(); return true; } }, ...searchKeymap, ...historyKeymap, ...defaultKeymap]),
+        keymap.of([{ key: 'F9', run: (view) => toggle(view, view.state.selection.main.head) }, { key: 'Mod-s', preventDefault: true, run: () => { this.onStore(); return true; } }, ...searchKeymap, ...historyKeymap, ...defaultKeymap]),
         EditorView.domEventHandlers({ mouseup: (_, view) => { this.onLine(lineOf(view, view.state.selection.main.head)); return false; } }),
         EditorView.updateListener.of(({ docChanged, transactions, view }) => {
           const byKeys = transactions.some((each) => each.isUserEvent('select') && !each.isUserEvent('select.pointer'));
@@ -110,6 +148,11 @@ export class Editor {
   /** Shows what a check found in this text. */
   mark(found) {
     this.view.dispatch({ effects: setFindings.of(found) });
+  }
+
+  /** Shows the breakpoints. @param blocks a Set of numbers */
+  showBreaks(blocks) {
+    this.view.dispatch({ effects: setBreaks.of(blocks) });
   }
 
   /** Shows the line the machine is at. Only the text scrolls: the page stays under the finger. */

@@ -3,6 +3,7 @@
 import { h, refill } from '../dom.js';
 import { t } from '../i18n.js';
 import { Latest } from '../latest.js';
+import { brokenBlocks, toggleBreak } from './breaks.js';
 import { CalledProgram } from './called_program.js';
 import { check, fileName, isProgram, readFile, relative, writeFile } from './disk.js';
 import { Editor } from './editor.js';
@@ -31,7 +32,7 @@ export class ProgramText {
   constructor({ leaving, onLine, onState, onStore }) {
     this.onState = onState;
     this.checking = new Latest(leaving);
-    this.editor = new Editor({ onLine, onStore, onChange: () => this.#edited() });
+    this.editor = new Editor({ onLine, onStore, onChange: () => this.#edited(), onBreak: (block) => toggleBreak(this.path, this.path, block) });
     this.list = h('ol.findings');
     this.note = h('p.aside', { hidden: true });
     this.called = new CalledProgram(onLine);
@@ -73,6 +74,7 @@ export class ProgramText {
     this.note.textContent = reason && t(`programs.${reason}`, { name: fileName(path), size: file.size });
     this.editor.element.hidden = file.text === null;
     this.editor.show(draft?.text ?? file.text ?? '', { label: t('editor.text', { name: fileName(path) }), isProgram: isProgram(path), readOnly: Boolean(reason) });
+    this.showBreaks();
     this.switch.hidden = this.table.element.hidden = true;
     if (!reason && isTable(path) && this.table.show()) this.#look('table');
     this.show([]);
@@ -104,6 +106,12 @@ export class ProgramText {
     const own = diagnostics.filter(isOwn);
     this.editor.mark(own);
     refill(this.list, findingList(own, diagnostics.filter((each) => !isOwn(each)), (each) => this.editor.goTo(each)));
+  }
+
+  /** The breakpoints of the program, here and in the text of one that it calls. */
+  showBreaks() {
+    if (this.path) this.editor.showBreaks(brokenBlocks(this.path, this.path));
+    this.called.showBreaks();
   }
 
   /** Shows the line of a move; the text of a called program stands below that of the one that is open. */

@@ -32,6 +32,7 @@ export class RunForm {
     this.setupName = h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false' });
     this.parameters = h('textarea', { rows: 1, spellcheck: 'false', placeholder: 'Q1 = 25' });
     this.watch = h('input', { type: 'text', name: 'watch', autocomplete: 'off', spellcheck: 'false', placeholder: 'Q1 QS3' });
+    this.startBlock = h('input', { type: 'text', name: 'start_block', inputmode: 'numeric', autocomplete: 'off', placeholder: '0' });
     this.subject = Object.fromEntries(['part_id', 'order'].map((name) => [name, h('input', { type: 'text', name, autocomplete: 'off', spellcheck: 'false', maxlength: 200 })]));
     this.note = h('p.note', { role: 'alert' });
     this.start = h('button.primary', { type: 'submit' }, t('programs.run'));
@@ -41,7 +42,7 @@ export class RunForm {
     this.element = h('section.run', h('h2', t('programs.run_title')),
       h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.run(); } },
         h('div.pair', field(t('programs.setup'), this.setup), field(t('programs.parameters'), this.parameters),
-          Object.entries(this.subject).map(([name, input]) => field(t(`field.${name}`), input)), field(t('steps.watch'), this.watch)),
+          Object.entries(this.subject).map(([name, input]) => field(t(`field.${name}`), input)), field(t('steps.watch'), this.watch), field(t('steps.start'), this.startBlock)),
         h('p.actions', this.start, this.cancel),
         h('details', { ontoggle: ({ target }) => target.open && this.#showWorkpiece() }, h('summary', t('programs.setup_text')), this.workpiece.element,
           h('details', h('summary', t('programs.setup_whole')), field(t('programs.setup_json'), this.setupText)),
@@ -64,6 +65,10 @@ export class RunForm {
   /** The line of a program that was touched, this one or one that it calls: shows the move that it commands. */
   toLine(line, program = this.program) {
     this.slider?.toLine(program, line);
+  }
+
+  showBreaks() {
+    this.slider?.panel?.showBreaks();
   }
 
   /** Another program is opened: what comes of a run of the one before is not shown below it. */
@@ -165,8 +170,10 @@ export class RunForm {
     if (!this.setup.value) JSON.parse(setup);
     const subject = Object.entries(this.subject).filter(([, input]) => input.value.trim())
       .map(([name, input]) => `,"${name}":${JSON.stringify(input.value.trim())}`).join('');
+    const begin = this.startBlock.value.trim();
+    if (/\D/.test(begin)) throw new Error(t('steps.start_malformed', { text: begin }));
     const watch = this.watch.value.trim() ? this.watch.value.trim().toUpperCase().split(/[\s,;]+/) : parametersIn(texts.join('\n'));
-    return `{"program":${JSON.stringify(onControl(this.program))},"setup":${setup},"parameters":${parameters},"watch":${JSON.stringify(watch)}${subject}}`;
+    return `{"program":${JSON.stringify(onControl(this.program))},"setup":${setup},"parameters":${parameters},"watch":${JSON.stringify(watch)}${begin && `,"start_block":${Number(begin)}`}${subject}}`;
   }
 
   /** Runs the program as it is set up here: one run at a time, however often it is asked for. */

@@ -2,10 +2,10 @@
 
 import { h, refill } from '../dom.js';
 import { number, t } from '../i18n.js';
-import { readJson, store } from '../stored.js';
+import { keepBreaks, keptBreaks, readBreaks, toggleBreak } from './breaks.js';
 import { fileName, readFile, relative } from './disk.js';
 import { placeText } from './findings.js';
-import { readBreaks, Steps } from './steps.js';
+import { Steps } from './steps.js';
 
 const text = (value) => (value === undefined ? '–' : typeof value === 'string' ? `"${value}"` : number(String(value)));
 
@@ -14,12 +14,10 @@ export class StepPanel {
   constructor(trace, program, times, onBlock) {
     Object.assign(this, { program, times, onBlock, steps: new Steps(trace) });
     this.at = this.steps.length - 1;
-    this.kept = `breaks.${relative(program).toLowerCase()}`;
     this.said = h('p', { role: 'status' });
     this.changed = h('div');
     this.all = h('dl.parameters');
-    this.breaks = h('input', { type: 'text', name: 'breaks', autocomplete: 'off', spellcheck: 'false', placeholder: '31, 82551.h:35, Q5 > 10', onchange: () => this.#keep() });
-    this.breaks.value = readJson(this.kept, '', 'session');
+    this.breaks = h('input', { type: 'text', name: 'breaks', autocomplete: 'off', spellcheck: 'false', placeholder: '31, 82551.h:35, Q5 > 10', onchange: () => keepBreaks(program, this.breaks.value) });
     this.note = h('p.note', { role: 'alert' });
     const button = (name, act) => h('button', { type: 'button', onclick: act }, t(name));
     this.element = h('section.stepping', { 'aria-label': t('steps.title') }, this.said, this.changed,
@@ -27,6 +25,7 @@ export class StepPanel {
       h('div.line.breaks', h('label.field', h('span.label', t('steps.breaks')), this.breaks),
         button('steps.here', () => this.#toggle()), button('steps.back_to', () => this.#find(-1)), button('steps.on_to', () => this.#find(1))),
       this.note);
+    this.showBreaks();
     this.#say();
     this.#drawTimes().catch(() => {});
   }
@@ -57,21 +56,19 @@ export class StepPanel {
     refill(this.all, Object.entries(block.values).map(([name, value]) => h('div', h('dt', name), h('dd', text(value)))));
   }
 
-  get #place() {
+  #toggle() {
     const { block, program } = this.steps.blocks[this.at];
-    return fileName(program).toLowerCase() === fileName(this.program).toLowerCase() ? String(block) : `${fileName(program)}:${block}`;
+    toggleBreak(this.program, program, block);
   }
 
-  #toggle() {
-    const list = this.breaks.value.split(',').map((one) => one.trim()).filter(Boolean);
-    const place = this.#place;
-    this.breaks.value = (list.includes(place) ? list.filter((one) => one !== place) : [...list, place]).join(', ');
-    this.#keep();
+  /** As they are kept now. */
+  showBreaks() {
+    this.breaks.value = keptBreaks(this.program);
+    this.#read();
   }
 
   /** @returns the breakpoints, or null where one cannot be read */
-  #keep() {
-    store(this.kept, JSON.stringify(this.breaks.value), 'session');
+  #read() {
     this.note.textContent = '';
     try {
       return readBreaks(this.breaks.value, this.program, (typed) => t('steps.malformed', { text: typed }));
@@ -82,7 +79,7 @@ export class StepPanel {
   }
 
   #find(way) {
-    const breaks = this.#keep();
+    const breaks = this.#read();
     if (!breaks) return;
     const found = this.steps.find(breaks, this.at, way);
     if (found < 0) this.note.textContent = t('steps.none');

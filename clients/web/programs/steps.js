@@ -1,43 +1,13 @@
-/** A run block by block: what each block has moved and changed, where a breakpoint stops, and how long each tool was in the spindle. */
+/** A run block by block: what each block has moved and changed, and how long each tool was in the spindle. */
 
 import { KINDS } from '../figures/trace.js';
-import { fileName } from './disk.js';
 
-const PLACE = /^(?:([^\s:]+)\s*:\s*)?(\d+)$/;
-const CONDITION = /^(Q[LRS]?\d+)(?:\s*(<=|>=|<>|!=|==?|<|>)\s*(.+))?$/i;
-const COMPARE = {
-  '<': (one, other) => one < other, '>': (one, other) => one > other, '<=': (one, other) => one <= other, '>=': (one, other) => one >= other,
-  '=': (one, other) => one === other, '==': (one, other) => one === other, '<>': (one, other) => one !== other, '!=': (one, other) => one !== other,
-};
 const CALL = /^\s*(?:N?\d+\s+)?\/?\s*TOOL\s+CALL\s+("[^"]*"|Q[LRS]?\d+|\d+(?:\.\d+)?)/i;
 const CALL_ISO = /^\s*(?:N?\d+\s+)?[^(;]*?\bT(\d+)\b/i;
-
-const isSame = (one, other) => fileName(one).toLowerCase() === fileName(other).toLowerCase();
 
 /** The names of parameters in a text, each once, at most as many as a run watches. */
 export function parametersIn(text, most = 32) {
   return [...new Set([...text.replace(/;.*$/gm, '').matchAll(/\bQ[LRS]?\d+\b/gi)].map(([name]) => name.toUpperCase()))].slice(0, most);
-}
-
-/**
- * Breakpoints as they are typed, by commas: `31` or `82551.h:35` (a block), `Q5` (whenever it changes), `Q5 > 10` (when that becomes true).
- * @param complain makes the text of what is none. @returns functions of (steps, index)
- */
-export function readBreaks(typed, program, complain) {
-  return typed.split(',').map((text) => text.trim()).filter(Boolean).map((text) => {
-    const place = PLACE.exec(text);
-    if (place) return ({ blocks }, i) => blocks[i].block === Number(place[2]) && isSame(blocks[i].program, place[1] ?? program);
-    const [whole, left, sign, right] = CONDITION.exec(text) ?? [];
-    if (!whole) throw new Error(complain(text));
-    const name = left.toUpperCase();
-    if (!sign) return (steps, i) => steps.changesAt(i).some(([changed]) => changed === name);
-    const wanted = /^[+-]?\d+([.,]\d+)?$/.test(right) ? Number(right.replace(',', '.')) : right.replace(/^"(.*)"$/, '$1');
-    const isTrue = (values) => {
-      const other = CONDITION.test(right) ? values[right.toUpperCase()] : wanted;
-      return values[name] !== undefined && other !== undefined && COMPARE[sign](values[name], other);
-    };
-    return ({ blocks }, i) => isTrue(blocks[i].values) && !(i > 0 && isTrue(blocks[i - 1].values));
-  });
 }
 
 export class Steps {

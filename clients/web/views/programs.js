@@ -22,6 +22,7 @@ export function mount(main, route) {
     onDiagnostics: (found) => source.show(found), onRun: (run, setup) => remember({ run, setup }),
     onMove: ({ program: where, line }) => source.showLine(where, line), beforeRun: store, textOf: () => source.editor.text,
   });
+  addEventListener('breaks', () => [source, form].forEach((each) => each.showBreaks()), { signal: leaving.signal });
   const name = h('span');
   const state = h('span.aside', { role: 'status' });
   const title = h('h2.title', name, state);

@@ -5,7 +5,8 @@ import fs from 'node:fs';
 import { before, describe, it } from 'node:test';
 
 import { readTable, withCell, withoutRow, withRow } from '../../../clients/web/programs/table_text.js';
-import { readBreaks, Steps } from '../../../clients/web/programs/steps.js';
+import { readBreaks } from '../../../clients/web/programs/breaks.js';
+import { Steps } from '../../../clients/web/programs/steps.js';
 import { close, findings, open, picture } from './support/browser.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
@@ -120,6 +121,60 @@ describe('a stored run', () => {
     await page.setViewportSize({ width: 390, height: 844 });
     await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth);
     await picture(page, 'steps-390', { fullPage: true });
+    await close(page);
+  });
+
+  it('stops at what is set beside the lines of the editor, and of the program that it calls, for the window', async () => {
+    const page = await open(browser, daemon, '#/programs/nc_prog/LOOP.H', { viewport: { width: 1366, height: 768 } });
+    await page.waitForSelector('.cm-line');
+    /** The lines with a mark, from 0, as the blocks count, in the editor at a place. */
+    const marked = (place = '.texts > .listing .editor') => page.$eval(place, (editor) => [...editor.shadowRoot.querySelectorAll('.cm-breaks .cm-gutterElement')].flatMap((one, i) => (one.textContent === '●' ? [i] : [])));
+    const untilMarked = (lines, place) => page.waitForFunction(([at, wanted]) => JSON.stringify([...document.querySelector(at).shadowRoot.querySelectorAll('.cm-breaks .cm-gutterElement')].flatMap((one, i) => (one.textContent === '●' ? [i] : []))) === wanted, [place ?? '.texts > .listing .editor', JSON.stringify(lines)]);
+    await page.click('.cm-breaks .cm-gutterElement:nth-child(6)');
+    await untilMarked([5]);
+    await page.click('.cm-line >> nth=9');
+    await page.keyboard.press('F9');
+    await untilMarked([5, 9]);
+    await page.selectOption('.run select', 'mill');
+    await page.click('.run button[type="submit"]');
+    await page.waitForSelector('.stepping');
+    assert.equal(await page.inputValue('[name="breaks"]'), '5, 9');
+    await page.$eval('.moves input[type="range"]', (slider) => { slider.value = 0; slider.dispatchEvent(new Event('input')); });
+    await page.click('.breaks >> text=On to a breakpoint');
+    await page.waitForFunction(() => /LOOP.H block 5/.test(document.querySelector('.stepping > p').textContent));
+    await page.fill('[name="breaks"]', 'INNER.H:2');
+    await page.press('[name="breaks"]', 'Enter');
+    await untilMarked([]);
+    await page.click('.breaks >> text=On to a breakpoint');
+    await page.waitForSelector('.called:not([hidden]) .editor');
+    await untilMarked([2], '.called .editor');
+    await page.click('.called .cm-breaks .cm-gutterElement:nth-child(2)');
+    await page.waitForFunction(() => document.querySelector('[name="breaks"]').value === 'INNER.H:2, INNER.H:1');
+    await picture(page, 'breakpoints');
+    await page.reload();
+    await page.waitForSelector('.stepping');
+    assert.equal(await page.inputValue('[name="breaks"]'), 'INNER.H:2, INNER.H:1');
+    assert.deepEqual(await marked(), []);
+    assert.deepEqual(await findings(page), []);
+    await close(page);
+  });
+
+  it('begins at the block that is given, and says why it cannot', async () => {
+    const page = await open(browser, daemon, '#/programs/nc_prog/LOOP.H', { viewport: { width: 1366, height: 768 }, locale: 'de-DE' });
+    await page.waitForSelector('.cm-line');
+    await page.selectOption('.run select', 'mill');
+    await page.fill('[name="start_block"]', 'LBL 1');
+    await page.click('.run button[type="submit"]');
+    await page.waitForFunction(() => /„LBL 1“ ist kein Satz/.test(document.querySelector('.run .note').textContent));
+    await page.fill('[name="start_block"]', '99');
+    await page.click('.run button[type="submit"]');
+    await page.waitForFunction(() => /\/start_block/.test(document.querySelector('.run .note').textContent));
+    await page.fill('[name="start_block"]', '9');
+    await page.click('.run button[type="submit"]');
+    await page.waitForSelector('.stepping');
+    assert.match(await page.textContent('.stepping > p'), /Satz 3 von 3 gelaufenen/);
+    const { runs: [{ id }] } = await daemon.json('/v1/runs?limit=1');
+    assert.equal((await daemon.json(`/v1/runs/${id}/request`)).start_block, 9);
     await close(page);
   });
 
