@@ -49,13 +49,26 @@ export function meanPoint(members) {
   };
 }
 
-/** What may have been done at a value. A mean has what was done at any of its values. */
-export const EVENTS = ['note', 'correction'];
-const HAS = { note: isNoted, correction: (record) => record.correction_of !== undefined };
+/** What may have been done at a value, or before it: another tool. A mean has what was done at any of its values. */
+export const EVENTS = ['note', 'correction', 'tool'];
+const HAS = {
+  note: isNoted, correction: (record) => record.correction_of !== undefined,
+  tool: (record, before) => record.tool !== undefined && before?.tool !== undefined && record.tool !== before.tool,
+};
+const recordsOf = ({ record, members }) => members?.map((one) => one.record) ?? [record];
 
 /** {index: names of events}, in order. */
-export const eventsOf = (points) => new Map(points.map(({ record, members }, i) => [i, EVENTS.filter((name) =>
-  (members ?? [{ record }]).some((one) => HAS[name](one.record)))]).filter(([, names]) => names.length));
+export function eventsOf(points) {
+  const found = new Map();
+  let before;
+  points.forEach((point, i) => {
+    const own = recordsOf(point);
+    const names = EVENTS.filter((name) => own.some((record, k) => HAS[name](record, own[k - 1] ?? before)));
+    if (names.length) found.set(i, names);
+    before = own.at(-1);
+  });
+  return found;
+}
 
 const greatest = (values) => values.reduce((most, value) => Math.max(most, value), -Infinity);
 const least = (values) => values.reduce((most, value) => Math.min(most, value), Infinity);

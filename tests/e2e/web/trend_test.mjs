@@ -252,23 +252,22 @@ describe('the trend', () => {
     await picture(page, 'trend-control', { fullPage: true });
   });
 
-  it('marks where a note was added or a value was corrected', async () => {
+  it('marks where a note was added, a value was corrected or another tool came', async () => {
     const content = { designation: '25 H7', characteristic: 'events' };
     const stored = [];
     for (const [i, mm] of ['25.010', '25.012', '25.011', '25.013'].entries()) {
-      stored.push(await (await daemon.send('POST', '/v1/measurements', { ...content, measured_mm: mm, part_id: `E-${i}` })).json());
+      stored.push(await (await daemon.send('POST', '/v1/measurements', { ...content, measured_mm: mm, part_id: `E-${i}`, tool: i < 2 ? 'T1' : 'T2' })).json());
     }
     page = await openChart(browser, daemon, '#/trend?characteristic=events');
     await untilPoints(page, 4);
-    assert.deepEqual((await lettering(page)).filter((text) => /^[NC]+$/.test(text)), []);
-    assert.doesNotMatch(await page.textContent('.detail'), /N: a note/);
+    assert.deepEqual((await lettering(page)).filter((text) => /^([NC]|TC)$/.test(text)), ['TC']);
     await daemon.send('POST', `/v1/measurements/${stored[1].id}/notes`, { cause: 'Insert worn', measure: 'Insert changed' });
     await daemon.send('POST', `/v1/measurements/${stored[3].id}/corrections`, { measured_mm: '25.014', operator: 'Kim', reason: 'Misread' });
     await close(page);
     page = await openChart(browser, daemon, '#/trend?characteristic=events');
     await untilPoints(page, 4);
-    assert.deepEqual((await lettering(page)).filter((text) => /^[NC]+$/.test(text)), ['N', 'C']);
-    assert.match(await page.textContent('.detail'), /N: a note, C: a corrected value/);
+    assert.deepEqual((await lettering(page)).filter((text) => /^([NC]|TC)$/.test(text)), ['N', 'TC', 'C']);
+    assert.match(await page.textContent('.detail'), /N: a note, C: a corrected value, TC: another tool/);
     await page.focus('.trend figure');
     await page.keyboard.press('ArrowLeft');
     assert.match(await page.textContent('.detail'), /E-3.*corrected/);
