@@ -23,6 +23,23 @@ export function limitStrip(record) {
     record.measured_mm !== undefined && mark(nmFromMm(record.measured_mm), limits, nmFromMm(record.nominal_mm)));
 }
 
+const RUN = { width: 240, height: 70, inset: 8, radius: 4 };
+
+/** The last values of a size in their order, between its limits; the newest is the larger dot. @param values exact texts in mm; null without two values or limits */
+export function runStrip(values, limits) {
+  const bounds = boundsOf(limits).filter(Number.isFinite);
+  if (values.length < 2 || bounds.length < 2) return null;
+  const [lower, upper] = bounds;
+  const { width, height, inset, radius } = RUN;
+  const far = (upper - lower) / 2; // what lies farther out is at the edge
+  const y = (nm) => (inset + (height - 2 * inset) * (upper + far - Math.min(Math.max(nm, lower - far), upper + far)) / (2 * (upper - lower))).toFixed(1);
+  const places = values.map((value, i) => [(inset + (width - 2 * inset) * i / (values.length - 1)).toFixed(1), y(nmFromMm(value))]);
+  return s('svg.lately', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': t('panel.run', { count: values.length }) },
+    s('rect.zone', { x: 0, y: y(upper), width, height: (height - 2 * inset) / 2 }),
+    s('path.axis', { d: `M${places.map((place) => place.join(' ')).join('L')}`, fill: 'none' }),
+    places.map(([cx, cy], i) => s('circle.dot', { cx, cy, r: i === places.length - 1 ? 2 * radius : radius })));
+}
+
 /** The zone between two limits is as wide as the strip has it, and so is the way from one alone to the nominal size. */
 function mark(measured, [[start, first], [, last] = []], nominal) {
   const width = last === undefined ? Math.abs(first - nominal) : last - first;

@@ -3,7 +3,7 @@
 import { designationText } from '../designation.js';
 import { h } from '../dom.js';
 import { number, t } from '../i18n.js';
-import { limitStrip } from '../figures/limit_strip.js';
+import { limitStrip, runStrip } from '../figures/limit_strip.js';
 import { distanceText, limitsText, measuredText, verdictShape } from '../verdict.js';
 import { sound } from './sound.js';
 
@@ -18,7 +18,9 @@ export class Panel {
   /** The key of the value that is shown; undefined where what is gauged now has none yet. */
   of;
 
-  constructor() {
+  /** @param lastOf gives the values that were measured last of what a record is of, the newest last, without it */
+  constructor(lastOf = () => []) {
+    this.lastOf = lastOf;
     this.element = h('section.verdict', { role: 'status', 'aria-live': 'polite', 'aria-atomic': 'true', 'aria-label': t('panel.label') });
   }
 
@@ -51,6 +53,10 @@ export class Panel {
     ]);
   }
 
+  #run(record) {
+    return runStrip([...this.lastOf(record), record].map(({ measured_mm: mm }) => String(mm)), record);
+  }
+
   /** While the service is away this is all there is to hear; else the sound waits for the record. */
   #provisional(shown, away, late) {
     if (away && this.sounded !== shown) sound(shown.verdict);
@@ -60,7 +66,7 @@ export class Panel {
     this.#show(shown.verdict, [
       verdictShape(shown.verdict),
       h('div.said', word(t(`verdict.${shown.verdict}`)), about(shown), h('p.measured', `${measuredText(judged)} mm`), h('p.distance', how)),
-      limitStrip(judged),
+      limitStrip(judged), this.#run({ ...shown, ...judged }),
     ], away ? 'away' : 'storing');
   }
 
@@ -73,7 +79,7 @@ export class Panel {
       h('div.said', word(t(`verdict.${record.verdict}`)), about(record),
         h('p.measured', `${measuredText(record)} mm`),
         h('p.distance', distanceText(record))),
-      limitStrip(record),
+      limitStrip(record), this.#run(record),
     ]);
   }
 

@@ -8,8 +8,12 @@ import { LaterStore, readJson, store } from '../stored.js';
 import { distanceText, limitsText, measuredText, noteText, verdictMark, verdictShape } from '../verdict.js';
 
 const MOST = 100;
+/** So many values stand beside a verdict, with its own. */
+const MOST_OF_RUN = 10;
+const SAME = ['characteristic', 'designation', 'lower_limit_mm', 'upper_limit_mm'];
 const KEPT = 'recent';
 const TAKEN = ['waiting', 'judged', 'open', 'done'];
+const OLD = ['corrected', 'moved'];
 
 /** What was judged by the limits held is no record yet: it says both. */
 const waitingMark = (state, { verdict }) => (verdict && state === 'waiting'
@@ -35,6 +39,12 @@ export class Recent {
     return value && (value.record ?? null);
   }
 
+  /** The records in force of what a record is of, the newest last, without it. */
+  like(record) {
+    const records = this.keys.map((key) => this.ledger.get(key)).filter((value) => value?.record && !OLD.includes(this.ledger.stateOf(value))).map((value) => value.record);
+    return records.filter((one) => one.id !== record.id && SAME.every((name) => String(one[name]) === String(record[name]))).slice(0, MOST_OF_RUN - 1).reverse();
+  }
+
   /** A value of this window: the newest. */
   add(key) {
     if (this.keys.includes(key)) return;
@@ -56,7 +66,7 @@ export class Recent {
   #item(value) {
     const { shown, record, state } = value;
     const now = this.ledger.stateOf(value);
-    const isOld = now === 'corrected' || now === 'moved';
+    const isOld = OLD.includes(now);
     const said = this.ledger.said(value);
     const { part_id, characteristic, designation, confirmed } = { ...shown, ...record };
     const what = designation ? designationText(designation) : shown.limits && limitsText(shown.limits);

@@ -149,6 +149,7 @@ export default {
   'panel.open': 'Nicht bewertet',
   'panel.strip': 'Wert zwischen den Grenzmaßen',
   'panel.no_job': 'Teil scannen, Maß eingeben',
+  'panel.run': 'Die letzten {count} Werte zwischen den Grenzmaßen',
   'panel.measure': 'Messen',
   'panel.measure_part': '{part} messen',
   'panel.size': 'Jetzt {size}',

@@ -149,6 +149,7 @@ export default {
   'panel.open': 'Not judged',
   'panel.strip': 'Value between the limits',
   'panel.no_job': 'Scan a part, type a size',
+  'panel.run': 'The last {count} values between the limits',
   'panel.measure': 'Measure',
   'panel.measure_part': 'Measure {part}',
   'panel.size': 'Now {size}',

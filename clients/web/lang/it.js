@@ -149,6 +149,7 @@ export default {
   'panel.open': 'Non giudicato',
   'panel.strip': 'Valore tra i limiti',
   'panel.no_job': 'Leggere un pezzo, digitare una quota',
+  'panel.run': 'Gli ultimi {count} valori tra i limiti',
   'panel.measure': 'Misurare',
   'panel.measure_part': 'Misurare {part}',
   'panel.size': 'Ora {size}',

@@ -149,6 +149,7 @@ export default {
   'panel.open': 'Niet beoordeeld',
   'panel.strip': 'Waarde tussen de grenzen',
   'panel.no_job': 'Scan een onderdeel, typ een maat',
+  'panel.run': 'De laatste {count} waarden tussen de grenzen',
   'panel.measure': 'Meten',
   'panel.measure_part': '{part} meten',
   'panel.size': 'Nu {size}',

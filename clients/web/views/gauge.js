@@ -31,7 +31,7 @@ const GAP_MS = 120;
 export function mount(main, route) {
   const leaving = new AbortController();
   let partBefore = route.options.part_id ?? '';
-  const panel = new Panel();
+  const panel = new Panel((record) => recent.like(record));
   /** Why no value is taken now; '' where one is. */
   const reason = () => reactions.reason || (plan.loading ? t('entry.busy') : '') || plan.reason;
   // The badge that has logged in is the operator: the record names the badge, and no name of the one before.

@@ -64,6 +64,33 @@ describe('the style sheets', () => {
     await close(page);
   });
 
+  it('show a verdict with its limits, and the last ten values beside them, without scrolling', async () => {
+    const page = await open(browser, daemon, '#/gauge/25H7?characteristic=bore-R', { viewport: { width: 1366, height: 768 } });
+    await page.waitForSelector('.echo .figures');
+    const values = Array.from({ length: 12 }, (_, i) => (i === 5 ? '25.030' : `25.0${10 + i}`));
+    for (const [i, value] of values.entries()) {
+      await page.keyboard.type(`${value}\n`);
+      await page.waitForFunction((count) => document.querySelectorAll('.recent li.stored').length === count, i + 1);
+    }
+    await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
+    const dots = await page.$$eval('.lately .dot', (all) => all.map((dot) => [dot.getAttribute('cx'), dot.getAttribute('cy')].map(Number)));
+    assert.equal(dots.length, 10);
+    // The value above the limit, the fourth of the ten, is the highest and above the zone; the others rise.
+    const zone = await page.$eval('.lately .zone', (one) => Number(one.getAttribute('y')));
+    assert.deepEqual(dots.map(([, y], i) => [i, y < zone]).filter(([, isOut]) => isOut), [[3, true]]);
+    assert.ok(dots.filter((_, i) => i !== 3).every(([x, y], i, all) => i === 0 || (x > all[i - 1][0] && y < all[i - 1][1])), JSON.stringify(dots));
+    for (const height of [640, 768, 800, 860, 900]) {
+      await page.setViewportSize({ width: 1366, height });
+      const ends = await page.$$eval('.verdict :is(.strip, .lately)', (all) => all.map((one) => Math.round(one.getBoundingClientRect().bottom)));
+      assert.ok(ends.length === 2 && ends.every((end) => end <= height), `${ends} of ${height}`);
+    }
+    await page.click('.recent li:nth-child(7) .fix button'); // another value in the place of the reject
+    await page.keyboard.type('25.0105\n');
+    await page.waitForFunction(() => document.querySelectorAll('.recent li.stored:not(.corrected)').length === 12 && /25.0105/.test(document.querySelector('.verdict').textContent));
+    await page.waitForFunction(() => [...document.querySelectorAll('.lately .dot')].every((dot) => Number(dot.getAttribute('cy')) >= Number(document.querySelector('.lately .zone').getAttribute('y'))));
+    await close(page);
+  });
+
   it('have every view of the bar in sight at 1024 in Italian, and what is done with a record at 1366', async () => {
     const page = await open(browser, daemon, '#/parts', { viewport: { width: 1024, height: 768 }, locale: 'it-IT' });
     await page.waitForSelector('.records tbody tr');
