@@ -144,6 +144,11 @@ class Walker {
            [&](auto id, const Entity& entity) { link(id, relation, entity.name); });
     }
     for (auto& each : links_) std::stable_sort(each.begin(), each.end(), by_first);
+    for (const auto& [_, id] : links(Group::Face)) {
+      if (links(Group::Surface).empty() || links(Group::Face).size() > kMostLooked) break;
+      const auto face = is_open(id) ? std::nullopt : read_face(file_, id);
+      if (face && face->radius > 0) solids_.push_back(*face);
+    }
     each({Group::Product}, [&](auto id, const Entity& entity) {
       to_.part = seen_.empty() ? text_in(file_, id, entity.name, 0) : std::string();
       to_.part.resize(first_characters(to_.part, kLongestName).size());
@@ -238,7 +243,7 @@ class Walker {
       for (const auto& [_, id] : linked(Group::Face, aspects[i])) {
         if (faces.size() == kMostFaces) return faces;
         auto face = read_face(file_, id);
-        if (face && is_open(id)) lay_on(*face, solids());
+        if (face && is_open(id)) lay_on(*face, solids_);
         if (face) faces.push_back(*face);
       }
       for (const auto& [_, part] : linked(Group::Part, aspects[i])) {
@@ -246,17 +251,6 @@ class Walker {
       }
     }
     return faces;
-  }
-
-  /// The cylinders of solids that sizes and tolerances hang on; none if they are too many.
-  std::span<const Face> solids() {
-    constexpr std::size_t kMostLooked = 1024;
-    if (std::exchange(has_solids_, true) || links(Group::Face).size() > kMostLooked) return solids_;
-    for (const auto& [_, id] : links(Group::Face)) {
-      const auto face = is_open(id) ? std::nullopt : read_face(file_, id);
-      if (face && face->radius > 0) solids_.push_back(*face);
-    }
-    return solids_;
   }
 
   /// Nominal value, limits and words of the representation. @returns why it cannot be used
@@ -453,6 +447,7 @@ class Walker {
   }
 
   static constexpr std::size_t kMostLinks = std::size_t{2} << 20;
+  static constexpr std::size_t kMostLooked = 1024;  ///< faces for the side of a copy
   static constexpr std::size_t kMostListed = 20'000;
   static constexpr std::size_t kLongestName = 180;  ///< of 200, so that a number fits behind it
   static constexpr std::size_t kLongestClass = 64;
@@ -465,8 +460,7 @@ class Walker {
   std::array<std::vector<Link>, kEntities.size()> links_;
   std::map<std::string, int> names_;
   std::set<std::uint32_t> seen_;
-  std::vector<Face> solids_;
-  bool has_solids_ = false;
+  std::vector<Face> solids_;  ///< cylinders that sizes and tolerances hang on
 };
 
 }  // namespace
