@@ -287,6 +287,8 @@ class Measurement(_Measurement, total=False):
     guard_band_um: Decimal
     uncertainty: str
     calibration_due: str
+    calibration_certificate: str
+    calibration_laboratory: str
     calibration_overdue: bool
     quantity: Literal["diameter", "width", "pitch_diameter", "position", "distance", "radius", "chamfer", "deviation"]
     envelope_result: Literal["verified", "not_verified", "failed"]
