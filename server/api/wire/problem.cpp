@@ -40,6 +40,7 @@ int status_of(ErrorCode code) {
     case ErrorCode::GaugeUnknown:
     case ErrorCode::PlanUnknown:
     case ErrorCode::CatalogueUnknown:
+    case ErrorCode::StudyUnknown:
     case ErrorCode::ConnectionUnknown:
     case ErrorCode::MeasurementUnknown: return 404;
     case ErrorCode::MethodNotAllowed: return 405;

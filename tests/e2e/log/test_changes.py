@@ -53,10 +53,10 @@ class Changes(DaemonTest):
         calibration = self.daemon.post("/v1/gauges-in-use/G-9/calibrations", {"from": "2026-07-01", "due": "2027-07-01"}).json
         self.assertEqual([each["after"] for each in self.changes("kind=calibration&name=G-9")], [calibration])
         study = {"gauge": "G-9", "at": "2026-07-01", "kind": "type1", "input": {"values": [1, 2, 4], "reference": 2, "tolerance": 1}}
-        self.put("/v1/studies/of July", study)
-        self.put("/v1/studies/of July", study, 200)  # which changes nothing
-        logged = self.changes("kind=study&name=of%20July")
-        self.assertEqual([each["after"] for each in logged], [self.daemon.get("/v1/studies/of%20July").json])
+        self.put("/v1/studies/July", study)
+        self.put("/v1/studies/July", study, 200)  # which changes nothing
+        logged = self.changes("kind=study&name=July")
+        self.assertEqual([each["after"] for each in logged], [self.daemon.get("/v1/studies/July").json])
         self.put("/v1/catalogues/c", {"causes": ["a"], "measures": ["b"]})
         self.put("/v1/plans/P-9", {"characteristics": [{"name": "bore", "designation": "25 H7"}]})
         self.put("/v1/setups/mill", SETUP)
