@@ -71,11 +71,8 @@ export class StudyForm {
   }
 
   #clear() {
-    this.state = { ...this.state, cells: {}, values: '' };
-    this.#keep();
-    this.note.textContent = '';
     this.result.replaceChildren();
-    this.#show();
+    this.#fill({ cells: {}, values: '' });
   }
 
   get #names() {
