@@ -76,7 +76,7 @@ bool Lexer::list(int deep, const Each& each) {
     Parameter item;
     if (!parameter(item, deep - 1) || !each(item)) return false;
     if (take(')')) return true;
-    if (!take(',')) return fail(", or ) expected");
+    if (!take(',')) return fail("a comma or ) expected");
   }
 }
 

@@ -272,6 +272,8 @@ TEST_CASE("what a file may not have is an error with its line") {
   CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(8.)", "LENGTH_MEASURE(8.E400)"))
             .find("100 km") != std::string::npos);
   CHECK(error_of(housing() + "more").starts_with("line "));
+  CHECK(error_of(with_data("#1=A(1 2);\n")) ==
+        "line 3: a comma or ) expected: export the file again");
   for (const std::string_view bad :
        {"#1=A(1E5);\n", "#1=A(,);\n", "#1=A('x);\n", "#1=A(.T);\n", "#1=A(B());\n", "#1=a();\n",
         "#4294967296=A();\n", "#1=A() B();\n", "#=A();\n", "1=A();\n", "#1=A(/*);\n", "#1=();\n"}) {
