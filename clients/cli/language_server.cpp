@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <optional>
 #include <regex>
 #include <string>
 #include <vector>
 
+#include "base/number.hpp"
 #include "base/text.hpp"
 #include "cli/json_object.hpp"
 #include "cli/open_programs.hpp"
@@ -84,11 +84,8 @@ std::string json_of(const OpenProgram& program, const klartext::Diagnostic& foun
 }
 
 std::optional<std::size_t> whole(const JsonValue& value) {
-  std::uint32_t read = 0;
-  const char* end = value.text.data() + value.text.size();
-  const auto [stop, error] = std::from_chars(value.text.data(), end, read);
-  const bool is_whole = value.is(JsonValue::Kind::Number) && error == std::errc{} && stop == end;
-  return is_whole ? std::optional<std::size_t>(read) : std::nullopt;
+  if (!value.is(JsonValue::Kind::Number)) return std::nullopt;
+  return read_number<std::uint32_t>(value.text);
 }
 
 std::optional<Place> place_of(const JsonValue& value) {

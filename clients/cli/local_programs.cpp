@@ -1,12 +1,12 @@
 #include "cli/nc_commands.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <optional>
 
 #include "api/runs/run_codec.hpp"
 #include "base/allowance.hpp"
+#include "base/number.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
 #include "cli/folder_disk.hpp"
@@ -84,11 +84,7 @@ Outcome<std::vector<Diagnostic>> found_there(const Context& context, const std::
     found.program = item.text_of("program");
     found.source = item.text_of("source");
     const auto number = [&item](std::string_view name) {
-      const std::string_view text = item.text_of(name);
-      std::uint32_t value = 0;
-      const bool is_read =
-          std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc();
-      return is_read ? std::optional(value) : std::nullopt;
+      return read_number<std::uint32_t>(item.text_of(name));
     };
     found.range.begin = {number("line").value_or(0), number("column").value_or(0)};
     found.block = number("block");

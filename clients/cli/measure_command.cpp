@@ -1,10 +1,10 @@
 #include "cli/measure_command.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <future>
 #include <memory>
 
+#include "base/number.hpp"
 #include "cli/http_client.hpp"
 #include "cli/local_files.hpp"
 #include "cli/row_input.hpp"
@@ -17,9 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::uint64_t number_of(std::string_view digits) {
-  std::uint64_t number = 0;
-  std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  return number;
+  return read_number<std::uint64_t>(digits).value_or(0);
 }
 
 VerdictCounts counts_of(const JsonValue& accepted) {

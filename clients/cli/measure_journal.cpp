@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <utility>
 #include <vector>
 
 #include "base/digest.hpp"
+#include "base/number.hpp"
 #include "cli/json_object.hpp"
 #include "cli/local_files.hpp"
 #include "cli/terminal.hpp"
@@ -25,10 +25,9 @@ constexpr int kPrivate = 0600;
 constexpr std::size_t kKeyDigits = 32;
 
 bool read_count(const JsonValue& object, std::string_view name, std::uint64_t& out) {
-  const std::string_view digits = object.text_of(name);
-  const char* const end = digits.data() + digits.size();
-  const auto read = std::from_chars(digits.data(), end, out);
-  return read.ec == std::errc() && read.ptr == end;
+  const auto read = read_number<std::uint64_t>(object.text_of(name));
+  out = read.value_or(out);
+  return read.has_value();
 }
 
 std::optional<CsvPosition> read_position(const JsonValue& object) {

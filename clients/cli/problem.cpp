@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include "base/number.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -12,10 +12,7 @@ constexpr long kForbidden = 403;
 constexpr long kServerError = 500;
 
 std::optional<std::size_t> line_of(const JsonValue& entry) {
-  const std::string_view digits = entry.text_of("line");
-  std::size_t line = 0;
-  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), line);
-  return read.ec == std::errc() ? std::optional(line) : std::nullopt;
+  return read_number<std::size_t>(entry.text_of("line"));
 }
 
 ExitCode exit_code_of(const Answer& answer) {

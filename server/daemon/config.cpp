@@ -5,8 +5,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <charconv>
 
+#include "base/number.hpp"
 #include "base/text.hpp"
 #include "daemon/connections.hpp"
 #include "formats/certificate/certificate.hpp"
@@ -49,14 +49,12 @@ std::vector<std::string> split_list(std::string_view text) {
 }
 
 Result<void> assign_integer(const Setting& setting, std::string_view text, Config& config) {
-  std::int64_t value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size() || value < setting.least ||
-      value > setting.most) {
+  const auto value = read_number<std::int64_t>(text);
+  if (!value || *value < setting.least || *value > setting.most) {
     return invalid(fmt::format("{} must be a whole number from {} to {}; got '{}'", setting.name,
                                setting.least, setting.most, text));
   }
-  config.*setting.integer = value;
+  config.*setting.integer = *value;
   return {};
 }
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <charconv>
 #include <mutex>
 #include <random>
 #include <utility>
 
+#include "base/number.hpp"
 #include "http/engine/asio.hpp"
 #include "http/engine/exchange.hpp"
 #include "http/engine/io_thread.hpp"
@@ -246,9 +246,9 @@ Result<ListenAddress> parse_listen_address(std::string_view text) {
   if (is_bracketed) host = host.substr(1, host.size() - 2);
 
   ListenAddress address{.host = std::string(host == "localhost" ? "127.0.0.1" : host)};
-  const char* const end = digits.data() + digits.size();
-  const auto [stop, problem] = std::from_chars(digits.data(), end, address.port);
-  if (problem != std::errc{} || stop != end) return malformed;
+  const auto port = read_number<std::uint16_t>(digits);
+  if (!port) return malformed;
+  address.port = *port;
   error_code error;
   const auto ip = asio::ip::make_address(address.host, error);
   if (error || ip.is_v6() != is_bracketed) return malformed;

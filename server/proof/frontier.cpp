@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <stdexcept>
 #include <utility>
+
+#include "base/number.hpp"
 
 namespace fitgauge::tlog {
 namespace {
@@ -37,10 +38,8 @@ bool is_digits(std::string_view text) {
 /// A decimal number without leading zeros, up to `most`.
 std::optional<unsigned> number(std::string_view text, unsigned most) {
   if (text.empty() || !is_digits(text) || (text.size() > 1 && text.front() == '0')) return {};
-  unsigned value = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (read.ec != std::errc{} || value > most) return {};
-  return value;
+  const auto value = read_number<unsigned>(text);
+  return value && *value <= most ? value : std::nullopt;
 }
 
 std::vector<std::string_view> split(std::string_view path) {

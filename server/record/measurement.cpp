@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "base/length.hpp"
+#include "base/number.hpp"
 #include "base/text.hpp"
 #include "record/origins.hpp"
 
@@ -27,12 +27,9 @@ std::string id_text(char prefix, std::int64_t id, std::string_view origin) {
 }
 
 std::optional<std::int64_t> parse_number(char prefix, std::string_view text) {
-  std::int64_t id = 0;
-  const char* const end = text.data() + text.size();
-  const bool readable = text.size() > 1 && text.front() == prefix && text[1] != '0' &&
-                        text[1] != '-' && std::from_chars(text.data() + 1, end, id).ptr == end &&
-                        id > 0;
-  return readable ? std::optional(id) : std::nullopt;
+  if (text.size() < 2 || text.front() != prefix || text[1] == '0') return std::nullopt;
+  const auto id = read_number<std::int64_t>(text.substr(1));
+  return id && *id > 0 ? id : std::nullopt;
 }
 
 std::optional<RecordName> parse_id(char prefix, std::string_view text, const Origins& origins) {

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <stdexcept>
 #include <utility>
 
 #include "base/digest.hpp"
+#include "base/number.hpp"
 
 namespace fitgauge::standards {
 namespace {
@@ -56,11 +56,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 
 std::optional<std::int64_t> number(std::string_view cell, Unit unit) {
   if (unit == Unit::ArcMinute) {
-    std::int64_t minutes = 0;
-    const char* const end = cell.data() + cell.size();
-    const auto read = std::from_chars(cell.data(), end, minutes);
-    if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
-    return minutes;
+    return read_number<std::int64_t>(cell);
   }
   const auto length = unit == Unit::Millimetre ? parse_length_mm(cell) : parse_length_um(cell);
   return length ? std::optional(length->count()) : std::nullopt;

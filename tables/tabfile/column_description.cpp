@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
+#include "base/number.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::tabfile {
@@ -13,9 +12,8 @@ namespace {
 template <class Number>
 Number small_number(std::string_view text) {
   constexpr Number kLargest = 999;
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && value <= kLargest ? value : 0;
+  const Number value = read_number<Number>(text).value_or(0);
+  return value <= kLargest ? value : 0;
 }
 
 std::string_view unquoted(std::string_view text) {

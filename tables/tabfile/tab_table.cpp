@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 
+#include "base/number.hpp"
 #include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"
 
@@ -22,10 +22,7 @@ constexpr std::array<std::string_view, 5> kTextTypes = {"C", "TEXT", "UPTEXT", "
 template <class Number>
 std::optional<Number> to_number(std::string_view text) {
   if (text.starts_with('+') && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  return read_number<Number>(text);
 }
 
 /// A number with `,` or `.` as its decimal mark.

@@ -1,11 +1,8 @@
 #include "api/runs/run_codec.hpp"
 
-#include <fmt/format.h>
-
-#include <charconv>
-
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"
+#include "base/number.hpp"
 #include "record/measurement.hpp"
 
 namespace fitgauge::api {
@@ -211,11 +208,8 @@ std::uint64_t seed_of(const std::string& request) {
   const auto order = parse_json(request);
   const JsonValue* setup = order ? order->find("setup") : nullptr;
   const JsonValue* seed = setup != nullptr ? setup->find("seed") : nullptr;
-  std::uint64_t value = app::RunReport().seed;
-  if (seed != nullptr) {
-    std::from_chars(seed->text.data(), seed->text.data() + seed->text.size(), value);
-  }
-  return value;
+  const auto value = seed ? read_number<std::uint64_t>(seed->text) : std::nullopt;
+  return value.value_or(app::RunReport().seed);
 }
 
 struct FinishedAnswer {

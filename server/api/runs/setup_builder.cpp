@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <map>
 
 #include "api/files/file_path.hpp"
 #include "base/json/schema.hpp"
+#include "base/number.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
 
@@ -20,11 +20,8 @@ constexpr int kLargestNumber = 9999;
 constexpr std::size_t kMostActions = 1000;
 
 std::optional<int> number_of(std::string_view name) {
-  int number = 0;
-  const char* const end = name.data() + name.size();
-  const auto read = std::from_chars(name.data(), end, number);
-  const bool valid = read.ec == std::errc() && read.ptr == end && number >= 0;
-  return valid && number <= kLargestNumber ? std::optional(number) : std::nullopt;
+  const auto number = read_number<int>(name);
+  return number && *number >= 0 && *number <= kLargestNumber ? number : std::nullopt;
 }
 
 /// `"ignore"` or `{"call":"TNC:\\oem\\m25.h"}`.

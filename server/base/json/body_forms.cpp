@@ -1,5 +1,8 @@
 #include "base/json/body_forms.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace fitgauge::api {

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "base/number.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -109,14 +110,10 @@ std::optional<Length> FieldReader::um(std::string_view name) { return length(nam
 std::optional<double> FieldReader::number(std::string_view name) {
   const JsonValue* value = take(name, true, {Kind::Number}, "a number");
   if (value == nullptr) return std::nullopt;
-  double parsed = 0;
-  const char* const end = value->text.data() + value->text.size();
-  if (std::from_chars(value->text.data(), end, parsed).ec != std::errc() ||
-      !std::isfinite(parsed)) {
-    report(ErrorCode::NumberOutOfRange, name, fmt::format("{} is out of range", name));
-    return std::nullopt;
-  }
-  return parsed;
+  const auto parsed = read_number<double>(value->text);
+  if (parsed && std::isfinite(*parsed)) return parsed;
+  report(ErrorCode::NumberOutOfRange, name, fmt::format("{} is out of range", name));
+  return std::nullopt;
 }
 
 std::optional<bool> FieldReader::boolean(std::string_view name) {
@@ -143,10 +140,8 @@ std::optional<std::int64_t> FieldReader::integer(std::string_view name, std::int
                                                  std::int64_t most) {
   const JsonValue* value = take(name, true, {Kind::Number}, "a whole number");
   if (value == nullptr) return std::nullopt;
-  std::int64_t parsed = 0;
-  const char* const end = value->text.data() + value->text.size();
-  const auto [stop, failure] = std::from_chars(value->text.data(), end, parsed);
-  if (failure == std::errc() && stop == end && parsed >= least && parsed <= most) return parsed;
+  const auto parsed = read_number<std::int64_t>(value->text);
+  if (parsed && *parsed >= least && *parsed <= most) return parsed;
   report(ErrorCode::FieldInvalid, name,
          fmt::format("{} must be a whole number from {} to {}", name, least, most));
   return std::nullopt;

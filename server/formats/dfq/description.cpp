@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
+#include "base/number.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::aqdef {
@@ -51,11 +51,8 @@ Result<void> Description::add(const FieldLine& field, std::uint32_t line) {
                              kMostBytes >> 20));
   }
   if (field.number == k::kCount) {
-    std::uint32_t count = 0;
-    const auto [end, error] =
-        std::from_chars(field.text.data(), field.text.data() + field.text.size(), count);
-    if (error != std::errc() || end != field.text.data() + field.text.size() || count == 0 ||
-        count > kMostCharacteristics) {
+    const std::uint32_t count = read_number<std::uint32_t>(field.text).value_or(0);
+    if (count == 0 || count > kMostCharacteristics) {
       return wrong(fmt::format("should say in K0100 how many characteristics there are, 1 to {}",
                                kMostCharacteristics));
     }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "base/clock.hpp"
 #include "base/csv.hpp"
+#include "base/number.hpp"
 #include "base/text.hpp"
 #include "formats/sheet/record_reader.hpp"
 
@@ -61,14 +61,13 @@ Result<std::string_view> MeasurementCsv::utf8(std::string_view text) {
 std::string_view MeasurementCsv::entry(int first_field, int second_field,
                                        std::string_view number) const {
   number = trim(number);
-  std::uint32_t index = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
-  if (error != std::errc() || end != number.data() + number.size()) return number;
-  if (index == 0) return {};
+  const auto index = read_number<std::uint32_t>(number);
+  if (!index) return number;
+  if (*index == 0) return {};
   const Description& description = reader_.description();
-  const std::string_view first = description.catalogue_text(first_field, index);
+  const std::string_view first = description.catalogue_text(first_field, *index);
   if (!first.empty()) return first;
-  const std::string_view second = description.catalogue_text(second_field, index);
+  const std::string_view second = description.catalogue_text(second_field, *index);
   return second.empty() ? number : second;
 }
 

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <stdexcept>
 
 #include "base/length.hpp"
+#include "base/number.hpp"
 #include "base/text.hpp"
 #include "http/engine/request_head.hpp"
 
@@ -66,13 +66,11 @@ struct Reader {
   }
 
   Result<ArgumentValue> operator()(const Integer& type) const {
-    std::int64_t value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, problem] = std::from_chars(text.data(), end, value);
-    if (problem != std::errc{} || stop != end || value < type.min || value > type.max) {
+    const auto value = read_number<std::int64_t>(text);
+    if (!value || *value < type.min || *value > type.max) {
       return refuse(fmt::format("a whole number from {} to {}", type.min, type.max));
     }
-    return ArgumentValue(value);
+    return ArgumentValue(*value);
   }
 
   Result<ArgumentValue> operator()(const Decimal& type) const {

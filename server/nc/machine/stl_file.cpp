@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cstring>
 #include <numeric>
+
+#include "base/number.hpp"
 
 namespace fitgauge::machine {
 namespace {
@@ -106,9 +107,9 @@ class TextReader {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::string_view found = words_.next();
       const std::string_view digits = found.starts_with('+') ? found.substr(1) : found;
-      const char* const end = digits.data() + digits.size();
-      const auto read = std::from_chars(digits.data(), end, values[k]);
-      if (read.ec != std::errc() || read.ptr != end) return expected("a number", found);
+      const auto read = read_number<double>(digits);
+      if (!read) return expected("a number", found);
+      values[k] = *read;
     }
     return values;
   }

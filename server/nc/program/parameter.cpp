@@ -1,8 +1,8 @@
 #include "nc/program/parameter.hpp"
 
-#include <charconv>
 #include <cmath>
 
+#include "base/number.hpp"
 #include "base/text.hpp"
 #include "tables/tabfile/characters.hpp"
 
@@ -36,12 +36,9 @@ Result<klartext::QRef> parse_parameter_name(std::string_view text) {
   for (const auto space :
        {klartext::QSpace::Ql, klartext::QSpace::Qr, klartext::QSpace::Qs, klartext::QSpace::Q}) {
     if (!upper.starts_with(prefix(space))) continue;
-    const char* begin = upper.data() + prefix(space).size();
-    const char* end = upper.data() + upper.size();
-    std::uint16_t number = 0;
-    const auto [stop, error] = std::from_chars(begin, end, number);
-    if (error != std::errc{} || stop != end || number >= parameter_count(space)) break;
-    return klartext::QRef{space, number};
+    const auto number = read_number<std::uint16_t>(upper.substr(prefix(space).size()));
+    if (!number || *number >= parameter_count(space)) break;
+    return klartext::QRef{space, *number};
   }
   return malformed();
 }
