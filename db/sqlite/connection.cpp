@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "base/text.hpp"
 #include "db/store/canonical_digest.hpp"
 #include "db/store/stores.hpp"
 
@@ -60,12 +61,7 @@ SQLite::Database open(const std::filesystem::path& file, Mode mode) {
 }
 
 std::string_view name_of(Synchronous synchronous) {
-  switch (synchronous) {
-    case Synchronous::Off: return "OFF";
-    case Synchronous::Normal: return "NORMAL";
-    case Synchronous::Full: return "FULL";
-  }
-  return "FULL";
+  return word_of(synchronous, {"OFF", "NORMAL", "FULL"});
 }
 
 void add_value(CanonicalDigest& digest, sqlite3_value* value) {

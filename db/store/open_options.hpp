@@ -12,6 +12,7 @@
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
+#include "base/text.hpp"
 #include "db/store/measurement_row.hpp"
 
 namespace fitgauge::store {
@@ -27,13 +28,7 @@ enum class HealthState {
 
 /// `ok`, `checking`, `writes_failing`, `damaged`.
 constexpr std::string_view word(HealthState state) {
-  switch (state) {
-    case HealthState::Ok: return "ok";
-    case HealthState::Checking: return "checking";
-    case HealthState::WritesFailing: return "writes_failing";
-    case HealthState::Damaged: return "damaged";
-  }
-  return "";
+  return word_of(state, {"ok", "checking", "writes_failing", "damaged"});
 }
 
 struct Health {

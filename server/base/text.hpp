@@ -1,12 +1,28 @@
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace fitgauge {
+
+/// The word of a value of an enumeration that counts from 0.
+template <class E, std::size_t size>
+constexpr std::string_view word_of(E value, const std::string_view (&words)[size]) {
+  return words[static_cast<std::size_t>(value)];
+}
+
+/// The value of an enumeration whose words these are, from `first` on.
+template <class E>
+constexpr std::optional<E> enum_of(std::string_view text, const auto& words, int first = 0) {
+  const auto found = std::ranges::find(words, text);
+  if (found == std::ranges::end(words)) return std::nullopt;
+  return static_cast<E>(found - std::ranges::begin(words) + first);
+}
 
 /// The offset of the first byte that is not valid UTF-8 (RFC 3629: no surrogates, no overlong
 /// forms), or npos.

@@ -61,14 +61,7 @@ Result<void> check(std::string_view name, std::string_view text) {
 }  // namespace
 
 std::string_view word(Status status) {
-  switch (status) {
-    case Status::Pass: return "PASS";
-    case Status::Rework: return "REWORK";
-    case Status::Indeterminate: return "INDETERMINATE";
-    case Status::Undefined: return "UNDEFINED";
-    case Status::Fail: break;
-  }
-  return "FAIL";
+  return word_of(status, {"PASS", "UNDEFINED", "REWORK", "INDETERMINATE", "FAIL"});
 }
 
 std::uint32_t QifWriter::item_of(const OutgoingValue& value) {

@@ -40,10 +40,7 @@ Verdict conformance_verdict(const Beyond& beyond, const ConformanceLimits& limit
 std::string_view word(Verdict verdict) { return kWords[static_cast<std::size_t>(verdict)]; }
 
 std::optional<Verdict> verdict_from_word(std::string_view text) {
-  for (std::size_t i = 0; i < kWords.size(); ++i) {
-    if (kWords[i] == text) return static_cast<Verdict>(i);
-  }
-  return std::nullopt;
+  return enum_of<Verdict>(text, kWords);
 }
 
 Result<CoverageFactor> CoverageFactor::parse(std::string_view text, bool exponent) {
@@ -113,10 +110,7 @@ std::string_view word(DecisionRule::Kind kind) {
 }
 
 std::optional<DecisionRule::Kind> rule_from_word(std::string_view text) {
-  for (std::size_t i = 0; i < kRuleWords.size(); ++i) {
-    if (kRuleWords[i] == text) return static_cast<DecisionRule::Kind>(i);
-  }
-  return std::nullopt;
+  return enum_of<DecisionRule::Kind>(text, kRuleWords);
 }
 
 GaugingResult gauge(const Beyond& beyond, Length upper_limit, Length lower_limit, Length measured,

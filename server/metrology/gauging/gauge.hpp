@@ -9,6 +9,7 @@
 
 #include "base/length.hpp"
 #include "base/result.hpp"
+#include "base/text.hpp"
 #include "metrology/gauging/conformance.hpp"
 #include "tables/iso286/nominal_size.hpp"
 
@@ -46,10 +47,7 @@ constexpr std::string_view word(Quantity quantity) {
   return kQuantityWords.at(static_cast<std::size_t>(quantity));
 }
 constexpr std::optional<Quantity> quantity_from_word(std::string_view text) {
-  for (std::size_t i = 0; i < kQuantityWords.size(); ++i) {
-    if (kQuantityWords.at(i) == text) return static_cast<Quantity>(i);
-  }
-  return std::nullopt;
+  return enum_of<Quantity>(text, kQuantityWords);
 }
 
 /// Whether it is the size of a hole or a shaft.

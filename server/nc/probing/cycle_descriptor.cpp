@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/text.hpp"
+
 namespace fitgauge::probing {
 namespace {
 
@@ -14,28 +16,11 @@ bool is_limited(const ValueRange& range) {
 }  // namespace
 
 std::string_view word(CycleKind kind) {
-  switch (kind) {
-    case CycleKind::Measuring: return "measuring";
-    case CycleKind::Preset: return "preset";
-    case CycleKind::Alignment: return "alignment";
-    case CycleKind::Calibration: return "calibration";
-    case CycleKind::Kinematics: return "kinematics";
-    case CycleKind::Tool: return "tool";
-    case CycleKind::Machining: return "machining";
-    case CycleKind::Other: return "other";
-  }
-  return {};
+  return word_of(kind, {"measuring", "preset", "alignment", "calibration", "kinematics", "tool",
+                        "machining", "other"});
 }
 
-std::string_view symbol(Unit unit) {
-  switch (unit) {
-    case Unit::None: return "";
-    case Unit::Length: return "mm";
-    case Unit::Angle: return "deg";
-    case Unit::Feed: return "mm/min";
-  }
-  return {};
-}
+std::string_view symbol(Unit unit) { return word_of(unit, {"", "mm", "deg", "mm/min"}); }
 
 std::string name(const CycleParameter& parameter) {
   constexpr std::array<std::string_view, 15> kWords{"Q",

@@ -6,6 +6,7 @@
 #include <deque>
 #include <set>
 
+#include "base/text.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/program/diagnose.hpp"
 
@@ -16,12 +17,7 @@ using klartext::Diagnostic;
 using klartext::Severity;
 
 std::string_view word(FileReference::Kind kind) {
-  switch (kind) {
-    case FileReference::Kind::Program: return "program";
-    case FileReference::Kind::Table: return "table";
-    case FileReference::Kind::Mask: return "mask";
-  }
-  return {};
+  return word_of(kind, {"program", "table", "mask"});
 }
 
 /// Walks a program and what it calls, each file once.

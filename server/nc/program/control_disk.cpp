@@ -117,14 +117,7 @@ ControlPath ControlPath::beside(std::string_view name) const {
   return ControlPath(std::string(directory()) + std::string(name));
 }
 
-std::string_view word(FileSource source) {
-  switch (source) {
-    case FileSource::Stored: return "stored";
-    case FileSource::Live: return "live";
-    case FileSource::Run: return "run";
-  }
-  return {};
-}
+std::string_view word(FileSource source) { return word_of(source, {"stored", "live", "run"}); }
 
 void MemoryDisk::write(const ControlPath& path, std::string bytes) {
   std::string revision = std::to_string(std::hash<std::string>{}(bytes));

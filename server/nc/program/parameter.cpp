@@ -10,13 +10,7 @@ namespace fitgauge::interpreter {
 namespace {
 
 constexpr std::string_view prefix(klartext::QSpace space) {
-  switch (space) {
-    case klartext::QSpace::Q: return "Q";
-    case klartext::QSpace::Ql: return "QL";
-    case klartext::QSpace::Qr: return "QR";
-    case klartext::QSpace::Qs: return "QS";
-  }
-  return {};
+  return word_of(space, {"Q", "QL", "QR", "QS"});
 }
 
 }  // namespace

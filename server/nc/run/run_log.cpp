@@ -4,30 +4,17 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "nc/klartext/lexer.hpp"
 
 namespace fitgauge::interpreter {
 
 std::string_view word(RunStatus status) {
-  switch (status) {
-    case RunStatus::Completed: return "completed";
-    case RunStatus::Stopped: return "stopped";
-    case RunStatus::Failed: return "failed";
-    case RunStatus::LimitExceeded: return "limit_exceeded";
-    case RunStatus::Cancelled: return "cancelled";
-  }
-  return {};
+  return word_of(status, {"completed", "stopped", "failed", "limit_exceeded", "cancelled"});
 }
 
 std::string_view word(MessageKind kind) {
-  switch (kind) {
-    case MessageKind::Error: return "error";
-    case MessageKind::Stop: return "stop";
-    case MessageKind::Limit: return "limit";
-    case MessageKind::Cancelled: return "cancelled";
-    case MessageKind::Note: return "note";
-  }
-  return {};
+  return word_of(kind, {"error", "stop", "limit", "cancelled", "note"});
 }
 
 std::uint32_t Place::line() const { return program->program().range(source().written).begin.line; }

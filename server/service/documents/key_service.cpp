@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <utility>
 
 #include "base/json/json_writer.hpp"
+#include "base/text.hpp"
 #include "db/store/database.hpp"
 #include "service/log/changes.hpp"
 
@@ -31,11 +31,7 @@ bool may(Role role, Role needed) {
   return role == Role::Admin;
 }
 
-std::optional<Role> role_from_word(std::string_view text) {
-  const auto found = std::find(kRoles.begin(), kRoles.end(), text);
-  if (found == kRoles.end()) return std::nullopt;
-  return static_cast<Role>(found - kRoles.begin() + 1);
-}
+std::optional<Role> role_from_word(std::string_view text) { return enum_of<Role>(text, kRoles, 1); }
 
 void log_key(store::Stores& stores, const std::string& name, std::int64_t now_ns, bool is_made) {
   const auto key = stores.keys.newest(name);

@@ -1,9 +1,9 @@
 #include "service/runs/stored_run.hpp"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "base/text.hpp"
 #include "db/store/runs_store.hpp"
 
 namespace fitgauge::app {
@@ -17,9 +17,7 @@ constexpr std::array<std::string_view, 7> kWords = {
 std::string_view word(RunState state) { return kWords[static_cast<std::size_t>(state)]; }
 
 std::optional<RunState> run_state_from_word(std::string_view text) {
-  const auto found = std::find(kWords.begin(), kWords.end(), text);
-  if (found == kWords.end()) return std::nullopt;
-  return static_cast<RunState>(found - kWords.begin());
+  return enum_of<RunState>(text, kWords);
 }
 
 RunState state_of(interpreter::RunStatus status) {
