@@ -58,8 +58,7 @@ class OutputFile {
  public:
   /// @param path empty or `-` is standard output. Nothing is opened before the first write.
   explicit OutputFile(std::string path) : path_(std::move(path)) {}
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
+  OutputFile& operator=(OutputFile&&) = delete;  // neither copied nor moved
   ~OutputFile();
 
   /// @returns whether everything was written so far.

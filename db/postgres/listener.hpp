@@ -24,9 +24,7 @@ class Notifications {
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds kInterval{20};
 
-  Notifications() = default;
-  Notifications(const Notifications&) = delete;
-  Notifications& operator=(const Notifications&) = delete;
+  Notifications& operator=(Notifications&&) = delete;  // neither copied nor moved
   ~Notifications() { close(event_); }
 
   /// Of the writer: whether the transaction is to notify.
@@ -80,8 +78,7 @@ class Listener {
   /// @param told called on the thread with what is new; must not block.
   Listener(std::string address, std::int64_t daemon, Notifications& notifications,
            std::function<void(bool names)> heard, std::function<void(Figures)> told);
-  Listener(const Listener&) = delete;
-  Listener& operator=(const Listener&) = delete;
+  Listener& operator=(Listener&&) = delete;  // neither copied nor moved
   /// Notifies what is postponed.
   ~Listener();
 

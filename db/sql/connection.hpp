@@ -20,9 +20,7 @@ enum class Kind : std::uint8_t { Integer, Text, Bytes };
 /// statement has run, those read until its next step.
 class Prepared {
  public:
-  Prepared() = default;
-  Prepared(const Prepared&) = delete;
-  Prepared& operator=(const Prepared&) = delete;
+  Prepared& operator=(Prepared&&) = delete;  // neither copied nor moved
   virtual ~Prepared() = default;
 
   virtual void bind_null(int index, Kind kind) = 0;
@@ -50,9 +48,7 @@ class Prepared {
 /// The end of the measurements, where an engine adds rows its own way.
 class MeasurementTable {
  public:
-  MeasurementTable() = default;
-  MeasurementTable(const MeasurementTable&) = delete;
-  MeasurementTable& operator=(const MeasurementTable&) = delete;
+  MeasurementTable& operator=(MeasurementTable&&) = delete;  // neither copied nor moved
   virtual ~MeasurementTable() = default;
 
   /// @param rows numbered on from the last.
@@ -76,8 +72,7 @@ struct Dialect {
 /// as StorageFailure, a statement that is wrong as std::logic_error.
 class Connection {
  public:
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
+  Connection& operator=(Connection&&) = delete;  // neither copied nor moved
   virtual ~Connection() = default;
 
   /// @param sql in SQLite's words; parameters are `?`, or `?1` where one stands twice.

@@ -53,9 +53,7 @@ namespace fitgauge::store::sql {
 /// StorageFailure it is closed and another is opened.
 class Session {
  public:
-  Session() = default;
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
+  Session& operator=(Session&&) = delete;  // neither copied nor moved
   virtual ~Session() = default;
 
   virtual Stores& stores() = 0;
@@ -94,8 +92,7 @@ class ReadPool::Engine {
   using ReadJob = Job<const Stores>;
 
   Engine(const OpenOptions& options, HealthMonitor& health, sql::OpenSession open);
-  Engine(const Engine&) = delete;
-  Engine& operator=(const Engine&) = delete;
+  Engine& operator=(Engine&&) = delete;  // neither copied nor moved
   ~Engine();
 
   void enqueue(std::unique_ptr<ReadJob> job) { enqueue_or_refuse(queue_, std::move(job)); }

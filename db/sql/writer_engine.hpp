@@ -86,8 +86,7 @@ class Writer::Engine {
   /// more; called before each transaction and once a second.
   Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
          sql::OpenSession open, std::function<void()> check = {});
-  Engine(const Engine&) = delete;
-  Engine& operator=(const Engine&) = delete;
+  Engine& operator=(Engine&&) = delete;  // neither copied nor moved
   ~Engine();
 
   void enqueue(std::unique_ptr<WriteJob> job) { enqueue_or_refuse(queue_, std::move(job)); }

@@ -114,8 +114,7 @@ class LeavesNoLog {
       : log_(with_suffix(file, "-wal")),
         index_(with_suffix(file, "-shm")),
         kept_(fs::exists(log_)) {}
-  LeavesNoLog(const LeavesNoLog&) = delete;
-  LeavesNoLog& operator=(const LeavesNoLog&) = delete;
+  LeavesNoLog& operator=(LeavesNoLog&&) = delete;  // neither copied nor moved
   ~LeavesNoLog() {
     std::error_code ignored;
     if (kept_ || !fs::is_empty(log_, ignored) || ignored) return;

@@ -22,8 +22,7 @@ namespace fitgauge::store {
 class Checkpointer {
  public:
   explicit Checkpointer(const OpenOptions& options);
-  Checkpointer(const Checkpointer&) = delete;
-  Checkpointer& operator=(const Checkpointer&) = delete;
+  Checkpointer& operator=(Checkpointer&&) = delete;  // neither copied nor moved
   ~Checkpointer();
 
   // By the writer.

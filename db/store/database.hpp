@@ -40,9 +40,7 @@ struct WriterCounters {
 /// Destroying it runs what is queued, commits and closes. An engine's `open_database` opens it.
 class Database {
  public:
-  Database() = default;
-  Database(const Database&) = delete;
-  Database& operator=(const Database&) = delete;
+  Database& operator=(Database&&) = delete;  // neither copied nor moved
   virtual ~Database() = default;
 
   virtual Writer& writer() = 0;

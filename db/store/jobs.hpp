@@ -20,9 +20,7 @@ namespace fitgauge::store {
 template <class Stores>
 class Job {
  public:
-  Job() = default;
-  Job(const Job&) = delete;
-  Job& operator=(const Job&) = delete;
+  Job& operator=(Job&&) = delete;  // neither copied nor moved
   virtual ~Job() = default;
 
   /// Called by a reader before its transaction begins: what is committed from now on may be unseen.

@@ -30,8 +30,7 @@ class Allowance {
   Allowance() = default;
   /// From now on.
   Allowance(std::chrono::duration<double> time, std::size_t memory_bytes, std::stop_token stop);
-  Allowance(const Allowance&) = delete;
-  Allowance& operator=(const Allowance&) = delete;
+  Allowance& operator=(Allowance&&) = delete;  // neither copied nor moved
 
   /// Looks at clock, memory and stop: about 50 ns.
   Spent look();
@@ -42,8 +41,7 @@ class Allowance {
    public:
     /// @param allowance null: none; outlives this.
     explicit OfThread(Allowance* allowance);
-    OfThread(const OfThread&) = delete;
-    OfThread& operator=(const OfThread&) = delete;
+    OfThread& operator=(OfThread&&) = delete;  // neither copied nor moved
     ~OfThread();
   };
   /// That of the calling thread's work; an unlimited one where it has none.

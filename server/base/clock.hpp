@@ -53,9 +53,7 @@ CivilTime civil_time(Timestamp time);
 /// Where the time comes from. Implementations are thread-safe.
 class Clock {
  public:
-  Clock() = default;
-  Clock(const Clock&) = delete;
-  Clock& operator=(const Clock&) = delete;
+  Clock& operator=(Clock&&) = delete;  // neither copied nor moved
   virtual ~Clock() = default;
 
   virtual Timestamp now() const = 0;

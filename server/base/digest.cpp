@@ -20,8 +20,7 @@ struct Sha256::Context {
     require(algorithm != nullptr && state != nullptr);
     begin();
   }
-  Context(const Context&) = delete;
-  Context& operator=(const Context&) = delete;
+  Context& operator=(Context&&) = delete;  // neither copied nor moved
   ~Context() {
     EVP_MD_CTX_free(state);
     EVP_MD_free(algorithm);

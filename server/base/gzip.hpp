@@ -17,8 +17,7 @@ class GzipWriter {
  public:
   /// @throws std::bad_alloc.
   GzipWriter();
-  GzipWriter(const GzipWriter&) = delete;
-  GzipWriter& operator=(const GzipWriter&) = delete;
+  GzipWriter& operator=(GzipWriter&&) = delete;  // neither copied nor moved
   ~GzipWriter() { deflateEnd(&stream_); }
 
   void add(std::string_view text) { pack(text, Z_NO_FLUSH); }
@@ -43,8 +42,7 @@ class Gunzip {
  public:
   /// @throws std::bad_alloc, as put() does.
   Gunzip();
-  Gunzip(const Gunzip&) = delete;
-  Gunzip& operator=(const Gunzip&) = delete;
+  Gunzip& operator=(Gunzip&&) = delete;  // neither copied nor moved
   ~Gunzip() { inflateEnd(&stream_); }
 
   struct Step {

@@ -109,8 +109,7 @@ class WorkerPool {
   /// @param place names the threads in reports of bugs: a literal.
   /// @param queue most jobs that wait; those being run do not count.
   WorkerPool(std::string_view place, unsigned threads, std::size_t queue);
-  WorkerPool(const WorkerPool&) = delete;
-  WorkerPool& operator=(const WorkerPool&) = delete;
+  WorkerPool& operator=(WorkerPool&&) = delete;  // neither copied nor moved
   ~WorkerPool();
 
   /// Queues a job. @returns nothing when the queue is full or the pool is stopping; the job is then

@@ -56,8 +56,7 @@ class LogQueue {
   explicit LogQueue(int descriptor, std::size_t room = std::size_t{1} << 20);
   /// Writes what is queued for as long as `kPatience`, then gives up.
   ~LogQueue();
-  LogQueue(const LogQueue&) = delete;
-  LogQueue& operator=(const LogQueue&) = delete;
+  LogQueue& operator=(LogQueue&&) = delete;  // neither copied nor moved
 
   static constexpr std::chrono::milliseconds kPatience{1000};
 

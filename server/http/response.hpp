@@ -109,9 +109,7 @@ class ChunkSink {
 /// server's write timeout is dropped.
 class BodyStream {
  public:
-  BodyStream() = default;
-  BodyStream(const BodyStream&) = delete;
-  BodyStream& operator=(const BodyStream&) = delete;
+  BodyStream& operator=(BodyStream&&) = delete;  // neither copied nor moved
   virtual ~BodyStream() = default;
 
   /// Called on an I/O thread: must not block. Answer now, or keep the sink and answer from another
@@ -156,8 +154,7 @@ class Posts;
 class AnswerBatch {
  public:
   AnswerBatch();
-  AnswerBatch(const AnswerBatch&) = delete;
-  AnswerBatch& operator=(const AnswerBatch&) = delete;
+  AnswerBatch& operator=(AnswerBatch&&) = delete;  // neither copied nor moved
   ~AnswerBatch();
 
  private:

@@ -122,8 +122,7 @@ class Server {
                                                ServerHooks hooks);
   /// Stops; every Responder must be gone.
   ~Server();
-  Server(const Server&) = delete;
-  Server& operator=(const Server&) = delete;
+  Server& operator=(Server&&) = delete;  // neither copied nor moved
 
   /// The ports in the order of ServerOptions::listen: the actual ones where 0 was asked for.
   const std::vector<std::uint16_t>& ports() const;

@@ -124,8 +124,7 @@ struct Measurement : MeasurementFields {
 class KeptMeasurement {
  public:
   explicit KeptMeasurement(const Measurement& measurement);
-  KeptMeasurement(const KeptMeasurement&) = delete;
-  KeptMeasurement& operator=(const KeptMeasurement&) = delete;
+  KeptMeasurement& operator=(KeptMeasurement&&) = delete;  // neither copied nor moved
 
   const Measurement& operator*() const { return measurement_; }
   const Measurement* operator->() const { return &measurement_; }

@@ -19,8 +19,7 @@ class RecordText {
  public:
   /// @param room no fewer characters than will be written.
   RecordText(std::string& out, std::size_t room) : out_(out), at_(extend(out, room)) {}
-  RecordText(const RecordText&) = delete;
-  RecordText& operator=(const RecordText&) = delete;
+  RecordText& operator=(RecordText&&) = delete;  // neither copied nor moved
   /// Gives back the room that was not needed.
   ~RecordText() {
     assert(size() <= out_.size());

@@ -20,9 +20,7 @@ class MeasurementFile {
   /// And so many bytes their records have, which bounds what is made of them.
   static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
-  MeasurementFile() = default;
-  MeasurementFile(const MeasurementFile&) = delete;
-  MeasurementFile& operator=(const MeasurementFile&) = delete;
+  MeasurementFile& operator=(MeasurementFile&&) = delete;  // neither copied nor moved
   virtual ~MeasurementFile() = default;
 
   /// @errors QueryInvalid: the format cannot hold it.

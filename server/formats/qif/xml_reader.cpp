@@ -124,8 +124,7 @@ struct XmlReader::State {
   };
 
   explicit State(Read document);
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
+  State& operator=(State&&) = delete;  // neither copied nor moved
   ~State() { XML_ParserFree(parser); }
 
   /// The next event, which stays until it is taken; null at the end of the document.

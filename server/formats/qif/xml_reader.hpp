@@ -55,8 +55,7 @@ class XmlReader {
   static constexpr std::size_t kDeepest = 256;
 
   explicit XmlReader(Read read);
-  XmlReader(const XmlReader&) = delete;
-  XmlReader& operator=(const XmlReader&) = delete;
+  XmlReader& operator=(XmlReader&&) = delete;  // neither copied nor moved
   ~XmlReader();
 
   /// Goes to the next element. @returns false at the end of the document.

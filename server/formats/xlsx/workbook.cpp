@@ -17,8 +17,7 @@ namespace fitgauge::workbook {
 class MemoryFile {
  public:
   MemoryFile() : descriptor_(memfd_create("fitgauge.xlsx", MFD_CLOEXEC)) {}
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
+  MemoryFile& operator=(MemoryFile&&) = delete;  // neither copied nor moved
   ~MemoryFile() {
     if (is_open()) close(descriptor_);
   }
@@ -59,9 +58,7 @@ Error cannot_write(std::string_view why) {
 }  // namespace
 
 struct Workbook::State {
-  State() = default;
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
+  State& operator=(State&&) = delete;  // neither copied nor moved
   ~State() {
     if (book != nullptr) lxw_workbook_free(book);
   }

@@ -29,8 +29,7 @@ class CurlHandle {
  public:
   CurlHandle() : curl_(curl_easy_init()) {}
   ~CurlHandle();
-  CurlHandle(const CurlHandle&) = delete;
-  CurlHandle& operator=(const CurlHandle&) = delete;
+  CurlHandle& operator=(CurlHandle&&) = delete;  // neither copied nor moved
 
   /// Begins a call with the options of a new handle: http and https alone, no redirection, no
   /// question whether a large body is welcome. The body, sent with every method but GET, and what
@@ -96,8 +95,7 @@ class HttpClient {
  public:
   explicit HttpClient(HttpClientOptions options);
   ~HttpClient();
-  HttpClient(const HttpClient&) = delete;
-  HttpClient& operator=(const HttpClient&) = delete;
+  HttpClient& operator=(HttpClient&&) = delete;  // neither copied nor moved
 
   /// Waits. @param goes_on asked some times a second meanwhile; false gives up.
   HttpAnswer call(const HttpCall& call, const std::function<bool()>& goes_on);

@@ -115,8 +115,7 @@ struct PreparedHead {
 class PreparedResponse {
  public:
   PreparedResponse(const Response& response, std::string packed);
-  PreparedResponse(const PreparedResponse&) = delete;
-  PreparedResponse& operator=(const PreparedResponse&) = delete;
+  PreparedResponse& operator=(PreparedResponse&&) = delete;  // neither copied nor moved
 
   int status() const { return status_; }
   std::string_view etag() const { return etag_; }

@@ -92,8 +92,7 @@ class BodyReader {
   enum class Outcome { Ok, NoBudget, TooLarge, Malformed, DiskFull };
 
   explicit BodyReader(BodyBudgets& budgets) : budgets_(budgets) {}
-  BodyReader(const BodyReader&) = delete;
-  BodyReader& operator=(const BodyReader&) = delete;
+  BodyReader& operator=(BodyReader&&) = delete;  // neither copied nor moved
 
   struct Plan {
     std::size_t limit = 0;

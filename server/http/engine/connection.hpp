@@ -122,8 +122,7 @@ class InputBuffer {
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(IoThread& thread, Peer peer);
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
+  Connection& operator=(Connection&&) = delete;  // neither copied nor moved
   virtual ~Connection() = default;
 
   /// Begins to serve.

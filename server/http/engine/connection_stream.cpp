@@ -19,8 +19,7 @@ class Posts {
   static Posts* kept();
 
   Posts();
-  Posts(const Posts&) = delete;
-  Posts& operator=(const Posts&) = delete;
+  Posts& operator=(Posts&&) = delete;  // neither copied nor moved
   /// Hands over what was kept.
   ~Posts();
 

@@ -117,8 +117,7 @@ class IoThread {
  public:
   IoThread(ServerShared& shared, std::uint64_t first_request_id);
   ~IoThread();
-  IoThread(const IoThread&) = delete;
-  IoThread& operator=(const IoThread&) = delete;
+  IoThread& operator=(IoThread&&) = delete;  // neither copied nor moved
 
   void start();
   /// Ends the loop and the thread; what was posted and has not run is dropped.

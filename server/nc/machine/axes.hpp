@@ -47,9 +47,7 @@ struct AxesCapabilities {
 /// operator), ConnectionLost.
 class Axes {
  public:
-  Axes() = default;
-  Axes(const Axes&) = delete;
-  Axes& operator=(const Axes&) = delete;
+  Axes& operator=(Axes&&) = delete;  // neither copied nor moved
   virtual ~Axes() = default;
 
   virtual AxesCapabilities capabilities() const { return {}; }

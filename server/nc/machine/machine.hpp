@@ -66,9 +66,7 @@ struct ToolCall {
 /// where it stopped and may be commanded again. Not thread-safe; one run owns a machine.
 class Machine {
  public:
-  Machine() = default;
-  Machine(const Machine&) = delete;
-  Machine& operator=(const Machine&) = delete;
+  Machine& operator=(Machine&&) = delete;  // neither copied nor moved
   virtual ~Machine() = default;
 
   /// All that can be read; the reference stays valid and follows every command.

@@ -21,9 +21,7 @@ struct Field {
 /// wherever the nearest boundary is a face. Immutable: thread-safe.
 class Solid {
  public:
-  Solid() = default;
-  Solid(const Solid&) = delete;
-  Solid& operator=(const Solid&) = delete;
+  Solid& operator=(Solid&&) = delete;  // neither copied nor moved
   virtual ~Solid() = default;
 
   virtual Field field(const Vec3& at) const = 0;

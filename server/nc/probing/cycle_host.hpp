@@ -56,9 +56,7 @@ struct CycleMemory {
 /// are in mm and mm/min: the host converts for an INCH program, by the unit given.
 class CycleHost {
  public:
-  CycleHost() = default;
-  CycleHost(const CycleHost&) = delete;
-  CycleHost& operator=(const CycleHost&) = delete;
+  CycleHost& operator=(CycleHost&&) = delete;  // neither copied nor moved
   virtual ~CycleHost() = default;
 
   virtual void set_q(std::uint16_t number, double value, Unit unit) = 0;

@@ -72,9 +72,7 @@ struct ControlFile {
 /// Implementations are thread-safe; broken storage throws.
 class ControlDisk {
  public:
-  ControlDisk() = default;
-  ControlDisk(const ControlDisk&) = delete;
-  ControlDisk& operator=(const ControlDisk&) = delete;
+  ControlDisk& operator=(ControlDisk&&) = delete;  // neither copied nor moved
   virtual ~ControlDisk() = default;
 
   /// The file, or nothing when there is none.

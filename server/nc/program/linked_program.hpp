@@ -38,8 +38,7 @@ class LinkedProgram {
  public:
   LinkedProgram(ControlPath path, klartext::Program program, LinkedParts parts)
       : path_(std::move(path)), program_(std::move(program)), parts_(std::move(parts)) {}
-  LinkedProgram(const LinkedProgram&) = delete;
-  LinkedProgram& operator=(const LinkedProgram&) = delete;
+  LinkedProgram& operator=(LinkedProgram&&) = delete;  // neither copied nor moved
 
   const ControlPath& path() const { return path_; }
   const klartext::Program& program() const { return program_; }

@@ -23,8 +23,7 @@ class MovedByCycle {
   MovedByCycle(Channel& channel, int number) : observer_(channel.environment.observer) {
     observer_.moved_by_cycle(number);
   }
-  MovedByCycle(const MovedByCycle&) = delete;
-  MovedByCycle& operator=(const MovedByCycle&) = delete;
+  MovedByCycle& operator=(MovedByCycle&&) = delete;  // neither copied nor moved
   ~MovedByCycle() { observer_.moved_by_cycle(0); }
 
  private:

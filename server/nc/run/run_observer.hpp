@@ -26,9 +26,7 @@ struct Place {
 /// An observer of a run; called on the run's thread, so it must not block.
 class RunObserver {
  public:
-  RunObserver() = default;
-  RunObserver(const RunObserver&) = delete;
-  RunObserver& operator=(const RunObserver&) = delete;
+  RunObserver& operator=(RunObserver&&) = delete;  // neither copied nor moved
   virtual ~RunObserver() = default;
 
   /// Asked once at the start: whether `entered` is wanted for every block, and not only for those

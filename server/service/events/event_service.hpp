@@ -23,9 +23,7 @@ namespace fitgauge::app {
 /// Wants to know when there may be something new to read.
 class CommitListener {
  public:
-  CommitListener() = default;
-  CommitListener(const CommitListener&) = delete;
-  CommitListener& operator=(const CommitListener&) = delete;
+  CommitListener& operator=(CommitListener&&) = delete;  // neither copied nor moved
   virtual ~CommitListener() = default;
 
   /// Called on the signal's thread after one or more commits: must not block.

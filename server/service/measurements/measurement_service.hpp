@@ -97,9 +97,7 @@ struct MeasurementServiceOptions {
 /// thread.
 class Rendering {
  public:
-  Rendering() = default;
-  Rendering(const Rendering&) = delete;
-  Rendering& operator=(const Rendering&) = delete;
+  Rendering& operator=(Rendering&&) = delete;  // neither copied nor moved
   virtual ~Rendering() = default;
 
   /// The next measurements, with their ids.

@@ -55,8 +55,7 @@ class ActiveRun {
   ActiveRun(std::int64_t id, std::string_view origin, std::shared_ptr<const RunOrder> order,
             Timestamp created_at)
       : id_(id), origin_(origin), order_(std::move(order)), created_at_(created_at) {}
-  ActiveRun(const ActiveRun&) = delete;
-  ActiveRun& operator=(const ActiveRun&) = delete;
+  ActiveRun& operator=(ActiveRun&&) = delete;  // neither copied nor moved
 
   std::int64_t id() const { return id_; }
   std::string id_text() const { return run_id_text(id_, origin_); }
@@ -159,8 +158,7 @@ class SharedRuns {
   };
 
   SharedRuns(store::Database& database, Own own);
-  SharedRuns(const SharedRuns&) = delete;
-  SharedRuns& operator=(const SharedRuns&) = delete;
+  SharedRuns& operator=(SharedRuns&&) = delete;  // neither copied nor moved
   ~SharedRuns();
 
   /// Ends what is followed with ShuttingDown, also what comes later. Blocks.

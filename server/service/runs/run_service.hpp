@@ -47,8 +47,7 @@ class RunService {
   /// @param orders the pool on which the functions below that block are called
   RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
              const Origins& origins, JobPool& orders, RunServiceOptions options);
-  RunService(const RunService&) = delete;
-  RunService& operator=(const RunService&) = delete;
+  RunService& operator=(RunService&&) = delete;  // neither copied nor moved
   ~RunService();
 
   /// Marks as failed what an earlier process left queued or running, and from then on takes orders.
