@@ -8,15 +8,6 @@
 
 namespace fitgauge::api {
 
-/// A handler that gets the services as well.
-inline http::AsyncHandler with(const Services& services,
-                               void (*handler)(const Services&, const http::Request&,
-                                               http::Responder)) {
-  return [&services, handler](const http::Request& request, http::Responder responder) {
-    handler(services, request, std::move(responder));
-  };
-}
-
 /// For callbacks, which are copied.
 using SharedResponder = std::shared_ptr<http::Responder>;
 inline SharedResponder share(http::Responder responder) {

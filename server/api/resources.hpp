@@ -11,7 +11,25 @@
 
 namespace fitgauge::api {
 
-// One function adds the routes of each resource. Services outlive the routes.
+/// The routes of all resources; one function adds those of each. Services outlive them.
+class Routes {
+ public:
+  using Handler = void (*)(const Services&, const http::Request&, http::Responder);
+
+  explicit Routes(const Services& of)
+      : services(of), cache(std::make_shared<ResponseCache>(of.tables)) {}
+
+  const Services& services;
+  const std::shared_ptr<ResponseCache> cache;
+  std::vector<http::Route> all{};
+
+  /// @param head method, pattern, operation and access: "GET /v1/runs/{id} getRun viewer"
+  /// @throws std::logic_error for another number of words
+  void operator()(std::string_view head, http::Handler handler, http::Route route);
+  void operator()(std::string_view head, Handler handler, http::Route route);
+  /// The routes added since the last call stand in a group of operations.
+  void group(std::string_view name);
+};
 
 /// A text in the path.
 inline http::Parameter path_parameter(std::string name, std::string description) {
@@ -28,75 +46,68 @@ inline http::BodyRules json_body(std::string schema) {
 }
 
 /// /v1/limits: the limits of size of one designation.
-void add_limits_routes(std::vector<http::Route>& routes,
-                       const std::shared_ptr<ResponseCache>& cache);
+void add_limits_routes(Routes& add);
 /// /v1/fits: a hole and a shaft of one nominal size, and the search for such.
-void add_fits_routes(std::vector<http::Route>& routes, const Services& services,
-                     const std::shared_ptr<ResponseCache>& cache);
+void add_fits_routes(Routes& add);
 /// /v1/gauges: sizes of GO and NO-GO gauges.
-void add_gauges_routes(std::vector<http::Route>& routes,
-                       const std::shared_ptr<ResponseCache>& cache);
+void add_gauges_routes(Routes& add);
 /// /v1/press-fits: the pressure of an interference.
-void add_press_fits_routes(std::vector<http::Route>& routes, const Services& services);
+void add_press_fits_routes(Routes& add);
 /// GET /v1/standards and /v1/standards/{name}: the numbers of the standards beside ISO 286.
-void add_standards_routes(std::vector<http::Route>& routes,
-                          const std::shared_ptr<ResponseCache>& cache);
+void add_standards_routes(Routes& add);
 /// /v1/tables: the tables by feature as JSON, CSV and in the control's form, and a shop's own
 /// columns.
-void add_tables_routes(std::vector<http::Route>& routes, const Services& services,
-                       const std::shared_ptr<ResponseCache>& cache);
+void add_tables_routes(Routes& add);
 /// /v1/verdicts: judges a measured value and stores nothing.
-void add_verdicts_routes(std::vector<http::Route>& routes, const Services& services);
+void add_verdicts_routes(Routes& add);
 /// /v1/measurements: judges and stores, reads one, lists, sums up.
-void add_measurements_routes(std::vector<http::Route>& routes, const Services& services);
+void add_measurements_routes(Routes& add);
 /// /v1/measurements/{id}/notes: what was found and done about a measurement, beside its record.
-void add_notes_routes(std::vector<http::Route>& routes, const Services& services);
+void add_notes_routes(Routes& add);
 /// /v1/catalogues: which causes and measures there are to choose from.
-void add_catalogues_routes(std::vector<http::Route>& routes, const Services& services);
+void add_catalogues_routes(Routes& add);
 /// /v1/log and the proof of a measurement.
-void add_log_routes(std::vector<http::Route>& routes, const Services& services);
+void add_log_routes(Routes& add);
 /// /v1/changes: what was changed of all that decides.
-void add_changes_routes(std::vector<http::Route>& routes, const Services& services);
+void add_changes_routes(Routes& add);
 /// /v1/log/{origin}/{from}: what stations forward.
-void add_intake_routes(std::vector<http::Route>& routes, const Services& services);
+void add_intake_routes(Routes& add);
 /// Revisions of a centre for its stations.
-void add_revisions_routes(std::vector<http::Route>& routes, const Services& services);
+void add_revisions_routes(Routes& add);
 /// GET /v1/certificates: what was measured at an order or a part, on paper or as JSON.
-void add_certificates_routes(std::vector<http::Route>& routes, const Services& services);
+void add_certificates_routes(Routes& add);
 /// /v1/statistics: figures of values that are sent; nothing is stored.
-void add_statistics_routes(std::vector<http::Route>& routes, const Services& services);
+void add_statistics_routes(Routes& add);
 /// GET /v1/measurements/{capability,chart}: figures of stored values.
-void add_stored_statistics_routes(std::vector<http::Route>& routes, const Services& services);
+void add_stored_statistics_routes(Routes& add);
 /// GET /v1/measurements/compensation: the next offset of a machine.
-void add_compensation_routes(std::vector<http::Route>& routes, const Services& services);
+void add_compensation_routes(Routes& add);
 /// /v1/uncertainty: an uncertainty budget, computed and not stored.
-void add_uncertainty_routes(std::vector<http::Route>& routes, const Services& services);
+void add_uncertainty_routes(Routes& add);
 /// /v1/uncertainties, /v1/gauges-in-use and /v1/studies: what is kept under a name.
-void add_documents_routes(std::vector<http::Route>& routes, const Services& services);
+void add_documents_routes(Routes& add);
 /// /v1/plans: inspection plans.
-void add_plans_routes(std::vector<http::Route>& routes, const Services& services);
+void add_plans_routes(Routes& add);
 /// GET /v1/parts/{part}: the verdict of a part.
-void add_parts_routes(std::vector<http::Route>& routes, const Services& services);
+void add_parts_routes(Routes& add);
 /// /v1/files: the control's disk.
-void add_files_routes(std::vector<http::Route>& routes, const Services& services);
+void add_files_routes(Routes& add);
 /// /v1/setups: machines and workpieces.
-void add_setups_routes(std::vector<http::Route>& routes, const Services& services);
+void add_setups_routes(Routes& add);
 /// /v1/runs: programs that run on the simulated machine.
-void add_runs_routes(std::vector<http::Route>& routes, const Services& services);
+void add_runs_routes(Routes& add);
 /// /v1/cycles: the cycles that programs may call.
-void add_cycles_routes(std::vector<http::Route>& routes);
+void add_cycles_routes(Routes& add);
 /// GET /v1/events: what happens, as Server-Sent Events.
-void add_events_routes(std::vector<http::Route>& routes, const Services& services);
+void add_events_routes(Routes& add);
 /// /livez, /readyz and /metrics.
-void add_service_routes(std::vector<http::Route>& routes, const Services& services);
+void add_service_routes(Routes& add);
 /// The web page at / and the files it is made of below /web/.
-void add_page_routes(std::vector<http::Route>& routes);
+void add_page_routes(Routes& add);
 
 /// Every operation of the service. /openapi.json is made from the others.
-/// @param services outlive the routes.
 /// @param of_plant, schemas the routes and the components of the rooms above
-http::RouteTable make_routes(const Services& services, std::vector<http::Route> of_plant,
-                             const Schemas& schemas);
+http::RouteTable make_routes(Routes of_plant, const Schemas& schemas);
 
 // The components of /openapi.json: each room describes the bodies it reads and the answers it
 // gives. Setups describe themselves (runs/setup_codec.hpp).
@@ -152,6 +163,6 @@ void add_examples(Schemas& schemas);
 std::string openapi_json(const std::vector<http::Route>& routes, const Schemas& of_plant);
 
 /// Adds GET /openapi.json, which describes the routes before it and itself.
-void add_openapi_route(std::vector<http::Route>& routes, const Schemas& of_plant);
+void add_openapi_route(Routes& add, const Schemas& of_plant);
 
 }  // namespace fitgauge::api

@@ -221,13 +221,14 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
                                .clock = clock,
                                .readiness = [&app] { return app.readiness(); },
                                .letterhead = *std::move(letterhead)};
-  std::vector<http::Route> of_plant;
+  api::Routes of_plant(services);
   connections::add_connections_routes(of_plant, outside);
-  api::add_mtconnect_routes(of_plant, services);
+  api::add_mtconnect_routes(of_plant);
+  of_plant.group("connections");
   api::Schemas schemas;
   connections::add_connection_schemas(schemas);
   auto started = http::Server::start(
-      std::move(listening), api::make_routes(services, std::move(of_plant), schemas),
+      std::move(listening), api::make_routes(std::move(of_plant), schemas),
       hooks(
           services,
           api::Guard(

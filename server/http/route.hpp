@@ -96,8 +96,8 @@ struct Route {
   /// `/v1/fits/{hole}/{shaft}`; the last segment may be `{path*}`: the rest of the path, at least
   /// one character, in which an encoded slash is a slash like any other. A literal segment goes
   /// before a parameter.
-  std::string pattern;
-  Handler handler;
+  std::string pattern{};
+  Handler handler{};
   std::string summary{};
   std::string description{};
   /// Path parameters may be left out: they are then required text.

@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
+#include "api/resources.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/schema.hpp"
 #include "base/result.hpp"
 #include "base/worker_pool.hpp"
-#include "http/route.hpp"
 #include "plant/kind.hpp"
 
 namespace fitgauge::connections {
@@ -111,7 +111,7 @@ class Connections {
 };
 
 /// /v1/connections: what is connected to the world outside. @param all outlives the routes.
-void add_connections_routes(std::vector<http::Route>& routes, Connections& all);
+void add_connections_routes(api::Routes& add, Connections& all);
 /// Their components of /openapi.json.
 void add_connection_schemas(api::Schemas& schemas);
 

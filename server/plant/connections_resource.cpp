@@ -151,80 +151,46 @@ Result<http::Response> replay(Connections& all, const http::Request& request) {
 
 }  // namespace
 
-void add_connections_routes(std::vector<http::Route>& routes, Connections& all) {
-  const std::size_t others = routes.size();
+void add_connections_routes(api::Routes& add, Connections& all) {
   const http::Parameter name = api::path_parameter("name", "1 to 63 letters, digits, - and _");
-  routes.push_back({
-      .pattern = "/v1/connections",
-      .handler = [&all](const http::Request&) { return list(all); },
-      .summary = "The connections: state, lag, last error and counts",
-      .access = "viewer",
-      .operation = "listConnections",
-      .outcomes = {{.meaning = "By name", .schema = "Connections"}},
-  });
-  routes.push_back({
-      .pattern = "/v1/connections/{name}",
-      .handler = [&all](const http::Request& request) { return one(all, name_of(request), 200); },
-      .summary = "A connection: its settings without secrets, and its state",
-      .parameters = {name},
-      .access = "viewer",
-      .operation = "getConnection",
-      .outcomes = {{.meaning = "As it is now", .schema = "Connection"}},
-      .refusals = {404},
-  });
-  routes.push_back({
-      .method = http::Method::Put,
-      .pattern = "/v1/connections/{name}",
-      .handler = by(all, put),
-      .summary = "Store a connection and start it",
-      .description = "One of the configuration file is 409 `connection.read_only`.",
-      .parameters = {name},
-      .body = api::json_body("ConnectionOrder"),
-      .access = "admin",
-      .operation = "putConnection",
-      .outcomes = {{.meaning = "The connection is replaced and continues at its position",
-                    .schema = "Connection"},
-                   {.status = 201, .meaning = "It is new", .schema = "Connection"}},
-      .refusals = {409},
-  });
-  routes.push_back({
-      .method = http::Method::Delete,
-      .pattern = "/v1/connections/{name}",
-      .handler = by(all, remove),
-      .summary = "Delete a connection and its position",
-      .parameters = {name},
-      .access = "admin",
-      .operation = "deleteConnection",
-      .outcomes = {{.status = 204, .meaning = "It is gone"}},
-      .refusals = {404, 409},
-  });
-  routes.push_back({
-      .method = http::Method::Post,
-      .pattern = "/v1/connections/{name}/test",
-      .handler = by(all, test),
-      .summary = "Test a connection once",
-      .description = "Answers 200 for every result of the test, after at most half a minute.",
-      .parameters = {name},
-      .access = "admin",
-      .operation = "testConnection",
-      .outcomes = {{.meaning = "What was found", .schema = "ConnectionTest"}},
-      .refusals = {404},
-  });
-  routes.push_back({
-      .method = http::Method::Post,
-      .pattern = "/v1/connections/{name}/replay",
-      .handler = by(all, replay),
-      .summary = "Send again from a place",
-      .description = "Events go out again with their ids: a receiver that knows them by "
-                     "their ids ignores what it has.",
-      .parameters = {name},
-      .body = api::json_body("ConnectionReplay"),
-      .access = "admin",
-      .operation = "replayConnection",
-      .outcomes = {{.meaning = "It sends again", .schema = "Connection"}},
-      .refusals = {404},
-  });
-  for (std::size_t i = others; i < routes.size(); ++i) routes[i].tag = "connections";
+  add("GET /v1/connections listConnections viewer",
+      [&all](const http::Request&) { return list(all); },
+      {.summary = "The connections: state, lag, last error and counts",
+       .outcomes = {{.meaning = "By name", .schema = "Connections"}}});
+  add("GET /v1/connections/{name} getConnection viewer",
+      [&all](const http::Request& request) { return one(all, name_of(request), 200); },
+      {.summary = "A connection: its settings without secrets, and its state",
+       .parameters = {name},
+       .outcomes = {{.meaning = "As it is now", .schema = "Connection"}},
+       .refusals = {404}});
+  add("PUT /v1/connections/{name} putConnection admin", by(all, put),
+      {.summary = "Store a connection and start it",
+       .description = "One of the configuration file is 409 `connection.read_only`.",
+       .parameters = {name},
+       .body = api::json_body("ConnectionOrder"),
+       .outcomes = {{.meaning = "The connection is replaced and continues at its position",
+                     .schema = "Connection"},
+                    {.status = 201, .meaning = "It is new", .schema = "Connection"}},
+       .refusals = {409}});
+  add("DELETE /v1/connections/{name} deleteConnection admin", by(all, remove),
+      {.summary = "Delete a connection and its position",
+       .parameters = {name},
+       .outcomes = {{.status = 204, .meaning = "It is gone"}},
+       .refusals = {404, 409}});
+  add("POST /v1/connections/{name}/test testConnection admin", by(all, test),
+      {.summary = "Test a connection once",
+       .description = "Answers 200 for every result of the test, after at most half a minute.",
+       .parameters = {name},
+       .outcomes = {{.meaning = "What was found", .schema = "ConnectionTest"}},
+       .refusals = {404}});
+  add("POST /v1/connections/{name}/replay replayConnection admin", by(all, replay),
+      {.summary = "Send again from a place",
+       .description = "Events go out again with their ids: a receiver that knows them by "
+                      "their ids ignores what it has.",
+       .parameters = {name},
+       .body = api::json_body("ConnectionReplay"),
+       .outcomes = {{.meaning = "It sends again", .schema = "Connection"}},
+       .refusals = {404}});
 }
 
 }  // namespace fitgauge::connections

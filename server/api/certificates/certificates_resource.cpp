@@ -111,25 +111,20 @@ std::vector<http::Parameter> parameters() {
 
 }  // namespace
 
-void add_certificates_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .pattern = "/v1/certificates",
-      .handler = with(services, make_certificate),
-      .summary = "Inspection report of an order or a part",
-      .description =
-          "Every value of the order, the part or both, in storage order, with limits, verdict, "
-          "rule, uncertainty, gauge, machine, operator and the signed head of the log that has "
-          "them; before them the verdict of all and the worst value. A tagged PDF, or JSON by "
-          "Accept; at most 10,000 values, whose records have at most 16 MiB.",
-      .parameters = parameters(),
-      .response_types = {std::string(kPdf), std::string(kJson)},
-      .access = "viewer",
-      .operation = "getCertificate",
-      .outcomes = {{.meaning = "The certificate",
-                    .schema = "Certificate",
-                    .media_types = {std::string(kPdf), std::string(kJson)}}},
-      .refusals = {404, 422},
-  });
+void add_certificates_routes(Routes& add) {
+  add("GET /v1/certificates getCertificate viewer", make_certificate,
+      {.summary = "Inspection report of an order or a part",
+       .description =
+           "Every value of the order, the part or both, in storage order, with limits, verdict, "
+           "rule, uncertainty, gauge, machine, operator and the signed head of the log that has "
+           "them; before them the verdict of all and the worst value. A tagged PDF, or JSON by "
+           "Accept; at most 10,000 values, whose records have at most 16 MiB.",
+       .parameters = parameters(),
+       .response_types = {std::string(kPdf), std::string(kJson)},
+       .outcomes = {{.meaning = "The certificate",
+                     .schema = "Certificate",
+                     .media_types = {std::string(kPdf), std::string(kJson)}}},
+       .refusals = {404, 422}});
 }
 
 }  // namespace fitgauge::api

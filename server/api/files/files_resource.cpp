@@ -169,76 +169,45 @@ void add_file_schemas(Schemas& schemas) {
   add_diagnostic_schemas(schemas);
 }
 
-void add_files_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .pattern = "/v1/files",
-      .handler = with(services, list_files),
-      .summary = "The files of the control's disk",
-      .parameters = {{.name = "prefix", .description = "Only paths that begin so: nc_prog/8255/"}},
-      .access = "viewer",
-      .operation = "listFiles",
-      .outcomes = {{.meaning = "The files", .schema = "Files"}},
-  });
-  routes.push_back({
-      .pattern = "/v1/files/{path*}",
-      .handler = with(services, get_file),
-      .summary = "A file, byte for byte",
-      .parameters = {kPath},
-      .response_types = {},
-      .access = "viewer",
-      .operation = "getFile",
-      .outcomes = {{.meaning = "Its bytes", .media_types = {"application/octet-stream"}}},
-      .refusals = {404, 412},
-  });
-  add_precondition_parameters(routes.back().parameters);
-  routes.push_back({
-      .method = http::Method::Put,
-      .pattern = "/v1/files/{path*}",
-      .handler = with(services, put_file),
-      .summary = "Store a program, mask or table as it is on the control",
-      .parameters = {kPath},
-      .body = {.use = http::BodyUse::Required, .limit = kBodyLimit},
-      .access = "admin",
-      .operation = "putFile",
-      .outcomes = {{.meaning = "It is replaced"}, {.status = 201, .meaning = "It is new"}},
-      .refusals = {412, 422},
-  });
-  add_precondition_parameters(routes.back().parameters);
-  routes.push_back({
-      .method = http::Method::Delete,
-      .pattern = "/v1/files/{path*}",
-      .handler = with(services, delete_file),
-      .summary = "Delete a file",
-      .parameters = {kPath},
-      .access = "admin",
-      .operation = "deleteFile",
-      .outcomes = {{.status = 204, .meaning = "It is gone"}},
-      .refusals = {404, 412},
-  });
-  add_precondition_parameters(routes.back().parameters);
-  routes.push_back({
-      .method = http::Method::Post,
-      .pattern = "/v1/files/{path*}",
-      .handler = with(services, act_on_file),
-      .summary = "Check a program with those it calls, a mask or a table, or format a program; "
-                 "nothing runs and nothing is stored",
-      .description =
-          "`check` takes the text of the body in place of the stored file, where there is "
-          "a body: what an editor holds is checked before it is stored.",
-      .parameters = {kPath,
-                     {.name = "action",
-                      .type = http::Words{{"check", "format"}},
-                      .required = true,
-                      .description = "check: the findings; format: the program as text, one blank "
-                                     "between words, blocks numbered from 0"}},
-      .body = {.use = http::BodyUse::Optional, .limit = kBodyLimit},
-      .access = "viewer",
-      .operation = "checkFile",
-      .outcomes = {{.meaning = "What was found, or the program",
-                    .schema = "Diagnostics",
-                    .media_types = {"application/json", "text/plain"}}},
-      .refusals = {404, 422},
-  });
+void add_files_routes(Routes& add) {
+  add("GET /v1/files listFiles viewer", list_files,
+      {.summary = "The files of the control's disk",
+       .parameters = {{.name = "prefix", .description = "Only paths that begin so: nc_prog/8255/"}},
+       .outcomes = {{.meaning = "The files", .schema = "Files"}}});
+  add("GET /v1/files/{path*} getFile viewer", get_file,
+      {.summary = "A file, byte for byte",
+       .parameters = with_preconditions(kPath),
+       .response_types = {},
+       .outcomes = {{.meaning = "Its bytes", .media_types = {"application/octet-stream"}}},
+       .refusals = {404, 412}});
+  add("PUT /v1/files/{path*} putFile admin", put_file,
+      {.summary = "Store a program, mask or table as it is on the control",
+       .parameters = with_preconditions(kPath),
+       .body = {.use = http::BodyUse::Required, .limit = kBodyLimit},
+       .outcomes = {{.meaning = "It is replaced"}, {.status = 201, .meaning = "It is new"}},
+       .refusals = {412, 422}});
+  add("DELETE /v1/files/{path*} deleteFile admin", delete_file,
+      {.summary = "Delete a file",
+       .parameters = with_preconditions(kPath),
+       .outcomes = {{.status = 204, .meaning = "It is gone"}},
+       .refusals = {404, 412}});
+  add("POST /v1/files/{path*} checkFile viewer", act_on_file,
+      {.summary = "Check a program with those it calls, a mask or a table, or format a program; "
+                  "nothing runs and nothing is stored",
+       .description =
+           "`check` takes the text of the body in place of the stored file, where there is "
+           "a body: what an editor holds is checked before it is stored.",
+       .parameters = {kPath,
+                      {.name = "action",
+                       .type = http::Words{{"check", "format"}},
+                       .required = true,
+                       .description = "check: the findings; format: the program as text, one blank "
+                                      "between words, blocks numbered from 0"}},
+       .body = {.use = http::BodyUse::Optional, .limit = kBodyLimit},
+       .outcomes = {{.meaning = "What was found, or the program",
+                     .schema = "Diagnostics",
+                     .media_types = {"application/json", "text/plain"}}},
+       .refusals = {404, 422}});
 }
 
 }  // namespace fitgauge::api

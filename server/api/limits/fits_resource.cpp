@@ -124,10 +124,9 @@ Result<iso286::FitDesignation> of_one_segment(const http::Request& request) {
 /// The fit of a designation: from the tables and cached, and with stored values where a query
 /// chooses them.
 template <class Designation>
-http::AsyncHandler answer_fit(const Services& services, const std::shared_ptr<ResponseCache>& cache,
-                              Designation designation_of) {
+http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
   auto from_tables = ResponseCache::of_revision(
-      cache,
+      add.cache,
       [designation_of](const http::Request& request,
                        const ToleranceTables& tables) -> Result<http::Response> {
         const auto designation = designation_of(request);
@@ -136,7 +135,7 @@ http::AsyncHandler answer_fit(const Services& services, const std::shared_ptr<Re
         if (!fit) return fit.error();
         return tagged_json(fit_json(*designation, *fit, tables), etag_of(tables));
       });
-  return [&services, designation_of, from_tables = std::move(from_tables)](
+  return [&services = add.services, designation_of, from_tables = std::move(from_tables)](
              const http::Request& request, http::Responder responder) {
     if (request.query().empty() || asks_for_revision_alone(request)) {
       return from_tables(request, std::move(responder));
@@ -210,62 +209,46 @@ Result<http::Response> search_fits(const http::Request& request, const Tolerance
 
 }  // namespace
 
-void add_fits_routes(std::vector<http::Route>& routes, const Services& services,
-                     const std::shared_ptr<ResponseCache>& cache) {
-  routes.push_back({
-      .pattern = "/v1/fits/{hole}/{shaft}",
-      .handler = answer_fit(services, cache, of_two_segments),
-      .summary = "Fit of a hole and a shaft",
-      .description =
-          "Limits of both and the clearances; interference is negative clearance. Filters "
-          "for holes and for shafts add `statistical.stored`, from what was measured; "
-          "with these it is for viewers.",
-      .parameters = with_filters({path_parameter("hole", "Size and class of the hole: 25H7"),
-                                  path_parameter("shaft", "Class of the shaft: g6")}),
-      .access = "open",
-      .query_access = "viewer",
-      .operation = "getFit",
-      .outcomes = {{.meaning = "The fit", .schema = "Fit"}},
-      .refusals = {404, 422},
-  });
-  routes.push_back({
-      .pattern = "/v1/fits/{fit}",
-      .handler = answer_fit(services, cache, of_one_segment),
-      .summary = "Fit of a hole and a shaft, written as one",
-      .description = "The same with an encoded stroke: 25H7%2Fg6.",
-      .parameters = with_filters({path_parameter("fit", "25H7/g6, the stroke percent-encoded")}),
-      .access = "open",
-      .query_access = "viewer",
-      .operation = "getFitAsOne",
-      .outcomes = {{.meaning = "The fit", .schema = "Fit"}},
-      .refusals = {404, 422},
-  });
-  routes.push_back({
-      .pattern = "/v1/fits",
-      .handler = ResponseCache::of_revision(cache, search_fits),
-      .summary = "Fits whose clearances lie within bounds",
-      .description = "The preferred fits of ISO 286-1 first, then the widest tolerances.",
-      .parameters = {{.name = "nominal_mm",
-                      .type = http::LengthIn{},
-                      .required = true,
-                      .description = "Nominal size, 0 < D <= 3150"},
-                     {.name = "min_clearance_um",
-                      .type = http::LengthIn{.unit = http::LengthUnit::Micrometre},
-                      .required = true,
-                      .description = "Least clearance allowed; interference is negative"},
-                     {.name = "max_clearance_um",
-                      .type = http::LengthIn{.unit = http::LengthUnit::Micrometre},
-                      .required = true,
-                      .description = "Greatest clearance allowed"},
-                     {.name = "limit",
-                      .type = http::Integer{.min = 1, .max = 1000},
-                      .description = "Most fits in the answer, 1 to 1000; 100 when absent"},
-                     revision_parameter()},
-      .access = "open",
-      .operation = "findFits",
-      .outcomes = {{.meaning = "The fits found", .schema = "FoundFits"}},
-      .refusals = {422},
-  });
+void add_fits_routes(Routes& add) {
+  add("GET /v1/fits/{hole}/{shaft} getFit open", answer_fit(add, of_two_segments),
+      {.summary = "Fit of a hole and a shaft",
+       .description =
+           "Limits of both and the clearances; interference is negative clearance. Filters "
+           "for holes and for shafts add `statistical.stored`, from what was measured; "
+           "with these it is for viewers.",
+       .parameters = with_filters({path_parameter("hole", "Size and class of the hole: 25H7"),
+                                   path_parameter("shaft", "Class of the shaft: g6")}),
+       .query_access = "viewer",
+       .outcomes = {{.meaning = "The fit", .schema = "Fit"}},
+       .refusals = {404, 422}});
+  add("GET /v1/fits/{fit} getFitAsOne open", answer_fit(add, of_one_segment),
+      {.summary = "Fit of a hole and a shaft, written as one",
+       .description = "The same with an encoded stroke: 25H7%2Fg6.",
+       .parameters = with_filters({path_parameter("fit", "25H7/g6, the stroke percent-encoded")}),
+       .query_access = "viewer",
+       .outcomes = {{.meaning = "The fit", .schema = "Fit"}},
+       .refusals = {404, 422}});
+  add("GET /v1/fits findFits open", ResponseCache::of_revision(add.cache, search_fits),
+      {.summary = "Fits whose clearances lie within bounds",
+       .description = "The preferred fits of ISO 286-1 first, then the widest tolerances.",
+       .parameters = {{.name = "nominal_mm",
+                       .type = http::LengthIn{},
+                       .required = true,
+                       .description = "Nominal size, 0 < D <= 3150"},
+                      {.name = "min_clearance_um",
+                       .type = http::LengthIn{.unit = http::LengthUnit::Micrometre},
+                       .required = true,
+                       .description = "Least clearance allowed; interference is negative"},
+                      {.name = "max_clearance_um",
+                       .type = http::LengthIn{.unit = http::LengthUnit::Micrometre},
+                       .required = true,
+                       .description = "Greatest clearance allowed"},
+                      {.name = "limit",
+                       .type = http::Integer{.min = 1, .max = 1000},
+                       .description = "Most fits in the answer, 1 to 1000; 100 when absent"},
+                      revision_parameter()},
+       .outcomes = {{.meaning = "The fits found", .schema = "FoundFits"}},
+       .refusals = {422}});
 }
 
 }  // namespace fitgauge::api

@@ -194,66 +194,46 @@ Result<std::string> press_fit(const JsonValue& body) {
 
 }  // namespace
 
-void add_limits_routes(std::vector<http::Route>& routes,
-                       const std::shared_ptr<ResponseCache>& cache) {
-  routes.push_back({
-      .pattern = "/v1/limits/{designation}",
-      .handler = ResponseCache::of_revision(cache, limits_of_designation),
-      .summary = "Limits of size of a designation",
-      .description = "Deviations and limits of a nominal size and tolerance class (ISO 286-1), of "
-                     "the pitch diameter of a thread (ISO 965-1), of a general tolerance "
-                     "(ISO 2768-1).",
-      .parameters = {path_parameter("designation",
-                                    "25H7, 25 H7, Ø25H7; M10-6H, M10x1.25-6g; 25 ISO 2768-m, "
-                                    "R2 ISO 2768-m; a comma may mark decimals"),
-                     revision_parameter()},
-      .access = "open",
-      .operation = "getLimits",
-      .outcomes = {{.meaning = "The limits", .schema = "Limits"}},
-      .refusals = {404, 422},
-  });
-  routes.push_back({
-      .pattern = "/v1/limits",
-      .handler = ResponseCache::of_revision(cache, limits_of_query),
-      .summary = "Limits of size of a nominal size and a tolerance class",
-      .parameters = {{.name = "nominal_mm",
-                      .type = http::LengthIn{},
-                      .required = true,
-                      .description = "Nominal size, 0 < D <= 3150"},
-                     {.name = "tolerance_class",
-                      .required = true,
-                      .description = "H7, g6, ISO 2768-m or a custom tolerance class"},
-                     revision_parameter()},
-      .access = "open",
-      .operation = "findLimits",
-      .outcomes = {{.meaning = "The limits", .schema = "Limits"}},
-      .refusals = {404, 422},
-  });
+void add_limits_routes(Routes& add) {
+  add("GET /v1/limits/{designation} getLimits open",
+      ResponseCache::of_revision(add.cache, limits_of_designation),
+      {.summary = "Limits of size of a designation",
+       .description = "Deviations and limits of a nominal size and tolerance class (ISO 286-1), of "
+                      "the pitch diameter of a thread (ISO 965-1), of a general tolerance "
+                      "(ISO 2768-1).",
+       .parameters = {path_parameter("designation",
+                                     "25H7, 25 H7, Ø25H7; M10-6H, M10x1.25-6g; 25 ISO 2768-m, "
+                                     "R2 ISO 2768-m; a comma may mark decimals"),
+                      revision_parameter()},
+       .outcomes = {{.meaning = "The limits", .schema = "Limits"}},
+       .refusals = {404, 422}});
+  add("GET /v1/limits findLimits open", ResponseCache::of_revision(add.cache, limits_of_query),
+      {.summary = "Limits of size of a nominal size and a tolerance class",
+       .parameters = {{.name = "nominal_mm",
+                       .type = http::LengthIn{},
+                       .required = true,
+                       .description = "Nominal size, 0 < D <= 3150"},
+                      {.name = "tolerance_class",
+                       .required = true,
+                       .description = "H7, g6, ISO 2768-m or a custom tolerance class"},
+                      revision_parameter()},
+       .outcomes = {{.meaning = "The limits", .schema = "Limits"}},
+       .refusals = {404, 422}});
 }
 
-void add_gauges_routes(std::vector<http::Route>& routes,
-                       const std::shared_ptr<ResponseCache>& cache) {
-  routes.push_back({
-      .pattern = "/v1/gauges/{designation}",
-      .handler = ResponseCache::cached(cache, gauge),
-      .summary = "GO and NO-GO sizes of the limit gauges of a designation",
-      .description = "New and worn, by ISO/R 1938:1971: holes of IT6 to IT16, shafts of IT5 to "
-                     "IT16, up to 500 mm.",
-      .parameters = {path_parameter("designation", "Size and class: 25H7")},
-      .access = "open",
-      .operation = "getLimitGauge",
-      .outcomes = {{.meaning = "The gauges", .schema = "LimitGauge"}},
-      .refusals = {404, 422},
-  });
+void add_gauges_routes(Routes& add) {
+  add("GET /v1/gauges/{designation} getLimitGauge open", ResponseCache::cached(add.cache, gauge),
+      {.summary = "GO and NO-GO sizes of the limit gauges of a designation",
+       .description = "New and worn, by ISO/R 1938:1971: holes of IT6 to IT16, shafts of IT5 to "
+                      "IT16, up to 500 mm.",
+       .parameters = {path_parameter("designation", "Size and class: 25H7")},
+       .outcomes = {{.meaning = "The gauges", .schema = "LimitGauge"}},
+       .refusals = {404, 422}});
 }
 
-void add_press_fits_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back(route_of(services, {.pattern = "/v1/press-fits",
-                                       .compute = press_fit,
-                                       .summary = "Pressure, stress and slip of a press fit",
-                                       .operation = "computePressFit",
-                                       .reads = "PressFitOrder",
-                                       .answers = "PressFit"}));
+void add_press_fits_routes(Routes& add) {
+  add_computation(add, {"/v1/press-fits computePressFit", press_fit, "PressFitOrder", "PressFit",
+                        "Pressure, stress and slip of a press fit"});
 }
 
 void add_gauges_schemas(Schemas& schemas) {

@@ -141,35 +141,24 @@ Result<http::Response> rows(const http::Request& request, const iso286::Toleranc
 
 }  // namespace
 
-void add_standards_routes(std::vector<http::Route>& routes,
-                          const std::shared_ptr<ResponseCache>& cache) {
-  routes.push_back({
-      .pattern = "/v1/standards",
-      .handler = ResponseCache::cached(cache, list),
-      .summary = "The standards beside ISO 286 that there are numbers of",
-      .description = "Their editions, tables and what the numbers were compared with.",
-      .access = "open",
-      .operation = "listStandards",
-      .outcomes = {{.meaning = "The standards", .schema = "Standards"}},
-  });
-  routes.push_back({
-      .pattern = "/v1/standards/{name}",
-      .handler = ResponseCache::cached(cache, rows),
-      .summary = "The numbers of a standard: general tolerances, threads, keyways, bearings",
-      .description = "Deviations in µm, nominal sizes in mm, angles in minutes; what the standard "
-                     "has no number for is absent.",
-      .parameters = {path_parameter("name", "iso2768-1, iso965-1, din6885-1 or iso492"),
-                     {.name = "size_mm",
-                      .type = http::LengthIn{},
-                      .description =
-                          "Only rows that hold for this size: of a keyway the diameter of "
-                          "its shaft"},
-                     {.name = "table", .description = "Only this table"}},
-      .access = "open",
-      .operation = "getStandard",
-      .outcomes = {{.meaning = "Its rows", .schema = "Standard"}},
-      .refusals = {404},
-  });
+void add_standards_routes(Routes& add) {
+  add("GET /v1/standards listStandards open", ResponseCache::cached(add.cache, list),
+      {.summary = "The standards beside ISO 286 that there are numbers of",
+       .description = "Their editions, tables and what the numbers were compared with.",
+       .outcomes = {{.meaning = "The standards", .schema = "Standards"}}});
+  add("GET /v1/standards/{name} getStandard open", ResponseCache::cached(add.cache, rows),
+      {.summary = "The numbers of a standard: general tolerances, threads, keyways, bearings",
+       .description = "Deviations in µm, nominal sizes in mm, angles in minutes; what the standard "
+                      "has no number for is absent.",
+       .parameters = {path_parameter("name", "iso2768-1, iso965-1, din6885-1 or iso492"),
+                      {.name = "size_mm",
+                       .type = http::LengthIn{},
+                       .description =
+                           "Only rows that hold for this size: of a keyway the diameter of "
+                           "its shaft"},
+                      {.name = "table", .description = "Only this table"}},
+       .outcomes = {{.meaning = "Its rows", .schema = "Standard"}},
+       .refusals = {404}});
 }
 
 }  // namespace fitgauge::api

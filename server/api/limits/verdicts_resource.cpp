@@ -190,56 +190,51 @@ http::Parameter parameter_of(const app::MeasurementField& field) {
 
 }  // namespace
 
-void add_verdicts_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .pattern = "/v1/verdicts/{designation}",
-      .handler =
-          [&tables = services.tables](const http::Request& request, http::Responder responder) {
-            tables_of(tables, request,
-                      [&request, answer = answer_by(share(std::move(responder)))](
-                          const Result<app::TableCatalog::Tables>& found) {
-                        answer(found ? verdict(request, **found) : found.error());
-                      });
-          },
-      .summary = "Verdict on a measured value",
-      .description =
-          "good, rework (hole too small, shaft too large) or reject (hole too large, shaft too "
-          "small); limits are inclusive. Nothing is stored.",
-      .parameters = {path_parameter("designation", "25H7, M10-6H, 25 ISO 2768-m"),
-                     {.name = "feature",
-                      .type = http::Words{{"hole", "shaft"}},
-                      .description = "Of a general tolerance, which does not say it: a distance, "
-                                     "whose rejects are on both sides, when absent"},
-                     {.name = "measured_mm",
-                      .type = http::LengthIn{.round_to_nearest = true},
-                      .required = true,
-                      .description = "Measured value, 0 < m <= 100000000; rounded to 1 nm"},
-                     {.name = "rule",
-                      .type = http::Words{{"simple", "guard_band", "conformance"}},
-                      .description = "Decision rule (ISO 14253-1); simple when absent"},
-                     {.name = "uncertainty_um",
-                      .type = http::LengthIn{.unit = http::LengthUnit::Micrometre},
-                      .description = "u; required by guard_band and conformance"},
-                     {.name = "coverage_factor",
-                      .type = http::Decimal{.scale = 6, .min = 1, .max = 100'000'000},
-                      .description = "k of guard_band; t(0.9545, degrees_of_freedom) when absent, "
-                                     "2 without them"},
-                     {.name = "degrees_of_freedom",
-                      .type = http::Decimal{.scale = 6,
-                                            .min = app::kDegreesOfFreedom.least,
-                                            .max = app::kDegreesOfFreedom.most},
-                      .description = "Of uncertainty_um; without end when absent"},
-                     {.name = "probability",
-                      .type = http::Decimal{.scale = 6, .min = 500'000, .max = 999'999},
-                      .description = "Of conformance, at least 0.5; 0.95 when absent"},
-                     revision_parameter()},
-      .access = "open",
-      .operation = "getVerdict",
-      .outcomes = {{.meaning = "The verdict", .schema = "Verdict"}},
-      .refusals = {404, 422},
-  });
+void add_verdicts_routes(Routes& add) {
+  add("GET /v1/verdicts/{designation} getVerdict open",
+      [&tables = add.services.tables](const http::Request& request, http::Responder responder) {
+        tables_of(tables, request,
+                  [&request, answer = answer_by(share(std::move(responder)))](
+                      const Result<app::TableCatalog::Tables>& found) {
+                    answer(found ? verdict(request, **found) : found.error());
+                  });
+      },
+      {.summary = "Verdict on a measured value",
+       .description =
+           "good, rework (hole too small, shaft too large) or reject (hole too large, shaft too "
+           "small); limits are inclusive. Nothing is stored.",
+       .parameters = {path_parameter("designation", "25H7, M10-6H, 25 ISO 2768-m"),
+                      {.name = "feature",
+                       .type = http::Words{{"hole", "shaft"}},
+                       .description = "Of a general tolerance, which does not say it: a distance, "
+                                      "whose rejects are on both sides, when absent"},
+                      {.name = "measured_mm",
+                       .type = http::LengthIn{.round_to_nearest = true},
+                       .required = true,
+                       .description = "Measured value, 0 < m <= 100000000; rounded to 1 nm"},
+                      {.name = "rule",
+                       .type = http::Words{{"simple", "guard_band", "conformance"}},
+                       .description = "Decision rule (ISO 14253-1); simple when absent"},
+                      {.name = "uncertainty_um",
+                       .type = http::LengthIn{.unit = http::LengthUnit::Micrometre},
+                       .description = "u; required by guard_band and conformance"},
+                      {.name = "coverage_factor",
+                       .type = http::Decimal{.scale = 6, .min = 1, .max = 100'000'000},
+                       .description = "k of guard_band; t(0.9545, degrees_of_freedom) when absent, "
+                                      "2 without them"},
+                      {.name = "degrees_of_freedom",
+                       .type = http::Decimal{.scale = 6,
+                                             .min = app::kDegreesOfFreedom.least,
+                                             .max = app::kDegreesOfFreedom.most},
+                       .description = "Of uncertainty_um; without end when absent"},
+                      {.name = "probability",
+                       .type = http::Decimal{.scale = 6, .min = 500'000, .max = 999'999},
+                       .description = "Of conformance, at least 0.5; 0.95 when absent"},
+                      revision_parameter()},
+       .outcomes = {{.meaning = "The verdict", .schema = "Verdict"}},
+       .refusals = {404, 422}});
   for (const app::MeasurementField& field : app::kThermalFields) {
-    routes.back().parameters.push_back(parameter_of(field));
+    add.all.back().parameters.push_back(parameter_of(field));
   }
 }
 

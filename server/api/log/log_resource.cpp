@@ -66,54 +66,41 @@ void prove(const Services& services, const http::Request& request, http::Respond
 
 /// A tree's head, keys and tiles.
 template <bool of_changes>
-void add_tree_routes(std::vector<http::Route>& routes, const Services& services) {
+void add_tree_routes(Routes& add) {
   const std::string path = of_changes ? "/v1/log/changes/" : "/v1/log/";
   const std::string of = of_changes ? "Changes" : "";
   const std::string log = of_changes ? "the log of changes" : "the log";
-  routes.push_back({
-      .pattern = path + "checkpoint",
-      .handler = with(services, checkpoint<of_changes>),
-      .summary = "The signed head of " + log,
-      .description = of_changes
-                         ? "As that of the log, whose name its own begins with: `…/changes`."
-                         : "A C2SP tlog-checkpoint: the log's name, its size and the root of its "
-                           "tree as a signed note. A new one at most once a second.",
-      .response_types = {},
-      .access = "viewer",
-      .operation = "get" + of + "Checkpoint",
-      .outcomes = {{.meaning = "A signed note", .media_types = {"text/plain"}}},
-  });
-  routes.push_back({
-      .pattern = path + "key",
-      .handler = with(services, keys<of_changes>),
-      .summary = of_changes ? "The keys that verify checkpoints of changes"
-                            : "The keys that verify checkpoints",
-      .description = of_changes ? "Those of the log under the name of the log of changes."
-                                : "C2SP vkeys, one a line, the newest first.",
-      .response_types = {},
-      .access = "viewer",
-      .operation = of_changes ? "getChangesKeys" : "getLogKeys",
-      .outcomes = {{.meaning = "Verifier keys", .media_types = {"text/plain"}}},
-  });
-  routes.push_back({
-      .pattern = path + "tile/{path*}",
-      .handler = with(services, tile<of_changes>),
-      .summary = "A tile of " + log,
-      .description = of_changes ? "An entry is a change as /v1/changes answers it, in the order of "
-                                  "its ids; a change longer than 65,535 bytes has `before_sha256` "
-                                  "and `after_sha256`, of the texts, in their place."
-                                : "As C2SP tlog-tiles name them: `0/000`, `1/x001/067.p/3`, and "
-                                  "`entries/000` for the records themselves.",
-      .parameters = {path_parameter("path",
-                                    "Level or `entries`, index, and `.p/` with its width where it "
-                                    "is not full")},
-      .response_types = {},
-      .access = "viewer",
-      .operation = "get" + of + "Tile",
-      .outcomes = {{.meaning = "Hashes, or entries with their lengths",
-                    .media_types = {"application/octet-stream"}}},
-      .refusals = {404},
-  });
+  add("GET " + path + "checkpoint get" + of + "Checkpoint viewer", checkpoint<of_changes>,
+      {.summary = "The signed head of " + log,
+       .description = of_changes
+                          ? "As that of the log, whose name its own begins with: `…/changes`."
+                          : "A C2SP tlog-checkpoint: the log's name, its size and the root of its "
+                            "tree as a signed note. A new one at most once a second.",
+       .response_types = {},
+       .outcomes = {{.meaning = "A signed note", .media_types = {"text/plain"}}}});
+  add("GET " + path + (of_changes ? "key getChangesKeys viewer" : "key getLogKeys viewer"),
+      keys<of_changes>,
+      {.summary = of_changes ? "The keys that verify checkpoints of changes"
+                             : "The keys that verify checkpoints",
+       .description = of_changes ? "Those of the log under the name of the log of changes."
+                                 : "C2SP vkeys, one a line, the newest first.",
+       .response_types = {},
+       .outcomes = {{.meaning = "Verifier keys", .media_types = {"text/plain"}}}});
+  add("GET " + path + "tile/{path*} get" + of + "Tile viewer", tile<of_changes>,
+      {.summary = "A tile of " + log,
+       .description = of_changes
+                          ? "An entry is a change as /v1/changes answers it, in the order of "
+                            "its ids; a change longer than 65,535 bytes has `before_sha256` "
+                            "and `after_sha256`, of the texts, in their place."
+                          : "As C2SP tlog-tiles name them: `0/000`, `1/x001/067.p/3`, and "
+                            "`entries/000` for the records themselves.",
+       .parameters = {path_parameter("path",
+                                     "Level or `entries`, index, and `.p/` with its width where it "
+                                     "is not full")},
+       .response_types = {},
+       .outcomes = {{.meaning = "Hashes, or entries with their lengths",
+                     .media_types = {"application/octet-stream"}}},
+       .refusals = {404}});
 }
 
 constexpr std::string_view kKinds[] = {"tables", "plan",  "budget",     "gauge",     "calibration",
@@ -149,21 +136,16 @@ void list_changes(const Services& services, const http::Request& request,
 
 }  // namespace
 
-void add_log_routes(std::vector<http::Route>& routes, const Services& services) {
-  add_tree_routes<false>(routes, services);
-  add_tree_routes<true>(routes, services);
-  routes.push_back({
-      .pattern = "/v1/measurements/{id}/proof",
-      .handler = with(services, prove),
-      .summary = "The proof that a measurement stands in the log",
-      .description = "Waits up to 1.1 s for a checkpoint that covers the measurement.",
-      .parameters = {path_parameter("id", "As the record names it")},
-      .access = "viewer",
-      .operation = "getProof",
-      .outcomes = {{.meaning = "The path from its leaf to the root of a signed checkpoint",
-                    .schema = "Proof"}},
-      .refusals = {404},
-  });
+void add_log_routes(Routes& add) {
+  add_tree_routes<false>(add);
+  add_tree_routes<true>(add);
+  add("GET /v1/measurements/{id}/proof getProof viewer", prove,
+      {.summary = "The proof that a measurement stands in the log",
+       .description = "Waits up to 1.1 s for a checkpoint that covers the measurement.",
+       .parameters = {path_parameter("id", "As the record names it")},
+       .outcomes = {{.meaning = "The path from its leaf to the root of a signed checkpoint",
+                     .schema = "Proof"}},
+       .refusals = {404}});
 }
 
 void add_changes_schemas(Schemas& schemas) {
@@ -185,29 +167,25 @@ void add_changes_schemas(Schemas& schemas) {
                                    "For `after`; null on the last page"}})});
 }
 
-void add_changes_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .pattern = "/v1/changes",
-      .handler = with(services, list_changes),
-      .summary = "What was changed of all that decides, by whom, with before and after",
-      .description = "Tables, plans, budgets, gauges, calibrations, studies, setups, catalogues, "
-                     "connections and keys, without secrets. A change is never altered or deleted.",
-      .parameters = {{.name = "kind",
-                      .type = http::Words{{std::begin(kKinds), std::end(kKinds)}},
-                      .description = "Of this kind"},
-                     {.name = "name", .description = "With exactly this name"},
-                     {.name = "from", .type = http::Time{}, .description = "From then on"},
-                     {.name = "to", .type = http::Time{}, .description = "Before then"},
-                     {.name = "limit",
-                      .type = http::Integer{1, 1000},
-                      .description = "Changes of a page, fewer of long ones; 100 when absent"},
-                     {.name = "after",
-                      .type = http::Integer{0},
-                      .description = "`next` of the page before"}},
-      .access = "viewer",
-      .operation = "listChanges",
-      .outcomes = {{.meaning = "A page, oldest first", .schema = "Changes"}},
-  });
+void add_changes_routes(Routes& add) {
+  add("GET /v1/changes listChanges viewer", list_changes,
+      {.summary = "What was changed of all that decides, by whom, with before and after",
+       .description =
+           "Tables, plans, budgets, gauges, calibrations, setups, catalogues, connections "
+           "and keys, without secrets. A change is never altered or deleted.",
+       .parameters = {{.name = "kind",
+                       .type = http::Words{{std::begin(kKinds), std::end(kKinds)}},
+                       .description = "Of this kind"},
+                      {.name = "name", .description = "With exactly this name"},
+                      {.name = "from", .type = http::Time{}, .description = "From then on"},
+                      {.name = "to", .type = http::Time{}, .description = "Before then"},
+                      {.name = "limit",
+                       .type = http::Integer{1, 1000},
+                       .description = "Changes of a page, fewer of long ones; 100 when absent"},
+                      {.name = "after",
+                       .type = http::Integer{0},
+                       .description = "`next` of the page before"}},
+       .outcomes = {{.meaning = "A page, oldest first", .schema = "Changes"}}});
 }
 
 }  // namespace fitgauge::api

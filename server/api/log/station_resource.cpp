@@ -72,33 +72,27 @@ void put_batch(const Services& services, const http::Request& request, http::Res
 
 }  // namespace
 
-void add_intake_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .method = http::Method::Put,
-      .pattern = "/v1/log/{origin}/{from}",
-      .handler = with(services, put_batch),
-      .summary = "Take what a station forwards",
-      .description =
-          "NDJSON: a line with `checkpoint`, `key`, `hand_overs` and, of a branch, its `base`; up "
-          "to 10,000 records as they "
-          "were first answered; a line for each answer kept under an idempotency key; a line for "
-          "each note that is new. Taken whole "
-          "where the first record continues the log of the origin and the root fits the signed "
-          "checkpoint; else 409 with the head that is here.",
-      .parameters = {path_parameter("origin",
-                                    "What the ids of the station end with: 16 hexadecimal digits"),
-                     {.name = "from",
-                      .place = http::ParameterPlace::Path,
-                      .type = http::Integer{.min = 1},
-                      .description = "The place of the first record in its log, from 1"}},
-      .body = {.use = http::BodyUse::Required,
-               .media_types = {"application/x-ndjson"},
-               .limit = kBatchLimit},
-      .access = "station",
-      .operation = "putLogBatch",
-      .outcomes = {{.meaning = "All of it is durable: the log's head here", .schema = "LogHead"}},
-      .refusals = {403, 409, 422},
-  });
+void add_intake_routes(Routes& add) {
+  add("PUT /v1/log/{origin}/{from} putLogBatch station", put_batch,
+      {.summary = "Take what a station forwards",
+       .description =
+           "NDJSON: a line with `checkpoint`, `key`, `hand_overs` and, of a branch, its `base`; up "
+           "to 10,000 records as they "
+           "were first answered; a line for each answer kept under an idempotency key; a line for "
+           "each note that is new. Taken whole "
+           "where the first record continues the log of the origin and the root fits the signed "
+           "checkpoint; else 409 with the head that is here.",
+       .parameters = {path_parameter("origin",
+                                     "What the ids of the station end with: 16 hexadecimal digits"),
+                      {.name = "from",
+                       .place = http::ParameterPlace::Path,
+                       .type = http::Integer{.min = 1},
+                       .description = "The place of the first record in its log, from 1"}},
+       .body = {.use = http::BodyUse::Required,
+                .media_types = {"application/x-ndjson"},
+                .limit = kBatchLimit},
+       .outcomes = {{.meaning = "All of it is durable: the log's head here", .schema = "LogHead"}},
+       .refusals = {403, 409, 422}});
 }
 
 namespace {
@@ -115,26 +109,22 @@ void get_revisions(const Services& services, const http::Request& request,
 
 }  // namespace
 
-void add_revisions_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .pattern = "/v1/log/revisions",
-      .handler = with(services, get_revisions),
-      .summary = "What a centre hands on to its stations",
-      .description =
-          "Tables with own columns, keys of viewers and operators (by their hashes), setups, "
-          "plans, catalogues, and corrections of the station's records that were made here: of "
-          "each the last revision, in the order of their numbers. A station asks every few seconds "
-          "with the position it was last answered; one that this service has not given out is "
-          "answered with all there is.",
-      .parameters = {{.name = "station",
-                      .description =
-                          "What the station's ids end with: whose corrections are meant"},
-                     {.name = "after", .description = "The `position` of the last answer"}},
-      .access = "station",
-      .operation = "getRevisions",
-      .outcomes = {{.meaning = "What has changed", .schema = "Revisions"}},
-      .refusals = {403},
-  });
+void add_revisions_routes(Routes& add) {
+  add("GET /v1/log/revisions getRevisions station", get_revisions,
+      {.summary = "What a centre hands on to its stations",
+       .description =
+           "Tables with own columns, keys of viewers and operators (by their hashes), setups, "
+           "plans, catalogues, and corrections of the station's records that were made here: of "
+           "each the last revision, in the order of their numbers. A station asks every few "
+           "seconds with the position it was last answered; one that this service has not given "
+           "out is "
+           "answered with all there is.",
+       .parameters = {{.name = "station",
+                       .description =
+                           "What the station's ids end with: whose corrections are meant"},
+                      {.name = "after", .description = "The `position` of the last answer"}},
+       .outcomes = {{.meaning = "What has changed", .schema = "Revisions"}},
+       .refusals = {403}});
 }
 
 }  // namespace fitgauge::api

@@ -79,73 +79,46 @@ std::vector<http::Parameter> summary_parameters() {
 
 }  // namespace
 
-void add_measurements_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .method = http::Method::Post,
-      .pattern = "/v1/measurements",
-      .handler = with(services, post_measurements),
-      .summary = "Judge and store measurements, all or none",
-      .description = "201 means durable. An Idempotency-Key makes repeats safe.",
-      .parameters = posting_parameters(),
-      .body = {.use = http::BodyUse::Required,
-               .media_types = {"application/json", "application/x-ndjson", "text/csv"},
-               .limit = kLargestRows,
-               .schema = "NewMeasurements"},
-      .access = "operator",
-      .operation = "postMeasurements",
-      .outcomes = {{.status = 201,
-                    .meaning = "Stored for good: the record of one, a count of several, or all "
-                               "records with return=representation; no body with return=minimal",
-                    .schema = "Recorded"}},
-      .refusals = {404, 409},
-  });
-  routes.push_back({
-      .method = http::Method::Post,
-      .pattern = "/v1/measurements/{id}/corrections",
-      .handler = with(services, post_correction),
-      .summary = "Correct a measurement by a new one that names it",
-      .description = "The body has measured_mm and reason; fields it leaves out are taken over. "
-                     "The old record stays.",
-      .parameters = posting_parameters({path_parameter("id", "The measurement to correct")}),
-      .body = json_body("Correction"),
-      .access = "operator",
-      .operation = "correctMeasurement",
-      .outcomes = {{.status = 201, .meaning = "The new record", .schema = "Recorded"}},
-      .refusals = {404, 409},
-  });
-  routes.push_back({
-      .pattern = "/v1/measurements",
-      .handler = with(services, list_measurements),
-      .summary = "List measurements in storage order",
-      .description = "All pages show the state at the first one. CSV and NDJSON without `limit` "
-                     "stream all that match. DFQ, QIF and XLSX are files of up to 100,000, "
-                     "whose records have at most 64 MiB.",
-      .parameters = list_parameters(),
-      .response_types = {"application/json", "application/x-ndjson", "text/csv",
-                         std::string(kDfqType), std::string(kQifType), std::string(kXlsxType)},
-      .access = "viewer",
-      .operation = "listMeasurements",
-      .outcomes = {{.meaning = "A page, or a stream of all", .schema = "MeasurementList"}},
-  });
-  routes.push_back({
-      .pattern = "/v1/measurements/summary",
-      .handler = with(services, summarise),
-      .summary = "Counts and statistics by group",
-      .parameters = summary_parameters(),
-      .access = "viewer",
-      .operation = "summariseMeasurements",
-      .outcomes = {{.meaning = "The groups", .schema = "Summary"}},
-  });
-  routes.push_back({
-      .pattern = "/v1/measurements/{id}",
-      .handler = with(services, find_measurement),
-      .summary = "One measurement",
-      .parameters = {path_parameter("id", "As the record names it")},
-      .access = "viewer",
-      .operation = "getMeasurement",
-      .outcomes = {{.meaning = "The record", .schema = "Measurement"}},
-      .refusals = {404},
-  });
+void add_measurements_routes(Routes& add) {
+  add("POST /v1/measurements postMeasurements operator", post_measurements,
+      {.summary = "Judge and store measurements, all or none",
+       .description = "201 means durable. An Idempotency-Key makes repeats safe.",
+       .parameters = posting_parameters(),
+       .body = {.use = http::BodyUse::Required,
+                .media_types = {"application/json", "application/x-ndjson", "text/csv"},
+                .limit = kLargestRows,
+                .schema = "NewMeasurements"},
+       .outcomes = {{.status = 201,
+                     .meaning = "Stored for good: the record of one, a count of several, or all "
+                                "records with return=representation; no body with return=minimal",
+                     .schema = "Recorded"}},
+       .refusals = {404, 409}});
+  add("POST /v1/measurements/{id}/corrections correctMeasurement operator", post_correction,
+      {.summary = "Correct a measurement by a new one that names it",
+       .description = "The body has measured_mm and reason; fields it leaves out are taken over. "
+                      "The old record stays.",
+       .parameters = posting_parameters({path_parameter("id", "The measurement to correct")}),
+       .body = json_body("Correction"),
+       .outcomes = {{.status = 201, .meaning = "The new record", .schema = "Recorded"}},
+       .refusals = {404, 409}});
+  add("GET /v1/measurements listMeasurements viewer", list_measurements,
+      {.summary = "List measurements in storage order",
+       .description = "All pages show the state at the first one. CSV and NDJSON without `limit` "
+                      "stream all that match. DFQ, QIF and XLSX are files of up to 100,000, "
+                      "whose records have at most 64 MiB.",
+       .parameters = list_parameters(),
+       .response_types = {"application/json", "application/x-ndjson", "text/csv",
+                          std::string(kDfqType), std::string(kQifType), std::string(kXlsxType)},
+       .outcomes = {{.meaning = "A page, or a stream of all", .schema = "MeasurementList"}}});
+  add("GET /v1/measurements/summary summariseMeasurements viewer", summarise,
+      {.summary = "Counts and statistics by group",
+       .parameters = summary_parameters(),
+       .outcomes = {{.meaning = "The groups", .schema = "Summary"}}});
+  add("GET /v1/measurements/{id} getMeasurement viewer", find_measurement,
+      {.summary = "One measurement",
+       .parameters = {path_parameter("id", "As the record names it")},
+       .outcomes = {{.meaning = "The record", .schema = "Measurement"}},
+       .refusals = {404}});
 }
 
 }  // namespace fitgauge::api

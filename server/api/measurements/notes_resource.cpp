@@ -140,35 +140,22 @@ void add_note_schemas(Schemas& schemas) {
   schemas.push_back(names_schema("Catalogues", "catalogues"));
 }
 
-void add_notes_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .method = http::Method::Post,
-      .pattern = "/v1/measurements/{id}/notes",
-      .handler = with(services, post_note),
-      .summary = "Add a note beside a measurement: its cause, what was done, a text",
-      .description = "Notes are never changed, and are no part of the record. An Idempotency-Key "
-                     "makes repeats safe.",
-      .parameters = {measurement_parameter(), idempotency_parameter()},
-      .body = json_body("NewNote"),
-      .access = "operator",
-      .operation = "addNote",
-      .outcomes = {{.status = 201, .meaning = "Stored for good", .schema = "Note"}},
-      .refusals = {404, 409},
-  });
-  routes.push_back({
-      .pattern = "/v1/measurements/{id}/notes",
-      .handler = with(services, list_notes),
-      .summary = "The notes beside a measurement",
-      .parameters = {measurement_parameter()},
-      .access = "viewer",
-      .operation = "listNotes",
-      .outcomes = {{.meaning = "Oldest first", .schema = "Notes"}},
-      .refusals = {404},
-  });
+void add_notes_routes(Routes& add) {
+  add("POST /v1/measurements/{id}/notes addNote operator", post_note,
+      {.summary = "Add a note beside a measurement: its cause, what was done, a text",
+       .description = "Notes are never changed, and are no part of the record. An Idempotency-Key "
+                      "makes repeats safe.",
+       .parameters = {measurement_parameter(), idempotency_parameter()},
+       .body = json_body("NewNote"),
+       .outcomes = {{.status = 201, .meaning = "Stored for good", .schema = "Note"}},
+       .refusals = {404, 409}});
+  add("GET /v1/measurements/{id}/notes listNotes viewer", list_notes,
+      {.summary = "The notes beside a measurement",
+       .parameters = {measurement_parameter()},
+       .outcomes = {{.meaning = "Oldest first", .schema = "Notes"}},
+       .refusals = {404}});
 }
 
-void add_catalogues_routes(std::vector<http::Route>& routes, const Services& services) {
-  add_document_routes(routes, services, kCatalogues);
-}
+void add_catalogues_routes(Routes& add) { add_document_routes(add, kCatalogues); }
 
 }  // namespace fitgauge::api

@@ -174,23 +174,20 @@ void get_part(const Services& services, const http::Request& request, http::Resp
 
 void add_parts_schemas(Schemas& schemas) { schemas.push_back(answer_schema<Part>("Part")); }
 
-void add_parts_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .pattern = "/v1/parts/{part*}",
-      .handler = with(services, get_part),
-      .summary = "A part: its verdict, what is missing, its values and open reactions",
-      .description = "The newest value of each characteristic, corrections applied; the verdict is "
-                     "the worst of them. "
-                     "Without `plan` the part is held against the plan of its own name, or the "
-                     "only one that has every "
-                     "characteristic measured at it; if there is none, nothing is missing.",
-      .parameters = {path_parameter("part", "part_id of its measurements"),
-                     {.name = "plan", .description = "Part number of the plan to hold it against"}},
-      .access = "viewer",
-      .operation = "getPart",
-      .outcomes = {{.meaning = "The part", .schema = "Part"}},
-      .refusals = {404},
-  });
+void add_parts_routes(Routes& add) {
+  add("GET /v1/parts/{part*} getPart viewer", get_part,
+      {.summary = "A part: its verdict, what is missing, its values and open reactions",
+       .description =
+           "The newest value of each characteristic, corrections applied; the verdict is "
+           "the worst of them. "
+           "Without `plan` the part is held against the plan of its own name, or the "
+           "only one that has every "
+           "characteristic measured at it; if there is none, nothing is missing.",
+       .parameters = {path_parameter("part", "part_id of its measurements"),
+                      {.name = "plan",
+                       .description = "Part number of the plan to hold it against"}},
+       .outcomes = {{.meaning = "The part", .schema = "Part"}},
+       .refusals = {404}});
 }
 
 }  // namespace fitgauge::api

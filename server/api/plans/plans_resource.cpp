@@ -114,27 +114,21 @@ constexpr KindOfDocument kPlans{.kind = app::DocumentKind::Plan,
 
 }  // namespace
 
-void add_plans_routes(std::vector<http::Route>& routes, const Services& services) {
-  add_document_routes(routes, services, kPlans);
-  routes.push_back({
-      .method = http::Method::Post,
-      .pattern = "/v1/drawings",
-      .handler = with(services, read_drawing),
-      .summary = "Read the sizes of a STEP drawing",
-      .description = "AP242, AP203 or AP214 with product manufacturing information. Nothing is "
-                     "stored: PUT the file to /v1/plans/{part} to make a plan of it.",
-      .parameters = {{.name = "part",
-                      .description = "Part number of a plan to compare its characteristics with"}},
-      .body = {.use = http::BodyUse::Required,
-               .media_types = {std::string(kStep)},
-               .limit = kLongestDrawing,
-               .spools = true,
-               .when_too_large = "`fitgauge plan from FILE` reads larger drawings"},
-      .access = "viewer",
-      .operation = "readDrawing",
-      .outcomes = {{.meaning = "What was read, and what was not", .schema = "Drawing"}},
-      .refusals = {422},
-  });
+void add_plans_routes(Routes& add) {
+  add_document_routes(add, kPlans);
+  add("POST /v1/drawings readDrawing viewer", read_drawing,
+      {.summary = "Read the sizes of a STEP drawing",
+       .description = "AP242, AP203 or AP214 with product manufacturing information. Nothing is "
+                      "stored: PUT the file to /v1/plans/{part} to make a plan of it.",
+       .parameters = {{.name = "part",
+                       .description = "Part number of a plan to compare its characteristics with"}},
+       .body = {.use = http::BodyUse::Required,
+                .media_types = {std::string(kStep)},
+                .limit = kLongestDrawing,
+                .spools = true,
+                .when_too_large = "`fitgauge plan from FILE` reads larger drawings"},
+       .outcomes = {{.meaning = "What was read, and what was not", .schema = "Drawing"}},
+       .refusals = {422}});
 }
 
 }  // namespace fitgauge::api

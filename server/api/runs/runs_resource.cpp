@@ -169,127 +169,81 @@ void list_runs(const Services& services, const http::Request& request, http::Res
 
 const http::Parameter kId = path_parameter("id", "As the run names it");
 
-void add_reading_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .pattern = "/v1/runs",
-      .handler = with(services, list_runs),
-      .summary = "The runs, the newest first",
-      .parameters = {{.name = "status",
-                      .type = http::Words{{"queued", "running", "completed", "stopped", "failed",
-                                           "limit_exceeded", "cancelled"}},
-                      .description = "Only this status"},
-                     {.name = "program",
-                      .description = "Only this program: TNC:\\nc_prog\\8255.h, or nc_prog/8255.h"},
-                     {.name = "limit",
-                      .type = http::Integer{.min = 1, .max = 1000},
-                      .description = "Most runs of a page; 100 when absent"},
-                     {.name = "after", .description = "The cursor `next` of the page before"}},
-      .access = "viewer",
-      .operation = "listRuns",
-      .outcomes = {{.meaning = "A page", .schema = "RunList"}},
-  });
-  routes.push_back({
-      .pattern = "/v1/runs/{id}",
-      .handler = with(services, get_run),
-      .summary = "One run with all its results",
-      .parameters = {kId},
-      .access = "viewer",
-      .operation = "getRun",
-      .outcomes = {{.meaning = "The run", .schema = "Run"}},
-      .refusals = {404},
-  });
-  routes.push_back({
-      .pattern = "/v1/runs/{id}/parameters",
-      .handler = with(services, get_parameters),
-      .summary = "The parameters that are defined at the end",
-      .parameters = {kId},
-      .access = "viewer",
-      .operation = "getRunParameters",
-      .outcomes = {{.meaning = "By name", .schema = "RunParameters"}},
-      .refusals = {404},
-  });
-  routes.push_back({
-      .pattern = "/v1/runs/{id}/request",
-      .handler = with(services, get_request),
-      .summary = "What was ordered, with the setup in place: it can be posted again",
-      .parameters = {kId},
-      .access = "viewer",
-      .operation = "getRunRequest",
-      .outcomes = {{.meaning = "The order", .schema = "RunOrder"}},
-      .refusals = {404},
-  });
-  routes.push_back({
-      .pattern = "/v1/runs/{id}/trace",
-      .handler = with(services, get_trace),
-      .summary = "Every move with the block that commanded it",
-      .parameters = {kId, csv_or_json()},
-      .response_types = {"application/json", "text/csv"},
-      .access = "viewer",
-      .operation = "getRunTrace",
-      .outcomes = {{.meaning = "The moves", .schema = "Trace"}},
-      .refusals = {404, 409},
-  });
-  routes.push_back({
-      .pattern = "/v1/runs/{id}/files/{name}",
-      .handler = with(services, get_run_file),
-      .summary = "A file the run has written, by its name",
-      .parameters = {kId, path_parameter("name", "TCHPR421.TXT, without regard to case")},
-      .response_types = {},
-      .access = "viewer",
-      .operation = "getRunFile",
-      .outcomes = {{.meaning = "Its bytes", .media_types = {"text/plain", "text/html"}}},
-      .refusals = {404, 409},
-  });
-  routes.push_back({
-      .pattern = "/v1/runs/{id}/events",
-      .handler = with(services, get_events),
-      .summary = "Server-Sent Events: progress, output, end",
-      .description = "The id of an event is the number of lines told so far, or `end`: a reader "
-                     "that comes back gets what follows, and 204 after `end`.",
-      .parameters = {kId},
-      .response_types = {std::string(kEventStreamType)},
-      .access = "viewer",
-      .operation = "followRun",
-      .outcomes = {{.meaning = "output, progress, end", .schema = "RunEvent"},
-                   {.status = 204, .meaning = "It is over and all was read"}},
-      .refusals = {404},
-  });
-  add_last_event_id(routes.back().parameters);
+void add_reading_routes(Routes& add) {
+  add("GET /v1/runs listRuns viewer", list_runs,
+      {.summary = "The runs, the newest first",
+       .parameters = {{.name = "status",
+                       .type = http::Words{{"queued", "running", "completed", "stopped", "failed",
+                                            "limit_exceeded", "cancelled"}},
+                       .description = "Only this status"},
+                      {.name = "program",
+                       .description =
+                           "Only this program: TNC:\\nc_prog\\8255.h, or nc_prog/8255.h"},
+                      {.name = "limit",
+                       .type = http::Integer{.min = 1, .max = 1000},
+                       .description = "Most runs of a page; 100 when absent"},
+                      {.name = "after", .description = "The cursor `next` of the page before"}},
+       .outcomes = {{.meaning = "A page", .schema = "RunList"}}});
+  add("GET /v1/runs/{id} getRun viewer", get_run,
+      {.summary = "One run with all its results",
+       .parameters = {kId},
+       .outcomes = {{.meaning = "The run", .schema = "Run"}},
+       .refusals = {404}});
+  add("GET /v1/runs/{id}/parameters getRunParameters viewer", get_parameters,
+      {.summary = "The parameters that are defined at the end",
+       .parameters = {kId},
+       .outcomes = {{.meaning = "By name", .schema = "RunParameters"}},
+       .refusals = {404}});
+  add("GET /v1/runs/{id}/request getRunRequest viewer", get_request,
+      {.summary = "What was ordered, with the setup in place: it can be posted again",
+       .parameters = {kId},
+       .outcomes = {{.meaning = "The order", .schema = "RunOrder"}},
+       .refusals = {404}});
+  add("GET /v1/runs/{id}/trace getRunTrace viewer", get_trace,
+      {.summary = "Every move with the block that commanded it",
+       .parameters = {kId, csv_or_json()},
+       .response_types = {"application/json", "text/csv"},
+       .outcomes = {{.meaning = "The moves", .schema = "Trace"}},
+       .refusals = {404, 409}});
+  add("GET /v1/runs/{id}/files/{name} getRunFile viewer", get_run_file,
+      {.summary = "A file the run has written, by its name",
+       .parameters = {kId, path_parameter("name", "TCHPR421.TXT, without regard to case")},
+       .response_types = {},
+       .outcomes = {{.meaning = "Its bytes", .media_types = {"text/plain", "text/html"}}},
+       .refusals = {404, 409}});
+  add("GET /v1/runs/{id}/events followRun viewer", get_events,
+      {.summary = "Server-Sent Events: progress, output, end",
+       .description = "The id of an event is the number of lines told so far, or `end`: a reader "
+                      "that comes back gets what follows, and 204 after `end`.",
+       .parameters = {kId},
+       .response_types = {std::string(kEventStreamType)},
+       .outcomes = {{.meaning = "output, progress, end", .schema = "RunEvent"},
+                    {.status = 204, .meaning = "It is over and all was read"}},
+       .refusals = {404}});
+  add_last_event_id(add.all.back().parameters);
 }
 
 }  // namespace
 
-void add_runs_routes(std::vector<http::Route>& routes, const Services& services) {
-  add_reading_routes(routes, services);
-  routes.push_back({
-      .method = http::Method::Post,
-      .pattern = "/v1/runs",
-      .handler = with(services, post_run),
-      .summary = "Run a program on a simulated machine",
-      .description = "201 with the run when it is over, or 202 at once with "
-                     "`Prefer: respond-async`. A program with errors is refused with all of them.",
-      .parameters = {idempotency_parameter(),
-                     {.name = "Prefer",
-                      .place = http::ParameterPlace::Header,
-                      .description = "respond-async"}},
-      .body = json_body("RunOrder"),
-      .access = "operator",
-      .operation = "postRun",
-      .outcomes = {{.status = 201, .meaning = "It is over", .schema = "Run"},
-                   {.status = 202, .meaning = "It is queued", .schema = "Run"}},
-      .refusals = {409},
-  });
-  routes.push_back({
-      .method = http::Method::Delete,
-      .pattern = "/v1/runs/{id}",
-      .handler = with(services, cancel_run),
-      .summary = "Cancel a run that is queued or under way",
-      .parameters = {kId},
-      .access = "operator",
-      .operation = "cancelRun",
-      .outcomes = {{.status = 204, .meaning = "It is cancelled"}},
-      .refusals = {404, 409},
-  });
+void add_runs_routes(Routes& add) {
+  add_reading_routes(add);
+  add("POST /v1/runs postRun operator", post_run,
+      {.summary = "Run a program on a simulated machine",
+       .description = "201 with the run when it is over, or 202 at once with "
+                      "`Prefer: respond-async`. A program with errors is refused with all of them.",
+       .parameters = {idempotency_parameter(),
+                      {.name = "Prefer",
+                       .place = http::ParameterPlace::Header,
+                       .description = "respond-async"}},
+       .body = json_body("RunOrder"),
+       .outcomes = {{.status = 201, .meaning = "It is over", .schema = "Run"},
+                    {.status = 202, .meaning = "It is queued", .schema = "Run"}},
+       .refusals = {409}});
+  add("DELETE /v1/runs/{id} cancelRun operator", cancel_run,
+      {.summary = "Cancel a run that is queued or under way",
+       .parameters = {kId},
+       .outcomes = {{.status = 204, .meaning = "It is cancelled"}},
+       .refusals = {404, 409}});
 }
 
 }  // namespace fitgauge::api

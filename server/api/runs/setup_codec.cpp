@@ -221,8 +221,6 @@ machine::Setup decode_setup(const JsonValue& body, const std::string& pointer,
   return setup;
 }
 
-void add_setups_routes(std::vector<http::Route>& routes, const Services& services) {
-  add_document_routes(routes, services, kSetups);
-}
+void add_setups_routes(Routes& add) { add_document_routes(add, kSetups); }
 
 }  // namespace fitgauge::api

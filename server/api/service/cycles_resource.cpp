@@ -99,29 +99,21 @@ void add_cycle_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<CyclesAnswer>("Cycles"));
 }
 
-void add_cycles_routes(std::vector<http::Route>& routes) {
-  routes.push_back({
-      .pattern = "/v1/cycles",
-      .handler = [answer = http::prepare(list_cycles())](
-                     const http::Request&) -> Result<http::Response> { return answer; },
-      .summary = "Every cycle with its parameters and results",
-      .access = "open",
-      .operation = "listCycles",
-      .outcomes = {{.meaning = "All of them", .schema = "Cycles"}},
-  });
-  routes.push_back({
-      .pattern = "/v1/cycles/{number}",
-      .handler = find_cycle,
-      .summary = "One cycle; a number of both kinds is the touch-probe cycle",
-      .parameters = {{.name = "number",
-                      .place = http::ParameterPlace::Path,
-                      .type = http::Integer{.min = 0, .max = 9999},
-                      .description = "421"}},
-      .access = "open",
-      .operation = "getCycle",
-      .outcomes = {{.meaning = "The cycle", .schema = "Cycle"}},
-      .refusals = {404},
-  });
+void add_cycles_routes(Routes& add) {
+  add("GET /v1/cycles listCycles open",
+      [answer = http::prepare(list_cycles())](const http::Request&) -> Result<http::Response> {
+        return answer;
+      },
+      {.summary = "Every cycle with its parameters and results",
+       .outcomes = {{.meaning = "All of them", .schema = "Cycles"}}});
+  add("GET /v1/cycles/{number} getCycle open", find_cycle,
+      {.summary = "One cycle; a number of both kinds is the touch-probe cycle",
+       .parameters = {{.name = "number",
+                       .place = http::ParameterPlace::Path,
+                       .type = http::Integer{.min = 0, .max = 9999},
+                       .description = "421"}},
+       .outcomes = {{.meaning = "The cycle", .schema = "Cycle"}},
+       .refusals = {404}});
 }
 
 }  // namespace fitgauge::api

@@ -194,65 +194,40 @@ NamedSchema names_schema(std::string name, std::string_view member, const schema
           schema::object({{std::string(member), schema::array(document), "By name"}})};
 }
 
-void add_document_routes(std::vector<http::Route>& routes, const Services& services,
-                         const KindOfDocument& kind) {
+void add_document_routes(Routes& add, const KindOfDocument& kind) {
   const http::Parameter name = path_parameter(
       std::string(parameter_name(kind)), fmt::format("Of {}: {}", kind.one, names_allowed(kind)));
   const std::string pattern = fmt::format("{}/{{{}}}", kind.path, kind.parameter);
-  const std::string operation(kind.operation);
   const std::string schema(kind.schema);
   const std::string answered(kind.answered);
-  routes.push_back({
-      .pattern = std::string(kind.path),
-      .handler = of_kind(services, kind, list),
-      .summary = fmt::format("The {}", kind.many),
-      .access = "viewer",
-      .operation = fmt::format("list{}", kind.operations),
-      .outcomes = {{.meaning = "In the order of their names",
-                    .schema = std::string(kind.list_schema)}},
-  });
-  routes.push_back({
-      .pattern = pattern,
-      .handler = of_kind(services, kind, get),
-      .summary = fmt::format("Read {} as it was stored", kind.one),
-      .parameters = {name},
-      .access = "viewer",
-      .operation = "get" + operation,
-      .outcomes = {{.meaning = "As it was stored", .schema = schema}},
-      .refusals = {404, 412},
-  });
-  add_precondition_parameters(routes.back().parameters);
-  routes.push_back({
-      .method = http::Method::Put,
-      .pattern = pattern,
-      .handler = of_kind(services, kind, put),
-      .summary = fmt::format("Store {}: {}", kind.one, kind.contents),
-      .parameters = {name},
-      .body = json_body(std::string(kind.body_schema)),
-      .access = "admin",
-      .operation = "put" + operation,
-      .outcomes = {{.meaning = "It is replaced", .schema = answered},
-                   {.status = 201, .meaning = "It is new", .schema = answered}},
-      .refusals = {412},
-  });
+  add(fmt::format("GET {} list{} viewer", kind.path, kind.operations),
+      of_kind(add.services, kind, list),
+      {.summary = fmt::format("The {}", kind.many),
+       .outcomes = {
+           {.meaning = "In the order of their names", .schema = std::string(kind.list_schema)}}});
+  add(fmt::format("GET {} get{} viewer", pattern, kind.operation), of_kind(add.services, kind, get),
+      {.summary = fmt::format("Read {} as it was stored", kind.one),
+       .parameters = with_preconditions(name),
+       .outcomes = {{.meaning = "As it was stored", .schema = schema}},
+       .refusals = {404, 412}});
+  add(fmt::format("PUT {} put{} admin", pattern, kind.operation), of_kind(add.services, kind, put),
+      {.summary = fmt::format("Store {}: {}", kind.one, kind.contents),
+       .parameters = with_preconditions(name),
+       .body = json_body(std::string(kind.body_schema)),
+       .outcomes = {{.meaning = "It is replaced", .schema = answered},
+                    {.status = 201, .meaning = "It is new", .schema = answered}},
+       .refusals = {412}});
   if (!kind.other_type.empty()) {
-    routes.back().body.media_types.emplace_back(kind.other_type);
-    routes.back().body.limit = kind.longest_other;
-    routes.back().body.spools = true;
+    add.all.back().body.media_types.emplace_back(kind.other_type);
+    add.all.back().body.limit = kind.longest_other;
+    add.all.back().body.spools = true;
   }
-  add_precondition_parameters(routes.back().parameters);
-  routes.push_back({
-      .method = http::Method::Delete,
-      .pattern = pattern,
-      .handler = of_kind(services, kind, remove),
-      .summary = fmt::format("Delete {}", kind.one),
-      .parameters = {name},
-      .access = "admin",
-      .operation = "delete" + operation,
-      .outcomes = {{.status = 204, .meaning = "It is gone"}},
-      .refusals = {404, 409, 412},
-  });
-  add_precondition_parameters(routes.back().parameters);
+  add(fmt::format("DELETE {} delete{} admin", pattern, kind.operation),
+      of_kind(add.services, kind, remove),
+      {.summary = fmt::format("Delete {}", kind.one),
+       .parameters = with_preconditions(name),
+       .outcomes = {{.status = 204, .meaning = "It is gone"}},
+       .refusals = {404, 409, 412}});
 }
 
 }  // namespace fitgauge::api

@@ -6,11 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "api/services.hpp"
+#include "api/resources.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/json/schema.hpp"
 #include "base/result.hpp"
-#include "http/route.hpp"
 #include "service/documents/document_service.hpp"
 
 // All documents (texts with a name) have the same four routes, tags and preconditions.
@@ -72,7 +71,6 @@ NamedSchema names_schema(std::string name, std::string_view member,
                          const schema::Fields& more = {});
 
 /// @param kind is static.
-void add_document_routes(std::vector<http::Route>& routes, const Services& services,
-                         const KindOfDocument& kind);
+void add_document_routes(Routes& add, const KindOfDocument& kind);
 
 }  // namespace fitgauge::api

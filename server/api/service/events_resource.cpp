@@ -88,28 +88,25 @@ http::Response stream_events(const Services& services, const http::Request& requ
 
 }  // namespace
 
-void add_events_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .pattern = "/v1/events",
-      .handler = http::SyncHandler([&services](const http::Request& request) {
+void add_events_routes(Routes& add) {
+  add("GET /v1/events followEvents viewer",
+      [&services = add.services](const http::Request& request) {
         return Result<http::Response>(stream_events(services, request));
-      }),
-      .summary = "What happens, as Server-Sent Events",
-      .description =
-          "measurement.recorded and verdict.reject carry the record, run.finished the run, "
-          "table.changed the column and the revision in force from then on, note.added the note. A "
-          "reader that names "
-          "the id of the last event it had goes on with the next; `resync` says "
-          "that some are gone.",
-      .parameters = {{.name = "source",
-                      .type = http::Words{{"gauge", "simulation", "all"}},
-                      .description = "Of the measurements; gauge when absent"}},
-      .response_types = {std::string(kEventStreamType)},
-      .access = "viewer",
-      .operation = "followEvents",
-      .outcomes = {{.meaning = "Events without an end", .schema = "Event"}},
-  });
-  add_last_event_id(routes.back().parameters);
+      },
+      {.summary = "What happens, as Server-Sent Events",
+       .description =
+           "measurement.recorded and verdict.reject carry the record, run.finished the run, "
+           "table.changed the column and the revision in force from then on, note.added the note. "
+           "A "
+           "reader that names "
+           "the id of the last event it had goes on with the next; `resync` says "
+           "that some are gone.",
+       .parameters = {{.name = "source",
+                       .type = http::Words{{"gauge", "simulation", "all"}},
+                       .description = "Of the measurements; gauge when absent"}},
+       .response_types = {std::string(kEventStreamType)},
+       .outcomes = {{.meaning = "Events without an end", .schema = "Event"}}});
+  add_last_event_id(add.all.back().parameters);
 }
 
 }  // namespace fitgauge::api

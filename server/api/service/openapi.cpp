@@ -346,16 +346,13 @@ std::string openapi_json(const std::vector<http::Route>& routes, const Schemas& 
   });
 }
 
-void add_openapi_route(std::vector<http::Route>& routes, const Schemas& of_plant) {
-  routes.push_back({.pattern = "/openapi.json",
-                    .handler = http::SyncHandler{},
-                    .summary = "This description",
-                    .access = "open",
-                    .operation = "getOpenapi",
-                    .tag = "service",
-                    .outcomes = {{.meaning = "OpenAPI 3.1", .schema = "Description"}}});
-  const auto document = http::prepare({200, "application/json", openapi_json(routes, of_plant)});
-  routes.back().handler = [document](const http::Request&) -> Result<http::Response> {
+void add_openapi_route(Routes& add, const Schemas& of_plant) {
+  add("GET /openapi.json getOpenapi open", http::SyncHandler{},
+      {.summary = "This description",
+       .tag = "service",
+       .outcomes = {{.meaning = "OpenAPI 3.1", .schema = "Description"}}});
+  const auto document = http::prepare({200, "application/json", openapi_json(add.all, of_plant)});
+  add.all.back().handler = [document](const http::Request&) -> Result<http::Response> {
     return http::Response(document);
   };
 }

@@ -60,32 +60,19 @@ Result<http::Response> answer(const PageFiles& files, std::string_view path) {
 
 }  // namespace
 
-void add_page_routes(std::vector<http::Route>& routes) {
+void add_page_routes(Routes& add) {
   const auto files = std::make_shared<const PageFiles>(prepare_files());
-  routes.push_back({
-      .pattern = "/",
-      .handler =
-          http::SyncHandler([files](const http::Request&) { return answer(*files, kEntry); }),
-      .summary = "The page",
-      .response_types = {"text/html"},
-      .access = "open",
-      .operation = "getPage",
-      .outcomes = {{.meaning = "HTML"}},
-  });
-  routes.push_back({
-      .pattern = "/web/{path*}",
-      .handler = http::SyncHandler(
-          [files](const http::Request& request) { return answer(*files, *request.text("path")); }),
-      .summary = "A file of the page",
-      .parameters = {path_parameter("path", "app.js")},
-      .response_types = {},
-      .access = "open",
-      .operation = "getPageFile",
-      .outcomes = {{.meaning = "Its bytes",
-                    .media_types = {"text/html", "text/css", "text/javascript", "image/svg+xml",
-                                    "text/plain"}}},
-      .refusals = {404},
-  });
+  add("GET / getPage open", [files](const http::Request&) { return answer(*files, kEntry); },
+      {.summary = "The page", .response_types = {"text/html"}, .outcomes = {{.meaning = "HTML"}}});
+  add("GET /web/{path*} getPageFile open",
+      [files](const http::Request& request) { return answer(*files, *request.text("path")); },
+      {.summary = "A file of the page",
+       .parameters = {path_parameter("path", "app.js")},
+       .response_types = {},
+       .outcomes = {{.meaning = "Its bytes",
+                     .media_types = {"text/html", "text/css", "text/javascript", "image/svg+xml",
+                                     "text/plain"}}},
+       .refusals = {404}});
 }
 
 }  // namespace fitgauge::api

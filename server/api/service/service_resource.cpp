@@ -98,32 +98,19 @@ void add_service_schemas(Schemas& schemas) {
                                       {"components", any, "Schemas, responses, security"}})});
 }
 
-void add_service_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .pattern = "/livez",
-      .handler = [](const http::Request&) -> Result<http::Response> { return live(); },
-      .summary = "The process answers",
-      .access = "public",
-      .operation = "live",
-      .outcomes = {{.meaning = "It answers", .schema = "Live"}},
-  });
-  routes.push_back({
-      .pattern = "/readyz",
-      .handler = [&services](const http::Request&) { return ready(services); },
-      .summary = "The service may be used: database, schema and tables are in order",
-      .access = "public",
-      .operation = "ready",
-      .outcomes = {{.meaning = "All is in order", .schema = "Ready"}},
-  });
-  routes.push_back({
-      .pattern = "/metrics",
-      .handler = with(services, metrics),
-      .summary = "Counters for Prometheus",
-      .response_types = {},
-      .access = "open",
-      .operation = "getMetrics",
-      .outcomes = {{.meaning = "Prometheus text", .media_types = {"text/plain"}}},
-  });
+void add_service_routes(Routes& add) {
+  add("GET /livez live public",
+      [](const http::Request&) -> Result<http::Response> { return live(); },
+      {.summary = "The process answers",
+       .outcomes = {{.meaning = "It answers", .schema = "Live"}}});
+  add("GET /readyz ready public",
+      [&services = add.services](const http::Request&) { return ready(services); },
+      {.summary = "The service may be used: database, schema and tables are in order",
+       .outcomes = {{.meaning = "All is in order", .schema = "Ready"}}});
+  add("GET /metrics getMetrics open", metrics,
+      {.summary = "Counters for Prometheus",
+       .response_types = {},
+       .outcomes = {{.meaning = "Prometheus text", .media_types = {"text/plain"}}}});
 }
 
 }  // namespace fitgauge::api

@@ -229,7 +229,7 @@ void OffsetOrder::find_news(app::MeasurementService& measurements, const GaugesI
               });
 }
 
-void add_compensation_routes(std::vector<http::Route>& routes, const Services& services) {
+void add_compensation_routes(Routes& add) {
   auto parameters = measurement_filter_parameters();
   parameters.push_back({.name = "target_mm",
                         .type = http::LengthIn{},
@@ -238,22 +238,17 @@ void add_compensation_routes(std::vector<http::Route>& routes, const Services& s
       {.name = "cost",
        .type = http::Decimal{.scale = 6, .min = 1, .max = 1'000'000'000},
        .description = "Of a correction, in parts; 0.1 when absent. A larger one makes fewer"});
-  routes.push_back({
-      .pattern = "/v1/measurements/compensation",
-      .handler = with(services, propose),
-      .summary = "The next offset of a machine",
-      .description = "A proposal from the newest 500 values that match; nothing moves a machine. "
-                     "Select one characteristic, and the machine or the tool that makes it. As "
-                     "`text/event-stream`, `compensation.changed` carries it now and at each "
-                     "change of its state; `compensation.failed`, with `code` and `detail`, says "
-                     "that the values give none until the next one.",
-      .parameters = std::move(parameters),
-      .response_types = {"application/json", std::string(kEventStreamType)},
-      .access = "viewer",
-      .operation = "proposeOffset",
-      .outcomes = {{.meaning = "What was found", .schema = "Compensation"}},
-      .refusals = {422},
-  });
+  add("GET /v1/measurements/compensation proposeOffset viewer", propose,
+      {.summary = "The next offset of a machine",
+       .description = "A proposal from the newest 500 values that match; nothing moves a machine. "
+                      "Select one characteristic, and the machine or the tool that makes it. As "
+                      "`text/event-stream`, `compensation.changed` carries it now and at each "
+                      "change of its state; `compensation.failed`, with `code` and `detail`, says "
+                      "that the values give none until the next one.",
+       .parameters = std::move(parameters),
+       .response_types = {"application/json", std::string(kEventStreamType)},
+       .outcomes = {{.meaning = "What was found", .schema = "Compensation"}},
+       .refusals = {422}});
 }
 
 void add_compensation_schemas(Schemas& schemas) {

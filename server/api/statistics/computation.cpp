@@ -126,12 +126,9 @@ Error at_member(std::string_view name, Error error) {
   return *errors.take();
 }
 
-http::Route route_of(const Services& services, Computation computation) {
-  http::Route route;
-  route.method = http::Method::Post;
-  route.pattern = std::move(computation.pattern);
-  route.handler = [&services, compute = computation.compute](const http::Request& request,
-                                                             http::Responder responder) {
+void add_computation(Routes& add, const Computation& computation) {
+  const auto handler = [&services = add.services, compute = computation.compute](
+                           const http::Request& request, http::Responder responder) {
     services.jobs.figures.run(
         [compute, &request]() -> Result<http::Response> {
           const auto body = parse_json(request.body());
@@ -145,17 +142,15 @@ http::Route route_of(const Services& services, Computation computation) {
         },
         answer_by(share(std::move(responder))));
   };
-  route.summary = std::move(computation.summary);
-  route.description = std::move(computation.description);
-  route.body = {.use = http::BodyUse::Required,
+  add(fmt::format("POST {} viewer", computation.head), handler,
+      {.summary = computation.summary,
+       .description = computation.description,
+       .body = {.use = http::BodyUse::Required,
                 .media_types = {"application/json"},
                 .limit = kLargestValuesBody,
                 .when_too_large = std::string(kOfManyValues),
-                .schema = std::move(computation.reads)};
-  route.operation = std::move(computation.operation);
-  route.outcomes = {{.meaning = "What was computed", .schema = std::move(computation.answers)}};
-  route.access = "viewer";
-  return route;
+                .schema = computation.reads},
+       .outcomes = {{.meaning = "What was computed", .schema = computation.answers}}});
 }
 
 }  // namespace fitgauge::api

@@ -5,10 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "api/services.hpp"
+#include "api/resources.hpp"
 #include "base/json/body_forms.hpp"
 #include "base/json/json_value.hpp"
-#include "http/route.hpp"
 #include "metrology/statistics/control_chart.hpp"
 #include "metrology/statistics/decimals.hpp"
 
@@ -95,17 +94,16 @@ Error at_member(std::string_view name, Error error);
 
 /// A figure that is computed from a JSON body and nothing else.
 struct Computation {
-  std::string pattern;
+  std::string_view head;                                  ///< pattern and operation
   Result<std::string> (*compute)(const JsonValue& body);  ///< gives the JSON of the answer
+  std::string reads;                                      ///< the schema of the body, by name
+  std::string answers;                                    ///< the schema of the answer, by name
   std::string summary;
   std::string description{};
-  std::string operation;
-  std::string reads;    ///< the schema of the body, by name
-  std::string answers;  ///< the schema of the answer, by name
 };
 
-/// Its route. It is computed where it may take long, not on an I/O thread.
-http::Route route_of(const Services& services, Computation computation);
+/// Adds its route. It is computed where it may take long, not on an I/O thread.
+void add_computation(Routes& add, const Computation& computation);
 
 /// Bodies of values are as large as those of measurements.
 inline constexpr std::size_t kLargestValuesBody = std::size_t{32} << 20;

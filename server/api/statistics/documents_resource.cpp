@@ -307,36 +307,25 @@ void add_documents_schemas(Schemas& schemas) {
                                   {"kind", kStudyKinds.schema(Side::Answer), ""}}));
 }
 
-void add_documents_routes(std::vector<http::Route>& routes, const Services& services) {
-  add_document_routes(routes, services, kUncertainties);
-  add_document_routes(routes, services, kGauges);
-  add_document_routes(routes, services, kStudies);
+void add_documents_routes(Routes& add) {
+  add_document_routes(add, kUncertainties);
+  add_document_routes(add, kGauges);
+  add_document_routes(add, kStudies);
   const http::Parameter name = path_parameter("name", "Of the gauge in use");
-  routes.push_back({
-      .method = http::Method::Post,
-      .pattern = "/v1/gauges-in-use/{name}/calibrations",
-      .handler = with(services, record_calibration),
-      .summary = "Record a calibration of a gauge in use, or that it is blocked",
-      .description = "It counts for what is measured from its beginning to that of the next. One "
-                     "with the same beginning takes its place.",
-      .parameters = {name},
-      .body = json_body("NewCalibration"),
-      .access = "admin",
-      .operation = "recordCalibration",
-      .outcomes = {{.meaning = "It takes the place of one", .schema = "Calibration"},
-                   {.status = 201, .meaning = "It is recorded", .schema = "Calibration"}},
-      .refusals = {404},
-  });
-  routes.push_back({
-      .pattern = "/v1/gauges-in-use/{name}/calibrations",
-      .handler = with(services, list_calibrations),
-      .summary = "The calibrations of a gauge in use",
-      .parameters = {name},
-      .access = "viewer",
-      .operation = "listCalibrations",
-      .outcomes = {{.meaning = "By their beginnings", .schema = "Calibrations"}},
-      .refusals = {404},
-  });
+  add("POST /v1/gauges-in-use/{name}/calibrations recordCalibration admin", record_calibration,
+      {.summary = "Record a calibration of a gauge in use, or that it is blocked",
+       .description = "It counts for what is measured from its beginning to that of the next. One "
+                      "with the same beginning takes its place.",
+       .parameters = {name},
+       .body = json_body("NewCalibration"),
+       .outcomes = {{.meaning = "It takes the place of one", .schema = "Calibration"},
+                    {.status = 201, .meaning = "It is recorded", .schema = "Calibration"}},
+       .refusals = {404}});
+  add("GET /v1/gauges-in-use/{name}/calibrations listCalibrations viewer", list_calibrations,
+      {.summary = "The calibrations of a gauge in use",
+       .parameters = {name},
+       .outcomes = {{.meaning = "By their beginnings", .schema = "Calibrations"}},
+       .refusals = {404}});
 }
 
 }  // namespace fitgauge::api

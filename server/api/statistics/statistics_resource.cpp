@@ -307,58 +307,28 @@ Result<std::string> master_study(const JsonValue& body) {
   return body_json(answer);
 }
 
-void add_statistics_routes(std::vector<http::Route>& routes, const Services& services) {
+void add_statistics_routes(Routes& add) {
   const std::initializer_list<Computation> computations = {
-      {.pattern = "/v1/statistics/summary",
-       .compute = summary,
-       .summary = "Count, mean, standard deviation, r(1), extremes and quantiles",
-       .description = "Exact sums of decimals, rounded once to 17 digits.",
-       .operation = "computeSummary",
-       .reads = "Values",
-       .answers = "ValueSummary"},
-      {.pattern = "/v1/statistics/anova",
-       .compute = anova,
-       .summary = "One-way analysis of variance",
-       .operation = "analyseVariance",
-       .reads = "Groups",
-       .answers = "Anova"},
-      {.pattern = "/v1/statistics/capability",
-       .compute = capability,
-       .summary = "Capability and performance indices with their intervals",
-       .operation = "assessCapability",
-       .reads = "CapabilityOrder",
-       .answers = "Capability"},
-      {.pattern = "/v1/statistics/chart",
-       .compute = chart,
-       .summary = "Control chart with the violations of its rules and their price",
-       .operation = "makeControlChart",
-       .reads = "ChartOrder",
-       .answers = "ControlChart"},
-      {.pattern = "/v1/statistics/type1",
-       .compute = master_study,
-       .summary = "Repeatability and bias of a gauge on one master: Cg, Cgk",
-       .operation = "studyGaugeOnMaster",
-       .reads = "Type1Order",
-       .answers = "Type1Study"},
-      {.pattern = "/v1/statistics/grr",
-       .compute = gauge_study,
-       .summary = "Gauge study: repeatability, reproducibility, parts",
-       .description = "Or its linearity, or its stability, by method.",
-       .operation = "studyGauge",
-       .reads = "GaugeStudyOrder",
-       .answers = "GaugeStudy"},
-      {.pattern = "/v1/statistics/pairing",
-       .compute = pairing,
-       .summary = "Measured holes and shafts paired for a clearance",
-       .description = "The least sum of squares of all assignments. The sizes may also be called "
-                      "holes_mm and shafts_mm.",
-       .operation = "pairParts",
-       .reads = "PairingOrder",
-       .answers = "Pairing"},
+      {"/v1/statistics/summary computeSummary", summary, "Values", "ValueSummary",
+       "Count, mean, standard deviation, r(1), extremes and quantiles",
+       "Exact sums of decimals, rounded once to 17 digits."},
+      {"/v1/statistics/anova analyseVariance", anova, "Groups", "Anova",
+       "One-way analysis of variance"},
+      {"/v1/statistics/capability assessCapability", capability, "CapabilityOrder", "Capability",
+       "Capability and performance indices with their intervals"},
+      {"/v1/statistics/chart makeControlChart", chart, "ChartOrder", "ControlChart",
+       "Control chart with the violations of its rules and their price"},
+      {"/v1/statistics/type1 studyGaugeOnMaster", master_study, "Type1Order", "Type1Study",
+       "Repeatability and bias of a gauge on one master: Cg, Cgk"},
+      {"/v1/statistics/grr studyGauge", gauge_study, "GaugeStudyOrder", "GaugeStudy",
+       "Gauge study: repeatability, reproducibility, parts",
+       "Or its linearity, or its stability, by method."},
+      {"/v1/statistics/pairing pairParts", pairing, "PairingOrder", "Pairing",
+       "Measured holes and shafts paired for a clearance",
+       "The least sum of squares of all assignments. The sizes may also be called "
+       "holes_mm and shafts_mm."},
   };
-  for (const Computation& computation : computations) {
-    routes.push_back(route_of(services, computation));
-  }
+  for (const Computation& computation : computations) add_computation(add, computation);
 }
 
 void add_statistics_schemas(Schemas& schemas) {

@@ -196,35 +196,25 @@ std::vector<http::Parameter> chart_parameters() {
 
 }  // namespace
 
-void add_stored_statistics_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back({
-      .pattern = "/v1/measurements/capability",
-      .handler = with(services, find_capability),
-      .summary = "Capability and performance of stored values",
-      .description = "Against the limits in the records, which must be the same in all.",
-      .parameters =
-          with_stored_filters({{.name = "target_mm",
-                                .type = http::LengthIn{},
-                                .description = "Of cpm; the middle of the limits when absent"},
-                               {.name = "confidence",
-                                .type = http::Decimal{.scale = kScale, .min = 1, .max = 999'999},
-                                .description = "Of the intervals; 0.95 when absent"}}),
-      .access = "viewer",
-      .operation = "assessStoredCapability",
-      .outcomes = {{.meaning = "What was computed", .schema = "StoredCapability"}},
-      .refusals = {422},
-  });
-  routes.push_back({
-      .pattern = "/v1/measurements/chart",
-      .handler = with(services, find_chart),
-      .summary = "Control chart of stored values",
-      .description = "In storage order; a violation names its measurement or subgroup.",
-      .parameters = chart_parameters(),
-      .access = "viewer",
-      .operation = "makeStoredControlChart",
-      .outcomes = {{.meaning = "What was computed", .schema = "StoredControlChart"}},
-      .refusals = {422},
-  });
+void add_stored_statistics_routes(Routes& add) {
+  add("GET /v1/measurements/capability assessStoredCapability viewer", find_capability,
+      {.summary = "Capability and performance of stored values",
+       .description = "Against the limits in the records, which must be the same in all.",
+       .parameters =
+           with_stored_filters({{.name = "target_mm",
+                                 .type = http::LengthIn{},
+                                 .description = "Of cpm; the middle of the limits when absent"},
+                                {.name = "confidence",
+                                 .type = http::Decimal{.scale = kScale, .min = 1, .max = 999'999},
+                                 .description = "Of the intervals; 0.95 when absent"}}),
+       .outcomes = {{.meaning = "What was computed", .schema = "StoredCapability"}},
+       .refusals = {422}});
+  add("GET /v1/measurements/chart makeStoredControlChart viewer", find_chart,
+      {.summary = "Control chart of stored values",
+       .description = "In storage order; a violation names its measurement or subgroup.",
+       .parameters = chart_parameters(),
+       .outcomes = {{.meaning = "What was computed", .schema = "StoredControlChart"}},
+       .refusals = {422}});
 }
 
 }  // namespace fitgauge::api

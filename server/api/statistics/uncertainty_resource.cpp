@@ -122,16 +122,12 @@ void add_uncertainty_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<UncertaintyAnswer>("Uncertainty"));
 }
 
-void add_uncertainty_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back(
-      route_of(services, {.pattern = "/v1/uncertainty",
-                          .compute = compute_uncertainty,
-                          .summary = "Uncertainty budget: u_c, degrees of freedom, k, U",
-                          .description = "By propagation, of a `model` with its derivatives, and "
-                                         "by Monte Carlo where it is asked for.",
-                          .operation = "combineUncertainties",
-                          .reads = "UncertaintyBudget",
-                          .answers = "Uncertainty"}));
+void add_uncertainty_routes(Routes& add) {
+  add_computation(add,
+                  {"/v1/uncertainty combineUncertainties", compute_uncertainty, "UncertaintyBudget",
+                   "Uncertainty", "Uncertainty budget: u_c, degrees of freedom, k, U",
+                   "By propagation, of a `model` with its derivatives, and "
+                   "by Monte Carlo where it is asked for."});
 }
 
 }  // namespace fitgauge::api

@@ -211,69 +211,49 @@ http::AsyncHandler with(const Services& services, Feature feature,
   };
 }
 
-void add_feature_routes(std::vector<http::Route>& routes, const Services& services,
-                        const std::shared_ptr<ResponseCache>& cache, Feature feature) {
+void add_feature_routes(Routes& add, Feature feature) {
   const std::string path = "/v1/tables/" + std::string(word(feature));
   const std::string table = feature == Feature::Hole ? "HoleTable" : "ShaftTable";
-  routes.push_back({
-      .pattern = path,
-      .handler = ResponseCache::of_revision(
-          cache,
+  add("GET " + path + " get" + table + " open",
+      ResponseCache::of_revision(
+          add.cache,
           [feature](const http::Request& request, const ToleranceTables& tables) {
             return table_response(request, feature, tables);
           }),
-      .summary = "Limit deviations of every class and size range",
-      .parameters = {{.name = "classes", .description = "H7,JS7: only these classes"},
-                     csv_or_json(),
-                     revision_parameter()},
-      .response_types = {"application/json", "text/csv"},
-      .access = "open",
-      .operation = "get" + table,
-      .outcomes = {{.meaning = "The table", .schema = "Table"}},
-      .refusals = {404},
-  });
-  routes.push_back({
-      .pattern = path + ".tab",
-      .handler =
-          ResponseCache::cached(cache,
-                                [feature](const http::Request&, const ToleranceTables& tables) {
-                                  return tab_response(feature, tables);
-                                }),
-      .summary = "The table as the control's freely definable table, as program 8255 reads it",
-      .response_types = {"text/plain"},
-      .access = "open",
-      .operation = "get" + table + "Tab",
-      .outcomes = {{.meaning = "The file"}},
-  });
+      {.summary = "Limit deviations of every class and size range",
+       .parameters = {{.name = "classes", .description = "H7,JS7: only these classes"},
+                      csv_or_json(),
+                      revision_parameter()},
+       .response_types = {"application/json", "text/csv"},
+       .outcomes = {{.meaning = "The table", .schema = "Table"}},
+       .refusals = {404}});
+  add("GET " + path + ".tab get" + table + "Tab open",
+      ResponseCache::cached(add.cache,
+                            [feature](const http::Request&, const ToleranceTables& tables) {
+                              return tab_response(feature, tables);
+                            }),
+      {.summary = "The table as the control's freely definable table, as program 8255 reads it",
+       .response_types = {"text/plain"},
+       .outcomes = {{.meaning = "The file"}}});
   const http::Parameter name =
       path_parameter("name", "Letter, then letters, digits and _; at most 16");
   const http::Parameter if_match{.name = "If-Match",
                                  .place = http::ParameterPlace::Header,
                                  .description = "Tag of the tables the change follows"};
-  routes.push_back({
-      .method = http::Method::Put,
-      .pattern = path + "/classes/{name}",
-      .handler = with(services, feature, put_column),
-      .summary = "Store a custom tolerance class as a new revision",
-      .parameters = {name, if_match},
-      .body = json_body("Column"),
-      .access = "admin",
-      .operation = "put" + table + "Column",
-      .outcomes = {{.meaning = "The column is replaced", .schema = "Revision"},
-                   {.status = 201, .meaning = "The column is new", .schema = "Revision"}},
-      .refusals = {404, 412},
-  });
-  routes.push_back({
-      .method = http::Method::Delete,
-      .pattern = path + "/classes/{name}",
-      .handler = with(services, feature, remove_column),
-      .summary = "Back to the standard",
-      .parameters = {name, if_match},
-      .access = "admin",
-      .operation = "delete" + table + "Column",
-      .outcomes = {{.status = 204, .meaning = "It is gone"}},
-      .refusals = {404, 412},
-  });
+  add("PUT " + path + "/classes/{name} put" + table + "Column admin",
+      with(add.services, feature, put_column),
+      {.summary = "Store a custom tolerance class as a new revision",
+       .parameters = {name, if_match},
+       .body = json_body("Column"),
+       .outcomes = {{.meaning = "The column is replaced", .schema = "Revision"},
+                    {.status = 201, .meaning = "The column is new", .schema = "Revision"}},
+       .refusals = {404, 412}});
+  add("DELETE " + path + "/classes/{name} delete" + table + "Column admin",
+      with(add.services, feature, remove_column),
+      {.summary = "Back to the standard",
+       .parameters = {name, if_match},
+       .outcomes = {{.status = 204, .meaning = "It is gone"}},
+       .refusals = {404, 412}});
 }
 
 }  // namespace
@@ -303,18 +283,12 @@ void add_table_schemas(Schemas& schemas) {
       {"Revision", schema::object({{"revision", schema::text(), "Of the tables from now on"}})});
 }
 
-void add_tables_routes(std::vector<http::Route>& routes, const Services& services,
-                       const std::shared_ptr<ResponseCache>& cache) {
-  routes.push_back({
-      .pattern = "/v1/tables",
-      .handler = ResponseCache::cached(cache, index_response),
-      .summary = "The tables in use and their classes",
-      .access = "open",
-      .operation = "listTables",
-      .outcomes = {{.meaning = "The tables", .schema = "TableIndex"}},
-  });
+void add_tables_routes(Routes& add) {
+  add("GET /v1/tables listTables open", ResponseCache::cached(add.cache, index_response),
+      {.summary = "The tables in use and their classes",
+       .outcomes = {{.meaning = "The tables", .schema = "TableIndex"}}});
   for (const Feature feature : {Feature::Hole, Feature::Shaft}) {
-    add_feature_routes(routes, services, cache, feature);
+    add_feature_routes(add, feature);
   }
 }
 

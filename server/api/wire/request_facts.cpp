@@ -119,16 +119,16 @@ std::string next_link(const http::Request& request, std::string_view cursor) {
   return fmt::format("<{}{}after={}>; rel=\"next\"", link, separator, cursor);
 }
 
-void add_precondition_parameters(std::vector<http::Parameter>& parameters) {
-  parameters.push_back({.name = "If-Match",
-                        .place = http::ParameterPlace::Header,
-                        .type = http::Text{.max_length = kLongestTags},
-                        .description = "Tags of which one must be the current one, or * for any"});
-  parameters.push_back(
-      {.name = "If-None-Match",
-       .place = http::ParameterPlace::Header,
-       .type = http::Text{.max_length = kLongestTags},
-       .description = "Tags of which none may be the current one, or * for none at all"});
+std::vector<http::Parameter> with_preconditions(http::Parameter path) {
+  return {std::move(path),
+          {.name = "If-Match",
+           .place = http::ParameterPlace::Header,
+           .type = http::Text{.max_length = kLongestTags},
+           .description = "Tags of which one must be the current one, or * for any"},
+          {.name = "If-None-Match",
+           .place = http::ParameterPlace::Header,
+           .type = http::Text{.max_length = kLongestTags},
+           .description = "Tags of which none may be the current one, or * for none at all"}};
 }
 
 std::optional<std::string_view> caller_name(const http::Request& request) {

@@ -62,8 +62,8 @@ TextPrecondition text_precondition_of(const http::Request& request);
 /// The Link of a page that is not the last (RFC 8288): the same filters, this cursor.
 std::string next_link(const http::Request& request, std::string_view cursor);
 
-/// The header parameters of the routes that honour them.
-void add_precondition_parameters(std::vector<http::Parameter>& parameters);
+/// The parameter of a path, and those of the preconditions that its route honours.
+std::vector<http::Parameter> with_preconditions(http::Parameter path);
 
 /// The name of the key that sent the request, if one did.
 std::optional<std::string_view> caller_name(const http::Request& request);

@@ -212,66 +212,59 @@ std::string_view code_of(const Error& error, int status) {
   return status == 405 || status == 406 ? "UNSUPPORTED" : "INVALID_REQUEST";
 }
 
-http::Route route(std::string_view name, std::string_view operation, http::Handler handler,
-                  std::string_view summary) {
-  return {
-      .pattern = fmt::format("/mtconnect/{}", name),
-      .handler = std::move(handler),
-      .summary = std::string(summary),
-      .response_types = {std::string(kXml), "application/xml"},
-      .access = "viewer",
-      .operation = std::string(operation),
-      .tag = "connections",
-      .outcomes = {{.meaning = "An MTConnect document", .media_types = {std::string(kXml)}}},
-  };
+/// @param head what follows /mtconnect/: path and operation
+void add_route(Routes& add, std::string_view head, const auto& handler, std::string_view summary,
+               std::vector<http::Parameter> parameters = {}) {
+  add(fmt::format("GET /mtconnect/{} viewer", head), handler,
+      {.summary = std::string(summary),
+       .parameters = std::move(parameters),
+       .response_types = {std::string(kXml), "application/xml"},
+       .outcomes = {{.meaning = "An MTConnect document", .media_types = {std::string(kXml)}}}});
+}
+
+void add_refusal(Routes& add, std::string_view meaning) {
+  add.all.back().outcomes.push_back({.status = 404,
+                                     .meaning = fmt::format("MTConnectError: {}", meaning),
+                                     .media_types = {std::string(kXml)}});
 }
 
 }  // namespace
 
-void add_mtconnect_routes(std::vector<http::Route>& routes, const Services& services) {
-  routes.push_back(route("probe", "probeMtconnect", with(services, probe),
-                         "MTConnectDevices 2.4: the device Gauge and what it observes"));
-  routes.push_back(route("current", "currentMtconnect", with(services, current),
-                         "MTConnectStreams 2.4: the newest measurement, and counts by verdict"));
-  routes.back().parameters = {
-      {.name = "at",
-       .type = http::Integer{.min = 1, .max = kMostSequence},
-       .description = "The state when this sequence was the last"},
-      {.name = "path", .description = "Only what it names: `//DataItem[@type=\"PART_COUNT\"]`"}};
-  routes.back().outcomes.push_back({.status = 404,
-                                    .meaning = "MTConnectError: `at` is beyond the log",
-                                    .media_types = {std::string(kXml)}});
+void add_mtconnect_routes(Routes& add) {
+  add_route(add, "probe probeMtconnect", probe,
+            "MTConnectDevices 2.4: the device Gauge and what it observes");
+  add_route(
+      add, "current currentMtconnect", current,
+      "MTConnectStreams 2.4: the newest measurement, and counts by verdict",
+      {{.name = "at",
+        .type = http::Integer{.min = 1, .max = kMostSequence},
+        .description = "The state when this sequence was the last"},
+       {.name = "path", .description = "Only what it names: `//DataItem[@type=\"PART_COUNT\"]`"}});
+  add_refusal(add, "`at` is beyond the log");
   const auto open = std::make_shared<std::atomic<int>>(0);
-  routes.push_back(route("sample", "sampleMtconnect",
-                         http::AsyncHandler([&services, open](const http::Request& request,
-                                                              http::Responder responder) {
-                           sample_mtconnect(services, open, request, std::move(responder));
-                         }),
-                         "MTConnectStreams 2.4: measurements of the log, from a sequence on"));
-  routes.back().response_types.push_back("multipart/x-mixed-replace");
-  routes.back().outcomes.front().media_types.push_back("multipart/x-mixed-replace");
-  routes.back().parameters = sample_parameters();
-  routes.back().description =
+  add_route(
+      add, "sample sampleMtconnect",
+      [&services = add.services, open](const http::Request& request, http::Responder responder) {
+        sample_mtconnect(services, open, request, std::move(responder));
+      },
+      "MTConnectStreams 2.4: measurements of the log, from a sequence on", sample_parameters());
+  http::Route& sample = add.all.back();
+  sample.response_types.push_back("multipart/x-mixed-replace");
+  sample.outcomes.front().media_types.push_back("multipart/x-mixed-replace");
+  sample.description =
       "Measurement n has the sequences 2n (its part) and 2n + 1. With `interval` the answer is a "
       "stream of documents; 32 may be open. Errors are MTConnectError documents.";
-  routes.back().outcomes.push_back({.status = 404,
-                                    .meaning = "MTConnectError: `from` is beyond the log",
-                                    .media_types = {std::string(kXml)}});
-  for (const std::string_view name : {"assets", "asset"}) {
-    routes.push_back(route(name, name == "asset" ? "listMtconnectAsset" : "listMtconnectAssets",
-                           with(services, assets),
-                           "MTConnectAssets 2.4: QIF results of the newest 100 measurements"));
-    routes.back().parameters = {
-        {.name = "type", .description = "Of the assets: QIFDocumentWrapper is the one there is"}};
+  add_refusal(add, "`from` is beyond the log");
+  for (const std::string_view head : {"assets listMtconnectAssets", "asset listMtconnectAsset"}) {
+    add_route(
+        add, head, assets, "MTConnectAssets 2.4: QIF results of the newest 100 measurements",
+        {{.name = "type", .description = "Of the assets: QIFDocumentWrapper is the one there is"}});
   }
-  routes.push_back(route("asset/{id}", "getMtconnectAsset", with(services, asset),
-                         "MTConnectAssets 2.4: the asset of that id"));
-  routes.back().parameters = {{.name = "id",
-                               .place = http::ParameterPlace::Path,
-                               .description = "As `AssetChanged` of current says it"}};
-  routes.back().outcomes.push_back({.status = 404,
-                                    .meaning = "MTConnectError: asset not found",
-                                    .media_types = {std::string(kXml)}});
+  add_route(add, "asset/{id} getMtconnectAsset", asset, "MTConnectAssets 2.4: the asset of that id",
+            {{.name = "id",
+              .place = http::ParameterPlace::Path,
+              .description = "As `AssetChanged` of current says it"}});
+  add_refusal(add, "asset not found");
 }
 
 bool is_of_mtconnect(const http::Request& request) {

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <vector>
-
-#include "api/services.hpp"
-#include "http/route.hpp"
+#include "api/resources.hpp"
 
 namespace fitgauge::api {
 
 /// /mtconnect/probe, current, sample, assets and asset. Nothing runs for them: they read the log.
-void add_mtconnect_routes(std::vector<http::Route>& routes, const Services& services);
+void add_mtconnect_routes(Routes& add);
 
 /// Whether an error of the request is told as a document of MTConnect.
 bool is_of_mtconnect(const http::Request& request);
