@@ -14,10 +14,6 @@
 namespace fitgauge::tabfile {
 namespace {
 
-/// Columns of these types are read into string parameters.
-constexpr std::array<std::string_view, 5> kTextTypes = {"C", "TEXT", "UPTEXT", "PATHNAME",
-                                                        "TSTAMP"};
-
 /// The whole of `text` as a number, a leading plus sign allowed.
 template <class Number>
 std::optional<Number> to_number(std::string_view text) {
@@ -72,10 +68,6 @@ std::string begin_line(const TabHeader& header) {
 }
 
 }  // namespace
-
-bool TabColumn::is_text() const {
-  return std::find(kTextTypes.begin(), kTextTypes.end(), type) != kTextTypes.end();
-}
 
 TabTable::TabTable(TabHeader header, std::vector<TabColumn> columns)
     : header_(std::move(header)), columns_(std::move(columns)) {

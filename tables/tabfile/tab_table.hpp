@@ -22,9 +22,6 @@ struct TabColumn {
   /// Digits after the point of a number that is written; nothing where the file does not tell.
   std::optional<int> decimals{};
 
-  /// Whether a read gives a string: for text types, and for undescribed columns never.
-  bool is_text() const;
-
   friend bool operator==(const TabColumn&, const TabColumn&) = default;
 };
 

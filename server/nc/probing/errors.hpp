@@ -12,10 +12,10 @@ inline constexpr ErrorSet kWithProbe{1001, 1092, 1093};
 inline constexpr ErrorSet kTouching = kWithProbe | ErrorSet{1014};
 /// Scaling factors that differ by axis, too.
 inline constexpr ErrorSet kMeasuring = kTouching | ErrorSet{1108};
-/// Scaling and mirror.
-inline constexpr ErrorSet kUnscaled{1007, 1008};
-/// Where a datum goes (Q303, Q305).
-inline constexpr ErrorSet kDatumTransfer{1043, 1078, 1085};
+/// Touching without scaling and mirror.
+inline constexpr ErrorSet kUnscaled = kTouching | ErrorSet{1007, 1008};
+/// Where a datum goes (Q303, Q305), too.
+inline constexpr ErrorSet kDatumTransfer = kUnscaled | ErrorSet{1043, 1078, 1085};
 /// Step angle, points on a line.
 inline constexpr ErrorSet kCircle{1066, 1067, 1081};
 /// Limits that contradict each other, the tool of Q330.

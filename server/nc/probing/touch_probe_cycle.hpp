@@ -28,6 +28,31 @@ struct TouchProbeCycle {
   ArgumentCheck check = nullptr;
 };
 
+/// A cycle of TCH PROBE. Those below 100 have one block per sub-line.
+constexpr TouchProbeCycle cycle(std::uint16_t number, std::string_view name, CycleKind kind,
+                                std::span<const CycleParameter> parameters,
+                                std::span<const CycleOutput> results, const ErrorSet& errors,
+                                CycleFunction execute, std::string_view simulated,
+                                std::string_view not_simulated = {}) {
+  return {{CycleFamily::TchProbe, number, name, kind, number < 100, parameters, results, errors,
+           simulated, not_simulated},
+          execute};
+}
+
+/// A function of the context and of what tells two cycles apart, as one of the context alone.
+template <auto function, auto... arguments>
+CycleResult<void> with(const CycleContext& context) {
+  return function(context, arguments...);
+}
+
+/// The same of a function that runs after `begin` has made what it needs.
+template <auto begin, auto function, auto... arguments>
+CycleResult<void> after(const CycleContext& context) {
+  auto begun = begin(context);
+  if (!begun) return begun.error();
+  return function(context, *begun, arguments...);
+}
+
 /// Completes and checks the arguments, then runs the cycle: motion, results, status, log, in that
 /// order the stop of Q309 last (decision 6). After an error the machine stands where it stopped.
 /// @errors 1001 tool axis missing, 1004, 1011, 1017 arguments, and those of the cycle and machine.

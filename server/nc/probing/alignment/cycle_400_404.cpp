@@ -15,17 +15,15 @@ using namespace parameter;
 constexpr std::array kParameters =
     join(line(kMeasuringAxisInPlane), std::array{kReferenceAngle, kPresetRow});
 
-CycleResult<void> rotate(const CycleContext& context) {
-  auto motion = begin_alignment(context);
-  if (!motion) return motion.error();
-  const auto edge = probe_line(context, *motion);
+CycleResult<void> rotate(const CycleContext& context, ProbingMotion& motion) {
+  const auto edge = probe_line(context, motion);
   if (!edge) return edge.error();
   double angle =
-      workpiece_angle(context.machine.state().frames, motion->plane(), edge->direction()) -
+      workpiece_angle(context.machine.state().frames, motion.plane(), edge->direction()) -
       context.arguments.number(307);
   // Along the secondary axis: the reference line is that axis, whether Q307 says 90 or 0.
   if (edge->axis == 0) angle -= 90 * std::round(angle / 90);
-  const Vec3 rotation = turned_rotation(context.machine.state().frames, motion->plane(), angle);
+  const Vec3 rotation = turned_rotation(context.machine.state().frames, motion.plane(), angle);
   return set_basic_rotation(context, rotation, context.arguments.whole(305));
 }
 
@@ -41,21 +39,13 @@ constexpr std::array k404Parameters{
     newer(choice(305, "Row of the preset table, 0 active at once, -1 row of the active preset", -1,
                  kLastRow, -1))};
 
-constinit const TouchProbeCycle kCycle400{
-    {.number = 400,
-     .name = "BASIC ROTATION",
-     .kind = CycleKind::Alignment,
-     .parameters = kParameters,
-     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1042, 1081, 1085},
-     .simulated = "All parameters. With Q272 = 1 the line is compared with the secondary axis."},
-    rotate};
+constinit const TouchProbeCycle kCycle400 =
+    cycle(400, "BASIC ROTATION", CycleKind::Alignment, kParameters, {},
+          errors::kUnscaled | ErrorSet{1042, 1081, 1085}, after<begin_alignment, rotate>,
+          "All parameters. With Q272 = 1 the line is compared with the secondary axis.");
 
-constinit const TouchProbeCycle kCycle404{{.number = 404,
-                                           .name = "SET BASIC ROTATION",
-                                           .kind = CycleKind::Alignment,
-                                           .parameters = k404Parameters,
-                                           .errors = errors::kWithProbe | ErrorSet{1085},
-                                           .simulated = "All parameters. No motion."},
-                                          set_rotation};
+constinit const TouchProbeCycle kCycle404 =
+    cycle(404, "SET BASIC ROTATION", CycleKind::Alignment, k404Parameters, {},
+          errors::kWithProbe | ErrorSet{1085}, set_rotation, "All parameters. No motion.");
 
 }  // namespace fitgauge::probing::cycle_400_404

@@ -49,16 +49,14 @@ CycleResult<void> compensate(const CycleContext& context, const WorkingPlane& pl
   return zero_rotary_axis(context, table, arguments.whole(305));
 }
 
-CycleResult<void> two_holes(const CycleContext& context) {
+CycleResult<void> two_holes(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  auto motion = begin_alignment(context);
-  if (!motion) return motion.error();
   const std::array nominal{Point2{arguments.number(268), arguments.number(269)},
                            Point2{arguments.number(270), arguments.number(271)}};
   const auto holes =
-      probe_hole_centres(*motion, nominal, arguments.number(261), arguments.number(260));
+      probe_hole_centres(motion, nominal, arguments.number(261), arguments.number(260));
   if (!holes) return holes.error();
-  return compensate(context, motion->plane(), holes->front(), holes->back());
+  return compensate(context, motion.plane(), holes->front(), holes->back());
 }
 
 CycleResult<Point2> stud_centre(const Arguments& arguments, ProbingMotion& motion, Point2 nominal,
@@ -77,36 +75,25 @@ CycleResult<Point2> stud_centre(const Arguments& arguments, ProbingMotion& motio
   return circle->centre;
 }
 
-CycleResult<void> two_studs(const CycleContext& context) {
+CycleResult<void> two_studs(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  auto motion = begin_alignment(context);
-  if (!motion) return motion.error();
-  const auto first = stud_centre(arguments, *motion, {arguments.number(268), arguments.number(269)},
+  const auto first = stud_centre(arguments, motion, {arguments.number(268), arguments.number(269)},
                                  arguments.number(313), arguments.number(261));
   if (!first) return first.error();
-  const auto second =
-      stud_centre(arguments, *motion, {arguments.number(270), arguments.number(271)},
-                  arguments.number(314), arguments.number(315));
+  const auto second = stud_centre(arguments, motion, {arguments.number(270), arguments.number(271)},
+                                  arguments.number(314), arguments.number(315));
   if (!second) return second.error();
-  return compensate(context, motion->plane(), *first, *second);
+  return compensate(context, motion.plane(), *first, *second);
 }
 
-constinit const TouchProbeCycle kCycle401{
-    {.number = 401,
-     .name = "ROT OF 2 HOLES",
-     .kind = CycleKind::Alignment,
-     .parameters = k401Parameters,
-     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1081, 1085, 1100},
-     .simulated = "All parameters; holes are touched from their nominal centre."},
-    two_holes};
+constinit const TouchProbeCycle kCycle401 =
+    cycle(401, "ROT OF 2 HOLES", CycleKind::Alignment, k401Parameters, {},
+          errors::kUnscaled | ErrorSet{1081, 1085, 1100}, after<begin_alignment, two_holes>,
+          "All parameters; holes are touched from their nominal centre.");
 
-constinit const TouchProbeCycle kCycle402{
-    {.number = 402,
-     .name = "ROT OF 2 STUDS",
-     .kind = CycleKind::Alignment,
-     .parameters = k402Parameters,
-     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1081, 1085, 1100},
-     .simulated = "All parameters."},
-    two_studs};
+constinit const TouchProbeCycle kCycle402 =
+    cycle(402, "ROT OF 2 STUDS", CycleKind::Alignment, k402Parameters, {},
+          errors::kUnscaled | ErrorSet{1081, 1085, 1100}, after<begin_alignment, two_studs>,
+          "All parameters.");
 
 }  // namespace fitgauge::probing::cycle_401_402

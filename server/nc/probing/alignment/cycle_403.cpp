@@ -63,15 +63,10 @@ CycleResult<void> align(const CycleContext& context) {
   return arguments.whole(337) == 0 ? CycleResult<void>() : zero(context, rotary);
 }
 
-constinit const TouchProbeCycle kCycle403{
-    {.number = 403,
-     .name = "ROT IN ROTARY AXIS",
-     .kind = CycleKind::Alignment,
-     .parameters = kParameters,
-     .results = kResults,
-     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1019, 1042, 1043, 1081, 1085, 1100},
-     .simulated = "All parameters. Q380 counts in the working plane.",
-     .not_simulated = "Rotary axes of a head: they cannot turn the workpiece."},
-    align};
+constinit const TouchProbeCycle kCycle403 =
+    cycle(403, "ROT IN ROTARY AXIS", CycleKind::Alignment, kParameters, kResults,
+          errors::kUnscaled | ErrorSet{1019, 1042, 1043, 1081, 1085, 1100}, align,
+          "All parameters. Q380 counts in the working plane.",
+          "Rotary axes of a head: they cannot turn the workpiece.");
 
 }  // namespace fitgauge::probing::cycle_403

@@ -23,17 +23,15 @@ constexpr std::array<CycleOutput, 1> kResults{{{150, "Measured angle", Unit::Ang
 
 double angle_of(Point2 point) { return machine::degrees(std::atan2(point.y, point.x)); }
 
-CycleResult<void> align(const CycleContext& context) {
+CycleResult<void> align(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  auto motion = begin_alignment(context);
-  if (!motion) return motion.error();
   const Point2 nominal{arguments.number(321), arguments.number(322)};
-  const auto probed = probe_circle(context, *motion, Side::Inside, nominal);
+  const auto probed = probe_circle(context, motion, Side::Inside, nominal);
   if (!probed) return probed.error();
   const double wanted = nominal.y == 0 ? 90 : angle_of(nominal);
   const double misalignment = std::remainder(angle_of(probed->circle.centre) - wanted, 360);
   context.host.set_q(150, to_angle(misalignment), Unit::Angle);
-  const machine::Axis table = rotary_axis_around(motion->plane().probe);
+  const machine::Axis table = rotary_axis_around(motion.plane().probe);
   if (auto turned = align_rotary_axis(context, table, misalignment); !turned) return turned;
   const int row = arguments.whole(337);
   if (row == 0) return zero_rotary_axis(context, table, 0);
@@ -42,14 +40,9 @@ CycleResult<void> align(const CycleContext& context) {
   return context.host.write_datum(row, offset);
 }
 
-constinit const TouchProbeCycle kCycle405{
-    {.number = 405,
-     .name = "ROT IN C AXIS",
-     .kind = CycleKind::Alignment,
-     .parameters = kParameters,
-     .results = kResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kCircle | ErrorSet{1043, 1100},
-     .simulated = "All parameters; the datum must lie in the centre of the table."},
-    align};
+constinit const TouchProbeCycle kCycle405 =
+    cycle(405, "ROT IN C AXIS", CycleKind::Alignment, kParameters, kResults,
+          errors::kUnscaled | errors::kCircle | ErrorSet{1043, 1100}, after<begin_alignment, align>,
+          "All parameters; the datum must lie in the centre of the table.");
 
 }  // namespace fitgauge::probing::cycle_405

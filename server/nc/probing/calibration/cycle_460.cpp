@@ -64,18 +64,13 @@ CycleResult<void> calibrate(const CycleContext& context) {
   return calibrator->finish(found);
 }
 
-constinit const TouchProbeCycle kCycle460{
-    {.number = 460,
-     .name = "CALIBRATION OF TS ON A SPHERE",
-     .kind = CycleKind::Calibration,
-     .parameters = kParameters,
-     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1075, 1080},
-     .simulated =
-         "From a position above the sphere: its top and equator, twice with the spindle turned by "
-         "180 degrees; effective radius, CAL_OF1, CAL_OF2 and, with Q433, the effective length. "
-         "The "
-         "log TCHPRAUTO.html.",
-     .not_simulated = "Q455: the model of the probe triggers alike in all directions."},
-    calibrate};
+constinit const TouchProbeCycle kCycle460 =
+    cycle(460, "CALIBRATION OF TS ON A SPHERE", CycleKind::Calibration, kParameters, {},
+          errors::kUnscaled | ErrorSet{1075, 1080}, calibrate,
+          "From a position above the sphere: its top and equator, twice with the spindle turned by "
+          "180 degrees; effective radius, CAL_OF1, CAL_OF2 and, with Q433, the effective length. "
+          "The "
+          "log TCHPRAUTO.html.",
+          "Q455: the model of the probe triggers alike in all directions.");
 
 }  // namespace fitgauge::probing::cycle_460

@@ -20,15 +20,11 @@ CycleResult<void> calibrate_length(const CycleContext& context) {
   return calibrator->finish({.length = context.machine.state().probe_system()->length + too_high});
 }
 
-constinit const TouchProbeCycle kCycle461{
-    {.number = 461,
-     .name = "TS CALIBRATION OF TOOL LENGTH",
-     .kind = CycleKind::Calibration,
-     .parameters = k461Parameters,
-     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1075, 1080},
-     .simulated = "One touch against the probe axis from where the probe stands, such as on the "
-                  "calibration ring; the effective length. The log TCHPRAUTO.html."},
-    calibrate_length};
+constinit const TouchProbeCycle kCycle461 =
+    cycle(461, "TS CALIBRATION OF TOOL LENGTH", CycleKind::Calibration, k461Parameters, {},
+          errors::kUnscaled | ErrorSet{1075, 1080}, calibrate_length,
+          "One touch against the probe axis from where the probe stands, such as on the "
+          "calibration ring; the effective length. The log TCHPRAUTO.html.");
 
 constexpr std::array k462Parameters{kStandardRadius, kSetUpClearance, kStandardTouches,
                                     kFirstAngle};
@@ -58,26 +54,17 @@ CycleResult<void> calibrate_radius(const CycleContext& context, Side side) {
                              .residual = measured->mean.residual});
 }
 
-constinit const TouchProbeCycle kCycle462{
-    {.number = 462,
-     .name = "CALIBRATION OF TS IN RING",
-     .kind = CycleKind::Calibration,
-     .parameters = k462Parameters,
-     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1075, 1080},
-     .simulated = "From a position in the ring at measuring height, twice with the spindle turned "
-                  "by 180 degrees; effective radius, CAL_OF1, CAL_OF2. The log TCHPRAUTO.html."},
-    [](const CycleContext& context) { return calibrate_radius(context, Side::Inside); }};
+constinit const TouchProbeCycle kCycle462 =
+    cycle(462, "CALIBRATION OF TS IN RING", CycleKind::Calibration, k462Parameters, {},
+          errors::kUnscaled | ErrorSet{1075, 1080}, with<calibrate_radius, Side::Inside>,
+          "From a position in the ring at measuring height, twice with the spindle turned "
+          "by 180 degrees; effective radius, CAL_OF1, CAL_OF2. The log TCHPRAUTO.html.");
 
-constinit const TouchProbeCycle kCycle463{
-    {.number = 463,
-     .name = "TS CALIBRATION ON STUD",
-     .kind = CycleKind::Calibration,
-     .parameters = k463Parameters,
-     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1075, 1080},
-     .simulated =
-         "From a position SET_UP + Q320 above the stud, which is touched one ball diameter "
-         "below its edge, twice with the spindle turned by 180 degrees; effective radius, "
-         "CAL_OF1, CAL_OF2. The log TCHPRAUTO.html."},
-    [](const CycleContext& context) { return calibrate_radius(context, Side::Outside); }};
+constinit const TouchProbeCycle kCycle463 =
+    cycle(463, "TS CALIBRATION ON STUD", CycleKind::Calibration, k463Parameters, {},
+          errors::kUnscaled | ErrorSet{1075, 1080}, with<calibrate_radius, Side::Outside>,
+          "From a position SET_UP + Q320 above the stud, which is touched one ball diameter "
+          "below its edge, twice with the spindle turned by 180 degrees; effective radius, "
+          "CAL_OF1, CAL_OF2. The log TCHPRAUTO.html.");
 
 }  // namespace fitgauge::probing::cycle_461_463

@@ -134,17 +134,12 @@ CycleResult<void> manage_kinematics(const CycleContext& context) {
                                  date_and_time(context.host), *text));
 }
 
-constinit const TouchProbeCycle kCycle450{
-    {.number = 450,
-     .name = "SAVE KINEMATICS",
-     .kind = CycleKind::Kinematics,
-     .parameters = kParameters,
-     .errors = ErrorSet{1011, 1017, 1096, 1097},
-     .simulated =
-         "All modes, with a number (Q409) or a name of up to 16 characters (QS409). Up to 16 "
-         "records in TNC:\\table\\DATA450.KD, which, as all that a run writes, stays in the run "
-         "unless it is put on the control's disk. The log TCHPR450.html has every axis, before and "
-         "after restoring; the status is its list of records."},
-    manage_kinematics};
+constinit const TouchProbeCycle kCycle450 = cycle(
+    450, "SAVE KINEMATICS", CycleKind::Kinematics, kParameters, {}, {1011, 1017, 1096, 1097},
+    manage_kinematics,
+    "All modes, with a number (Q409) or a name of up to 16 characters (QS409). Up to 16 "
+    "records in TNC:\\table\\DATA450.KD, which, as all that a run writes, stays in the run "
+    "unless it is put on the control's disk. The log TCHPR450.html has every axis, before and "
+    "after restoring; the status is its list of records.");
 
 }  // namespace fitgauge::probing::cycle_450

@@ -68,18 +68,12 @@ CycleResult<void> compensate(const CycleContext& context) {
   return probing->retract();
 }
 
-constinit const TouchProbeCycle kCycle452{
-    {.number = 452,
-     .name = "PRESET COMPENSATION",
-     .kind = CycleKind::Kinematics,
-     .parameters = kParameters,
-     .results = kKinematicsResults,
-     .errors = errors::kTouching | errors::kKinematics | ErrorSet{1005},
-     .simulated =
-         "All parameters. Measures as 451 and corrects the location of each measured axis; then "
-         "the kinematic model is shifted so that the active preset, which keeps its values, lies "
-         "in the centre of the sphere: for a head that was exchanged, and for drift. Q147 to Q149 "
-         "are that shift. The log TCHPR452.html."},
-    compensate};
+constinit const TouchProbeCycle kCycle452 =
+    cycle(452, "PRESET COMPENSATION", CycleKind::Kinematics, kParameters, kKinematicsResults,
+          errors::kTouching | errors::kKinematics | ErrorSet{1005}, compensate,
+          "All parameters. Measures as 451 and corrects the location of each measured axis; then "
+          "the kinematic model is shifted so that the active preset, which keeps its values, lies "
+          "in the centre of the sphere: for a head that was exchanged, and for drift. Q147 to Q149 "
+          "are that shift. The log TCHPR452.html.");
 
 }  // namespace fitgauge::probing::cycle_452

@@ -103,21 +103,14 @@ CycleResult<void> measure_grid(const CycleContext& context) {
   return preset.after(context, *probing);
 }
 
-constinit const TouchProbeCycle kCycle453{
-    {.number = 453,
-     .name = "KINEMATICS GRID",
-     .kind = CycleKind::Kinematics,
-     .parameters = kParameters,
-     .results = kResults,
-     .errors = errors::kTouching | errors::kKinematics | ErrorSet{1085, 1097},
-     .simulated =
-         "Measures the calibration_sphere of the setup at every combination of five positions of "
-         "each rotary axis, evenly over its range but at most half a turn to either side, and "
-         "finds location and direction of all axes together; Q406 = 1 corrects them in the "
-         "kinematic model. All axes share their standard deviations. The log TCHPR453.html.",
-     .not_simulated =
-         "The compensation table of the machine's builder: Q406 = -1 is an error, a record of "
-         "cycle 450 brings the kinematics back."},
-    measure_grid};
+constinit const TouchProbeCycle kCycle453 =
+    cycle(453, "KINEMATICS GRID", CycleKind::Kinematics, kParameters, kResults,
+          errors::kTouching | errors::kKinematics | ErrorSet{1085, 1097}, measure_grid,
+          "Measures the calibration_sphere of the setup at every combination of five positions of "
+          "each rotary axis, evenly over its range but at most half a turn to either side, and "
+          "finds location and direction of all axes together; Q406 = 1 corrects them in the "
+          "kinematic model. All axes share their standard deviations. The log TCHPR453.html.",
+          "The compensation table of the machine's builder: Q406 = -1 is an error, a record of "
+          "cycle 450 brings the kinematics back.");
 
 }  // namespace fitgauge::probing::cycle_453

@@ -40,8 +40,6 @@ Vec3 SphereProbe::tool_direction() const {
   return machine_.state().tool_direction(CoordinateSystem::Machine);
 }
 
-Vec3 SphereProbe::tip() const { return machine_.position(CoordinateSystem::Machine).linear; }
-
 Vec3 SphereProbe::ball() const { return machine_.state().ball_centre(CoordinateSystem::Machine); }
 
 CycleResult<void> SphereProbe::move_tip(const Vec3& tip) {

@@ -43,7 +43,6 @@ class SphereProbe {
 
   machine::Feed feed() const;
   CycleResult<Vec3> touch(const Vec3& direction);
-  Vec3 tip() const;
   Vec3 ball() const;
   Vec3 around(double angle_deg) const;  ///< a unit vector across the tool
 

@@ -54,27 +54,14 @@ CycleResult<void> polar(const CycleContext& context) {
   return {};
 }
 
-constinit const TouchProbeCycle kCycle0{
-    {.number = 0,
-     .name = "REF. PLANE",
-     .kind = CycleKind::Measuring,
-     .dotted = true,
-     .parameters = k0Parameters,
-     .results = kTouchResults,
-     .errors = errors::kMeasuring | ErrorSet{1042},
-     .simulated = "All parameters. The position is that of the tip; the result is compensated."},
-    reference_plane};
+constinit const TouchProbeCycle kCycle0 =
+    cycle(0, "REF. PLANE", CycleKind::Measuring, k0Parameters, kTouchResults,
+          errors::kMeasuring | ErrorSet{1042}, reference_plane,
+          "All parameters. The position is that of the tip; the result is compensated.");
 
-constinit const TouchProbeCycle kCycle1{
-    {.number = 1,
-     .name = "POLAR DATUM",
-     .kind = CycleKind::Measuring,
-     .dotted = true,
-     .parameters = k1Parameters,
-     .results = kTouchResults,
-     .errors = errors::kMeasuring,
-     .simulated = "All parameters. The position is that of the tip; the angle turns from the named "
-                  "axis to the next one (X to Y, Y to Z, Z to X)."},
-    polar};
+constinit const TouchProbeCycle kCycle1 = cycle(
+    1, "POLAR DATUM", CycleKind::Measuring, k1Parameters, kTouchResults, errors::kMeasuring, polar,
+    "All parameters. The position is that of the tip; the angle turns from the named "
+    "axis to the next one (X to Y, Y to Z, Z to X).");
 
 }  // namespace fitgauge::probing::cycle_0_1

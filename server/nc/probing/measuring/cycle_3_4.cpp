@@ -124,29 +124,16 @@ CycleResult<void> measure_along_vector(const CycleContext& context) {
   return measure(context, direction, true);
 }
 
-constinit const TouchProbeCycle kCycle3{
-    {.number = 3,
-     .name = "MEASURING",
-     .kind = CycleKind::Measuring,
-     .dotted = true,
-     .parameters = k3Parameters,
-     .results = kTouchResults,
-     .errors = errors::kTouching | ErrorSet{1010, 1011},
-     .simulated =
-         "All parameters. X, Y and Z go to the result parameter and the two after it, 0 or "
-         "-1 (no contact) to the fourth; the tip in the active system, the spindle nose "
-         "in the machine system."},
-    measure_along_angle};
+constinit const TouchProbeCycle kCycle3 =
+    cycle(3, "MEASURING", CycleKind::Measuring, k3Parameters, kTouchResults,
+          errors::kTouching | ErrorSet{1010, 1011}, measure_along_angle,
+          "All parameters. X, Y and Z go to the result parameter and the two after it, 0 or "
+          "-1 (no contact) to the fourth; the tip in the active system, the spindle nose "
+          "in the machine system.");
 
-constinit const TouchProbeCycle kCycle4{
-    {.number = 4,
-     .name = "MEASURING IN 3-D",
-     .kind = CycleKind::Measuring,
-     .dotted = true,
-     .parameters = k4Parameters,
-     .results = kTouchResults,
-     .errors = errors::kWithProbe | ErrorSet{1010, 1011, 1042},
-     .simulated = "All parameters, results as of cycle 3; without contact the program goes on."},
-    measure_along_vector};
+constinit const TouchProbeCycle kCycle4 =
+    cycle(4, "MEASURING IN 3-D", CycleKind::Measuring, k4Parameters, kTouchResults,
+          errors::kWithProbe | ErrorSet{1010, 1011, 1042}, measure_along_vector,
+          "All parameters, results as of cycle 3; without contact the program goes on.");
 
 }  // namespace fitgauge::probing::cycle_3_4

@@ -15,10 +15,8 @@ constexpr std::array kParameters = join(line(kMeasuringAxis), std::array{kMeasur
 
 constexpr std::array<CycleOutput, 1> kResults{{{150, "Measured angle", Unit::Angle}}};
 
-CycleResult<void> measure(const CycleContext& context) {
-  auto motion = begin_measurement(context);
-  if (!motion) return motion.error();
-  const auto edge = probe_line(context, *motion);
+CycleResult<void> measure(const CycleContext& context, ProbingMotion& motion) {
+  const auto edge = probe_line(context, motion);
   if (!edge) return edge.error();
   const double angle = to_angle(edge->angle_deg());
   context.host.set_q(150, angle, Unit::Angle);
@@ -40,15 +38,10 @@ CycleResult<void> measure(const CycleContext& context) {
   return {};
 }
 
-constinit const TouchProbeCycle kCycle420{
-    {.number = 420,
-     .name = "MEASURE ANGLE",
-     .kind = CycleKind::Measuring,
-     .parameters = kParameters,
-     .results = kResults,
-     .errors = errors::kMeasuring | ErrorSet{1042, 1081},
-     .simulated = "All parameters. The angle is that of the line to the main axis, with Q272 = 3 "
-                  "to the axis along which the points differ."},
-    measure};
+constinit const TouchProbeCycle kCycle420 =
+    cycle(420, "MEASURE ANGLE", CycleKind::Measuring, kParameters, kResults,
+          errors::kMeasuring | ErrorSet{1042, 1081}, after<begin_measurement, measure>,
+          "All parameters. The angle is that of the line to the main axis, with Q272 = 3 "
+          "to the axis along which the points differ.");
 
 }  // namespace fitgauge::probing::cycle_420

@@ -53,28 +53,14 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
                                       .form = probed->form});
 }
 
-constinit const TouchProbeCycle kCycle421{
-    {.number = 421,
-     .name = "MEASURE HOLE",
-     .kind = CycleKind::Measuring,
-     .parameters = k421Parameters,
-     .results = kCircleResults,
-     .errors = errors::kMeasuring | errors::kCircle | errors::kJudged | errors::kCentre |
-               ErrorSet{1046, 1047},
-     .simulated = "All other parameters.",
-     .not_simulated = kNotSimulated},
-    [](const CycleContext& context) { return measure(context, Side::Inside); }};
+constinit const TouchProbeCycle kCycle421 = cycle(
+    421, "MEASURE HOLE", CycleKind::Measuring, k421Parameters, kCircleResults,
+    errors::kMeasuring | errors::kCircle | errors::kJudged | errors::kCentre | ErrorSet{1046, 1047},
+    with<measure, Side::Inside>, "All other parameters.", kNotSimulated);
 
-constinit const TouchProbeCycle kCycle422{
-    {.number = 422,
-     .name = "MEAS. CIRCLE OUTSIDE",
-     .kind = CycleKind::Measuring,
-     .parameters = k422Parameters,
-     .results = kCircleResults,
-     .errors = errors::kMeasuring | errors::kCircle | errors::kJudged | errors::kCentre |
-               ErrorSet{1048, 1049},
-     .simulated = "All other parameters.",
-     .not_simulated = kNotSimulated},
-    [](const CycleContext& context) { return measure(context, Side::Outside); }};
+constinit const TouchProbeCycle kCycle422 = cycle(
+    422, "MEAS. CIRCLE OUTSIDE", CycleKind::Measuring, k422Parameters, kCircleResults,
+    errors::kMeasuring | errors::kCircle | errors::kJudged | errors::kCentre | ErrorSet{1048, 1049},
+    with<measure, Side::Outside>, "All other parameters.", kNotSimulated);
 
 }  // namespace fitgauge::probing::cycle_421_422

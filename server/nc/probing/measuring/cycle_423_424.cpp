@@ -97,26 +97,14 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
                                       .correction = tool_correction(main, secondary)});
 }
 
-constinit const TouchProbeCycle kCycle423{
-    {.number = 423,
-     .name = "MEAS. RECTAN. INSIDE",
-     .kind = CycleKind::Measuring,
-     .parameters = kParameters,
-     .results = kResults,
-     .errors =
-         errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1050, 1051, 1052, 1053},
-     .simulated = "All parameters; moves at measuring height are paraxial."},
-    [](const CycleContext& context) { return measure(context, Side::Inside); }};
+constinit const TouchProbeCycle kCycle423 =
+    cycle(423, "MEAS. RECTAN. INSIDE", CycleKind::Measuring, kParameters, kResults,
+          errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1050, 1051, 1052, 1053},
+          with<measure, Side::Inside>, "All parameters; moves at measuring height are paraxial.");
 
-constinit const TouchProbeCycle kCycle424{
-    {.number = 424,
-     .name = "MEAS. RECTAN. OUTS.",
-     .kind = CycleKind::Measuring,
-     .parameters = kParameters,
-     .results = kResults,
-     .errors =
-         errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1054, 1055, 1056, 1057},
-     .simulated = "All parameters; moves at measuring height are paraxial."},
-    [](const CycleContext& context) { return measure(context, Side::Outside); }};
+constinit const TouchProbeCycle kCycle424 =
+    cycle(424, "MEAS. RECTAN. OUTS.", CycleKind::Measuring, kParameters, kResults,
+          errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1054, 1055, 1056, 1057},
+          with<measure, Side::Outside>, "All parameters; moves at measuring height are paraxial.");
 
 }  // namespace fitgauge::probing::cycle_423_424

@@ -112,25 +112,14 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
                                       .correction = radius_correction(size)});
 }
 
-constinit const TouchProbeCycle kCycle425{
-    {.number = 425,
-     .name = "MEASURE INSIDE WIDTH",
-     .kind = CycleKind::Measuring,
-     .parameters = k425Parameters,
-     .results = kResults,
-     .errors = errors::kMeasuring | errors::kJudged | ErrorSet{1058, 1059},
-     .simulated =
-         "All parameters; both touches begin at the starting point, so Q320 moves nothing."},
-    [](const CycleContext& context) { return measure(context, Side::Inside); }};
+constinit const TouchProbeCycle kCycle425 =
+    cycle(425, "MEASURE INSIDE WIDTH", CycleKind::Measuring, k425Parameters, kResults,
+          errors::kMeasuring | errors::kJudged | ErrorSet{1058, 1059}, with<measure, Side::Inside>,
+          "All parameters; both touches begin at the starting point, so Q320 moves nothing.");
 
-constinit const TouchProbeCycle kCycle426{
-    {.number = 426,
-     .name = "MEASURE RIDGE WIDTH",
-     .kind = CycleKind::Measuring,
-     .parameters = k426Parameters,
-     .results = kResults,
-     .errors = errors::kMeasuring | errors::kJudged | ErrorSet{1060, 1061},
-     .simulated = "All parameters; each point is touched towards the other one."},
-    [](const CycleContext& context) { return measure(context, Side::Outside); }};
+constinit const TouchProbeCycle kCycle426 =
+    cycle(426, "MEASURE RIDGE WIDTH", CycleKind::Measuring, k426Parameters, kResults,
+          errors::kMeasuring | errors::kJudged | ErrorSet{1060, 1061}, with<measure, Side::Outside>,
+          "All parameters; each point is touched towards the other one.");
 
 }  // namespace fitgauge::probing::cycle_425_426

@@ -56,17 +56,12 @@ CycleResult<void> measure(const CycleContext& context) {
                                       .correction = correction});
 }
 
-constinit const TouchProbeCycle kCycle427{
-    {.number = 427,
-     .name = "MEASURE COORDINATE",
-     .kind = CycleKind::Measuring,
-     .parameters = kParameters,
-     .results = kResults,
-     .errors = errors::kMeasuring | errors::kJudged | ErrorSet{1042, 1072},
-     .simulated = "All other parameters. The nominal coordinate is that of the point (Q263, Q264, "
-                  "Q261).",
-     .not_simulated = "Turning tools, which Q498 and Q531 concern: the values are checked and "
-                      "change nothing."},
-    measure};
+constinit const TouchProbeCycle kCycle427 =
+    cycle(427, "MEASURE COORDINATE", CycleKind::Measuring, kParameters, kResults,
+          errors::kMeasuring | errors::kJudged | ErrorSet{1042, 1072}, measure,
+          "All other parameters. The nominal coordinate is that of the point (Q263, Q264, "
+          "Q261).",
+          "Turning tools, which Q498 and Q531 concern: the values are checked and "
+          "change nothing.");
 
 }  // namespace fitgauge::probing::cycle_427

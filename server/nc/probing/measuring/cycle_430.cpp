@@ -42,14 +42,9 @@ CycleResult<void> measure(const CycleContext& context) {
                              .form = probed->form});
 }
 
-constinit const TouchProbeCycle kCycle430{
-    {.number = 430,
-     .name = "MEAS. BOLT HOLE CIRC",
-     .kind = CycleKind::Measuring,
-     .parameters = kParameters,
-     .results = kCircleResults,
-     .errors = errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1062, 1063, 1081},
-     .simulated = "All parameters; Q330 watches for breakage only."},
-    measure};
+constinit const TouchProbeCycle kCycle430 =
+    cycle(430, "MEAS. BOLT HOLE CIRC", CycleKind::Measuring, kParameters, kCircleResults,
+          errors::kMeasuring | errors::kJudged | errors::kCentre | ErrorSet{1062, 1063, 1081},
+          measure, "All parameters; Q330 watches for breakage only.");
 
 }  // namespace fitgauge::probing::cycle_430

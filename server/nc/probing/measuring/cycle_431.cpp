@@ -63,12 +63,10 @@ Vec3 spatial_angles_of(const TiltedAxes& axes, const WorkingPlane& plane) {
   return machine::spatial_angles(columns.transposed());
 }
 
-CycleResult<void> measure(const CycleContext& context) {
+CycleResult<void> measure(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  auto motion = begin_measurement(context);
-  if (!motion) return motion.error();
   const Vec3 down{0, 0, -1};
-  const Vec3 back = down * motion->start_distance(arguments.number(320));
+  const Vec3 back = down * motion.start_distance(arguments.number(320));
   std::vector<Touch> touches;
   for (const auto& [x, y, z] :
        {std::array{263, 264, 294}, std::array{265, 266, 295}, std::array{296, 297, 298}}) {
@@ -76,7 +74,7 @@ CycleResult<void> measure(const CycleContext& context) {
     touches.push_back(
         {.start = nominal - back, .direction = down, .transit = Transit::ClearanceHeight});
   }
-  const auto contacts = motion->touch_all(touches, arguments.number(260));
+  const auto contacts = motion.touch_all(touches, arguments.number(260));
   if (!contacts) return contacts.error();
   const auto axes = axes_through(*contacts);
   if (!axes) return axes.error();
@@ -88,7 +86,7 @@ CycleResult<void> measure(const CycleContext& context) {
     log.angle(result.meaning, angle);
   };
   const Vec3& n = axes->normal;
-  const Vec3 spatial = spatial_angles_of(*axes, motion->plane());
+  const Vec3 spatial = spatial_angles_of(*axes, motion.plane());
   publish_angle(kResults[0], machine::degrees(std::atan2(-n.y, n.z)));
   publish_angle(kResults[1], machine::degrees(std::atan2(n.x, n.z)));
   for (std::size_t i = 0; i < 3; ++i) publish_angle(kResults[2 + i], spatial[i]);
@@ -96,7 +94,7 @@ CycleResult<void> measure(const CycleContext& context) {
   for (std::size_t i = 0; i < 3; ++i) {
     // The ball touches beside its lowest point: the plane lies below its centre by radius / cosine.
     const Vec3& centre = (*contacts)[i].ball_centre;
-    const Length height = to_length(centre.z - motion->ball_radius() / std::abs(n.z));
+    const Length height = to_length(centre.z - motion.ball_radius() / std::abs(n.z));
     context.host.set_q(kResults[5 + i].q, height.to_mm(), Unit::Length);
     log.length(kResults[5 + i].meaning, height);
     record.sizes.push_back({.characteristic = kResults[5 + i].meaning,
@@ -109,14 +107,9 @@ CycleResult<void> measure(const CycleContext& context) {
   return {};
 }
 
-constinit const TouchProbeCycle kCycle431{
-    {.number = 431,
-     .name = "MEASURE PLANE",
-     .kind = CycleKind::Measuring,
-     .parameters = kParameters,
-     .results = kResults,
-     .errors = errors::kMeasuring | ErrorSet{1081},
-     .simulated = "All parameters; the measured coordinates are those of the plane at the points."},
-    measure};
+constinit const TouchProbeCycle kCycle431 =
+    cycle(431, "MEASURE PLANE", CycleKind::Measuring, kParameters, kResults,
+          errors::kMeasuring | ErrorSet{1081}, after<begin_measurement, measure>,
+          "All parameters; the measured coordinates are those of the plane at the points.");
 
 }  // namespace fitgauge::probing::cycle_431

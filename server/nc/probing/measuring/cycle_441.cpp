@@ -29,15 +29,11 @@ CycleResult<void> set_fast_probing(const CycleContext& context) {
   return {};
 }
 
-constinit const TouchProbeCycle kCycle441{
-    {.number = 441,
-     .name = "FAST PROBING",
-     .kind = CycleKind::Other,
-     .parameters = kParameters,
-     .simulated = "Positioning feed, rapid and interruption hold for the cycles after it until the "
-                  "program ends.",
-     .not_simulated = "Angle tracking (Q399), which the simulated probe needs none of, and Q371: "
-                      "the values are checked and change nothing."},
-    set_fast_probing};
+constinit const TouchProbeCycle kCycle441 =
+    cycle(441, "FAST PROBING", CycleKind::Other, kParameters, {}, {}, set_fast_probing,
+          "Positioning feed, rapid and interruption hold for the cycles after it until the "
+          "program ends.",
+          "Angle tracking (Q399), which the simulated probe needs none of, and Q371: "
+          "the values are checked and change nothing.");
 
 }  // namespace fitgauge::probing::cycle_441

@@ -186,7 +186,7 @@ constinit const TouchProbeCycle kCycle444{
      .kind = CycleKind::Measuring,
      .parameters = kParameters,
      .results = kResults,
-     .errors = errors::kTouching | errors::kUnscaled | ErrorSet{1004, 1011, 1042, 1072, 1099},
+     .errors = errors::kUnscaled | ErrorSet{1004, 1011, 1042, 1072, 1099},
      .simulated =
          "All parameters. QS400 is in the unit of the program. After contact the probe goes back "
          "to the start (MB) and stays there. A basic rotation stays active. In a tilted plane the "

@@ -92,15 +92,10 @@ constinit const TouchProbeCycle kCycle1430 =
     object_cycle(1430, "PROBE POSITION OF UNDERCUT", k1430, kFaceResults, {1042}, probe_face);
 constinit const TouchProbeCycle kCycle1434 =
     object_cycle(1434, "PROBE SLOT/RIDGE UNDERCUT", k1434, kWidthResults, {}, probe_width);
-constinit const TouchProbeCycle kCycle1493{
-    {.number = 1493,
-     .name = "EXTRUSION PROBING",
-     .kind = CycleKind::Other,
-     .parameters = k1493,
-     .errors = {1042},
-     .simulated = "Cycles 1400 to 1434 repeat each touch that often, evenly over the length, and "
-                  "measure the mean. Q970 to Q972 are the largest distances from it, of the first "
-                  "three touches, along their probing direction. No motion."},
-    extrude};
+constinit const TouchProbeCycle kCycle1493 =
+    cycle(1493, "EXTRUSION PROBING", CycleKind::Other, k1493, {}, {1042}, extrude,
+          "Cycles 1400 to 1434 repeat each touch that often, evenly over the length, and "
+          "measure the mean. Q970 to Q972 are the largest distances from it, of the first "
+          "three touches, along their probing direction. No motion.");
 
 }  // namespace fitgauge::probing::cycle_1400_1434

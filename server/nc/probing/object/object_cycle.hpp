@@ -155,22 +155,17 @@ constexpr TouchProbeCycle object_cycle(std::uint16_t number, std::string_view na
                                        std::span<const CycleParameter> parameters,
                                        std::span<const CycleOutput> results, const ErrorSet& more,
                                        CycleFunction run, ArgumentCheck check = check_dimensions) {
-  return {
-      {.number = number,
-       .name = name,
-       .parameters = parameters,
-       .results = results,
-       .errors = errors::kTouching | errors::kUnscaled | more | ErrorSet{1011, 1072, 1085, 1097},
-       .simulated =
-           "All other parameters. A dimension with a tolerance is probed at, compared with "
-           "and transferred from the middle of it. A basic rotation stays active. Results "
-           "are logged in TCHPRAUTO.html and transferred into the row of the active preset "
-           "before Q309 stops.",
-       .not_simulated =
-           "Semi-automatic probing (`?`) and given actual positions (`@`): the block is "
-           "refused. An L-shaped stylus: only the ball touches and collides."},
-      run,
-      check};
+  TouchProbeCycle made =
+      cycle(number, name, CycleKind::Measuring, parameters, results,
+            errors::kUnscaled | more | ErrorSet{1011, 1072, 1085, 1097}, run,
+            "All other parameters. A dimension with a tolerance is probed at, compared with "
+            "and transferred from the middle of it. A basic rotation stays active. Results "
+            "are logged in TCHPRAUTO.html and transferred into the row of the active preset "
+            "before Q309 stops.",
+            "Semi-automatic probing (`?`) and given actual positions (`@`): the block is "
+            "refused. An L-shaped stylus: only the ball touches and collides.");
+  made.check = check;
+  return made;
 }
 
 }  // namespace fitgauge::probing

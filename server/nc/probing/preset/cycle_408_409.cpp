@@ -27,19 +27,17 @@ constexpr std::array k409Parameters = join(kGeometry, kDatum);
 constexpr std::array<CycleOutput, 2> kResults{
     {{157, "Position of the centre line", Unit::Length}, {166, "Measured width", Unit::Length}}};
 
-CycleResult<void> set_datum(const CycleContext& context, Side side) {
+CycleResult<void> set_datum(const CycleContext& context, ProbingMotion& motion, Side side) {
   const Arguments& arguments = context.arguments;
-  auto motion = begin_preset(context);
-  if (!motion) return motion.error();
   const auto axis = static_cast<std::size_t>(arguments.whole(272) - 1);
   const Vec3 centre{arguments.number(321), arguments.number(322), arguments.number(261)};
   auto touches = width_touches(side, centre, axis, arguments.number(311),
-                               motion->start_distance(arguments.number(320)));
+                               motion.start_distance(arguments.number(320)));
   const bool moves = touches[0].start != touches[1].start;
   if (moves && (side == Side::Outside || arguments.whole(301) == 1)) {
     touches[1].transit = Transit::ClearanceHeight;
   }
-  const auto contacts = motion->touch_all(touches, arguments.number(260));
+  const auto contacts = motion.touch_all(touches, arguments.number(260));
   if (!contacts) return contacts.error();
 
   const double first = contacts->front().surface[axis];
@@ -50,27 +48,15 @@ CycleResult<void> set_datum(const CycleContext& context, Side side) {
   found.datum[axis] = arguments.number(405);
   set_length(context.host, 157, found.point[axis]);
   set_length(context.host, 166, std::abs(first - second));
-  return finish_preset(context, *motion, found);
+  return finish_preset(context, motion, found);
 }
 
-constinit const TouchProbeCycle kCycle408{
-    {.number = 408,
-     .name = "SLOT CENTER REF PT",
-     .kind = CycleKind::Preset,
-     .parameters = k408Parameters,
-     .results = kResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
-     .simulated = "All parameters."},
-    [](const CycleContext& context) { return set_datum(context, Side::Inside); }};
+constinit const TouchProbeCycle kCycle408 =
+    cycle(408, "SLOT CENTER REF PT", CycleKind::Preset, k408Parameters, kResults,
+          errors::kDatumTransfer, after<begin_preset, set_datum, Side::Inside>, "All parameters.");
 
-constinit const TouchProbeCycle kCycle409{
-    {.number = 409,
-     .name = "RIDGE CENTER REF PT",
-     .kind = CycleKind::Preset,
-     .parameters = k409Parameters,
-     .results = kResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
-     .simulated = "All parameters."},
-    [](const CycleContext& context) { return set_datum(context, Side::Outside); }};
+constinit const TouchProbeCycle kCycle409 =
+    cycle(409, "RIDGE CENTER REF PT", CycleKind::Preset, k409Parameters, kResults,
+          errors::kDatumTransfer, after<begin_preset, set_datum, Side::Outside>, "All parameters.");
 
 }  // namespace fitgauge::probing::cycle_408_409

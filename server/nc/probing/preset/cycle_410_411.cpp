@@ -21,44 +21,32 @@ constexpr std::array<CycleOutput, 4> kResults{{{151, "Centre, main axis", Unit::
                                                {154, "Length, main axis", Unit::Length},
                                                {155, "Length, secondary axis", Unit::Length}}};
 
-CycleResult<void> set_datum(const CycleContext& context, Side side) {
+CycleResult<void> set_datum(const CycleContext& context, ProbingMotion& motion, Side side) {
   const Arguments& arguments = context.arguments;
-  auto motion = begin_preset(context);
-  if (!motion) return motion.error();
   const RectanglePlan plan{.side = side,
                            .centre = {arguments.number(321), arguments.number(322)},
                            .length_main = arguments.number(323),
                            .length_secondary = arguments.number(324),
                            .height = arguments.number(261),
-                           .start_distance = motion->start_distance(arguments.number(320)),
+                           .start_distance = motion.start_distance(arguments.number(320)),
                            .via_clearance = arguments.whole(301) == 1};
-  const auto rectangle = probe_rectangle(*motion, plan, arguments.number(260));
+  const auto rectangle = probe_rectangle(motion, plan, arguments.number(260));
   if (!rectangle) return rectangle.error();
   set_length(context.host, 151, rectangle->centre.x);
   set_length(context.host, 152, rectangle->centre.y);
   set_length(context.host, 154, rectangle->length_main);
   set_length(context.host, 155, rectangle->length_secondary);
-  return finish_preset(context, *motion, plane_datum(arguments, rectangle->centre));
+  return finish_preset(context, motion, plane_datum(arguments, rectangle->centre));
 }
 
-constinit const TouchProbeCycle kCycle410{
-    {.number = 410,
-     .name = "DATUM INSIDE RECTAN.",
-     .kind = CycleKind::Preset,
-     .parameters = kParameters,
-     .results = kResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
-     .simulated = "All parameters; moves at measuring height are paraxial."},
-    [](const CycleContext& context) { return set_datum(context, Side::Inside); }};
+constinit const TouchProbeCycle kCycle410 =
+    cycle(410, "DATUM INSIDE RECTAN.", CycleKind::Preset, kParameters, kResults,
+          errors::kDatumTransfer, after<begin_preset, set_datum, Side::Inside>,
+          "All parameters; moves at measuring height are paraxial.");
 
-constinit const TouchProbeCycle kCycle411{
-    {.number = 411,
-     .name = "DATUM OUTS. RECTAN.",
-     .kind = CycleKind::Preset,
-     .parameters = kParameters,
-     .results = kResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
-     .simulated = "All parameters; moves at measuring height are paraxial."},
-    [](const CycleContext& context) { return set_datum(context, Side::Outside); }};
+constinit const TouchProbeCycle kCycle411 =
+    cycle(411, "DATUM OUTS. RECTAN.", CycleKind::Preset, kParameters, kResults,
+          errors::kDatumTransfer, after<begin_preset, set_datum, Side::Outside>,
+          "All parameters; moves at measuring height are paraxial.");
 
 }  // namespace fitgauge::probing::cycle_410_411

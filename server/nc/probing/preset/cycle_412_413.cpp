@@ -14,35 +14,23 @@ constexpr std::array kParameters = join(
          kPlaneDatum),
     std::array{kTouches, kTraverse});
 
-CycleResult<void> set_datum(const CycleContext& context, Side side) {
+CycleResult<void> set_datum(const CycleContext& context, ProbingMotion& motion, Side side) {
   const Arguments& arguments = context.arguments;
-  auto motion = begin_preset(context);
-  if (!motion) return motion.error();
   const auto probed =
-      probe_circle(context, *motion, side, {arguments.number(321), arguments.number(322)});
+      probe_circle(context, motion, side, {arguments.number(321), arguments.number(322)});
   if (!probed) return probed.error();
   publish_circle(context, side, *probed);
-  return finish_preset(context, *motion, plane_datum(arguments, probed->circle.centre));
+  return finish_preset(context, motion, plane_datum(arguments, probed->circle.centre));
 }
 
-constinit const TouchProbeCycle kCycle412{
-    {.number = 412,
-     .name = "DATUM INSIDE CIRCLE",
-     .kind = CycleKind::Preset,
-     .parameters = kParameters,
-     .results = kPresetCircleResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | errors::kCircle,
-     .simulated = "All parameters."},
-    [](const CycleContext& context) { return set_datum(context, Side::Inside); }};
+constinit const TouchProbeCycle kCycle412 =
+    cycle(412, "DATUM INSIDE CIRCLE", CycleKind::Preset, kParameters, kPresetCircleResults,
+          errors::kDatumTransfer | errors::kCircle, after<begin_preset, set_datum, Side::Inside>,
+          "All parameters.");
 
-constinit const TouchProbeCycle kCycle413{
-    {.number = 413,
-     .name = "DATUM OUTSIDE CIRCLE",
-     .kind = CycleKind::Preset,
-     .parameters = kParameters,
-     .results = kPresetCircleResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | errors::kCircle,
-     .simulated = "All parameters."},
-    [](const CycleContext& context) { return set_datum(context, Side::Outside); }};
+constinit const TouchProbeCycle kCycle413 =
+    cycle(413, "DATUM OUTSIDE CIRCLE", CycleKind::Preset, kParameters, kPresetCircleResults,
+          errors::kDatumTransfer | errors::kCircle, after<begin_preset, set_datum, Side::Outside>,
+          "All parameters.");
 
 }  // namespace fitgauge::probing::cycle_412_413

@@ -86,47 +86,35 @@ Touches inside_touches(const Arguments& arguments, double start_distance) {
   return touches;
 }
 
-CycleResult<void> set_datum(const CycleContext& context, bool inside) {
+CycleResult<void> set_datum(const CycleContext& context, ProbingMotion& motion, bool inside) {
   const Arguments& arguments = context.arguments;
-  auto motion = begin_preset(context);
-  if (!motion) return motion.error();
-  const double start_distance = motion->start_distance(arguments.number(320));
+  const double start_distance = motion.start_distance(arguments.number(320));
   const auto touches = inside ? CycleResult<Touches>(inside_touches(arguments, start_distance))
                               : outside_touches(arguments, start_distance);
   if (!touches) return touches.error();
-  const auto contacts = motion->touch_all(*touches, arguments.number(260));
+  const auto contacts = motion.touch_all(*touches, arguments.number(260));
   if (!contacts) return contacts.error();
-  const auto corner = corner_of(*contacts, *touches, motion->ball_radius());
+  const auto corner = corner_of(*contacts, *touches, motion.ball_radius());
   if (!corner) return corner.error();
   set_length(context.host, 151, corner->point.x);
   set_length(context.host, 152, corner->point.y);
   std::optional<double> rotation;
   if (arguments.whole(304) == 1) {
-    rotation = workpiece_angle(context.machine.state().frames, motion->plane(), corner->direction);
+    rotation = workpiece_angle(context.machine.state().frames, motion.plane(), corner->direction);
   }
-  return finish_preset(context, *motion, plane_datum(arguments, corner->point), rotation);
+  return finish_preset(context, motion, plane_datum(arguments, corner->point), rotation);
 }
 
-constinit const TouchProbeCycle kCycle414{
-    {.number = 414,
-     .name = "DATUM OUTSIDE CORNER",
-     .kind = CycleKind::Preset,
-     .parameters = k414Parameters,
-     .results = kResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | ErrorSet{1081},
-     .simulated = "All parameters. With Q304 = 1 the angle of the edge along the main axis becomes "
-                  "the basic rotation."},
-    [](const CycleContext& context) { return set_datum(context, false); }};
+constinit const TouchProbeCycle kCycle414 =
+    cycle(414, "DATUM OUTSIDE CORNER", CycleKind::Preset, k414Parameters, kResults,
+          errors::kDatumTransfer | ErrorSet{1081}, after<begin_preset, set_datum, false>,
+          "All parameters. With Q304 = 1 the angle of the edge along the main axis becomes "
+          "the basic rotation.");
 
-constinit const TouchProbeCycle kCycle415{
-    {.number = 415,
-     .name = "DATUM INSIDE CORNER",
-     .kind = CycleKind::Preset,
-     .parameters = k415Parameters,
-     .results = kResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | ErrorSet{1081},
-     .simulated = "All parameters. With Q304 = 1 the angle of the edge along the main axis becomes "
-                  "the basic rotation."},
-    [](const CycleContext& context) { return set_datum(context, true); }};
+constinit const TouchProbeCycle kCycle415 =
+    cycle(415, "DATUM INSIDE CORNER", CycleKind::Preset, k415Parameters, kResults,
+          errors::kDatumTransfer | ErrorSet{1081}, after<begin_preset, set_datum, true>,
+          "All parameters. With Q304 = 1 the angle of the edge along the main axis becomes "
+          "the basic rotation.");
 
 }  // namespace fitgauge::probing::cycle_414_415

@@ -26,54 +26,40 @@ constexpr std::array<CycleOutput, 2> k418Results{
     {{151, "Intersection, main axis", Unit::Length},
      {152, "Intersection, secondary axis", Unit::Length}}};
 
-CycleResult<void> bolt_circle(const CycleContext& context) {
+CycleResult<void> bolt_circle(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  auto motion = begin_preset(context);
-  if (!motion) return motion.error();
-  const auto probed = probe_bolt_circle(context, *motion);
+  const auto probed = probe_bolt_circle(context, motion);
   if (!probed) return probed.error();
   publish_circle(context, Side::Inside, *probed);
-  return finish_preset(context, *motion, plane_datum(arguments, probed->circle.centre));
+  return finish_preset(context, motion, plane_datum(arguments, probed->circle.centre));
 }
 
-CycleResult<void> four_holes(const CycleContext& context) {
+CycleResult<void> four_holes(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  auto motion = begin_preset(context);
-  if (!motion) return motion.error();
   std::vector<Point2> nominal;
   for (const int main : {268, 270, 316, 318}) {
     nominal.push_back({arguments.number(main), arguments.number(main + 1)});
   }
   const auto holes =
-      probe_hole_centres(*motion, nominal, arguments.number(261), arguments.number(260));
+      probe_hole_centres(motion, nominal, arguments.number(261), arguments.number(260));
   if (!holes) return holes.error();
   const auto& centre = *holes;
   const auto point = intersection(centre[0], centre[2], centre[1], centre[3]);
   if (!point) return point.error();
   set_length(context.host, 151, point->x);
   set_length(context.host, 152, point->y);
-  return finish_preset(context, *motion, plane_datum(arguments, *point));
+  return finish_preset(context, motion, plane_datum(arguments, *point));
 }
 
-constinit const TouchProbeCycle kCycle416{
-    {.number = 416,
-     .name = "DATUM CIRCLE CENTER",
-     .kind = CycleKind::Preset,
-     .parameters = k416Parameters,
-     .results = kPresetCircleResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | ErrorSet{1081},
-     .simulated = "All parameters; holes are touched from their nominal centre, Q320 counts in the "
-                  "probe axis only."},
-    bolt_circle};
+constinit const TouchProbeCycle kCycle416 =
+    cycle(416, "DATUM CIRCLE CENTER", CycleKind::Preset, k416Parameters, kPresetCircleResults,
+          errors::kDatumTransfer | ErrorSet{1081}, after<begin_preset, bolt_circle>,
+          "All parameters; holes are touched from their nominal centre, Q320 counts in the "
+          "probe axis only.");
 
-constinit const TouchProbeCycle kCycle418{
-    {.number = 418,
-     .name = "DATUM FROM 4 HOLES",
-     .kind = CycleKind::Preset,
-     .parameters = k418Parameters,
-     .results = k418Results,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | ErrorSet{1081},
-     .simulated = "All parameters; the lines join holes 1 and 3, 2 and 4."},
-    four_holes};
+constinit const TouchProbeCycle kCycle418 =
+    cycle(418, "DATUM FROM 4 HOLES", CycleKind::Preset, k418Parameters, k418Results,
+          errors::kDatumTransfer | ErrorSet{1081}, after<begin_preset, four_holes>,
+          "All parameters; the lines join holes 1 and 3, 2 and 4.");
 
 }  // namespace fitgauge::probing::cycle_416_418

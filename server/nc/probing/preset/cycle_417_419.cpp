@@ -31,42 +31,26 @@ constexpr std::array k419Parameters{coordinate(263, "Point, main axis"),
 
 constexpr std::array<CycleOutput, 1> kResults{{{160, "Measured coordinate", Unit::Length}}};
 
-CycleResult<void> in_probe_axis(const CycleContext& context) {
+CycleResult<void> in_probe_axis(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  auto motion = begin_preset(context);
-  if (!motion) return motion.error();
   const Vec3 nominal{arguments.number(263), arguments.number(264), arguments.number(294)};
-  const auto surface = touch_down(*motion, nominal, arguments.number(320), arguments.number(260));
+  const auto surface = touch_down(motion, nominal, arguments.number(320), arguments.number(260));
   if (!surface) return surface.error();
-  return set_datum_of_axis(context, motion->plane(), *surface, 2);
+  return set_datum_of_axis(context, motion.plane(), *surface, 2);
 }
 
-CycleResult<void> in_one_axis(const CycleContext& context) {
-  auto motion = begin_preset(context);
-  if (!motion) return motion.error();
-  const auto touched = touch_coordinate(context, *motion);
+CycleResult<void> in_one_axis(const CycleContext& context, ProbingMotion& motion) {
+  const auto touched = touch_coordinate(context, motion);
   if (!touched) return touched.error();
-  return set_datum_of_axis(context, motion->plane(), touched->surface, touched->axis);
+  return set_datum_of_axis(context, motion.plane(), touched->surface, touched->axis);
 }
 
-constinit const TouchProbeCycle kCycle417{
-    {.number = 417,
-     .name = "DATUM IN TS AXIS",
-     .kind = CycleKind::Preset,
-     .parameters = k417Parameters,
-     .results = kResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer,
-     .simulated = "All parameters."},
-    in_probe_axis};
+constinit const TouchProbeCycle kCycle417 =
+    cycle(417, "DATUM IN TS AXIS", CycleKind::Preset, k417Parameters, kResults,
+          errors::kDatumTransfer, after<begin_preset, in_probe_axis>, "All parameters.");
 
-constinit const TouchProbeCycle kCycle419{
-    {.number = 419,
-     .name = "DATUM IN ONE AXIS",
-     .kind = CycleKind::Preset,
-     .parameters = k419Parameters,
-     .results = kResults,
-     .errors = errors::kTouching | errors::kUnscaled | errors::kDatumTransfer | ErrorSet{1042},
-     .simulated = "All parameters."},
-    in_one_axis};
+constinit const TouchProbeCycle kCycle419 = cycle(
+    419, "DATUM IN ONE AXIS", CycleKind::Preset, k419Parameters, kResults,
+    errors::kDatumTransfer | ErrorSet{1042}, after<begin_preset, in_one_axis>, "All parameters.");
 
 }  // namespace fitgauge::probing::cycle_417_419

@@ -84,32 +84,18 @@ constexpr std::string_view kSimulated =
 constexpr std::string_view kNotSimulated =
     "Runout of the calibrating tool: it is touched in one position of the spindle.";
 
-constinit const TouchProbeCycle kCycle30{{.number = 30,
-                                          .name = "CALIBRATE TT",
-                                          .kind = CycleKind::Tool,
-                                          .dotted = true,
-                                          .parameters = k30Parameters,
-                                          .errors = errors::kTouching | errors::kToolMeasuring,
-                                          .simulated = kSimulated,
-                                          .not_simulated = kNotSimulated},
-                                         calibrate_at_known_place};
+constinit const TouchProbeCycle kCycle30 =
+    cycle(30, "CALIBRATE TT", CycleKind::Tool, k30Parameters, {},
+          errors::kTouching | errors::kToolMeasuring, calibrate_at_known_place, kSimulated,
+          kNotSimulated);
 
-constinit const TouchProbeCycle kCycle480{{.number = 480,
-                                           .name = "CALIBRATE TT",
-                                           .kind = CycleKind::Tool,
-                                           .parameters = k480Parameters,
-                                           .errors = errors::kTouching | errors::kToolMeasuring,
-                                           .simulated = kSimulated,
-                                           .not_simulated = kNotSimulated},
-                                          calibrate_at_known_place};
+constinit const TouchProbeCycle kCycle480 =
+    cycle(480, "CALIBRATE TT", CycleKind::Tool, k480Parameters, {},
+          errors::kTouching | errors::kToolMeasuring, calibrate_at_known_place, kSimulated,
+          kNotSimulated);
 
-constinit const TouchProbeCycle kCycle484{{.number = 484,
-                                           .name = "CALIBRATE IR TT",
-                                           .kind = CycleKind::Tool,
-                                           .parameters = k484Parameters,
-                                           .errors = errors::kTouching | errors::kToolMeasuring,
-                                           .simulated = kSimulated,
-                                           .not_simulated = kNotSimulated},
-                                          calibrate_here};
+constinit const TouchProbeCycle kCycle484 =
+    cycle(484, "CALIBRATE IR TT", CycleKind::Tool, k484Parameters, {},
+          errors::kTouching | errors::kToolMeasuring, calibrate_here, kSimulated, kNotSimulated);
 
 }  // namespace fitgauge::probing::cycle_480_484

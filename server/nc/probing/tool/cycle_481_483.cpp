@@ -189,30 +189,25 @@ CycleResult<void> measure_tool_radius(const CycleContext& context) {
 CycleResult<void> measure_tool(const CycleContext& context) { return measure(context, true, true); }
 
 /// The cycle of a number in its Q-form or in sub-lines.
-constexpr CycleDescriptor tool_measurement(std::uint16_t number, std::string_view name, bool dotted,
-                                           std::span<const CycleOutput> results) {
-  return {.number = number,
-          .name = name,
-          .kind = CycleKind::Tool,
-          .dotted = dotted,
-          .parameters = dotted ? std::span<const CycleParameter>(kToolWords) : kParameters,
-          .results = results,
-          .errors = errors::kTouching | errors::kToolMeasuring,
-          .simulated = kSimulated,
-          .not_simulated = kNotSimulated};
+constexpr TouchProbeCycle tool_measurement(std::uint16_t number, std::string_view name,
+                                           std::span<const CycleOutput> results,
+                                           CycleFunction measure) {
+  const std::span<const CycleParameter> words = kToolWords;
+  return cycle(number, name, CycleKind::Tool, number < 100 ? words : kParameters, results,
+               errors::kTouching | errors::kToolMeasuring, measure, kSimulated, kNotSimulated);
 }
 
-constinit const TouchProbeCycle kCycle31{
-    tool_measurement(31, "CAL. TOOL LENGTH", true, k481Results), measure_tool_length};
-constinit const TouchProbeCycle kCycle32{
-    tool_measurement(32, "CAL. TOOL RADIUS", true, k482Results), measure_tool_radius};
-constinit const TouchProbeCycle kCycle33{tool_measurement(33, "MEASURE TOOL", true, k483Results),
-                                         measure_tool};
-constinit const TouchProbeCycle kCycle481{
-    tool_measurement(481, "CAL. TOOL LENGTH", false, k481Results), measure_tool_length};
-constinit const TouchProbeCycle kCycle482{
-    tool_measurement(482, "CAL. TOOL RADIUS", false, k482Results), measure_tool_radius};
-constinit const TouchProbeCycle kCycle483{tool_measurement(483, "MEASURE TOOL", false, k483Results),
-                                          measure_tool};
+constinit const TouchProbeCycle kCycle31 =
+    tool_measurement(31, "CAL. TOOL LENGTH", k481Results, measure_tool_length);
+constinit const TouchProbeCycle kCycle32 =
+    tool_measurement(32, "CAL. TOOL RADIUS", k482Results, measure_tool_radius);
+constinit const TouchProbeCycle kCycle33 =
+    tool_measurement(33, "MEASURE TOOL", k483Results, measure_tool);
+constinit const TouchProbeCycle kCycle481 =
+    tool_measurement(481, "CAL. TOOL LENGTH", k481Results, measure_tool_length);
+constinit const TouchProbeCycle kCycle482 =
+    tool_measurement(482, "CAL. TOOL RADIUS", k482Results, measure_tool_radius);
+constinit const TouchProbeCycle kCycle483 =
+    tool_measurement(483, "MEASURE TOOL", k483Results, measure_tool);
 
 }  // namespace fitgauge::probing::cycle_481_483
