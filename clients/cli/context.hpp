@@ -32,6 +32,20 @@ struct Context {
 
   /// A remark for the one who looks on.
   void note(std::string_view text) const { fmt::print(stderr, "fitgauge: {}\n", text); }
+
+  /// Sends a request until it is answered, as send_until_answered(), with a remark at each wait.
+  Outcome<Answer> persist(const Request& request) const {
+    return send_until_answered(client, request, Backoff(retry_budget),
+                               [this](const Failure& f, auto) { note(f.message); });
+  }
+  /// Posts JSON in the same way, under a new idempotency key.
+  Outcome<Answer> post_once(std::string target, std::string body) const {
+    return persist({.method = "POST",
+                    .target = std::move(target),
+                    .headers = {"Idempotency-Key: " + new_idempotency_key()},
+                    .content_type = "application/json",
+                    .body = std::move(body)});
+  }
 };
 
 /// Prints what the service answered: as it came where JSON is asked for, else by `print`, which

@@ -215,17 +215,6 @@ std::string record_body(const GaugeOptions& options, const std::string& measured
   return body.text();
 }
 
-Outcome<Answer> record(const Context& context, const std::string& body) {
-  const Request request{.method = "POST",
-                        .target = "/v1/measurements",
-                        .headers = {"Idempotency-Key: " + new_idempotency_key()},
-                        .content_type = "application/json",
-                        .body = body};
-  return send_until_answered(
-      context.client, request, Backoff(context.retry_budget),
-      [&context](const Failure& failure, auto) { context.note(failure.message); });
-}
-
 }  // namespace
 
 Outcome<ExitCode> verdict_exit_code(std::string_view word) {
@@ -286,7 +275,7 @@ Outcome<ExitCode> judge(const Context& context, const GaugeOptions& options,
   if (!text) return text.error();
   auto answer =
       options.record
-          ? record(context, record_body(options, *text))
+          ? context.post_once("/v1/measurements", record_body(options, *text))
           : context.client.send({.target = "/v1/verdicts/" + percent_encoded(options.designation) +
                                            verdict_query(options, *text)});
   answer = expect_ok(std::move(answer), context.client.url());

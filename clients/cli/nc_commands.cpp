@@ -16,12 +16,6 @@ Outcome<Answer> send(const Context& context, const Request& request) {
   return expect_ok(context.client.send(request), context.client.url());
 }
 
-Outcome<Answer> send_persistently(const Context& context, const Request& request) {
-  return send_until_answered(
-      context.client, request, Backoff(context.retry_budget),
-      [&context](const Failure& failure, auto) { context.note(failure.message); });
-}
-
 /// Prints each finding with its block.
 void print_diagnostics(const JsonValue& document, std::FILE* stream) {
   for (const JsonValue& found : document.member("diagnostics").items) {
@@ -91,12 +85,11 @@ Outcome<ExitCode> run_nc_put(const Context& context, const std::vector<std::stri
     if (!bytes) return bytes.error();
     const std::string path =
         names_folder(destination) ? destination + std::string(base_name(file)) : destination;
-    const auto answer =
-        expect_ok(send_persistently(context, {.method = "PUT",
-                                              .target = file_target(path),
-                                              .content_type = "application/octet-stream",
-                                              .body = *bytes}),
-                  context.client.url());
+    const auto answer = expect_ok(context.persist({.method = "PUT",
+                                                   .target = file_target(path),
+                                                   .content_type = "application/octet-stream",
+                                                   .body = *bytes}),
+                                  context.client.url());
     if (!answer) return answer.error();
     if (!context.json) context.print("{}  {} bytes\n", control_path(path), bytes->size());
   }
@@ -150,12 +143,7 @@ Outcome<std::string> run_there(const Context& context, const RunOptions& options
     return Failure{ExitCode::Usage, "--files-to is for local runs: use fitgauge runs get ID NAME"};
   const auto order = run_order(options);
   if (!order) return order.error();
-  auto answer =
-      send_persistently(context, {.method = "POST",
-                                  .target = "/v1/runs",
-                                  .headers = {"Idempotency-Key: " + new_idempotency_key()},
-                                  .content_type = "application/json",
-                                  .body = *order});
+  auto answer = context.post_once("/v1/runs", *order);
   if (!answer) return answer.error();
   if (!answer->ok()) return refused_run(context, *answer);
   return std::move(answer->body);

@@ -12,17 +12,8 @@
 namespace fitgauge::cli {
 namespace {
 
-/// Sends it again until it is answered, under one key.
 Outcome<Answer> post_once(const Context& context, std::string target, std::string body) {
-  const Request request{.method = "POST",
-                        .target = std::move(target),
-                        .headers = {"Idempotency-Key: " + new_idempotency_key()},
-                        .content_type = "application/json",
-                        .body = std::move(body)};
-  return expect_ok(
-      send_until_answered(context.client, request, Backoff(context.retry_budget),
-                          [&context](const Failure& f, auto) { context.note(f.message); }),
-      context.client.url());
+  return expect_ok(context.post_once(std::move(target), std::move(body)), context.client.url());
 }
 
 std::string note_line(const JsonValue& note) {

@@ -156,17 +156,7 @@ Outcome<JsonValue> run_on_contacts(const Context& context, const ReplayOptions& 
   }
   const std::string body =
       fmt::format("{},\"contacts_mm\":{}}}", order->substr(0, order->size() - 1), *contacts);
-  const auto answer =
-      expect_ok(send_until_answered(
-                    context.client,
-                    {.method = "POST",
-                     .target = "/v1/runs",
-                     .headers = {"Idempotency-Key: " + new_idempotency_key()},
-                     .content_type = "application/json",
-                     .body = body},
-                    Backoff(context.retry_budget),
-                    [&context](const Failure& failure, auto) { context.note(failure.message); }),
-                context.client.url());
+  const auto answer = expect_ok(context.post_once("/v1/runs", body), context.client.url());
   if (!answer) return answer.error();
   return read_document(*answer, context.client.url());
 }

@@ -11,10 +11,7 @@ namespace fitgauge::cli {
 namespace {
 
 Outcome<Answer> send_again(const Context& context, const Request& request) {
-  return expect_ok(
-      send_until_answered(context.client, request, Backoff(context.retry_budget),
-                          [&context](const Failure& f, auto) { context.note(f.message); }),
-      context.client.url());
+  return expect_ok(context.persist(request), context.client.url());
 }
 
 Outcome<ExitCode> done(const Outcome<Answer>& answer) {
