@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include "api/limits/limits_codec.hpp"
 #include "api/resources.hpp"

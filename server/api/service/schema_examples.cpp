@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
-#include <utility>
 
 #include "api/resources.hpp"
 #include "base/json/json_value.hpp"

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <set>
-#include <span>
 #include <tuple>
 
 #include "api/statistics/measuring_process.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstdint>

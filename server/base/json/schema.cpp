@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/json/json_writer.hpp"
 
 namespace fitgauge::api::schema {

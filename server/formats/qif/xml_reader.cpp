@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <iconv.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <new>
 #include <optional>

@@ -1,7 +1,5 @@
 #include "nc/klartext/mask_format.hpp"
 
-#include <fmt/format.h>
-
 #include <string>
 #include <utility>
 

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/text.hpp"
 #include "nc/klartext/forms.hpp"
 #include "nc/klartext/parser.hpp"

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <span>
 #include <vector>
 
 #include "nc/klartext/forms.hpp"

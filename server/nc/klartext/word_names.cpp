@@ -1,6 +1,5 @@
 #include "nc/klartext/word_names.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 

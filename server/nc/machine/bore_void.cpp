@@ -1,7 +1,6 @@
 #include "nc/machine/bore_void.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -1,7 +1,5 @@
 #include "nc/machine/geometry.hpp"
 
-#include <algorithm>
-
 #include "nc/machine/tolerance.hpp"
 
 namespace fitgauge::machine {

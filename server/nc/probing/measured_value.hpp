@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <utility>
 
 #include "nc/probing/arguments.hpp"
 #include "nc/probing/cycle_host.hpp"

@@ -1,7 +1,6 @@
 #include "nc/probing/touch_probe_cycle.hpp"
 
 #include <cassert>
-#include <utility>
 
 #include "nc/probing/cycle_descriptor.hpp"
 

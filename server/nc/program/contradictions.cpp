@@ -6,7 +6,6 @@
 #include <bitset>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "base/text.hpp"
 #include "nc/probing/cycles.hpp"

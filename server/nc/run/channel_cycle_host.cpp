@@ -1,7 +1,5 @@
 #include "nc/run/channel_cycle_host.hpp"
 
-#include <cmath>
-
 #include "nc/program/cycles.hpp"
 #include "nc/run/kinematics_records.hpp"
 

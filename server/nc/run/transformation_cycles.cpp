@@ -1,7 +1,5 @@
 #include "nc/run/transformation_cycles.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "nc/run/channel.hpp"

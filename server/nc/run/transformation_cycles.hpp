@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "nc/klartext/word_names.hpp"
 #include "nc/run/frame_commands.hpp"

@@ -1,7 +1,5 @@
 #include "service/measurements/measurement_service.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "db/store/database.hpp"

@@ -3,7 +3,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "nc/probing/cycle_host.hpp"
 #include "nc/probing/measured_value.hpp"

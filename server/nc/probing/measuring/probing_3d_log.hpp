@@ -2,8 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <string>
-#include <string_view>
 
 #include "nc/probing/cycle_fault.hpp"
 #include "nc/probing/cycle_host.hpp"
