@@ -6,6 +6,7 @@
 #include "db/store/database.hpp"
 #include "record/note.hpp"
 #include "record/record.hpp"
+#include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
 #include "service/measurements/mapping.hpp"
 #include "service/measurements/measurement_storage.hpp"
@@ -67,7 +68,15 @@ Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most,
 void LogOutbox::add_notes(const store::Stores& stores, std::int64_t place, std::int64_t behind,
                           Batch& batch) const {
   const Origins& origins = log_.origins();
-  for (store::Note& note : stores.notes.own_after(behind, kNotesABatch)) {
+  std::vector<store::Note> notes = stores.notes.own_after(behind, kNotesABatch);
+  if (notes.empty()) return;
+  // The centre takes them in their order: those of a later history come with its own batches.
+  std::int64_t last = std::numeric_limits<std::int64_t>::max();
+  for (const auto& ended : stores.log.branches()) {
+    if (digits_of_origin(ended.origin) == batch.origin) last = ended.newest[3];
+  }
+  for (store::Note& note : notes) {
+    if (note.id > last) return;
     std::string record;
     stores.measurements.find(note.measurement, [&](const store::MeasurementRow& row) {
       if (!row.is_forwarded() && row.place_in_log() > place) return;

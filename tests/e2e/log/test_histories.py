@@ -398,6 +398,27 @@ class Stations(Restored):
         wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
         self.assert_clean(self.centre)
 
+    def test_notes_of_a_branch_for_a_centre_that_lacks_what_lies_below(self):
+        empty = self.backup(self.centre)
+        below = {"id": self.store(self.station, "s1 s2")[0]}
+        copy = self.backup(self.station)
+        self.station.stop()
+        self.restore(self.station, copy)
+        self.station.start()
+        said = note(self.station, below, "below")
+        above = {"id": self.store(self.station, "s3")[0]}
+        later = note(self.station, above, "above")
+        for _ in range(2):
+            wait_for(lambda: len(self.there()) == 3, lambda: self.station.log)
+            wait_for(lambda: notes_of(self.centre, above) == [later], lambda: self.station.log)
+            wait_for(lambda: notes_of(self.centre, below) == [said], lambda: self.station.log)
+            self.centre.stop()
+            for left in self.centre.data.glob("damaged*"):
+                shutil.rmtree(left)
+            self.restore(self.centre, empty)
+            self.centre.start()
+        self.assert_clean(self.centre)
+
     def test_notes_from_before_a_branch_for_a_centre_that_was_put_back(self):
         self.put_the_centre_back(station_sends_first=False)
 
