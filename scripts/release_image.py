@@ -99,7 +99,9 @@ def layer_of(root: Path, triplet: str, config: dict[str, object]) -> bytes:
     for name in ("copyright", "licences.txt"):
         layer.add(f"usr/share/doc/fitgauge/{name}", (root / "usr/share/doc/fitgauge" / name).read_bytes())
     certificates = "etc/ssl/certs/ca-certificates.crt"
-    layer.add(certificates, Path("/", certificates).read_bytes())
+    # Debian's alone: the bundle of the system that builds has also what its administrator trusts.
+    trusted = sorted(Path("/usr/share/ca-certificates/mozilla").glob("*.crt"))
+    layer.add(certificates, b"".join(file.read_bytes() for file in trusted))
     layer.add("usr/lib/ssl/cert.pem", type=tarfile.SYMTYPE, linkname="/" + certificates)
     zones = Path("/usr/share/zoneinfo")
     for file in sorted(zones.rglob("*")):
