@@ -30,8 +30,8 @@ def needed(file: Path) -> list[str]:
     return re.findall(r"\(NEEDED\).*\[(.*)\]", text) + re.findall(r"interpreter: (.*)\]", text)
 
 
-def libraries(programs: list[Path], triplet: str) -> dict[str, Path]:
-    """All that the programs load: the place in the image and the file it comes from."""
+def libraries(programs: list[Path], system: Path, triplet: str) -> dict[str, Path]:
+    """All that the programs load: the place in the image and the file of the system it comes from."""
     found: dict[str, Path] = {}
     waiting = list(programs)
     while waiting:
@@ -39,7 +39,7 @@ def libraries(programs: list[Path], triplet: str) -> dict[str, Path]:
             place = name.lstrip("/") if name.startswith("/") else f"lib/{triplet}/{name}"
             if place in found:
                 continue
-            places = [Path("/" + place), Path("/usr", place), Path("/usr", triplet, "lib", Path(name).name)]
+            places = [system / place, system / "usr" / place]
             file = next((path for path in places if path.exists()), None)
             if file is None:
                 sys.exit(f"release_image.py: {name} is in none of {', '.join(map(str, places))}")
@@ -89,12 +89,12 @@ def configuration() -> dict[str, object]:
                             "StartPeriod": seconds["start-period"]}}
 
 
-def layer_of(root: Path, triplet: str, config: dict[str, object]) -> bytes:
+def layer_of(root: Path, system: Path, triplet: str, config: dict[str, object]) -> bytes:
     layer = Layer()
     programs = sorted(root.glob("usr/bin/*"))
     for program in programs:
         layer.add(f"usr/local/bin/{program.name}", program.read_bytes(), 0o755)
-    for place, file in libraries(programs, triplet).items():
+    for place, file in libraries(programs, system, triplet).items():
         layer.add(place, file.read_bytes(), 0o755)
     for name in ("copyright", "licences.txt"):
         layer.add(f"usr/share/doc/fitgauge/{name}", (root / "usr/share/doc/fitgauge" / name).read_bytes())
@@ -116,10 +116,10 @@ def layer_of(root: Path, triplet: str, config: dict[str, object]) -> bytes:
     return layer.bytes()
 
 
-def image(root: Path, version: str, architecture: str) -> bytes:
+def image(root: Path, system: Path, version: str, architecture: str) -> bytes:
     """The OCI layout, with the manifest.json of `docker save`."""
     config = configuration()
-    layer = layer_of(root, TRIPLETS[architecture], config)
+    layer = layer_of(root, system, TRIPLETS[architecture], config)
     packed = gzip.compress(layer, mtime=0)
     blobs: dict[str, bytes] = {}
 
@@ -162,9 +162,10 @@ def main() -> None:
     parser.add_argument("--root", type=Path, required=True, help="the unpacked package")
     parser.add_argument("--version", required=True)
     parser.add_argument("--architecture", choices=TRIPLETS, required=True)
+    parser.add_argument("--system", type=Path, default=Path("/"), help="a Debian of this architecture")
     parser.add_argument("--out", type=Path, required=True)
     options = parser.parse_args()
-    options.out.write_bytes(image(options.root, options.version, options.architecture))
+    options.out.write_bytes(image(options.root, options.system, options.version, options.architecture))
 
 
 if __name__ == "__main__":

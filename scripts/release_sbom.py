@@ -28,20 +28,20 @@ def package(name: str, version: str, purl: str, licence: str = "NOASSERTION") ->
                               "referenceLocator": purl}]}
 
 
-def query(name: str, field: str) -> str:
-    return subprocess.run(["dpkg-query", "-W", "-f", f"${{{field}}}", name],
-                          capture_output=True, text=True, check=True).stdout
+def query(system: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(["dpkg-query", f"--admindir={system / 'var/lib/dpkg'}", *arguments],
+                          capture_output=True, text=True)
 
 
-def installed(name: str) -> Package:
-    version, plain = query(name, "Version"), name.split(":")[0]
-    return package(plain, version, f"pkg:deb/debian/{plain}@{version}")
+def field(system: Path, name: str, which: str) -> str:
+    found = query(system, "-W", "-f", f"${{{which}}}", name)
+    return found.stdout if found.returncode == 0 else sys.exit(f"release_sbom.py: {name} is not in {system}")
 
 
-def owner(file: Path) -> str:
+def owner(system: Path, file: Path) -> str:
     """The Debian package of a library; /usr/lib and /lib are one folder with two names."""
     for path in (str(file), str(file).removeprefix("/usr")):
-        found = subprocess.run(["dpkg-query", "-S", path], capture_output=True, text=True)
+        found = query(system, "-S", path)
         if found.returncode == 0:
             return found.stdout.split(": ")[0].split(",")[0]
     sys.exit(f"release_sbom.py: {file} belongs to no package")
@@ -65,19 +65,23 @@ def of_page() -> list[Package]:
     return found
 
 
-def document(root: Path, version: str) -> dict[str, object]:
-    architecture = subprocess.run(["dpkg", "--print-architecture"], capture_output=True, text=True, check=True)
-    loaded = libraries(sorted(root.glob("usr/bin/*")), TRIPLETS[architecture.stdout.strip()])
-    product = package("fitgauge", version, f"pkg:generic/fitgauge@{version}", "Apache-2.0")
-    owners = sorted({owner(file) for file in loaded.values()})
+def document(root: Path, system: Path, version: str, architecture: str) -> dict[str, object]:
+    def installed(name: str) -> Package:
+        number, plain = field(system, name, "Version"), name.split(":")[0]
+        return package(plain, number, f"pkg:deb/debian/{plain}@{number}?arch={field(system, name, 'Architecture')}")
+
+    product = package("fitgauge", version, f"pkg:generic/fitgauge@{version}?arch={architecture}", "Apache-2.0")
+    loaded = libraries(sorted(root.glob("usr/bin/*")), system, TRIPLETS[architecture])
+    owners = sorted({owner(system, file) for file in loaded.values()})
     parts = [(installed(name), "DYNAMIC_LINK") for name in owners]
-    sources = {query(name, "source:Package") for name in owners}
+    sources = {field(system, name, "source:Package") for name in owners}
     parts += [(installed(name), "STATIC_LINK") for name in compiled_in()
-              if query(name, "source:Package") not in sources]
+              if field(system, name, "source:Package") not in sources]
     parts += [(part, "CONTAINS") for part in of_page()]
-    identity = f"fitgauge-{version}-{EPOCH}"
+    identity = f"fitgauge-{version}-{architecture}-{EPOCH}"
     return {
-        "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": f"fitgauge-{version}",
+        "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
+        "name": f"fitgauge-{version}-{architecture}",
         "documentNamespace": f"urn:uuid:{uuid.uuid5(uuid.NAMESPACE_URL, identity)}",
         "creationInfo": {"created": datetime.fromtimestamp(EPOCH, timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
                          "creators": ["Tool: fitgauge-scripts-release"]},
@@ -92,9 +96,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--root", type=Path, required=True, help="the unpacked package")
     parser.add_argument("--version", required=True)
+    parser.add_argument("--architecture", choices=TRIPLETS, required=True)
+    parser.add_argument("--system", type=Path, default=Path("/"), help="a Debian of this architecture")
     parser.add_argument("--out", type=Path, required=True)
     options = parser.parse_args()
-    options.out.write_text(json.dumps(document(options.root, options.version), indent=1) + "\n")
+    found = document(options.root, options.system, options.version, options.architecture)
+    options.out.write_text(json.dumps(found, indent=1) + "\n")
 
 
 main()

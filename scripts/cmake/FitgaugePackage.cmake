@@ -8,8 +8,9 @@ install(FILES clients/cli/completion/fitgauge.bash
 # The program writes those of other shells itself, of the options it has.
 set(package_files "${CMAKE_BINARY_DIR}/package")
 file(MAKE_DIRECTORY "${package_files}")
+string(REPLACE ";" " " emulator "${CMAKE_CROSSCOMPILING_EMULATOR}")
 function(install_completion shell file folder)
-  install(CODE "execute_process(COMMAND \"$<TARGET_FILE:fitgauge>\" completion ${shell}
+  install(CODE "execute_process(COMMAND ${emulator} \"$<TARGET_FILE:fitgauge>\" completion ${shell}
     OUTPUT_FILE \"${package_files}/${file}\" COMMAND_ERROR_IS_FATAL ANY)")
   install(FILES "${package_files}/${file}" DESTINATION "${CMAKE_INSTALL_DATADIR}/${folder}")
 endfunction()
