@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """scripts/release_image.py: an OCI image of an unpacked package, without an engine.
 
-It holds the programs, the libraries that they need, CA certificates and time zones, and nothing else. User, ports,
+It holds the service, the libraries that it needs, CA certificates and time zones, and nothing else. User, ports,
 volumes and entry point are those of the last stage of the Dockerfile. The file is an OCI layout that `docker load`
 and `podman load` take.
 """
@@ -91,10 +91,9 @@ def configuration() -> dict[str, object]:
 
 def layer_of(root: Path, system: Path, triplet: str, config: dict[str, object]) -> bytes:
     layer = Layer()
-    programs = sorted(root.glob("usr/bin/*"))
-    for program in programs:
-        layer.add(f"usr/local/bin/{program.name}", program.read_bytes(), 0o755)
-    for place, file in libraries(programs, system, triplet).items():
+    service = root / "usr/bin/fitgauged"
+    layer.add(f"usr/local/bin/{service.name}", service.read_bytes(), 0o755)
+    for place, file in libraries([service], system, triplet).items():
         layer.add(place, file.read_bytes(), 0o755)
     for name in ("copyright", "licences.txt"):
         layer.add(f"usr/share/doc/fitgauge/{name}", (root / "usr/share/doc/fitgauge" / name).read_bytes())
