@@ -156,32 +156,32 @@ void add_connections_routes(api::Routes& add, Connections& all) {
   add("GET /v1/connections listConnections viewer",
       [&all](const http::Request&) { return list(all); },
       {.summary = "The connections: state, lag, last error and counts",
-       .outcomes = {{.meaning = "By name", .schema = "Connections"}}});
+       .outcomes = {{.meaning = "Sorted by name", .schema = "Connections"}}});
   add("GET /v1/connections/{name} getConnection viewer",
       [&all](const http::Request& request) { return one(all, name_of(request), 200); },
       {.summary = "A connection: its settings without secrets, and its state",
        .parameters = {name},
-       .outcomes = {{.meaning = "As it is now", .schema = "Connection"}},
+       .outcomes = {{.meaning = "State of the connection", .schema = "Connection"}},
        .refusals = {404}});
   add("PUT /v1/connections/{name} putConnection admin", by(all, put),
       {.summary = "Store a connection and start it",
-       .description = "One of the configuration file is 409 `connection.read_only`.",
+       .description = "A connection of the configuration file gives 409 `connection.read_only`.",
        .parameters = {name},
        .body = api::json_body("ConnectionOrder"),
        .outcomes = {{.meaning = "The connection is replaced and continues at its position",
                      .schema = "Connection"},
-                    {.status = 201, .meaning = "It is new", .schema = "Connection"}},
+                    {.status = 201, .meaning = "Created", .schema = "Connection"}},
        .refusals = {409}});
   add("DELETE /v1/connections/{name} deleteConnection admin", by(all, remove),
       {.summary = "Delete a connection and its position",
        .parameters = {name},
-       .outcomes = {{.status = 204, .meaning = "It is gone"}},
+       .outcomes = {{.status = 204, .meaning = "Deleted"}},
        .refusals = {404, 409}});
   add("POST /v1/connections/{name}/test testConnection admin", by(all, test),
       {.summary = "Test a connection once",
        .description = "Answers 200 for every result of the test, after at most half a minute.",
        .parameters = {name},
-       .outcomes = {{.meaning = "What was found", .schema = "ConnectionTest"}},
+       .outcomes = {{.meaning = "Result", .schema = "ConnectionTest"}},
        .refusals = {404}});
   add("POST /v1/connections/{name}/replay replayConnection admin", by(all, replay),
       {.summary = "Send again from a place",
@@ -189,7 +189,7 @@ void add_connections_routes(api::Routes& add, Connections& all) {
                       "their ids ignores what it has.",
        .parameters = {name},
        .body = api::json_body("ConnectionReplay"),
-       .outcomes = {{.meaning = "It sends again", .schema = "Connection"}},
+       .outcomes = {{.meaning = "The connection sends again", .schema = "Connection"}},
        .refusals = {404}});
 }
 

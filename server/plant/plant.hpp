@@ -72,7 +72,8 @@ struct ConnectionCounter {
   std::string_view meaning;
 };
 inline constexpr std::array<ConnectionCounter, 9> kConnectionCounters = {{
-    {"attempts", &ConnectionState::attempts, "Since the start, like all following counts"},
+    {"attempts", &ConnectionState::attempts,
+     "Attempts since the start; so are all following counts"},
     {"failures", &ConnectionState::failures, "Attempts that failed"},
     {"files", &ConnectionState::files, "Files read because they were new, or files written"},
     {"bytes", &ConnectionState::bytes, "Bytes of these files"},

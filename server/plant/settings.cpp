@@ -41,7 +41,7 @@ schema::Fields shown_settings() {
 schema::Fields state_fields() {
   const std::string time_or_null = schema::null_or(schema::text());
   const std::string letter =
-      schema::object({{"measurement", schema::text(), "Its id"},
+      schema::object({{"measurement", schema::text(), "Id of the measurement"},
                       {"at", schema::time(), "Time of the refusal"},
                       {"reason", schema::text(), "Answer of the other side"}});
   schema::Fields fields = {
@@ -116,10 +116,11 @@ bool Path::read(api::FieldReader& fields, std::string_view name, fs::path& to) c
 template <class V>
 void members(V& v, LogFilter& filter) {
   for (std::size_t i = 0; i < app::kTextFilters.size(); ++i) {
-    v.optional(app::kTextFilters[i], filter.query.texts[i], "The same text");
+    v.optional(app::kTextFilters[i], filter.query.texts[i], "Exactly this text");
   }
   v.optional("verdict", filter.verdicts,
-             SomeOf{{"good", "rework", "reject", "indeterminate", "unjudged"}}, "One of these");
+             SomeOf{{"good", "rework", "reject", "indeterminate", "unjudged"}},
+             "One of these verdicts");
   v.optional("source", filter.from, Choice{"gauge", "simulation", "all"}, "gauge when absent");
 }
 
@@ -161,23 +162,23 @@ void add_connection_schemas(api::Schemas& schemas) {
   schemas.push_back({"ConnectionOrder", schema::any_of(orders)});
   schemas.push_back(
       {"Connection",
-       schema::object(
-           schema::Fields{{"name", schema::text(), ""},
-                          {"kind", schema::words(names), ""},
-                          {"direction", schema::words({"in", "out"}), ""},
-                          {"read_only", schema::boolean(),
-                           "The connection belongs to the configuration file"}} +
-           shown_settings() +
-           schema::Fields{{"secret_count", schema::count(), "Number of secrets", false},
-                          {"password_set", schema::boolean(), "There is a password", false}} +
-           state_fields())});
+       schema::object(schema::Fields{{"name", schema::text(), ""},
+                                     {"kind", schema::words(names), ""},
+                                     {"direction", schema::words({"in", "out"}), ""},
+                                     {"read_only", schema::boolean(),
+                                      "The connection belongs to the configuration file"}} +
+                      shown_settings() +
+                      schema::Fields{{"secret_count", schema::count(), "Number of secrets", false},
+                                     {"password_set", schema::boolean(),
+                                      "true if a password is stored", false}} +
+                      state_fields())});
   schemas.push_back(
       {"Connections",
        schema::object({{"connections", schema::array(schema::ref("Connection")), ""}})});
   schemas.push_back(api::order_schema<ReplayOrder>("ConnectionReplay"));
   schemas.push_back(
       {"ConnectionTest", schema::object({{"ok", schema::boolean(), "The other side was reached"},
-                                         {"detail", schema::text(), "What was found"}})});
+                                         {"detail", schema::text(), "Result"}})});
 }
 
 }  // namespace fitgauge::connections

@@ -43,17 +43,17 @@ void given_members(auto& v, auto& note) {
   v.optional("cause", note.cause, NoteText{}, "Cause of the value");
   v.optional("measure", note.measure, NoteText{}, "Action after the value");
   v.optional("text", note.text, NoteText{2000}, "Free text; one of the three is required");
-  v.optional("operator", note.operator_id, NoteText{}, "Who says so");
+  v.optional("operator", note.operator_id, NoteText{}, "Author of the note");
 }
 
 template <class N>
 requires std::same_as<std::remove_const_t<N>, app::Note>
 void members(auto& v, N& note) {
-  v.member("id", note.id, "Opaque; sorts nowhere");
+  v.member("id", note.id, "Opaque id, without an order");
   v.member("measurement_id", note.measurement, "The record of the note");
   given_members(v, note);
   v.optional("caller", note.caller, "Name of the key that stored the note");
-  v.member("received_at", note.received_at, Time{}, "In UTC");
+  v.member("received_at", note.received_at, Time{}, "Time in UTC");
 }
 
 }  // namespace fitgauge::api

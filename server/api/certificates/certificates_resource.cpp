@@ -100,9 +100,9 @@ std::vector<http::Parameter> parameters() {
   const std::vector<http::Parameter> others = {
       {.name = "title",
        .type = http::Text{200},
-       .description = "Its first line; Inspection report when absent"},
-      {.name = "company", .type = http::Text{200}, .description = "Who makes it out"},
-      {.name = "customer", .type = http::Text{200}, .description = "For whom"},
+       .description = "First line of the report; Inspection report when absent"},
+      {.name = "company", .type = http::Text{200}, .description = "Company that issues the report"},
+      {.name = "customer", .type = http::Text{200}, .description = "Customer on the report"},
       {.name = "paper", .type = http::Words{{"a4", "letter"}}, .description = "a4 when absent"},
   };
   all.insert(all.end(), others.begin(), others.end());

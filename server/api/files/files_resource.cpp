@@ -102,11 +102,10 @@ void delete_file(const Services& services, const http::Request& request,
 }  // namespace
 
 void members(auto& v, const app::DiskFile& file) {
-  v.member("path", file.path, "As the control writes it");
-  v.member("href", file.path.empty() ? std::string() : href(file.path),
-           "Where this service has it");
-  v.member("size", file.size, "In bytes");
-  v.member("modified_at", file.modified_at, Time{}, "In UTC");
+  v.member("path", file.path, "Path on the control");
+  v.member("href", file.path.empty() ? std::string() : href(file.path), "Address at this service");
+  v.member("size", file.size, "Size in bytes");
+  v.member("modified_at", file.modified_at, Time{}, "Time in UTC");
 }
 
 namespace {
@@ -114,7 +113,9 @@ namespace {
 struct FilesAnswer {
   std::vector<app::DiskFile> files{};
 };
-void members(auto& v, const FilesAnswer& answer) { v.member("files", answer.files, "By path"); }
+void members(auto& v, const FilesAnswer& answer) {
+  v.member("files", answer.files, "Sorted by path");
+}
 
 void list_files(const Services& services, const http::Request& request, http::Responder responder) {
   std::string prefix(request.text("prefix").value_or(""));
@@ -172,24 +173,25 @@ void add_file_schemas(Schemas& schemas) {
 void add_files_routes(Routes& add) {
   add("GET /v1/files listFiles viewer", list_files,
       {.summary = "The files of the control's disk",
-       .parameters = {{.name = "prefix", .description = "Only paths that begin so: nc_prog/8255/"}},
+       .parameters = {{.name = "prefix",
+                       .description = "Only paths with this beginning: nc_prog/8255/"}},
        .outcomes = {{.meaning = "The files", .schema = "Files"}}});
   add("GET /v1/files/{path*} getFile viewer", get_file,
       {.summary = "A file, byte for byte",
        .parameters = with_preconditions(kPath),
        .response_types = {},
-       .outcomes = {{.meaning = "Its bytes", .media_types = {"application/octet-stream"}}},
+       .outcomes = {{.meaning = "Bytes of the file", .media_types = {"application/octet-stream"}}},
        .refusals = {404, 412}});
   add("PUT /v1/files/{path*} putFile admin", put_file,
       {.summary = "Store a program, mask or table as it is on the control",
        .parameters = with_preconditions(kPath),
        .body = {.use = http::BodyUse::Required, .limit = kBodyLimit},
-       .outcomes = {{.meaning = "It is replaced"}, {.status = 201, .meaning = "It is new"}},
+       .outcomes = {{.meaning = "Replaced"}, {.status = 201, .meaning = "Created"}},
        .refusals = {412, 422}});
   add("DELETE /v1/files/{path*} deleteFile admin", delete_file,
       {.summary = "Delete a file",
        .parameters = with_preconditions(kPath),
-       .outcomes = {{.status = 204, .meaning = "It is gone"}},
+       .outcomes = {{.status = 204, .meaning = "Deleted"}},
        .refusals = {404, 412}});
   add("POST /v1/files/{path*} checkFile viewer", act_on_file,
       {.summary = "Check a program with those it calls, a mask or a table, or format a program; "
@@ -204,7 +206,7 @@ void add_files_routes(Routes& add) {
                        .description = "check: the findings; format: the program as text, one blank "
                                       "between words, blocks numbered from 0"}},
        .body = {.use = http::BodyUse::Optional, .limit = kBodyLimit},
-       .outcomes = {{.meaning = "What was found, or the program",
+       .outcomes = {{.meaning = "Findings, or the formatted program",
                      .schema = "Diagnostics",
                      .media_types = {"application/json", "text/plain"}}},
        .refusals = {404, 422}});

@@ -23,10 +23,10 @@ struct MeasuredSide {
 };
 
 void members(auto& v, const MeasuredSide& side) {
-  v.member("selection", selection_of(side.selected, side.as_of), "Which measurements it is of");
-  v.member("mean", side.capability.mean, Finite{}, "In mm");
-  v.member("standard_deviation_overall", side.capability.overall, Finite{}, "In mm");
-  v.member("stable", side.capability.stable, "No rule is broken");
+  v.member("selection", selection_of(side.selected, side.as_of), "Measurements of the figure");
+  v.member("mean", side.capability.mean, Finite{}, "Value in mm");
+  v.member("standard_deviation_overall", side.capability.overall, Finite{}, "Value in mm");
+  v.member("stable", side.capability.stable, "true if no rule is broken");
 }
 
 struct StoredClearance {
@@ -41,9 +41,9 @@ void members(auto& v, const StoredClearance& stored) {
            "Independent and normal, as measured");
   v.member("mean_clearance_um", kMicrometres * clearance.mean, Finite{});
   v.member("standard_deviation_um", kMicrometres * clearance.standard_deviation, Finite{},
-           "Of the clearance");
+           "Figure of the clearance");
   v.member("stable", stored.hole.capability.stable && stored.shaft.capability.stable,
-           "Both are: else the next parts may be others");
+           "Both distributions are stable; if not, future parts may differ");
   v.member("hole", stored.hole);
   v.member("shaft", stored.shaft);
 }

@@ -96,7 +96,7 @@ schema::Fields limits_fields() {
   return {
       {"designation", schema::text(), "Size and class; absent with the limits of a drawing", false},
       {"nominal_mm", schema::number(), "Nominal size"},
-      {"tolerance_class", schema::text(), "Absent with the limits of a drawing", false},
+      {"tolerance_class", schema::text(), "Absent for limits of a drawing", false},
       {"feature", feature_words(),
        "A hole is too small before it is too large, a shaft the other way"},
       {"upper_deviation_um", schema::number(), "ES or es"},
@@ -126,8 +126,9 @@ schema::Fields warnings_field() {
   const std::string warning =
       schema::object({{"code", schema::text(),
                        "rule.no_acceptance, uncertainty.large, gauge.unknown, query.unused"},
-                      {"detail", schema::text(), "What it is of, and what to do"}});
-  return {{"warnings", schema::array(warning), "Of this answer alone, no part of a record", false}};
+                      {"detail", schema::text(), "Cause, and what to do"}});
+  return {{"warnings", schema::array(warning), "Warnings of this response; not part of a record",
+           false}};
 }
 
 namespace {
@@ -139,8 +140,9 @@ void add_found_fits(Schemas& schemas, const schema::Fields& fit_fields) {
                        {"shaft_class", schema::text(), ""},
                        {"preferred", schema::boolean(), "By ISO 286-1:2010, figures B.2 and B.3"},
                    });
-  schemas.push_back({"FoundFits", schema::object({{"fits", schema::array(fit), "The first"},
-                                                  {"total", schema::count(), "All there are"}})});
+  schemas.push_back(
+      {"FoundFits", schema::object({{"fits", schema::array(fit), "The first fits in this order"},
+                                    {"total", schema::count(), "Number of all fits found"}})});
 }
 
 void add_standards(Schemas& schemas) {
@@ -150,27 +152,29 @@ void add_standards(Schemas& schemas) {
       {"title", schema::text(), ""},
       {"revision", schema::text(), "The table_revision of what is judged by it"},
       {"designation", schema::text(), "An example; absent where it has none for limits", false},
-      {"left_out", schema::text(), "What the standard has beside this, and why it is not here",
+      {"left_out", schema::text(), "Parts of the standard that are not here, with the reason",
        false}};
   const std::string standard =
       schema::object(identity + schema::Fields{
                                     {"tables", schema::array(schema::text()), ""},
-                                    {"sources", schema::array(schema::text()), "Compared with"},
+                                    {"sources", schema::array(schema::text()),
+                                     "Sources that the numbers were compared with"},
                                 });
   schemas.push_back({"Standards", schema::object({{"standards", schema::array(standard), ""}})});
   const std::string item = schema::object(schema::optional({
-      {"designation", schema::text(), "Of ISO 286, of the width of a keyway"},
+      {"designation", schema::text(), "ISO 286 designation of the keyway's width"},
       {"nominal_mm", schema::number(), ""},
       {"upper_um", schema::number(), "Upper deviation"},
       {"lower_um", schema::number(), "Lower deviation"},
       {"tolerance_um", schema::number(), ""},
       {"deviation_um", schema::number(),
        "Of the position of a thread, the one next to its profile"},
-      {"upper_arcmin", schema::number(), "In minutes"},
-      {"lower_arcmin", schema::number(), "In minutes"},
+      {"upper_arcmin", schema::number(), "Limit in minutes of arc"},
+      {"lower_arcmin", schema::number(), "Limit in minutes of arc"},
   }));
   const std::string row = schema::object(
-      schema::Fields{{"table", schema::text(), ""}, {"limits", schema::map(item), "By item"}} +
+      schema::Fields{{"table", schema::text(), ""},
+                     {"limits", schema::map(item), "Limits by item"}} +
       schema::optional({{"over_mm", schema::number(), "Exclusive"},
                         {"up_to_mm", schema::number(), "Inclusive; absent: without end"},
                         {"pitch_mm", schema::number(), ""},
@@ -185,10 +189,11 @@ void add_limits_schemas(Schemas& schemas) {
   schemas.push_back({"Limits", schema::object(limits_fields())});
   const std::string likely =
       schema::object({{"probability_of_interference", schema::number(), ""}});
-  const std::string statistical = schema::object(
-      {{"normal", likely, "Six standard deviations wide"},
-       {"uniform", likely, ""},
-       {"stored", stored_clearance_schema(), "Of the values that filters choose", false}});
+  const std::string statistical =
+      schema::object({{"normal", likely, "Six standard deviations wide"},
+                      {"uniform", likely, ""},
+                      {"stored", stored_clearance_schema(),
+                       "Distributions of the values that the filters select", false}});
   const schema::Fields fit_members = {
       {"designation", schema::text(), "25 H7/g6"},
       {"hole", schema::ref("Limits"), ""},
@@ -198,7 +203,8 @@ void add_limits_schemas(Schemas& schemas) {
       {"min_clearance_um", schema::number(), "EI - es; negative: interference"},
       {"assumes_envelope", schema::boolean(),
        "True: form counts too unless both sizes have the modifier (E) of ISO 14405-1"},
-      {"statistical", statistical, "Sizes independent; centred but where stored"},
+      {"statistical", statistical,
+       "Independent sizes, centred within their limits if no stored values are given"},
   };
   const schema::Fields fit = fit_members + formula_fields();
   schemas.push_back({"Fit", schema::object(fit)});
@@ -211,13 +217,15 @@ void add_limits_schemas(Schemas& schemas) {
       {"added_uncertainty_um", schema::number(),
        "Standard uncertainty that the correction adds to uncertainty_um, where one of a "
        "temperature or expansion is given; the rule decides with both"},
-      {"rule", rule_words(), "Where it is not simple"},
+      {"rule", rule_words(), "Decision rule if it is not simple"},
       {"uncertainty_um", schema::number(), "Standard uncertainty u of the rule"},
-      {"degrees_of_freedom", schema::number(), "Of uncertainty_um, where they were given"},
-      {"coverage_factor", schema::number(), "k of guard_band"},
-      {"probability", schema::number(0.5, 1), "Of conformance: what a good part has at least"},
+      {"degrees_of_freedom", schema::number(),
+       "Degrees of freedom of uncertainty_um; absent if not given"},
+      {"coverage_factor", schema::number(), "Coverage factor k of guard_band"},
+      {"probability", schema::number(0.5, 1),
+       "Least probability of conformance of a good part (rule conformance)"},
       {"conformance_probability", schema::number(0, 1), "Of the part, to 1e-9"},
-      {"guard_band_um", schema::number(), "Of conformance: inside both limits"},
+      {"guard_band_um", schema::number(), "Guard band inside both limits (rule conformance)"},
   });
   schemas.push_back(
       {"Verdict", schema::object(limits_fields() + verdict_fields() + rule + warnings_field())});

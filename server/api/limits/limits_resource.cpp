@@ -51,8 +51,8 @@ struct NewSizes {
   Length lower{};
 };
 void members(auto& v, const NewSizes& sizes) {
-  v.member("upper_mm", sizes.upper, Millimetres{}, "New");
-  v.member("lower_mm", sizes.lower, Millimetres{}, "New");
+  v.member("upper_mm", sizes.upper, Millimetres{}, "Limit of a new gauge");
+  v.member("lower_mm", sizes.lower, Millimetres{}, "Limit of a new gauge");
 }
 
 struct GoGauge {
@@ -61,7 +61,7 @@ struct GoGauge {
 };
 void members(auto& v, const GoGauge& gauge) {
   members(v, gauge.sizes);
-  v.member("wear_limit_mm", gauge.wear_limit, Millimetres{}, "Worn out");
+  v.member("wear_limit_mm", gauge.wear_limit, Millimetres{}, "Limit of a worn gauge");
 }
 
 struct LimitGaugeAnswer {
@@ -79,10 +79,10 @@ void members(auto& v, const LimitGaugeAnswer& answer) {
   v.member("designation", answer.designation);
   formula_members(v, kKinds.of(answer.feature));
   v.member("scheme", metrology::kLimitGaugeScheme, "The standard of the values");
-  v.member("note", kNote, "On other editions");
+  v.member("note", kNote, "Note on other editions");
   v.member("kind", answer.feature, kKinds);
-  v.member("upper_limit_mm", answer.upper_limit, Millimetres{}, "Of the workpiece");
-  v.member("lower_limit_mm", answer.lower_limit, Millimetres{}, "Of the workpiece");
+  v.member("upper_limit_mm", answer.upper_limit, Millimetres{}, "Limit of the workpiece");
+  v.member("lower_limit_mm", answer.lower_limit, Millimetres{}, "Limit of the workpiece");
   v.member("go", answer.go);
   v.member("no_go", answer.no_go);
 }
@@ -141,7 +141,7 @@ struct PressFitOrder {
 void members(auto& v, PressFitOrder& order) {
   v.member("joint_diameter_mm", order.fit.joint_diameter_mm, kAboveZero);
   v.member("length_mm", order.fit.length_mm, kAboveZero);
-  v.optional("friction", order.fit.friction, kAboveZero, "Along the joint");
+  v.optional("friction", order.fit.friction, kAboveZero, "Friction coefficient along the joint");
   v.member("hub", order.hub);
   v.member("shaft", order.shaft);
   v.optional("min_interference_um", order.least, kFromZero);
@@ -160,13 +160,14 @@ struct Pressed {
 void members(auto& v, const Pressed& pressed) {
   v.member("interference_um", pressed.interference, Finite{});
   v.member("effective_interference_um", pressed.made.effective_um, Finite{},
-           "Less what the roughness takes");
-  v.member("pressure_mpa", pressed.made.pressure_mpa, Finite{}, "In the joint");
+           "Interference without the part that the roughness takes");
+  v.member("pressure_mpa", pressed.made.pressure_mpa, Finite{}, "Pressure in the joint");
   v.member("hub_stress_mpa", pressed.made.hub_stress_mpa, Finite{},
            "Equivalent stress in the bore (von Mises)");
-  v.member("shaft_stress_mpa", pressed.made.shaft_stress_mpa, Finite{}, "Likewise");
-  v.member("axial_force_n", pressed.made.axial_force_n, Finite{}, "At which it slips");
-  v.member("torque_nm", pressed.made.torque_nm, Finite{}, "At which it slips");
+  v.member("shaft_stress_mpa", pressed.made.shaft_stress_mpa, Finite{},
+           "Equivalent stress in the shaft");
+  v.member("axial_force_n", pressed.made.axial_force_n, Finite{}, "Load at which the joint slips");
+  v.member("torque_nm", pressed.made.torque_nm, Finite{}, "Load at which the joint slips");
 }
 
 struct PressFitAnswer {
@@ -204,7 +205,7 @@ void add_limits_routes(Routes& add) {
                                      "25H7, 25 H7, Ø25H7; M10-6H, M10x1.25-6g; 25 ISO 2768-m, "
                                      "R2 ISO 2768-m; a comma may mark decimals"),
                       revision_parameter()},
-       .outcomes = {{.meaning = "The limits", .schema = "Limits"}},
+       .outcomes = {{.meaning = "Limits", .schema = "Limits"}},
        .refusals = {404, 422}});
   add("GET /v1/limits findLimits open", ResponseCache::of_revision(add.cache, limits_of_query),
       {.summary = "Limits of size of a nominal size and a tolerance class",
@@ -216,7 +217,7 @@ void add_limits_routes(Routes& add) {
                        .required = true,
                        .description = "H7, g6, ISO 2768-m or a custom tolerance class"},
                       revision_parameter()},
-       .outcomes = {{.meaning = "The limits", .schema = "Limits"}},
+       .outcomes = {{.meaning = "Limits", .schema = "Limits"}},
        .refusals = {404, 422}});
 }
 

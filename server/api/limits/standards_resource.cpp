@@ -157,7 +157,7 @@ void add_standards_routes(Routes& add) {
                            "Only rows that hold for this size: of a keyway the diameter of "
                            "its shaft"},
                       {.name = "table", .description = "Only this table"}},
-       .outcomes = {{.meaning = "Its rows", .schema = "Standard"}},
+       .outcomes = {{.meaning = "Rows of the table", .schema = "Standard"}},
        .refusals = {404}});
 }
 

@@ -226,10 +226,10 @@ void add_verdicts_routes(Routes& add) {
                        .type = http::Decimal{.scale = 6,
                                              .min = app::kDegreesOfFreedom.least,
                                              .max = app::kDegreesOfFreedom.most},
-                       .description = "Of uncertainty_um; without end when absent"},
+                       .description = "Degrees of freedom of uncertainty_um; infinite when absent"},
                       {.name = "probability",
                        .type = http::Decimal{.scale = 6, .min = 500'000, .max = 999'999},
-                       .description = "Of conformance, at least 0.5; 0.95 when absent"},
+                       .description = "Probability of conformance, at least 0.5; 0.95 when absent"},
                       revision_parameter()},
        .outcomes = {{.meaning = "The verdict", .schema = "Verdict"}},
        .refusals = {404, 422}});

@@ -73,7 +73,8 @@ void add_tree_routes(Routes& add) {
   add("GET " + path + "checkpoint get" + of + "Checkpoint viewer", checkpoint<of_changes>,
       {.summary = "The signed head of " + log,
        .description = of_changes
-                          ? "As that of the log, whose name its own begins with: `…/changes`."
+                          ? "The same form as the checkpoint of the log. Its name is the name of "
+                            "the log and `/changes`."
                           : "A C2SP tlog-checkpoint: the log's name, its size and the root of its "
                             "tree as a signed note. A new one at most once a second.",
        .response_types = {},
@@ -82,7 +83,7 @@ void add_tree_routes(Routes& add) {
       keys<of_changes>,
       {.summary = of_changes ? "The keys that verify checkpoints of changes"
                              : "The keys that verify checkpoints",
-       .description = of_changes ? "Those of the log under the name of the log of changes."
+       .description = of_changes ? "The keys of the log, with the name of the log of changes."
                                  : "C2SP vkeys, one a line, the newest first.",
        .response_types = {},
        .outcomes = {{.meaning = "Verifier keys", .media_types = {"text/plain"}}}});
@@ -98,7 +99,7 @@ void add_tree_routes(Routes& add) {
                                      "Level or `entries`, index, and `.p/` with its width where it "
                                      "is not full")},
        .response_types = {},
-       .outcomes = {{.meaning = "Hashes, or entries with their lengths",
+       .outcomes = {{.meaning = "Hashes, or entries with their lengths, as bytes",
                      .media_types = {"application/octet-stream"}}},
        .refusals = {404}});
 }
@@ -142,7 +143,7 @@ void add_log_routes(Routes& add) {
   add("GET /v1/measurements/{id}/proof getProof viewer", prove,
       {.summary = "The proof that a measurement stands in the log",
        .description = "Waits up to 1.1 s for a checkpoint that covers the measurement.",
-       .parameters = {path_parameter("id", "As the record names it")},
+       .parameters = {path_parameter("id", "Id of the record")},
        .outcomes = {{.meaning = "The path from its leaf to the root of a signed checkpoint",
                      .schema = "Proof"}},
        .refusals = {404}});
@@ -153,38 +154,39 @@ void add_changes_schemas(Schemas& schemas) {
   schemas.push_back(
       {"Change",
        schema::object(
-           {{"id", schema::count(), "From 1 on, without gaps"},
-            {"at", schema::time(), "In UTC"},
+           {{"id", schema::count(), "Number of the change, from 1, without gaps"},
+            {"at", schema::time(), "Time in UTC"},
             {"caller", schema::null_or(schema::text()), "The name of the key; null: none"},
             {"kind", schema::words({std::begin(kKinds), std::end(kKinds)}), ""},
-            {"name", schema::text(), "Of the document, key, gauge or column"},
+            {"name", schema::text(), "Name of the document, key, gauge or class"},
             {"action", schema::words({"created", "replaced", "deleted", "revoked"}), ""},
-            {"before", content, "As it was; null where it was not there"},
-            {"after", content, "As it is; null where it is gone"}})});
+            {"before", content, "Document before the change; null if it was new"},
+            {"after", content, "Document after the change; null after a deletion"}})});
   schemas.push_back(
       {"Changes", schema::object({{"changes", schema::array(schema::ref("Change")), "Oldest first"},
                                   {"next", schema::null_or(schema::text()),
-                                   "For `after`; null on the last page"}})});
+                                   "Cursor for `after`; null on the last page"}})});
 }
 
 void add_changes_routes(Routes& add) {
   add("GET /v1/changes listChanges viewer", list_changes,
-      {.summary = "What was changed of all that decides, by whom, with before and after",
+      {.summary = "Changes of documents, tables and keys: who, when, before and after",
        .description =
            "Tables, plans, budgets, gauges, calibrations, setups, catalogues, connections "
            "and keys, without secrets. A change is never altered or deleted.",
-       .parameters = {{.name = "kind",
-                       .type = http::Words{{std::begin(kKinds), std::end(kKinds)}},
-                       .description = "Of this kind"},
-                      {.name = "name", .description = "With exactly this name"},
-                      {.name = "from", .type = http::Time{}, .description = "From then on"},
-                      {.name = "to", .type = http::Time{}, .description = "Before then"},
-                      {.name = "limit",
-                       .type = http::Integer{1, 1000},
-                       .description = "Changes of a page, fewer of long ones; 100 when absent"},
-                      {.name = "after",
-                       .type = http::Integer{0},
-                       .description = "`next` of the page before"}},
+       .parameters =
+           {{.name = "kind",
+             .type = http::Words{{std::begin(kKinds), std::end(kKinds)}},
+             .description = "Changes of this kind"},
+            {.name = "name", .description = "Changes of this name"},
+            {.name = "from", .type = http::Time{}, .description = "Changes from this time on"},
+            {.name = "to", .type = http::Time{}, .description = "Changes before this time"},
+            {.name = "limit",
+             .type = http::Integer{1, 1000},
+             .description = "Changes of a page, fewer of long ones; 100 when absent"},
+            {.name = "after",
+             .type = http::Integer{0},
+             .description = "`next` of the page before"}},
        .outcomes = {{.meaning = "A page, oldest first", .schema = "Changes"}}});
 }
 

@@ -83,7 +83,7 @@ void add_intake_routes(Routes& add) {
            "where the first record continues the log of the origin and the root fits the signed "
            "checkpoint; else 409 with the head that is here.",
        .parameters = {path_parameter("origin",
-                                     "What the ids of the station end with: 16 hexadecimal digits"),
+                                     "Ending of the station's ids: 16 hexadecimal digits"),
                       {.name = "from",
                        .place = http::ParameterPlace::Path,
                        .type = http::Integer{.min = 1},
@@ -91,7 +91,10 @@ void add_intake_routes(Routes& add) {
        .body = {.use = http::BodyUse::Required,
                 .media_types = {"application/x-ndjson"},
                 .limit = kBatchLimit},
-       .outcomes = {{.meaning = "All of it is durable: the log's head here", .schema = "LogHead"}},
+       .outcomes =
+           {{.meaning =
+                 "All records are stored durably; the head of the station's log at this service",
+             .schema = "LogHead"}},
        .refusals = {403, 409, 422}});
 }
 
@@ -111,7 +114,7 @@ void get_revisions(const Services& services, const http::Request& request,
 
 void add_revisions_routes(Routes& add) {
   add("GET /v1/log/revisions getRevisions station", get_revisions,
-      {.summary = "What a centre hands on to its stations",
+      {.summary = "Revisions that a centre sends to its stations",
        .description =
            "Tables with own columns, keys of viewers and operators (by their hashes), setups, "
            "plans, catalogues, and corrections of the station's records that were made here: of "
@@ -121,9 +124,9 @@ void add_revisions_routes(Routes& add) {
            "answered with all there is.",
        .parameters = {{.name = "station",
                        .description =
-                           "What the station's ids end with: whose corrections are meant"},
+                           "Ending of the station's ids; its corrections are in the response"},
                       {.name = "after", .description = "The `position` of the last answer"}},
-       .outcomes = {{.meaning = "What has changed", .schema = "Revisions"}},
+       .outcomes = {{.meaning = "Changed documents", .schema = "Revisions"}},
        .refusals = {403}});
 }
 

@@ -126,7 +126,7 @@ Result<std::string> make_bytes(Download& download) {
 std::vector<http::Parameter> download_parameters() {
   return {
       {.name = "time_zone",
-       .description = "Of the times of dfq and xlsx, as in Europe/Berlin; UTC when absent"},
+       .description = "Time zone of times in dfq and xlsx, such as Europe/Berlin; UTC when absent"},
       {.name = "part_number", .description = "K1001 of a dfq where none travels with a value"},
       {.name = "part_description", .description = "K1002, likewise"},
   };

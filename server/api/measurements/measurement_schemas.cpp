@@ -55,18 +55,20 @@ std::string basis_of_records() {
 
 schema::Fields record_fields() {
   const schema::Fields origin = {
-      {"id", schema::text(), "Opaque; sorts nowhere"},
+      {"id", schema::text(), "Opaque id, without an order"},
       {"source", source_words(), "A gauge at a part, or a run on the simulated machine"},
-      {"measured_at", schema::time(), "In UTC"},
-      {"received_at", schema::time(), "In UTC"},
+      {"measured_at", schema::time(), "Time in UTC"},
+      {"received_at", schema::time(), "Time in UTC"},
   };
   const schema::Fields links = schema::optional({
-      {"corrected_mm", schema::number(), "At 20 degrees, where an expansion is given: it decides"},
+      {"corrected_mm", schema::number(),
+       "Size at 20 °C if an expansion is given; the verdict uses it"},
       {"added_uncertainty_um", schema::number(),
        "Standard uncertainty that the correction adds to uncertainty_um, where one of a "
        "temperature or expansion is given; the rule decides with both"},
-      {"conformance_probability", schema::number(0, 1), "Of rule conformance: to 1e-9"},
-      {"guard_band_um", schema::number(), "Of rule conformance: to 1e-9"},
+      {"conformance_probability", schema::number(0, 1),
+       "Figure of rule conformance, exact to 1e-9"},
+      {"guard_band_um", schema::number(), "Figure of rule conformance, exact to 1e-9"},
       {"uncertainty", schema::text(),
        "Of a gauge in use: the budget that `uncertainty_um` was taken from"},
       {"calibration_due", schema::text(),
@@ -74,21 +76,21 @@ schema::Fields record_fields() {
       {"calibration_certificate", schema::text(),
        "Of a gauge in use: the number of the calibration certificate in date when it measured"},
       {"calibration_laboratory", schema::text(), "Of a gauge in use: who calibrated it"},
-      {"calibration_overdue", schema::boolean(), "True where it was; else it is not there"},
-      {"quantity", quantity_words(), "What it is; absent in records of older versions"},
+      {"calibration_overdue", schema::boolean(), "true; absent if not"},
+      {"quantity", quantity_words(), "Quantity; absent in records of older versions"},
       {"envelope_result", schema::words({"verified", "not_verified", "failed"}),
-       "Where the envelope is required: what the GO gauge says of it"},
-      {"points", schema::count(), "Of a cycle: how many it touched"},
-      {"start_angle_deg", schema::number(), "Of a cycle: where the first of them lies"},
+       "Result of the GO gauge, if the envelope is required"},
+      {"points", schema::count(), "Number of points that the cycle touched"},
+      {"start_angle_deg", schema::number(), "Cycle: angle of the first point"},
       {"diameter_factor", schema::number(),
-       "Of a cycle: standard deviation of the diameter over that of a touch"},
+       "Cycle: standard deviation of the diameter divided by that of a touch"},
       {"form_um", schema::null_or(schema::number()),
-       "Of a cycle: the form that its points show; null where they are too few"},
+       "Cycle: form deviation of its points; null if they are too few"},
       {"caller", schema::text(), "Name of the key that stored the record"},
-      {"run_id", schema::text(), "Of a simulation: the run"},
-      {"cycle", schema::count(), "Of a simulation: the measuring cycle"},
+      {"run_id", schema::text(), "Run of a simulation"},
+      {"cycle", schema::count(), "Measuring cycle of a simulation"},
       {"correction_of", schema::text(), "The id of the record it corrects"},
-      {"reason", schema::text(), "Why it was corrected"},
+      {"reason", schema::text(), "Reason for the correction"},
       {"corrected_by", schema::text(),
        "The id of its correction; shown where one record is asked for"},
       {"conflict", schema::boolean(),
@@ -111,7 +113,7 @@ std::string verdict_counts() {
        {"rework", schema::count(), ""},
        {"reject", schema::count(), ""},
        {"indeterminate", schema::count(), ""},
-       {"unjudged", schema::count(), "Without limits; where there are any", false}});
+       {"unjudged", schema::count(), "Values without limits; absent if there are none", false}});
 }
 
 /// The field the groups are of comes first, by its own name.
@@ -122,11 +124,11 @@ schema::Fields group_fields() {
                       "The value of the group, with group_by of this name; null: without", false});
   }
   return fields + schema::Fields{
-                      {"count", schema::count(), "Values of the group"},
+                      {"count", schema::count(), "Number of values of the group"},
                       {"verdicts", schema::ref("VerdictCounts"), ""},
-                      {"mean_mm", schema::number(), "To 1e-12 mm"},
+                      {"mean_mm", schema::number(), "Mean, to 1e-12 mm"},
                       {"standard_deviation_mm", schema::null_or(schema::number()),
-                       "With n - 1; null for one value"},
+                       "Standard deviation with n - 1; null for one value"},
                       {"min_mm", schema::number(), ""},
                       {"max_mm", schema::number(), ""},
                   };
@@ -138,7 +140,7 @@ void add_request_schemas(Schemas& schemas) {
       {"NewMeasurements", schema::any_of({schema::ref("NewMeasurement"),
                                           schema::array(schema::ref("NewMeasurement"), 1)})});
   const schema::Fields reason = {
-      {"reason", schema::text(app::kLongestComment), "Why it is corrected"}};
+      {"reason", schema::text(app::kLongestComment), "Reason for the correction"}};
   schemas.push_back({"Correction", schema::object(reason + given_fields(), Others::Refused)});
 }
 
@@ -147,67 +149,68 @@ void add_request_schemas(Schemas& schemas) {
 void add_measurement_schemas(Schemas& schemas) {
   add_request_schemas(schemas);
   const schema::Fields notes = {
-      {"notes", schema::array(schema::ref("Note")), "Of lists with notes=shown", false}};
+      {"notes", schema::array(schema::ref("Note")), "Notes, in lists with notes=shown", false}};
   schemas.push_back({"Measurement", schema::object(record_fields() + notes + warnings_field())});
   schemas.push_back(
       {"Proof",
        schema::object({{"index", schema::count(), "Of the leaf, from 0"},
-                       {"size", schema::count(), "Of the tree in the checkpoint"},
+                       {"size", schema::count(), "Size of the tree in the checkpoint"},
                        {"leaf", schema::text(), "SHA-256(0x00, the record in its RFC 8785 form)"},
                        {"hashes", schema::array(schema::text()),
-                        "What stands beside the path to the root, from the leaf up (RFC 6962)"},
+                        "Hashes beside the path to the root, from the leaf up (RFC 6962)"},
                        {"checkpoint", schema::text(), "A signed note"}})});
   schemas.push_back(
       {"LogHead", schema::object({{"size", schema::count(), "Records of the origin that are here"},
-                                  {"root", schema::text(), "Of their tree, in base64"}})});
+                                  {"root", schema::text(), "Root of the tree, in base64"}})});
   const std::string column_row =
       schema::object({{"over_mm", schema::number(), ""},
                       {"up_to_mm", schema::number(), ""},
                       {"upper_um", schema::number(), "The upper deviation"},
                       {"lower_um", schema::number(), "The lower deviation"}});
   const std::string column =
-      schema::object({{"feature", schema::words({"hole", "shaft"}), "Which table it is in"},
-                      {"tolerance_class", schema::text(), "Its name"},
-                      {"rows", schema::array(column_row), "By size"}});
+      schema::object({{"feature", schema::words({"hole", "shaft"}), "Table of the class"},
+                      {"tolerance_class", schema::text(), "Name"},
+                      {"rows", schema::array(column_row), "Sorted by size"}});
   schemas.push_back(
       {"Revisions",
        schema::object(
-           {{"origin", schema::text(), "Of the centre: what its ids end with"},
+           {{"origin", schema::text(), "Ending of the centre's ids"},
             {"size", schema::count(), "Records of the station's log that are here"},
             {"notes", schema::count(),
              "The number in the id of the newest of the station's notes that are here; 0: none is"},
             {"position", schema::text(), "The next request names it in `after`"},
-            {"more", schema::boolean(), "There is a next page"},
+            {"more", schema::boolean(), "true if there is a next page"},
             {"revisions",
              schema::array(schema::object(
-                 {{"number", schema::count(), "Of the change at the centre"},
+                 {{"number", schema::count(), "Number of the change at the centre"},
                   {"kind",
                    schema::words({"tables", "key", "setup", "plan", "correction", "catalogue"}),
                    ""},
                   {"name", schema::text(), "Of the key, setup, plan or catalogue", false},
-                  {"removed", schema::boolean(), "It was deleted or revoked", false},
-                  {"text", schema::text(), "Of the setup, plan or catalogue, as it was stored",
+                  {"removed", schema::boolean(), "true if it was deleted or revoked", false},
+                  {"text", schema::text(), "Text of the setup, plan or catalogue, as stored",
                    false},
-                  {"table_revision", schema::text(), "Of tables: as records name it", false},
+                  {"table_revision", schema::text(), "Table revision, as in records", false},
                   {"columns", schema::array(column), "The shop's own", false},
-                  {"role", schema::words({"viewer", "operator"}), "Of a key", false},
-                  {"token_sha256", schema::text(), "Of a key, in hexadecimal", false},
-                  {"place", schema::count(), "Of a correction in the centre's log", false},
-                  {"record", schema::text(), "Of a correction, as it was answered", false}})),
-             "In the order of their numbers, of each thing the last"}})});
+                  {"role", schema::words({"viewer", "operator"}), "Role of a key", false},
+                  {"token_sha256", schema::text(), "SHA-256 of a key's token, in hexadecimal",
+                   false},
+                  {"place", schema::count(), "Place of a correction in the centre's log", false},
+                  {"record", schema::text(), "Record of a correction, as answered", false}})),
+             "Sorted by number; of each document the newest revision"}})});
   schemas.push_back({"VerdictCounts", verdict_counts()});
   const std::string gauge = schema::object(
       {{"name", schema::text(), ""},
-       {"calibration_due", schema::text(), "Of one that was overdue: since when", false},
+       {"calibration_due", schema::text(), "Due date of an overdue calibration", false},
        {"calibration_certificate", schema::text(), "Of the one in date: its number", false},
        {"calibration_laboratory", schema::text(), "The same: who calibrated it", false},
        {"uncertainty", schema::text(), "The name of its budget", false},
-       {"uncertainty_um", schema::number(), "What it came to", false}});
+       {"uncertainty_um", schema::number(), "Uncertainty of the budget", false}});
   schemas.push_back(
       {"Certificate",
        schema::object(
-           {{"order", schema::text(), "What it is of", false},
-            {"part_id", schema::text(), "What it is of", false},
+           {{"order", schema::text(), "Order or part of the report", false},
+            {"part_id", schema::text(), "Order or part of the report", false},
             {"title", schema::text(), ""},
             {"company", schema::text(), "", false},
             {"customer", schema::text(), "", false},
@@ -216,14 +219,14 @@ void add_measurement_schemas(Schemas& schemas) {
             {"verdicts", schema::ref("VerdictCounts"), ""},
             {"parts", schema::count(), "Different part numbers"},
             {"worst_id", schema::text(),
-             "Of the worst value: by its verdict, then by its place in the limits"},
-            {"verdict", verdict_words(), "The worst; none if no value has limits", false},
-            {"gauges", schema::array(gauge), "What the records say of them"},
+             "Id of the worst value: by verdict, then by position within the limits"},
+            {"verdict", verdict_words(), "Worst verdict; absent if no value has limits", false},
+            {"gauges", schema::array(gauge), "Gauges, as in the records"},
             {"checkpoint", schema::text(), "The signed head of the log: a note"},
             {"measurements", schema::array(schema::ref("Measurement")), ""}})});
   schemas.push_back(
       {"Accepted",
-       schema::object(schema::Fields{{"accepted", schema::count(), "How many were stored"},
+       schema::object(schema::Fields{{"accepted", schema::count(), "Number of stored measurements"},
                                      {"first_id", schema::text(), ""},
                                      {"last_id", schema::text(), ""},
                                      {"verdicts", schema::ref("VerdictCounts"), ""}} +
@@ -238,15 +241,15 @@ void add_measurement_schemas(Schemas& schemas) {
                                    schema::ref("Measurements")})});
   schemas.push_back(
       {"MeasurementList",
-       schema::object(
-           {{"measurements", schema::array(schema::ref("Measurement")), ""},
-            {"next", schema::null_or(schema::text()), "For `after`; null on the last page"}})});
+       schema::object({{"measurements", schema::array(schema::ref("Measurement")), ""},
+                       {"next", schema::null_or(schema::text()),
+                        "Cursor for `after`; null on the last page"}})});
   schemas.push_back({"SummaryGroup", schema::object(group_fields())});
   schemas.push_back(
       {"Summary",
        schema::object(formula_fields() +
                       schema::Fields{{"groups", schema::array(schema::ref("SummaryGroup")),
-                                      "By the value of the field that group_by names"}})});
+                                      "One group for each value of the field in group_by"}})});
 }
 
 }  // namespace fitgauge::api

@@ -49,20 +49,20 @@ std::vector<http::Parameter> list_parameters() {
                         .type = http::Integer{.min = 1, .max = 1000},
                         .description = "Most rows of a page; 100 when absent"});
   parameters.push_back({.name = "after", .description = "The cursor `next` of the page before"});
-  parameters.push_back(
-      {.name = "sort",
-       .type = http::Words{{"oldest", "newest"}},
-       .description = "Which come first by the time of storing; oldest when absent"});
+  parameters.push_back({.name = "sort",
+                        .type = http::Words{{"oldest", "newest"}},
+                        .description = "Order by the time of storing; oldest first when absent"});
   parameters.push_back({.name = "notes",
                         .type = http::Words{{"shown", "only"}},
                         .description = "shown puts its `notes` into each record of JSON and "
                                        "NDJSON that has some; only lists these alone"});
-  parameters.push_back({.name = "last",
-                        .type = http::Integer{.min = 1, .max = 1000},
-                        .description = "Only so many of the newest; not beside limit or after"});
+  parameters.push_back(
+      {.name = "last",
+       .type = http::Integer{.min = 1, .max = 1000},
+       .description = "Only this number of the newest; not with `limit` or `after`"});
   parameters.push_back({.name = "format",
                         .type = http::Words{{"json", "csv", "ndjson", "dfq", "qif", "xlsx"}},
-                        .description = "Instead of Accept"});
+                        .description = "Format; replaces Accept"});
   const auto others = download_parameters();
   parameters.insert(parameters.end(), others.begin(), others.end());
   return parameters;
@@ -116,7 +116,7 @@ void add_measurements_routes(Routes& add) {
        .outcomes = {{.meaning = "The groups", .schema = "Summary"}}});
   add("GET /v1/measurements/{id} getMeasurement viewer", find_measurement,
       {.summary = "One measurement",
-       .parameters = {path_parameter("id", "As the record names it")},
+       .parameters = {path_parameter("id", "Id of the record")},
        .outcomes = {{.meaning = "The record", .schema = "Measurement"}},
        .refusals = {404}});
 }

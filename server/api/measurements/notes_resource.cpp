@@ -104,8 +104,8 @@ struct Catalogue {
   std::nullptr_t checked{};  ///< it is stored as it was sent
 };
 void members(auto& v, Catalogue& catalogue) {
-  v.member("causes", catalogue.checked, Entries{}, "In the order they are offered, each once");
-  v.member("measures", catalogue.checked, Entries{}, "The same of what can be done");
+  v.member("causes", catalogue.checked, Entries{}, "Causes in the order of the list; each once");
+  v.member("measures", catalogue.checked, Entries{}, "Actions in the order of the list; each once");
 }
 
 Result<CheckedDocument> check_catalogue(const Services&, const std::string&,

@@ -27,11 +27,11 @@ struct PartValue {
   bool has_note = false;
 };
 void members(auto& v, const PartValue& value) {
-  v.optional("characteristic", value.characteristic, "Absent where the value names none");
+  v.optional("characteristic", value.characteristic, "Absent if the value names no characteristic");
   v.member("measurement_id", value.measurement, "The newest record");
-  v.member("verdict", value.verdict, "null: it has no limits");
+  v.member("verdict", value.verdict, "Verdict; null without limits");
   v.member("measured_mm", value.measured, Millimetres{});
-  v.member("measured_at", value.measured_at, Time{}, "In UTC");
+  v.member("measured_at", value.measured_at, Time{}, "Time in UTC");
 }
 
 /// A characteristic of a plan and its record.
@@ -42,7 +42,7 @@ struct Reaction {
 };
 void members(auto& v, const Reaction& open) {
   v.member("characteristic", open.characteristic);
-  v.member("reaction", open.reaction, "As the plan says");
+  v.member("reaction", open.reaction, "Reaction of the plan");
   v.member("measurement_id", open.measurement, "The record that is not good and has no note");
 }
 
@@ -57,10 +57,12 @@ struct Part {
 void members(auto& v, const Part& part) {
   v.member("part_id", part.part);
   v.optional("plan", part.plan, "The plan it is held against");
-  v.member("verdict", part.verdict, "The worst; null: a value is missing, or none has limits");
+  v.member("verdict", part.verdict, "Worst verdict; null if a value is missing or none has limits");
   v.member("missing", part.missing, "Characteristics of the plan without a value, in its order");
-  v.member("characteristics", part.values, "In the order of the plan, then the others");
-  v.member("open_reactions", part.reactions, "What the plan asks for and no note answers");
+  v.member("characteristics", part.values,
+           "Characteristics in the order of the plan, then the others");
+  v.member("open_reactions", part.reactions,
+           "Reactions that the plan demands and that have no note");
 }
 
 /// @errors StorageCorrupt.

@@ -108,27 +108,29 @@ using schema::Fields;
 using schema::Others;
 
 Fields characteristic_fields() {
-  return Fields{{"name", schema::text(200), "What a measurement says as its characteristic"}} +
+  return Fields{{"name", schema::text(200), "Name, as in the characteristic of a measurement"}} +
          schema::optional({
              {"designation", schema::text(64), "Size and class: 25 H7"},
-             {"nominal_mm", schema::exact(), "With tolerance_class, or limits of a drawing"},
+             {"nominal_mm", schema::exact(),
+              "Nominal size, with tolerance_class or limits of a drawing"},
              {"tolerance_class", schema::text(64), ""},
-             {"feature", feature_words(), "Of a drawing's own limits"},
+             {"feature", feature_words(), "Feature of a drawing's own limits"},
              {"upper_um", schema::exact(), "Upper deviation of explicit limits"},
              {"lower_um", schema::exact(), "Lower deviation of explicit limits"},
-             {"quantity", quantity_words(), "What is measured; a diameter when absent"},
-             {"count", schema::integer(1, 10000), "Of features that have this size: 4 of 4X"},
+             {"quantity", quantity_words(), "Quantity; diameter when absent"},
+             {"count", schema::integer(1, 10000), "Number of features with this size: 4 of 4X"},
              {"entity", schema::text(32), "The dimension of the drawing that it came from: #120"},
-             {"gauge", schema::text(200), "What it is measured with"},
+             {"gauge", schema::text(200), "Gauge"},
              {"rule", rule_words(), "Decision rule; simple when absent"},
              {"uncertainty_um", schema::exact(),
               "Standard uncertainty u, which a guard band needs"},
              {"coverage_factor", schema::exact(), "k; 2 when absent"},
-             {"subgroup_size", schema::integer(1, 25), "Values of a sample; 1 when absent"},
+             {"subgroup_size", schema::integer(1, 25),
+              "Number of values of a sample; 1 when absent"},
              {"frequency", schema::text(200),
               "How often: every 5th part, 3 of each hour; other words are due at each part"},
              {"picture", schema::text(200), "A file of /v1/files"},
-             {"reaction", schema::text(2000), "What to do when it is not good"},
+             {"reaction", schema::text(2000), "What to do if a value is not good"},
              {"catalogue", schema::text(200),
               "A value that is not good waits for a cause and a measure of this catalogue"},
          });
@@ -173,32 +175,34 @@ Result<PlanHead> read_plan_head(std::string_view text) {
 void add_plan_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<step::Drawing>("Drawing"));
   schemas.push_back(answer_schema<step::DrawnPlan>("DrawnPlan"));
-  const Fields name = {{"name", schema::text(200), "Of the part", false},
-                       {"drawing",
-                        schema::object({{"digest", schema::text(64), "SHA-256 of its file"},
-                                        {"part", schema::text(200), "Its product", false}},
-                                       Others::Refused),
-                        "The STEP file that characteristics with an entity came from", false}};
+  const Fields name = {
+      {"name", schema::text(200), "Of the part", false},
+      {"drawing",
+       schema::object({{"digest", schema::text(64), "SHA-256 of its file"},
+                       {"part", schema::text(200), "Part number of the product", false}},
+                      Others::Refused),
+       "The STEP file that characteristics with an entity came from", false}};
   const Fields characteristics = {
       {"characteristics",
        schema::array(schema::object(characteristic_fields(), Others::Refused), 1,
                      kMostCharacteristics),
        "In the order of measuring, 1 to 500, each with a name and limits of its own"}};
+  schemas.push_back({"PlanOrder", schema::object(Fields{{"part", schema::text(200),
+                                                         "Name, as in the path", false}} +
+                                                     name + characteristics,
+                                                 Others::Refused)});
   schemas.push_back(
-      {"PlanOrder", schema::object(Fields{{"part", schema::text(200), "As in the path", false}} +
-                                       name + characteristics,
-                                   Others::Refused)});
-  schemas.push_back({"Plan", schema::object(Fields{{"part", schema::text(200), "As in the path"}} +
-                                            name + characteristics)});
+      {"Plan", schema::object(Fields{{"part", schema::text(200), "Name, as in the path"}} + name +
+                              characteristics)});
   schemas.push_back(
       {"Plans",
        schema::object({{"plans",
                         schema::array(schema::object(
-                            {{"part", schema::text(), "As in the path"},
+                            {{"part", schema::text(), "Name, as in the path"},
                              {"name", schema::text(), "", false},
-                             {"characteristics", schema::count(), "How many"},
-                             {"modified_at", schema::time(), "When it was stored, in UTC"}})),
-                        "By part number"}})});
+                             {"characteristics", schema::count(), "Number of characteristics"},
+                             {"modified_at", schema::time(), "Time of storing, in UTC"}})),
+                        "Sorted by part number"}})});
 }
 
 }  // namespace fitgauge::api

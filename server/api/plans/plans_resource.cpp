@@ -127,7 +127,8 @@ void add_plans_routes(Routes& add) {
                 .limit = kLongestDrawing,
                 .spools = true,
                 .when_too_large = "`fitgauge plan from FILE` reads larger drawings"},
-       .outcomes = {{.meaning = "What was read, and what was not", .schema = "Drawing"}},
+       .outcomes = {{.meaning = "Sizes that were read, and content that was not",
+                     .schema = "Drawing"}},
        .refusals = {422}});
 }
 

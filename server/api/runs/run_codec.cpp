@@ -58,7 +58,7 @@ struct FileAnswer {
 };
 void members(auto& v, const FileAnswer& file) {
   v.member("path", file.path);
-  v.member("size", file.size, "In bytes");
+  v.member("size", file.size, "Size in bytes");
 }
 
 struct TableAnswer {
@@ -67,7 +67,7 @@ struct TableAnswer {
 };
 void members(auto& v, const TableAnswer& table) {
   v.member("path", table.path);
-  v.member("source", table.source, "live: projected from the tables in use; stored: a file");
+  v.member("source", table.source, "live: from the tables in use; stored: a file");
 }
 
 }  // namespace
@@ -76,65 +76,66 @@ void members(auto& v, const RunMessage& message) {
   const bool has_column = message.column != 0;
   v.member("kind", message.kind, Words{interpreter::MessageKind::Note},
            "A note says what the simulation leaves out");
-  v.member("number", message.number, "Of the control's message; 0 where it has none");
-  v.member("text", message.text, "What happened");
+  v.member("number", message.number, "Number of the control's message; 0 if it has none");
+  v.member("text", message.text, "Text of the message");
   v.member("program", message.program, "Where");
-  v.member("line", message.line, "Where, from 1");
-  v.member("block", message.block, "Where, by the number as written");
-  v.optional("column", has_column ? &message.column : nullptr, "Of a word that is wrong, from 1");
+  v.member("line", message.line, "Line, from 1");
+  v.member("block", message.block, "Block number, as written");
+  v.optional("column", has_column ? &message.column : nullptr, "Column of the wrong word, from 1");
   v.optional("source", has_column ? &message.source : nullptr,
-             "With the column: the line as written");
+             "Line of the program as written; present with `column`");
 }
 
 void members(auto& v, const probing::MeasuredSize& size) {
   const auto* limits = size.limits ? &*size.limits : nullptr;
-  v.member("characteristic", size.characteristic, "What was measured: diameter, width");
+  v.member("characteristic", size.characteristic, "Measured quantity: diameter, width");
   v.member("nominal_mm", size.nominal, Millimetres{});
   v.member("measured_mm", size.measured, Millimetres{});
   v.member("deviation_um", size.measured - size.nominal, Micrometres{}, "Measured minus nominal");
   v.optional("upper_limit_mm", limits != nullptr ? &limits->upper : nullptr, Millimetres{},
-             "Where the cycle was given limits");
+             "Limit, if the cycle has limits");
   v.optional("lower_limit_mm", limits != nullptr ? &limits->lower : nullptr, Millimetres{},
-             "Where the cycle was given limits");
+             "Limit, if the cycle has limits");
   v.member("verdict", size.verdict, kVerdict);
 }
 
 void members(auto& v, const probing::Form& form) {
   v.member("assessable", form.assessable, "Whether there are enough points to judge it");
-  v.optional("reason", form.reason.empty() ? nullptr : &form.reason, "Why not");
+  v.optional("reason", form.reason.empty() ? nullptr : &form.reason,
+             "Reason if it is not assessable");
   v.optional("residual_mm", form.residual_mm, Digits{},
              "Root mean square of the points from the circle");
 }
 
 void members(auto& v, const interpreter::Measurement& measurement) {
   const probing::MeasuringRecord& record = measurement.record;
-  v.member("cycle", record.cycle, "Its number");
+  v.member("cycle", record.cycle, "Number of the cycle");
   v.member("program", measurement.program);
   v.member("line", measurement.line);
   v.member("block", measurement.block);
   v.member("verdict", record.verdict, kVerdict, "null without limits");
   v.member("sizes", record.sizes);
-  v.optional("form", record.form, "Of a circular feature");
+  v.optional("form", record.form, "Form of a circular feature");
 }
 
 void members(auto& v, const klartext::DiagnosticNote& note) {
   v.member("message", note.message);
-  v.member("line", note.range.begin.line, "From 1");
-  v.member("column", note.range.begin.column, "From 1");
+  v.member("line", note.range.begin.line, "Number, from 1");
+  v.member("column", note.range.begin.column, "Number, from 1");
 }
 
 void members(auto& v, const klartext::Diagnostic& found) {
   v.member("severity", found.severity, OneOf<3>{"note", "warning", "error"},
            "An error refuses a run");
-  v.member("code", id(found.code), "Stable");
+  v.member("code", id(found.code), "Stable code");
   v.member("message", found.message, "What is wrong and what to do");
   v.member("program", found.program, "The file it is in");
-  v.member("line", found.range.begin.line, "From 1");
-  v.member("column", found.range.begin.column, "From 1");
+  v.member("line", found.range.begin.line, "Number, from 1");
+  v.member("column", found.range.begin.column, "Number, from 1");
   v.member("block", found.block, "The block number, where there is one");
   v.member("source", found.source, "The line as written");
   v.optional("notes", found.notes.empty() ? nullptr : &found.notes,
-             "Other places that belong to it");
+             "Other places of the same finding");
 }
 
 namespace {
@@ -145,9 +146,9 @@ struct RunHead {
   std::string program{};
 };
 void members(auto& v, const RunHead& head) {
-  v.member("id", head.id, "Opaque");
-  v.member("status", head.state, kState, "The last five are final");
-  v.member("program", head.program, "As the control writes its path");
+  v.member("id", head.id, "Opaque id");
+  v.member("status", head.state, kState, "The last five states are final");
+  v.member("program", head.program, "Path on the control");
 }
 
 RunHead head_of(const app::RunReport& report) {
@@ -176,9 +177,9 @@ void members(auto& v, const RunAnswer& run) {
   for (const auto& preset : result.presets) presets.push_back({preset});
   const std::vector<PresetAnswer>* const shown = is_over ? &presets : nullptr;
   members(v, run.head);
-  v.member("created_at", run.created_at, Time{}, "In UTC");
-  v.optional("finished_at", run.finished_at, Time{}, "Absent until it is over");
-  v.member("blocks_executed", run.blocks, "So far");
+  v.member("created_at", run.created_at, Time{}, "Time in UTC");
+  v.optional("finished_at", run.finished_at, Time{}, "Absent until the run ends");
+  v.member("blocks_executed", run.blocks, "Number until now");
   v.member("verdict", result.verdict, kVerdict, "Of the last measuring cycle");
   v.member("parameters", result.parameters, ParameterValues{},
            "Every Q, QL, QR and QS defined at the end");
@@ -187,11 +188,12 @@ void members(auto& v, const RunAnswer& run) {
   v.member("tables", tables, "Opened by the run");
   v.member("messages", result.messages, "Every status but completed has one");
   v.member("measurements", result.measurements, "One for each measuring cycle");
-  v.optional("active_preset", is_over ? &result.active_preset : nullptr, "At the end");
+  v.optional("active_preset", is_over ? &result.active_preset : nullptr,
+             "Active preset at the end");
   v.optional("presets", shown, "The preset table at the end");
   v.optional("machining_time_s", is_over ? &result.machining_time_s : nullptr, Digits{},
-             "What the machine would have taken");
-  v.optional("setup_seed", is_over ? &run.seed : nullptr, "With it the run can be repeated");
+             "Time on a real machine");
+  v.optional("setup_seed", is_over ? &run.seed : nullptr, "Seed that repeats the run");
 }
 
 std::string report_json(const app::RunReport& report) {
@@ -219,7 +221,7 @@ struct FinishedAnswer {
 };
 void members(auto& v, const FinishedAnswer& finished) {
   members(v, finished.head);
-  v.member("finished_at", finished.finished_at, Time{}, "In UTC");
+  v.member("finished_at", finished.finished_at, Time{}, "Time in UTC");
   v.member("verdict", finished.verdict, kVerdict);
 }
 
@@ -234,7 +236,7 @@ struct ListedRun {
 };
 void members(auto& v, const ListedRun& run) {
   members(v, run.head);
-  v.member("created_at", run.created_at, Time{}, "In UTC");
+  v.member("created_at", run.created_at, Time{}, "Time in UTC");
   v.member("finished_at", run.finished_at, Time{}, "null until it is over");
 }
 
@@ -244,7 +246,7 @@ struct RunListAnswer {
 };
 void members(auto& v, const RunListAnswer& list) {
   v.member("runs", list.runs, "The newest first");
-  v.member("next", list.next, "For `after`; null on the last page");
+  v.member("next", list.next, "Cursor for `after`; null on the last page");
 }
 
 struct DiagnosticsAnswer {
@@ -252,7 +254,7 @@ struct DiagnosticsAnswer {
 };
 void members(auto& v, const DiagnosticsAnswer& answer) {
   v.member("diagnostics", answer.diagnostics, List<klartext::Diagnostic>{{"Diagnostic"}},
-           "Empty: all is well");
+           "Findings; empty if there are none");
 }
 
 /// Its setup stands in it, so that no setup is asked for by its name.
@@ -333,8 +335,8 @@ void add_run_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<FinishedAnswer>("RunFinished"));
   const std::string status = kState.schema(Side::Answer);
   schemas.push_back(
-      {"RunProgress",
-       schema::object({{"status", status, ""}, {"blocks_executed", schema::count(), "So far"}})});
+      {"RunProgress", schema::object({{"status", status, ""},
+                                      {"blocks_executed", schema::count(), "Number until now"}})});
   schemas.push_back(
       {"RunOutput", schema::object({{"line", schema::text(), "As printed on the screen"}})});
   schemas.push_back({"RunEvent", schema::any_of({schema::ref("RunOutput"),

@@ -185,7 +185,7 @@ void members(auto& v, interpreter::RunLimits& limits) {
   double seconds = limits.time.count();
   v.optional("seconds", seconds,
              Number{0, kMostSeconds, Number::Ends::OpenBelow, "must be above 0 and at most 60"},
-             "Of computing, above 0; machining time has no limit");
+             "Seconds of computing, above 0; machining time has no limit");
   limits.time = std::chrono::duration<double>(seconds);
 }
 
@@ -206,13 +206,13 @@ void members(auto& v, RunOrderBody& order) {
              "The name of a stored setup, or a setup");
   v.optional("parameters", options.parameters, Parameters{},
              "Q, QL and QR numbers and QS strings, as if an earlier program had left them");
-  v.optional("limits", options.limits, "What ends the run with limit_exceeded");
+  v.optional("limits", options.limits, "Limits; beyond them the run ends with limit_exceeded");
   v.optional("contacts_mm", order.contacts, Contacts{},
              "What a real machine touched: the ball's centre in the active system for each probing "
              "move in order, null where a move touched nothing. They stand for the setup's "
              "workpiece");
   v.optional("on_stop", options.on_stop, OneOf<2>{"continue", "end"},
-             "At STOP, M0 and Q281=2: go on as with NC Start, or end there");
+             "At STOP, M0 and Q281=2: continue as after NC Start, or end");
   v.optional("unreadable", options.keeps_unreadable, OneOf<2>{"refuse", "error_block"},
              "Lines that are no Klartext: refuse the program, or fail where one is reached");
   v.optional("block_skip", options.block_skip, "Skip blocks that begin with /");
@@ -221,10 +221,10 @@ void members(auto& v, RunOrderBody& order) {
              "it has run");
   v.optional("watch", order.watch, ParameterNames{},
              "Q, QL, QR and QS whose values after each block stand in the trace");
-  v.optional("language", options.language, LanguageForm{}, "Of FN 16 masks");
+  v.optional("language", options.language, LanguageForm{}, "Language of FN 16 masks");
   v.optional("part_id", order.subject.part_id, kSubject,
              "The part that is measured: in each record of the run");
-  v.optional("order", order.subject.order, kSubject, "Its order, likewise");
+  v.optional("order", order.subject.order, kSubject, "Order of the measurements");
 }
 
 /// The setup as JSON: the member itself, or the named one, which then replaces the name.

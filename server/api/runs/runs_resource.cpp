@@ -167,7 +167,7 @@ void list_runs(const Services& services, const http::Request& request, http::Res
                      }));
 }
 
-const http::Parameter kId = path_parameter("id", "As the run names it");
+const http::Parameter kId = path_parameter("id", "Name in the run");
 
 void add_reading_routes(Routes& add) {
   add("GET /v1/runs listRuns viewer", list_runs,
@@ -192,10 +192,10 @@ void add_reading_routes(Routes& add) {
   add("GET /v1/runs/{id}/parameters getRunParameters viewer", get_parameters,
       {.summary = "The parameters that are defined at the end",
        .parameters = {kId},
-       .outcomes = {{.meaning = "By name", .schema = "RunParameters"}},
+       .outcomes = {{.meaning = "Sorted by name", .schema = "RunParameters"}},
        .refusals = {404}});
   add("GET /v1/runs/{id}/request getRunRequest viewer", get_request,
-      {.summary = "What was ordered, with the setup in place: it can be posted again",
+      {.summary = "Request of the run with its setup in full; it can be posted again",
        .parameters = {kId},
        .outcomes = {{.meaning = "The order", .schema = "RunOrder"}},
        .refusals = {404}});
@@ -209,7 +209,7 @@ void add_reading_routes(Routes& add) {
       {.summary = "A file the run has written, by its name",
        .parameters = {kId, path_parameter("name", "TCHPR421.TXT, without regard to case")},
        .response_types = {},
-       .outcomes = {{.meaning = "Its bytes", .media_types = {"text/plain", "text/html"}}},
+       .outcomes = {{.meaning = "Bytes of the file", .media_types = {"text/plain", "text/html"}}},
        .refusals = {404, 409}});
   add("GET /v1/runs/{id}/events followRun viewer", get_events,
       {.summary = "Server-Sent Events: progress, output, end",
@@ -218,7 +218,7 @@ void add_reading_routes(Routes& add) {
        .parameters = {kId},
        .response_types = {std::string(kEventStreamType)},
        .outcomes = {{.meaning = "output, progress, end", .schema = "RunEvent"},
-                    {.status = 204, .meaning = "It is over and all was read"}},
+                    {.status = 204, .meaning = "The run has ended, and all its events were read"}},
        .refusals = {404}});
   add_last_event_id(add.all.back().parameters);
 }
@@ -236,13 +236,13 @@ void add_runs_routes(Routes& add) {
                        .place = http::ParameterPlace::Header,
                        .description = "respond-async"}},
        .body = json_body("RunOrder"),
-       .outcomes = {{.status = 201, .meaning = "It is over", .schema = "Run"},
-                    {.status = 202, .meaning = "It is queued", .schema = "Run"}},
+       .outcomes = {{.status = 201, .meaning = "The finished run", .schema = "Run"},
+                    {.status = 202, .meaning = "Run queued", .schema = "Run"}},
        .refusals = {409}});
   add("DELETE /v1/runs/{id} cancelRun operator", cancel_run,
       {.summary = "Cancel a run that is queued or under way",
        .parameters = {kId},
-       .outcomes = {{.status = 204, .meaning = "It is cancelled"}},
+       .outcomes = {{.status = 204, .meaning = "Run cancelled"}},
        .refusals = {404, 409}});
 }
 

@@ -50,16 +50,16 @@ void members(auto& v, machine::Block& block) {
 void members(auto& v, machine::Bore& bore) {
   v.member("center_mm", bore.centre, Mm2{}, "X and Y of the opening's centre");
   v.optional("top_mm", bore.top, Mm{}, "Z of the opening");
-  v.optional("depth_mm", bore.depth, Mm{}, "From the opening to the flat bottom");
-  v.member("diameter_mm", bore.diameter, Mm{}, "At the opening");
+  v.optional("depth_mm", bore.depth, Mm{}, "Depth from the opening to the flat bottom");
+  v.member("diameter_mm", bore.diameter, Mm{}, "Diameter at the opening");
   v.optional("lobes", bore.lobes, Integer{0, 1000},
-             "n of r = R + a cos(n (angle - phase)); 0: round");
-  v.optional("lobe_amplitude_um", bore.lobe_amplitude_um, Um{}, "a of the lobes");
+             "Number n of lobes, r = R + a cos(n (angle - phase)); 0: round");
+  v.optional("lobe_amplitude_um", bore.lobe_amplitude_um, Um{}, "Amplitude a of the lobes");
   v.optional("lobe_phase_deg", bore.lobe_phase_deg, Number{}, "Angle of the first lobe's top");
   v.optional("taper_um_per_mm", bore.taper_um_per_mm, Number{},
              "Change of the diameter for each millimetre of depth");
   v.optional("tilt_deg", bore.tilt_deg, Numbers2{},
-             "Of the bore's axis around X, then around Y, at the opening");
+             "Tilt of the bore's axis around X, then around Y, at the opening");
 }
 
 void members(auto& v, machine::Plane& plane) {
@@ -68,8 +68,8 @@ void members(auto& v, machine::Plane& plane) {
 }
 
 void members(auto& v, machine::Sphere& sphere) {
-  v.member("center_mm", sphere.centre, Mm3{}, "Its centre");
-  v.member("diameter_mm", sphere.diameter, Mm{}, "Its diameter");
+  v.member("center_mm", sphere.centre, Mm3{}, "Centre of the sphere");
+  v.member("diameter_mm", sphere.diameter, Mm{}, "Diameter");
 }
 
 void members(auto& v, machine::Surface& surface) {
@@ -83,12 +83,11 @@ void members(auto& v, machine::Mesh& mesh) {
            "STL of the control's disk, text or binary: `parts/flange.stl`");
   constexpr double kInch = 25.4;
   bool is_inch = false;
-  v.optional("unit", is_inch, OneOf<2>{"mm", "inch"}, "Of the file's figures");
+  v.optional("unit", is_inch, OneOf<2>{"mm", "inch"}, "Unit of the figures in the file");
   mesh.unit = is_inch ? kInch : 1;
-  v.optional("origin_mm", mesh.origin, Mm3{}, "Where the file's zero lies");
+  v.optional("origin_mm", mesh.origin, Mm3{}, "Position of the file's zero");
   v.optional("spatial_angles_deg", mesh.spatial_angles_deg, Numbers3{},
-             "How the file's axes are turned around its zero, as "
-             "PLANE SPATIAL turns");
+             "Spatial angles of the file's axes around its zero, as in PLANE SPATIAL");
 }
 
 /// A kind of feature: the word for it, its component and its meaning.
@@ -170,7 +169,7 @@ void members(auto& v, machine::Setup& setup) {
   builder_members(v);
   printing_members(v);
   v.optional("seed", setup.seed, Integer{},
-             "Of the random parts of a contact: the same seed, the same run");
+             "Seed of the scatter of contacts; the same seed gives the same run");
 }
 
 void add_setup_schemas(Schemas& schemas) {

@@ -122,7 +122,7 @@ void builder_members(auto& v) {
 void printing_members(auto& v) {
   std::nullptr_t elsewhere{};
   v.optional("decimal_separator", elsewhere, Elsewhere{decimal_separator_schema()},
-             "Of FN 15; comma when absent");
+             "Decimal separator of FN 15; comma when absent");
   v.optional("fn16_default_path", elsewhere, Elsewhere{schema::text()},
              "fn16DefaultPath: the folder, such as `TNC:\\logs`, of logs and of files that "
              "FN 16 names without a folder; that of the program when absent");

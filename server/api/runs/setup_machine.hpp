@@ -15,16 +15,16 @@ void rotary_axis_members(auto& v, machine::AxisSetup& setup) {
   v.optional("max_deg", setup.max, Number{}, "Upper end of its range");
   v.optional("hirth_grid_deg", setup.hirth_grid_deg, Number{},
              "Step of a Hirth coupling; 0: any angle");
-  v.optional("on", setup.mount, OneOf<2>{"table", "head"}, "What it turns: the table or the head");
+  v.optional("on", setup.mount, OneOf<2>{"table", "head"}, "Place of the axis: table or head");
   v.optional("center_mm", setup.centre, Mm3{},
              "A point of its axis as the control models it; of a table");
   v.optional("direction", setup.direction, Numbers3{},
-             "Of its axis, any length: the tool turns around it");
+             "Direction of the axis that the tool turns around; any length");
   v.optional("center_error_mm", setup.centre_error, Mm3{}, "Real centre minus modelled centre");
   v.optional("tilt_error_deg", setup.tilt_error_deg, Numbers3{},
              "Spatial angles by which the real axis is tilted");
   v.optional("zero_error_deg", setup.zero_error_deg, Number{},
-             "By how much it is turned where it shows 0");
+             "Real angle at the indicated angle 0");
   v.optional("backlash_deg", setup.backlash_deg, Number{},
              "Lost motion when the direction of turning changes");
   v.optional("scatter_um", setup.scatter_um, Um{}, "Standard deviation of where it comes to rest");
@@ -46,9 +46,9 @@ void members(auto& v, machine::ToolSetup& tool) {
   v.optional("delta_mm", delta, Mm3{}, "DL, DR and DR2: wear");
   std::tie(row.dl, row.dr, row.dr2) = std::tie(delta[0], delta[1], delta[2]);
   v.optional("actual_length_mm", tool.actual_length, Mm{},
-             "What the real tool has; L + DL when absent");
+             "Real length of the tool; L + DL when absent");
   v.optional("actual_radius_mm", tool.actual_radius, Mm{},
-             "What the real tool has; R + DR when absent");
+             "Real radius of the tool; R + DR when absent");
   v.optional("length_tolerance_mm", row.l_tolerance, Mm{}, "LTOL: wear beyond it locks the tool");
   v.optional("radius_tolerance_mm", row.r_tolerance, Mm{}, "RTOL: wear beyond it locks the tool");
   v.optional("length_breakage_mm", row.l_breakage, Mm{},
@@ -85,8 +85,8 @@ void members(auto& v, machine::Preset& preset) {
   v.optional("number", preset.number, Integer{0, kHighestNumber}, "NO of the preset table");
   v.optional("comment", preset.comment, "DOC");
   v.optional("x_mm", preset.frame.origin.x, Mm{}, "X of the workpiece zero on the machine");
-  v.optional("y_mm", preset.frame.origin.y, Mm{}, "Y of it");
-  v.optional("z_mm", preset.frame.origin.z, Mm{}, "Z of it");
+  v.optional("y_mm", preset.frame.origin.y, Mm{}, "Y of the workpiece zero on the machine");
+  v.optional("z_mm", preset.frame.origin.z, Mm{}, "Z of the workpiece zero on the machine");
   v.optional("rotation_deg", preset.frame.basic_rotation_deg, Numbers3{},
              "SPA, SPB, SPC: basic rotation");
   v.optional("offsets_deg", preset.frame.rotary_offsets_deg, Numbers3{},
@@ -97,7 +97,7 @@ void members(auto& v, machine::Preset& preset) {
 void members(auto& v, machine::AxisWords& start) {
   for (const machine::Axis axis : machine::kAllAxes) {
     if (is_rotary(axis)) {
-      v.optional(name(axis), start[axis], Number{}, "In degrees; 0 when absent");
+      v.optional(name(axis), start[axis], Number{}, "Angle in degrees; 0 when absent");
     } else {
       v.optional(name(axis), start[axis], Mm{}, "0 when absent, the tool axis at its maximum");
     }
@@ -107,13 +107,12 @@ void members(auto& v, machine::AxisWords& start) {
 void members(auto& v, machine::ToolTouchProbeSetup& tt) {
   v.optional("center_mm", tt.known.centre, Mm3{},
              "Centre of the contact plate's top as the control knows it");
-  v.optional("radius_mm", tt.known.radius, Mm{}, "Of the disc, or half the side of the cube");
+  v.optional("radius_mm", tt.known.radius, Mm{},
+             "Radius of the disc, or half the side of the cube");
   v.optional("shape", tt.shape, OneOf<2>{"disc", "cube"},
-             "Of the contact plate; a cube lies along X and Y");
-  v.optional("actual_center_mm", tt.actual_centre, Mm3{},
-             "Where it really is; as known when absent");
-  v.optional("actual_radius_mm", tt.actual_radius, Mm{},
-             "What it really has; as known when absent");
+             "Shape of the contact plate; a cube lies along X and Y");
+  v.optional("actual_center_mm", tt.actual_centre, Mm3{}, "Real centre; the known one when absent");
+  v.optional("actual_radius_mm", tt.actual_radius, Mm{}, "Real radius; the known one when absent");
   v.optional("repeatability_um", tt.repeatability_um, Um{},
              "Standard deviation of a contact along the probing direction");
 }
@@ -121,9 +120,9 @@ void members(auto& v, machine::ToolTouchProbeSetup& tt) {
 /// The members that a boss, a calibration stud and a calibration ring have in common.
 void cylinder_members(auto& v, auto& cylinder) {
   v.member("center_mm", cylinder.centre, Mm2{}, "X and Y of its axis");
-  v.optional("top_mm", cylinder.top, Mm{}, "Z of its upper end");
-  v.optional("height_mm", cylinder.height, Mm{}, "From the upper end down");
-  v.member("diameter_mm", cylinder.diameter, Mm{}, "Its diameter");
+  v.optional("top_mm", cylinder.top, Mm{}, "Z of the upper end");
+  v.optional("height_mm", cylinder.height, Mm{}, "Height from the upper end down");
+  v.member("diameter_mm", cylinder.diameter, Mm{}, "Diameter");
 }
 
 void members(auto& v, machine::Boss& boss) { cylinder_members(v, boss); }
@@ -135,8 +134,8 @@ void members(auto& v, machine::CalibrationRing& ring) {
 }
 
 void members(auto& v, machine::CalibrationSphere& sphere) {
-  v.member("center_mm", sphere.centre, Mm3{}, "Its centre, fixed to the table");
-  v.optional("radius_mm", sphere.radius, Mm{}, "Its radius");
+  v.member("center_mm", sphere.centre, Mm3{}, "Centre of the sphere, fixed to the table");
+  v.optional("radius_mm", sphere.radius, Mm{}, "Radius");
 }
 
 /// The machine builder's parameters of cycles 451 to 453.
@@ -147,7 +146,7 @@ void kinematics_members(auto& v, machine::KinematicsOptions& options) {
   v.optional("max_modification_mm", options.max_modification, Mm{},
              "maxModification: a larger correction waits for NC Start");
   v.optional("max_calibration_ball_deviation_mm", options.max_ball_deviation, Mm{},
-             "maxDevCalBall: of the sphere's radius");
+             "maxDevCalBall: largest deviation of the sphere's radius");
   v.optional("insignificant_corrections", options.notes_insignificant, OneOf<2>{"refuse", "note"},
              "What becomes of a correction below twice its uncertainty: left out, with 1102 when "
              "none is left, or made with a note");
@@ -179,7 +178,7 @@ void members(auto& v, machine::MachineSetup& machine) {
   v.optional("axes", machine.axes, kAxesForm,
              "X, Y and Z are always there, A, B and C where they are named");
   v.optional("start_mm", machine.start, Object<machine::AxisWords>{"StartPosition"},
-             "Where the spindle nose starts");
+             "Start position of the spindle nose");
   v.optional("rapid_mm_min", machine.rapid_mm_min, Number{}, "Rapid traverse");
   kinematics_members(v, machine.kinematics_options);
   v.optional("tools", machine.tools, List<machine::ToolSetup>{{"Tool"}},

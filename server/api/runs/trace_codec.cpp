@@ -184,40 +184,41 @@ void add_trace_schema(Schemas& schemas) {
   const std::string position = schema::map(schema::number());
   const std::string move = schema::object({
       {"kind", schema::words({"rapid", "feed", "probe", "arc"}), ""},
-      {"block", schema::null_or(schema::count()), "That commanded it, by its number as written"},
+      {"block", schema::null_or(schema::count()), "Number of the block with the move, as written"},
       {"line", schema::count(), ""},
       {"program", schema::text(), ""},
-      {"start_mm", position, "By axis"},
-      {"start_deg", position, "Of the rotary axes, where there are any", false},
-      {"end_mm", position, "By axis"},
-      {"end_deg", position, "Of the rotary axes, where there are any", false},
+      {"start_mm", position, "Coordinates by axis"},
+      {"start_deg", position, "Angles of the rotary axes; absent without rotary axes", false},
+      {"end_mm", position, "Coordinates by axis"},
+      {"end_deg", position, "Angles of the rotary axes; absent without rotary axes", false},
       {"feed_mm_min", schema::number(), ""},
       {"seconds", schema::number(), ""},
-      {"contact_mm", schema::null_or(position), "Where the stylus touched"},
-      {"cycle", schema::null_or(schema::count()), "That moved, by its number"},
-      {"machine_start_mm", position, "In machine coordinates"},
-      {"machine_end_mm", position, "In machine coordinates"},
-      {"center_mm", position, "Of an arc", false},
-      {"sweep_deg", schema::number(), "Of an arc, counter-clockwise positive", false},
-      {"axis", schema::text(), "Of an arc: the one it turns about", false},
-      {"machine_center_mm", position, "Of an arc, in machine coordinates", false},
-      {"machine_axis", position, "Of an arc: direction in machine coordinates", false},
-      {"machine_contact_mm", position, "Of a contact, in machine coordinates", false},
-      {"machine_contact_normal", schema::null_or(position), "Of a contact: away from the material",
-       false},
+      {"contact_mm", schema::null_or(position), "Contact of the stylus"},
+      {"cycle", schema::null_or(schema::count()), "Number of the cycle that moved"},
+      {"machine_start_mm", position, "Position in machine coordinates"},
+      {"machine_end_mm", position, "Position in machine coordinates"},
+      {"center_mm", position, "Centre of an arc", false},
+      {"sweep_deg", schema::number(), "Angle of an arc, counter-clockwise positive", false},
+      {"axis", schema::text(), "Axis that an arc turns about", false},
+      {"machine_center_mm", position, "Centre of an arc in machine coordinates", false},
+      {"machine_axis", position, "Direction of an arc's axis in machine coordinates", false},
+      {"machine_contact_mm", position, "Contact in machine coordinates", false},
+      {"machine_contact_normal", schema::null_or(position),
+       "Normal of a contact, away from the material", false},
   });
-  const std::string block =
-      schema::object({{"block", schema::count(), "Its number, as written or counted"},
-                      {"line", schema::count(), ""},
-                      {"program", schema::text(), ""},
-                      {"moves", schema::count(), "Of the run, when the block was done"},
-                      {"values", schema::map(R"({"type":["number","string"]})"),
-                       "After the block, of the watched parameters that are defined then"}});
+  const std::string block = schema::object(
+      {{"block", schema::count(), "Block number, as written or counted"},
+       {"line", schema::count(), ""},
+       {"program", schema::text(), ""},
+       {"moves", schema::count(), "Number of moves of the run after the block"},
+       {"values", schema::map(R"({"type":["number","string"]})"),
+        "Values of the watched parameters after the block; undefined ones are absent"}});
   schemas.push_back(
       {"Trace", schema::object(
-                    {{"moves", schema::array(move), "In order"},
+                    {{"moves", schema::array(move), "Moves in order of time"},
                      {"dropped", schema::count(), "Moves beyond the longest trace"},
-                     {"blocks", schema::array(block), "Of a run with watch: each as it ran", false},
+                     {"blocks", schema::array(block),
+                      "Blocks of a run with `watch`, in the order they ran", false},
                      {"blocks_dropped", schema::count(), "Blocks beyond 4 MiB of them", false}})});
 }
 

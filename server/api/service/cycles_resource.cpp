@@ -22,7 +22,7 @@ struct NumberOrMax {
 
 void members(auto& v, const probing::ValueRange& range) {
   v.member("min", range.min);
-  v.member("max", range.max, "null: no end");
+  v.member("max", range.max, "Upper bound; null: none");
 }
 
 void members(auto& v, const CycleParameter& parameter) {
@@ -32,7 +32,7 @@ void members(auto& v, const CycleParameter& parameter) {
   v.member("unit", symbol(parameter.unit));
   v.member("kind", parameter.kind, kKinds);
   v.member("required", parameter.required && !parameter.default_value);
-  v.optional("range", parameter.is_text() ? nullptr : &parameter.range, "Of a number");
+  v.optional("range", parameter.is_text() ? nullptr : &parameter.range, "Range of a number");
   v.optional("default", parameter.default_value, NumberOrMax{}, "A number, or MAX");
 }
 
@@ -44,14 +44,13 @@ void members(auto& v, const probing::CycleOutput& result) {
 
 void members(auto& v, const CycleDescriptor& cycle) {
   v.member("number", cycle.number);
-  v.member("name", cycle.name, "As the control calls it");
+  v.member("name", cycle.name, "Name on the control");
   v.member("family", cycle.family, OneOf<2>{"CYCL DEF", "TCH PROBE"});
-  v.member("kind", word(cycle.kind), "What it is for");
+  v.member("kind", word(cycle.kind), "Purpose of the cycle");
   v.member("parameters", cycle.parameters, List<CycleParameter>{});
-  v.member("results", cycle.results, List<probing::CycleOutput>{},
-           "What it leaves in Q parameters");
-  v.member("simulated", cycle.simulated, "What it does here");
-  v.member("not_simulated", cycle.not_simulated, "What has no effect here");
+  v.member("results", cycle.results, List<probing::CycleOutput>{}, "Results in Q parameters");
+  v.member("simulated", cycle.simulated, "What the simulation does");
+  v.member("not_simulated", cycle.not_simulated, "Parameters without effect in the simulation");
 }
 
 struct CyclesAnswer {
@@ -105,7 +104,7 @@ void add_cycles_routes(Routes& add) {
         return answer;
       },
       {.summary = "Every cycle with its parameters and results",
-       .outcomes = {{.meaning = "All of them", .schema = "Cycles"}}});
+       .outcomes = {{.meaning = "All cycles", .schema = "Cycles"}}});
   add("GET /v1/cycles/{number} getCycle open", find_cycle,
       {.summary = "One cycle; a number of both kinds is the touch-probe cycle",
        .parameters = {{.name = "number",

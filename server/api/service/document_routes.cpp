@@ -188,10 +188,10 @@ Result<void> describe_by_name(JsonWriter& json, const app::NamedDocument& docume
 
 NamedSchema names_schema(std::string name, std::string_view member, const schema::Fields& more) {
   const std::string document =
-      schema::object(schema::Fields{{"name", schema::text(), "As in the path"}} + more +
-                     schema::Fields{{"modified_at", schema::time(), "When it was stored, in UTC"}});
+      schema::object(schema::Fields{{"name", schema::text(), "Name, as in the path"}} + more +
+                     schema::Fields{{"modified_at", schema::time(), "Time of storing, in UTC"}});
   return {std::move(name),
-          schema::object({{std::string(member), schema::array(document), "By name"}})};
+          schema::object({{std::string(member), schema::array(document), "Sorted by name"}})};
 }
 
 void add_document_routes(Routes& add, const KindOfDocument& kind) {
@@ -203,19 +203,18 @@ void add_document_routes(Routes& add, const KindOfDocument& kind) {
   add(fmt::format("GET {} list{} viewer", kind.path, kind.operations),
       of_kind(add.services, kind, list),
       {.summary = fmt::format("The {}", kind.many),
-       .outcomes = {
-           {.meaning = "In the order of their names", .schema = std::string(kind.list_schema)}}});
+       .outcomes = {{.meaning = "Sorted by name", .schema = std::string(kind.list_schema)}}});
   add(fmt::format("GET {} get{} viewer", pattern, kind.operation), of_kind(add.services, kind, get),
       {.summary = fmt::format("Read {} as it was stored", kind.one),
        .parameters = with_preconditions(name),
-       .outcomes = {{.meaning = "As it was stored", .schema = schema}},
+       .outcomes = {{.meaning = "Document as stored", .schema = schema}},
        .refusals = {404, 412}});
   add(fmt::format("PUT {} put{} admin", pattern, kind.operation), of_kind(add.services, kind, put),
       {.summary = fmt::format("Store {}: {}", kind.one, kind.contents),
        .parameters = with_preconditions(name),
        .body = json_body(std::string(kind.body_schema)),
-       .outcomes = {{.meaning = "It is replaced", .schema = answered},
-                    {.status = 201, .meaning = "It is new", .schema = answered}},
+       .outcomes = {{.meaning = "Replaced", .schema = answered},
+                    {.status = 201, .meaning = "Created", .schema = answered}},
        .refusals = {412}});
   if (!kind.other_type.empty()) {
     add.all.back().body.media_types.emplace_back(kind.other_type);
@@ -226,7 +225,7 @@ void add_document_routes(Routes& add, const KindOfDocument& kind) {
       of_kind(add.services, kind, remove),
       {.summary = fmt::format("Delete {}", kind.one),
        .parameters = with_preconditions(name),
-       .outcomes = {{.status = 204, .meaning = "It is gone"}},
+       .outcomes = {{.status = 204, .meaning = "Deleted"}},
        .refusals = {404, 409, 412}});
 }
 

@@ -93,7 +93,7 @@ void add_events_routes(Routes& add) {
       [&services = add.services](const http::Request& request) {
         return Result<http::Response>(stream_events(services, request));
       },
-      {.summary = "What happens, as Server-Sent Events",
+      {.summary = "Events as Server-Sent Events",
        .description =
            "measurement.recorded and verdict.reject carry the record, run.finished the run, "
            "table.changed the column and the revision in force from then on, note.added the note. "

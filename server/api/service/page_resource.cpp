@@ -69,7 +69,7 @@ void add_page_routes(Routes& add) {
       {.summary = "A file of the page",
        .parameters = {path_parameter("path", "app.js")},
        .response_types = {},
-       .outcomes = {{.meaning = "Its bytes",
+       .outcomes = {{.meaning = "Bytes of the file",
                      .media_types = {"text/html", "text/css", "text/javascript", "image/svg+xml",
                                      "text/plain"}}},
        .refusals = {404}});

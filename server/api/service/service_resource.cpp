@@ -45,32 +45,34 @@ void metrics(const Services& services, const http::Request&, http::Responder res
 }  // namespace
 
 void add_service_schemas(Schemas& schemas) {
+  schemas.push_back({"Resync", schema::object({{"detail", schema::text(),
+                                                "Events were lost: read the lists again"}})});
   schemas.push_back(
-      {"Resync", schema::object({{"detail", schema::text(), "Read the lists again"}})});
-  schemas.push_back({"TableChanged",
-                     schema::object({{"feature", feature_words(), "Whose table"},
-                                     {"tolerance_class", schema::text(), "The column that changed"},
-                                     {"table_revision", schema::text(), "In force from now on"}})});
+      {"TableChanged",
+       schema::object({{"feature", feature_words(), "Table: hole or shaft"},
+                       {"tolerance_class", schema::text(), "The column that changed"},
+                       {"table_revision", schema::text(), "Revision in force from now on"}})});
   schemas.push_back(
       {"Event",
        schema::any_of({schema::ref("Measurement"), schema::ref("RunFinished"), schema::ref("Note"),
                        schema::ref("TableChanged"), schema::ref("Resync")})});
   schemas.push_back({"Live", schema::object({{"status", schema::words({"live"}), ""}})});
-  schemas.push_back({"Ready", schema::object({
-                                  {"status", schema::words({"ready"}), ""},
-                                  {"version", schema::text(), ""},
-                                  {"database", schema::text(), ""},
-                                  {"table_revision", schema::text(), ""},
-                                  {"log",
-                                   schema::object({{"name", schema::text(), "Of its checkpoints"},
-                                                   {"size", schema::count(), "Measurements in it"},
-                                                   {"root", schema::text(), "Of its tree"}}),
-                                   "The newest signed head"},
-                              })});
+  schemas.push_back(
+      {"Ready", schema::object({
+                    {"status", schema::words({"ready"}), ""},
+                    {"version", schema::text(), ""},
+                    {"database", schema::text(), ""},
+                    {"table_revision", schema::text(), ""},
+                    {"log",
+                     schema::object({{"name", schema::text(), "Name of its checkpoints"},
+                                     {"size", schema::count(), "Measurements in it"},
+                                     {"root", schema::text(), "Root of its tree"}}),
+                     "The newest signed head"},
+                })});
   const std::string entry = schema::object({
       {"pointer", schema::text(), "The place in the body (RFC 6901); rows count from 0"},
-      {"line", schema::count(), "Of CSV and NDJSON, from 1", false},
-      {"code", schema::text(), "Stable"},
+      {"line", schema::count(), "Line of CSV and NDJSON, from 1", false},
+      {"code", schema::text(), "Stable code"},
       {"detail", schema::text(), "What is wrong and what to do"},
   });
   schemas.push_back(
@@ -78,15 +80,16 @@ void add_service_schemas(Schemas& schemas) {
        schema::object({
            {"type", schema::text(), "urn:fitgauge:problem: and the code"},
            {"title", schema::text(), "The same for every problem of the code"},
-           {"status", schema::integer(400, 599), "As in the status line"},
+           {"status", schema::integer(400, 599), "HTTP status code"},
            {"detail", schema::text(), "What is wrong and what to do"},
-           {"instance", schema::text(), "This request, as the log names it"},
+           {"instance", schema::text(), "Id of this request in the log"},
            {"code", schema::text(), "Stable; reference/errors.md lists all"},
            {"where", schema::text(), "The parameter or the place, where it is one", false},
            {"errors", schema::array(entry), "Every field that cannot be accepted", false},
            {"diagnostics", schema::array(schema::ref("Diagnostic")),
-            "Of program.invalid: every finding", false},
-           {"head", schema::ref("LogHead"), "Of log.position and log.forked: what is here", false},
+            "Every finding, for program.invalid", false},
+           {"head", schema::ref("LogHead"), "Head of the log here, for log.position and log.forked",
+            false},
        })});
   const std::string any = R"({"type":"object"})";
   schemas.push_back(
@@ -102,11 +105,11 @@ void add_service_routes(Routes& add) {
   add("GET /livez live public",
       [](const http::Request&) -> Result<http::Response> { return live(); },
       {.summary = "The process answers",
-       .outcomes = {{.meaning = "It answers", .schema = "Live"}}});
+       .outcomes = {{.meaning = "The process answers", .schema = "Live"}}});
   add("GET /readyz ready public",
       [&services = add.services](const http::Request&) { return ready(services); },
       {.summary = "The service may be used: database, schema and tables are in order",
-       .outcomes = {{.meaning = "All is in order", .schema = "Ready"}}});
+       .outcomes = {{.meaning = "No problem found", .schema = "Ready"}}});
   add("GET /metrics getMetrics open", metrics,
       {.summary = "Counters for Prometheus",
        .response_types = {},

@@ -23,7 +23,7 @@ void row_members(auto& v, RatingsOrder& study) {
   v.member("part", part, StudyLabel{});
   v.member("operator", by, StudyLabel{});
   v.optional("trial", trial, StudyLabel{});
-  v.member("value", value, StudyLabel{}, "The category");
+  v.member("value", value, StudyLabel{}, "Category given in this trial");
   v.optional("reference", reference, StudyLabel{}, "The right category of the part");
   v.check([&](FieldReader& row) {
     if (!part || !by || !value) return;

@@ -94,8 +94,8 @@ Selected selected_by(const app::MeasurementQuery& query) {
   return {query.texts.at(app::kOfCharacteristic), query.texts.at(app::kOfMachine)};
 }
 void members(auto& v, const Selected& of) {
-  v.optional("characteristic", of.characteristic, "That was asked for");
-  v.optional("machine", of.machine, "That was asked for");
+  v.optional("characteristic", of.characteristic, "As in the query");
+  v.optional("machine", of.machine, "As in the query");
 }
 
 struct Failure {
@@ -119,15 +119,16 @@ void members(auto& v, const Proposal& proposal) {
   const double reach = kCoverage * c.offset_uncertainty;
   members(v, proposal.of);
   v.member("state", c.state, Words{CompensationState::Unstable});
-  v.member("reason", c.reason, "Of the state, in a sentence");
+  v.member("reason", c.reason, "Reason for the state, as a sentence");
   v.member("offset_um", c.offset, "Brings the size of the next part to the target");
   v.member(
       "interval_um",
       c.offset ? std::optional(std::array{*c.offset - reach, *c.offset + reach}) : std::nullopt,
-      "That it lies in with 95 %");
-  v.member("values", proposal.values, "That it was found from");
-  v.member("next_in_parts", c.next_in, "After so many parts measure one again");
-  v.member("wear_um", c.offset ? std::optional(c.wear) : std::nullopt, "Of the size, a part");
+      "Interval of 95 % for the offset");
+  v.member("values", proposal.values, "Number of values used");
+  v.member("next_in_parts", c.next_in, "Number of parts until the next measurement");
+  v.member("wear_um", c.offset ? std::optional(c.wear) : std::nullopt,
+           "Change of the size from part to part");
   v.member("scatter_um", c.offset ? std::optional(c.scatter) : std::nullopt,
            "Standard deviation about the level");
   v.member("dead_band_um", c.offset ? std::optional(c.dead_band) : std::nullopt,
@@ -234,10 +235,10 @@ void add_compensation_routes(Routes& add) {
   parameters.push_back({.name = "target_mm",
                         .type = http::LengthIn{},
                         .description = "The middle of the limits when absent"});
-  parameters.push_back(
-      {.name = "cost",
-       .type = http::Decimal{.scale = 6, .min = 1, .max = 1'000'000'000},
-       .description = "Of a correction, in parts; 0.1 when absent. A larger one makes fewer"});
+  parameters.push_back({.name = "cost",
+                        .type = http::Decimal{.scale = 6, .min = 1, .max = 1'000'000'000},
+                        .description = "Cost of a correction in parts; 0.1 when absent. A larger "
+                                       "cost gives fewer corrections"});
   add("GET /v1/measurements/compensation proposeOffset viewer", propose,
       {.summary = "The next offset of a machine",
        .description = "A proposal from the newest 500 values that match; nothing moves a machine. "
@@ -247,7 +248,7 @@ void add_compensation_routes(Routes& add) {
                       "that the values give none until the next one.",
        .parameters = std::move(parameters),
        .response_types = {"application/json", std::string(kEventStreamType)},
-       .outcomes = {{.meaning = "What was found", .schema = "Compensation"}},
+       .outcomes = {{.meaning = "Result", .schema = "Compensation"}},
        .refusals = {422}});
 }
 

@@ -150,7 +150,7 @@ void add_computation(Routes& add, const Computation& computation) {
                 .limit = kLargestValuesBody,
                 .when_too_large = std::string(kOfManyValues),
                 .schema = computation.reads},
-       .outcomes = {{.meaning = "What was computed", .schema = computation.answers}}});
+       .outcomes = {{.meaning = "Computed figures", .schema = computation.answers}}});
 }
 
 }  // namespace fitgauge::api

@@ -81,7 +81,7 @@ struct SingleValues : ExactNumbers {
 /// `values`, or `subgroups` of one size.
 void data_members(auto& v, metrology::Subgroups& data) {
   v.optional("values", data, SingleValues{}, "One after another, or subgroups");
-  v.optional("subgroups", data, ExactSubgroups{}, "Of one size, two values or more");
+  v.optional("subgroups", data, ExactSubgroups{}, "Subgroups of one size, two values or more");
   v.check([](FieldReader& fields) {
     if (!fields.has("subgroups") && !fields.has("values")) fields.array("values");
   });

@@ -88,7 +88,7 @@ void given_members(auto& v, auto& c) {
   v.member("from", c.from, Due{}, "A date, from its beginning in UTC, or an RFC 3339 time");
   v.optional("due", c.due, Due{}, "A date, to its end, or a time; required unless it is blocked");
   v.optional("certificate", c.certificate, kShort, "Number of the calibration certificate");
-  v.optional("laboratory", c.laboratory, kShort, "Who calibrated it");
+  v.optional("laboratory", c.laboratory, kShort, "Laboratory");
   v.optional("status", c.status, kStatuses, "blocked: it must not be used from then on");
   v.optional("uncertainty", c.uncertainty, "The name of its budget, in µm; else the gauge's own");
   v.optional("as_found_um", c.as_found, Number{}, "Error that the calibration found");
@@ -116,7 +116,7 @@ void members(auto& v, CalibrationOrder& order) {
 
 void members(auto& v, const Calibration& calibration) {
   given_members(v, calibration);
-  v.member("recorded_at", calibration.recorded_at, Time{}, "When it was stored, in UTC");
+  v.member("recorded_at", calibration.recorded_at, Time{}, "Time of storing, in UTC");
   v.optional("caller", calibration.caller, "The name of the key that stored it");
 }
 
@@ -296,7 +296,7 @@ void add_documents_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<Calibration>("Calibration"));
   schemas.push_back(
       {"Calibrations", schema::object({{"calibrations", schema::array(schema::ref("Calibration")),
-                                        "By their beginnings"}})});
+                                        "Sorted by `from`"}})});
   schemas.push_back(names_schema("UncertaintyBudgetNames", "uncertainties"));
   schemas.push_back(names_schema("GaugeInUseNames", "gauges"));
   schemas.push_back(order_schema<StudyOrder>("StudyOrder"));
@@ -311,20 +311,21 @@ void add_documents_routes(Routes& add) {
   add_document_routes(add, kUncertainties);
   add_document_routes(add, kGauges);
   add_document_routes(add, kStudies);
-  const http::Parameter name = path_parameter("name", "Of the gauge in use");
+  const http::Parameter name = path_parameter("name", "Name of the gauge in use");
   add("POST /v1/gauges-in-use/{name}/calibrations recordCalibration admin", record_calibration,
       {.summary = "Record a calibration of a gauge in use, or that it is blocked",
        .description = "It counts for what is measured from its beginning to that of the next. One "
                       "with the same beginning takes its place.",
        .parameters = {name},
        .body = json_body("NewCalibration"),
-       .outcomes = {{.meaning = "It takes the place of one", .schema = "Calibration"},
-                    {.status = 201, .meaning = "It is recorded", .schema = "Calibration"}},
+       .outcomes = {{.meaning = "Replaced a calibration with the same `from`",
+                     .schema = "Calibration"},
+                    {.status = 201, .meaning = "Recorded", .schema = "Calibration"}},
        .refusals = {404}});
   add("GET /v1/gauges-in-use/{name}/calibrations listCalibrations viewer", list_calibrations,
       {.summary = "The calibrations of a gauge in use",
        .parameters = {name},
-       .outcomes = {{.meaning = "By their beginnings", .schema = "Calibrations"}},
+       .outcomes = {{.meaning = "Sorted by `from`", .schema = "Calibrations"}},
        .refusals = {404}});
 }
 

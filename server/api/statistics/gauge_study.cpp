@@ -45,7 +45,7 @@ struct ModelForm : Words<StudyModel> {
 void choice_members(auto& v, StudyChoices& choices, std::string_view method, bool has_models) {
   constexpr std::string_view kUnused = "Without effect here";
   v.optional("model", choices.model, ModelForm{{StudyModel::Pooled}, has_models},
-             has_models ? "Of anova" : kUnused);
+             has_models ? "Model of the method `anova`" : kUnused);
   v.check([&choices, method](FieldReader& fields) {
     static constexpr std::array<Applicable, 1> kMembers = {
         {{"model", "anova", "interaction and pooled"}}};
@@ -54,7 +54,7 @@ void choice_members(auto& v, StudyChoices& choices, std::string_view method, boo
     }
   });
   v.optional("tolerance", choices.tolerance, kTolerance,
-             has_models ? "For the shares of it" : kUnused);
+             has_models ? "Tolerance, for the percentages of it" : kUnused);
 }
 
 struct VariationOrder {
@@ -94,14 +94,15 @@ void members(auto& v, VariationOrder& study) {
            "Each with an operator, but for type3");
   v.optional("confidence", study.confidence,
              Number{.least = 0, .most = 1, .ends = Number::Ends::Open},
-             "Of the intervals, which average_range has not");
+             "Confidence of the intervals; average_range has none");
   v.check([&study](FieldReader& fields) {
     static constexpr std::array<Applicable, 1> kOfIntervals = {
         {{"confidence", "anova nested type3"}}};
     fields.refuse_not_applicable(kOfIntervals, "method", word(study.method));
   });
   v.optional("measuring_process", study.process,
-             "For its capability by ISO 22514-7, with u_bi and u_evr of a type1 study");
+             "Contributions for the capability of the measuring process (ISO 22514-7), with u_bi "
+             "and u_evr of a type1 study");
 }
 
 /// StudyLabels that a method does not use.
@@ -138,7 +139,7 @@ struct StabilityOrder {
 };
 void row_members(auto& v, StabilityOrder& study) {
   std::string at;
-  v.member("at", at, StudyLabel{}, "The same for readings of one time");
+  v.member("at", at, StudyLabel{}, "Time label; equal for readings of one time");
   unused_labels(v);
   v.member("value", study.values, OneMore{});
   study.time.push_back(study.times.number(at));
@@ -147,7 +148,8 @@ void members(auto& v, StabilityOrder& study) {
   std::string method;
   v.member("method", method, Word{"stability"});
   choice_members(v, study.choices, "stability", false);
-  v.member("measurements", study, StudyRows<StabilityOrder>{}, "As many at each time");
+  v.member("measurements", study, StudyRows<StabilityOrder>{},
+           "The same number of readings at each time");
 }
 
 /// The components of a study: standard deviations, or their shares.
@@ -219,17 +221,18 @@ void members(auto& v, const VariationAnswer& answer) {
   v.member("contribution_percent", sigmas.each([&](long double sigma) {
     return kPercent * (sigma / s.tv) * (sigma / s.tv);
   }),
-           "Of the variance");
+           "Percentage of the variance");
   v.member("study_variation_percent",
            sigmas.each([&](long double sigma) { return kPercent * sigma / s.tv; }),
-           "Of six total standard deviations");
+           "Percentage of six total standard deviations");
   v.member("tolerance_percent",
            sigmas.each([&](long double sigma) { return kPercent * 6 * sigma / tolerance; }),
-           "Null without a tolerance");
+           "Percentage of the tolerance; null without a tolerance");
   v.member("interaction_p", s.interaction_p);
-  v.member("anova", s.anova, AnovaTable{}, "By line of the table");
-  v.optional("intervals", s.intervals, "Of the standard deviations; none of average_range");
-  v.optional("measuring_process", answer.process, "When it was asked for");
+  v.member("anova", s.anova, AnovaTable{}, "Lines of the ANOVA table by name");
+  v.optional("intervals", s.intervals,
+             "Intervals of the standard deviations; average_range has none");
+  v.optional("measuring_process", answer.process, "Present if requested");
 }
 
 void members(auto& v, const metrology::LinearityStudy::Coefficient& of) {
@@ -246,7 +249,7 @@ void members(auto& v, const metrology::LinearityStudy::Bias& of) {
 void members(auto& v, const metrology::LinearityStudy& study) {
   v.member("method", "linearity", Word{"linearity"});
   formula_members(v, "linearity");
-  v.member("slope", study.slope, "Of the bias on the reference");
+  v.member("slope", study.slope, "Slope of the bias over the reference");
   v.member("intercept", study.intercept);
   v.member("r_squared", study.r_squared);
   v.member("residual_standard_deviation", study.residual_standard_deviation);
@@ -261,7 +264,7 @@ struct StabilityAnswer {
 void members(auto& v, const StabilityAnswer& answer) {
   v.member("method", "stability", Word{"stability"});
   formula_members(v, "stability");
-  v.member("stable", answer.charts.violations.empty(), "No rule is broken");
+  v.member("stable", answer.charts.violations.empty(), "true if no rule is broken");
   chart_members(v, answer.charts, {});
 }
 

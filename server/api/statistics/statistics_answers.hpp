@@ -46,12 +46,12 @@ struct NamedViolation {
   std::optional<std::string> subgroup{};
 };
 void members(auto& v, const NamedViolation& named) {
-  v.member("chart", named.violation.chart, "As it is named in charts");
+  v.member("chart", named.violation.chart, "Name of the chart");
   v.member("rule", named.violation.rule, Integer{1, metrology::ZoneRules::kCount},
            "Western Electric 1956");
   v.member("index", named.violation.index, "Of the point, from 0");
-  v.optional("id", named.id, "Of the stored measurement");
-  v.optional("subgroup", named.subgroup, "Of stored ones");
+  v.optional("id", named.id, "Id of the stored measurement");
+  v.optional("subgroup", named.subgroup, "Name of the subgroup of stored values");
 }
 
 /// Names the point of a violation.
@@ -86,12 +86,13 @@ void members(auto& v, const metrology::Chart& chart) {
   v.member("upper_limit", chart.upper_limit);
   v.member("points", chart.points, Points{}, "Nearest doubles");
   v.optional("lower_points", chart.lower_points.empty() ? nullptr : &chart.lower_points, Points{},
-             "Of cusum: the sums below");
+             "Lower sums of a cusum chart");
 }
 
 void chart_members(auto& v, const metrology::ControlCharts& charts, const NamePoint& name) {
-  v.member("standard_deviation", charts.standard_deviation, "Of single values, from within");
-  v.member("charts", charts.charts, "Location first");
+  v.member("standard_deviation", charts.standard_deviation,
+           "Standard deviation of single values within subgroups");
+  v.member("charts", charts.charts, "Charts; the chart of the location is the first");
   v.member("violations", charts.violations, Violations{name});
   v.member("average_run_length", charts.average_run_length,
            "Points to a false alarm of the location chart");
@@ -116,7 +117,7 @@ struct Stored {
 };
 template <class Answer>
 void members(auto& v, const Stored<Answer>& stored) {
-  v.member("selection", stored.selection, "Which measurements it is of");
+  v.member("selection", stored.selection, "Measurements of the figure");
   members(v, stored.answer);
 }
 
@@ -129,7 +130,7 @@ void members(auto& v, const IndexAnswer& answer) {
   v.member("value", answer.index.value);
   v.member("lower", answer.index.lower);
   v.member("upper", answer.index.upper);
-  v.member("interval", answer.interval, "How it is computed");
+  v.member("interval", answer.interval, "Method of the interval");
 }
 
 void members(auto& v, const metrology::NormalityTest& test) {
@@ -151,7 +152,7 @@ void members(auto& v, const metrology::ModelChoice& choice) {
 }
 
 void members(auto& v, const metrology::PercentileCapability& percentile) {
-  v.member("quantiles", std::string_view("of the distribution"), "Of which they are");
+  v.member("quantiles", std::string_view("of the distribution"), "Quantiles of the model");
   v.member("x_0135", percentile.x_0135);
   v.member("x_50", percentile.x_50);
   v.member("x_99865", percentile.x_99865);
@@ -216,14 +217,15 @@ void members(auto& v, const CapabilityAnswer& answer) {
   index("cpm", c.cpm, "chi-square, Boyles 1991");
   index("cm", c.cm, kWidth);
   index("cmk", c.cmk, kDistance);
-  v.member("stable", c.stable, "No rule is broken");
+  v.member("stable", c.stable, "true if no rule is broken");
   v.member("violations", c.violations, Violations{answer.name});
-  v.member("normality", c.normality, "From five values");
-  v.member("model", c.model, "From five subgroups");
+  v.member("normality", c.normality, "Test of normality, from five values on");
+  v.member("model", c.model, "Model, from five subgroups on");
   v.member("distribution", c.distribution,
-           "From 25 values; null with a `reason` if none of the known ones fits");
-  v.member("percentile", c.percentile, "From 25 values, of the distribution");
-  v.member("reason", c.reason(), "Why indices are null");
+           "Fitted distribution, from 25 values on; null with a `reason` if no known one fits");
+  v.member("percentile", c.percentile,
+           "Percentile method with the fitted distribution, from 25 values on");
+  v.member("reason", c.reason(), "Reason why indices are null");
 }
 
 /// The answer to a gauge study's body, by its method, and to one on a master.

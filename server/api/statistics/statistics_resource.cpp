@@ -53,7 +53,7 @@ void members(auto& v, GroupsOrder& order) {
 void members(auto& v, const metrology::Anova& anova) {
   formula_members(v, "anova_one_way");
   v.member("between", anova.between, "Groups");
-  v.member("within", anova.within, "Rest");
+  v.member("within", anova.within, "Variation within the groups");
   members(v, anova.test);
   v.member("r_squared", anova.r_squared);
   v.member("residual_standard_deviation", anova.residual_standard_deviation);
@@ -66,16 +66,17 @@ struct CapabilityOrder {
 };
 void members(auto& v, CapabilityOrder& order) {
   data_members(v, order.data);
-  v.optional("lower", order.limits.lower, "This, upper or both");
+  v.optional("lower", order.limits.lower, "Lower limit; give lower, upper or both");
   v.optional("upper", order.limits.upper);
-  v.optional("target", order.limits.target, "Of cpm; the middle when absent");
+  v.optional("target", order.limits.target, "Target of cpm; the middle of the limits when absent");
   v.check([](FieldReader& fields) {
     if (!fields.has("lower") && !fields.has("upper")) {
       fields.report(ErrorCode::FieldMissing, "upper", "give lower, upper or both");
     }
   });
   v.optional("confidence", order.confidence,
-             Number{.least = 0, .most = 1, .ends = Number::Ends::Open}, "Of the intervals");
+             Number{.least = 0, .most = 1, .ends = Number::Ends::Open},
+             "Confidence of the intervals");
 }
 
 void members(auto& v, metrology::ChartPlan::Phase& phase) {
@@ -113,17 +114,17 @@ void members(auto& v, ChartOrder& order) {
   constexpr double kLeast = 1e-6;
   v.member("kind", plan.kind, Words{metrology::ChartKind::Cusum});
   data_members(v, order.data);
-  v.optional("rules", plan.rules, Rules{}, "None when absent");
+  v.optional("rules", plan.rules, Rules{}, "Rules; none when absent");
   v.optional("phase1", plan.phase1, "The points the limits are taken from");
-  v.optional("centre", plan.centre, "Known");
+  v.optional("centre", plan.centre, "Known centre");
   v.optional("standard_deviation", plan.standard_deviation,
              PositiveExact{ErrorCode::FieldInvalid, "a known standard deviation must be above 0"},
-             "Known, of single values; above 0");
-  v.optional("lambda", plan.lambda, Number{metrology::kLeastLambda, 1}, "Of ewma");
+             "Known standard deviation of single values, above 0");
+  v.optional("lambda", plan.lambda, Number{metrology::kLeastLambda, 1}, "Weight of ewma");
   v.optional("reference_value", plan.reference_value, Number{kLeast, 10},
-             "k of cusum, in standard deviations");
+             "Reference value k of cusum, in standard deviations");
   v.optional("decision_interval", plan.decision_interval, Number{kLeast, 20},
-             "h of cusum, likewise");
+             "Decision interval h of cusum, in standard deviations");
   v.check([&plan](FieldReader& fields) {
     // Limits are known by `centre` and `standard_deviation`, else something of them is estimated.
     static constexpr std::array<Applicable, 1> kOfLimits = {{{"phase1", "estimated"}}};
@@ -143,10 +144,12 @@ struct Type1Order {
 void members(auto& v, Type1Order& order) {
   v.member("values", order.values, "Two or more, of one master");
   v.member("reference", order.reference, "The size of the master");
-  v.member("tolerance", order.tolerance, kTolerance, "Of what will be measured");
-  v.optional("tolerance_percent", order.rule.percent, Integer{1, 100}, "Of it that Cg compares");
+  v.member("tolerance", order.tolerance, kTolerance, "Tolerance of the characteristic to measure");
+  v.optional("tolerance_percent", order.rule.percent, Integer{1, 100},
+             "Percentage of the tolerance in Cg");
   v.optional("spread", order.rule.spread, Integer{2, 6}, "Standard deviations that Cg compares");
-  v.optional("measuring_system", order.system, "For its capability by ISO 22514-7");
+  v.optional("measuring_system", order.system,
+             "Contributions for the capability of the measuring system (ISO 22514-7)");
 }
 
 struct Type1Answer {
@@ -164,7 +167,7 @@ void members(auto& v, const Type1Answer& answer) {
   v.member("p", study.p);
   v.member("cg", study.cg);
   v.member("cgk", study.cgk);
-  v.optional("measuring_system", answer.system, "When it was asked for");
+  v.optional("measuring_system", answer.system, "Present if requested");
 }
 
 /// The form of sizes in mm.
@@ -216,8 +219,8 @@ std::string pairing_schema() {
 }
 
 void members(auto& v, const metrology::Pair& pair) {
-  v.member("hole", pair.hole, "Its place, from 0");
-  v.member("shaft", pair.shaft, "Its place, from 0");
+  v.member("hole", pair.hole, "Index, from 0");
+  v.member("shaft", pair.shaft, "Index, from 0");
   v.member("clearance_um", pair.clearance, Micrometres{});
 }
 
@@ -322,7 +325,8 @@ void add_statistics_routes(Routes& add) {
        "Repeatability and bias of a gauge on one master: Cg, Cgk"},
       {"/v1/statistics/grr studyGauge", gauge_study, "GaugeStudyOrder", "GaugeStudy",
        "Gauge study: repeatability, reproducibility, parts",
-       "Or its linearity, or its stability, by method."},
+       "`method` selects repeatability and reproducibility, linearity, stability, or agreement of "
+       "ratings."},
       {"/v1/statistics/pairing pairParts", pairing, "PairingOrder", "Pairing",
        "Measured holes and shafts paired for a clearance",
        "The least sum of squares of all assignments. The sizes may also be called "

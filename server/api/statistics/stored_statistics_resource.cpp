@@ -162,7 +162,7 @@ std::vector<http::Parameter> with_stored_filters(std::vector<http::Parameter> ow
   constexpr std::int64_t kMostOfLast = 1'000'000;
   own.push_back({.name = "last",
                  .type = http::Integer{.min = 1, .max = kMostOfLast},
-                 .description = "Only so many of the newest that match"});
+                 .description = "Only this number of the newest matches"});
   parameters.insert(parameters.end(), own.begin(), own.end());
   return parameters;
 }
@@ -181,10 +181,12 @@ std::vector<http::Parameter> chart_parameters() {
       {.name = "kind",
        .type = http::Words{{"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}},
        .description = "xbar_r where the values name subgroups, else i_mr, when absent"},
-      {.name = "rules", .description = "Of Western Electric 1956: 1,2,3,4; none when absent"},
-      number("lambda", 1'000, 1, "Of ewma; 0.2 when absent"),
-      number("reference_value", 1, 10, "k of cusum, in standard deviations; 0.5 when absent"),
-      number("decision_interval", 1, 20, "h of cusum, likewise; 5 when absent"),
+      {.name = "rules", .description = "Rules of Western Electric 1956: 1,2,3,4; none when absent"},
+      number("lambda", 1'000, 1, "Weight of ewma; 0.2 when absent"),
+      number("reference_value", 1, 10,
+             "Reference value k of cusum, in standard deviations; 0.5 when absent"),
+      number("decision_interval", 1, 20,
+             "Decision interval h of cusum, in standard deviations; 5 when absent"),
       {.name = "phase1_from",
        .type = http::Integer{.min = 0, .max = kMost},
        .description = "First point the limits are taken from; 0 when absent"},
@@ -200,20 +202,20 @@ void add_stored_statistics_routes(Routes& add) {
   add("GET /v1/measurements/capability assessStoredCapability viewer", find_capability,
       {.summary = "Capability and performance of stored values",
        .description = "Against the limits in the records, which must be the same in all.",
-       .parameters =
-           with_stored_filters({{.name = "target_mm",
-                                 .type = http::LengthIn{},
-                                 .description = "Of cpm; the middle of the limits when absent"},
-                                {.name = "confidence",
-                                 .type = http::Decimal{.scale = kScale, .min = 1, .max = 999'999},
-                                 .description = "Of the intervals; 0.95 when absent"}}),
-       .outcomes = {{.meaning = "What was computed", .schema = "StoredCapability"}},
+       .parameters = with_stored_filters(
+           {{.name = "target_mm",
+             .type = http::LengthIn{},
+             .description = "Target of cpm; the middle of the limits when absent"},
+            {.name = "confidence",
+             .type = http::Decimal{.scale = kScale, .min = 1, .max = 999'999},
+             .description = "Confidence of the intervals; 0.95 when absent"}}),
+       .outcomes = {{.meaning = "Computed figures", .schema = "StoredCapability"}},
        .refusals = {422}});
   add("GET /v1/measurements/chart makeStoredControlChart viewer", find_chart,
       {.summary = "Control chart of stored values",
        .description = "In storage order; a violation names its measurement or subgroup.",
        .parameters = chart_parameters(),
-       .outcomes = {{.meaning = "What was computed", .schema = "StoredControlChart"}},
+       .outcomes = {{.meaning = "Computed figures", .schema = "StoredControlChart"}},
        .refusals = {422}});
 }
 

@@ -20,7 +20,7 @@ struct ValidationAnswer {
 };
 void members(auto& v, const ValidationAnswer& of) {
   v.member("digits", of.digits, "Significant ones of the standard uncertainty");
-  v.member("tolerance", of.tolerance, "Half a unit of the last one");
+  v.member("tolerance", of.tolerance, "Half a unit of the last digit");
   v.member("lower_difference", of.lower, "Of the lower ends of both intervals");
   v.member("upper_difference", of.upper);
   v.member("validated", std::max(of.lower, of.upper) <= of.tolerance);
@@ -46,7 +46,8 @@ void members(auto& v, const SimulationAnswer& simulated) {
   v.member("mean", made.mean, "Of the model, else of the deviation from the estimate");
   v.member("standard_deviation", made.standard_deviation);
   v.member("interval", SimulatedInterval{made.lower, made.upper}, "Equal probability outside");
-  v.member("validation", simulated.validation, "Of expanded_uncertainty, to 1 and to 2 digits");
+  v.member("validation", simulated.validation,
+           "Validation of expanded_uncertainty, to 1 and to 2 digits");
 }
 
 struct SensitivityAnswer {
@@ -80,7 +81,7 @@ void members(auto& v, const UncertaintyAnswer& answer) {
   v.optional("sensitivities", answer.sensitivities, "Of the model");
   v.optional("second_order_standard_uncertainty", answer.second_order,
              "With the terms of JCGM 100, note to 5.1.2, of a model without correlations");
-  v.optional("monte_carlo", answer.simulated, "When it was asked for");
+  v.optional("monte_carlo", answer.simulated, "Present if requested");
 }
 
 Result<std::string> compute_uncertainty(const JsonValue& body) {

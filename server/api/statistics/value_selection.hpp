@@ -124,12 +124,12 @@ struct SelectionAnswer {
   std::optional<Length> upper_limit{};
 };
 void members(auto& v, const SelectionAnswer& selection) {
-  v.member("count", selection.count, "Values");
+  v.member("count", selection.count, "Number of values");
   v.member("subgroups", selection.subgroups, "0 where the values are taken one by one");
   v.member("first_id", selection.first_id, "The first of them in storage order");
   v.member("last_id", selection.last_id);
   v.member("as_of", selection.as_of, "The newest measurement there was");
-  v.optional("lower_limit_mm", selection.lower_limit, Millimetres{}, "That all of them have");
+  v.optional("lower_limit_mm", selection.lower_limit, Millimetres{}, "Limit of all values");
   v.optional("upper_limit_mm", selection.upper_limit, Millimetres{});
 }
 

@@ -245,14 +245,14 @@ void add_feature_routes(Routes& add, Feature feature) {
       {.summary = "Store a custom tolerance class as a new revision",
        .parameters = {name, if_match},
        .body = json_body("Column"),
-       .outcomes = {{.meaning = "The column is replaced", .schema = "Revision"},
-                    {.status = 201, .meaning = "The column is new", .schema = "Revision"}},
+       .outcomes = {{.meaning = "Custom class replaced", .schema = "Revision"},
+                    {.status = 201, .meaning = "Custom class created", .schema = "Revision"}},
        .refusals = {404, 412}});
   add("DELETE " + path + "/classes/{name} delete" + table + "Column admin",
       with(add.services, feature, remove_column),
-      {.summary = "Back to the standard",
+      {.summary = "Delete a custom class; the standard class counts again",
        .parameters = {name, if_match},
-       .outcomes = {{.status = 204, .meaning = "It is gone"}},
+       .outcomes = {{.status = 204, .meaning = "Deleted"}},
        .refusals = {404, 412}});
 }
 
@@ -261,26 +261,27 @@ void add_feature_routes(Routes& add, Feature feature) {
 void add_table_schemas(Schemas& schemas) {
   const std::string range = schema::object({
       {"feature", feature_words(), ""},
-      {"classes", schema::array(schema::text()), "Of the standard, then the custom ones"},
+      {"classes", schema::array(schema::text()), "Classes of the standard, then custom ones"},
       {"own", schema::array(schema::text()), "Custom tolerance classes"},
       {"size_ranges", schema::count(), ""},
   });
-  schemas.push_back({"TableIndex", schema::object({{"revision", schema::text(), "Of all tables"},
-                                                   {"tables", schema::array(range), ""}})});
+  schemas.push_back(
+      {"TableIndex", schema::object({{"revision", schema::text(), "Revision of all tables"},
+                                     {"tables", schema::array(range), ""}})});
   const std::string deviations =
       schema::object({{"upper_um", schema::number(), ""}, {"lower_um", schema::number(), ""}});
   const std::string row = schema::object({
       {"over_mm", schema::number(), "Exclusive"},
       {"up_to_mm", schema::number(), "Inclusive"},
       {"limits", schema::map(deviations),
-       "By class; one that is undefined for the range is absent"},
+       "Limits by class; a class that is undefined for the range is absent"},
   });
   schemas.push_back({"Table", schema::object({{"revision", schema::text(), ""},
                                               {"feature", feature_words(), ""},
-                                              {"rows", schema::array(row), "By size"}})});
+                                              {"rows", schema::array(row), "Sorted by size"}})});
   schemas.push_back(order_schema<CustomRows>("Column"));
-  schemas.push_back(
-      {"Revision", schema::object({{"revision", schema::text(), "Of the tables from now on"}})});
+  schemas.push_back({"Revision", schema::object({{"revision", schema::text(),
+                                                  "Revision of the tables from now on"}})});
 }
 
 void add_tables_routes(Routes& add) {

@@ -22,8 +22,8 @@ void write_formula(JsonWriter& json, std::string_view of);
 
 /// Describes these members of a body.
 void formula_members(auto& v, std::string_view of) {
-  v.member("formula", formula_of(of).formula, "What was computed");
-  v.member("clause", formula_of(of).clause, "Where that is from");
+  v.member("formula", formula_of(of).formula, "Computed figures");
+  v.member("clause", formula_of(of).clause, "Source of the figure");
 }
 
 }  // namespace fitgauge::api

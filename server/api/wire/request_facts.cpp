@@ -44,8 +44,9 @@ bool wants_csv(const http::Request& request) {
 }
 
 http::Parameter csv_or_json() {
-  return {
-      .name = "format", .type = http::Words{{"json", "csv"}}, .description = "Instead of Accept"};
+  return {.name = "format",
+          .type = http::Words{{"json", "csv"}},
+          .description = "Format; replaces Accept"};
 }
 
 bool prefers_async(const http::Request& request) {

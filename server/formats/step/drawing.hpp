@@ -62,49 +62,51 @@ struct Drawing {
 };
 
 void members(auto& v, const DrawnSize& size) {
-  v.member("name", size.name, "Of its callout, else of what it is; unique in the drawing");
+  v.member("name", size.name, "Name of the callout, else of the kind; unique in the drawing");
   v.member("nominal_mm", size.nominal, api::Millimetres{}, "");
-  v.optional("tolerance_class", size.tolerance_class, "With it there are no deviations");
+  v.optional("tolerance_class", size.tolerance_class,
+             "Tolerance class; deviations are absent then");
   v.optional("upper_um", size.upper, api::Micrometres{}, "Upper deviation");
   v.optional("lower_um", size.lower, api::Micrometres{}, "Lower deviation");
   v.optional("feature", size.feature, api::Words{iso286::Feature::Shaft},
-             "As the faces show; of a diameter or width");
-  v.member("quantity", size.quantity, api::Words{gauging::Quantity::Deviation}, "What is measured");
-  v.member("count", size.count, api::Integer{.least = 1}, "Of axes that have it: 4 of 4X");
-  v.member("entity", size.entity, "Its instance in the file: #120");
+             "Feature that the faces show, for a diameter or width");
+  v.member("quantity", size.quantity, api::Words{gauging::Quantity::Deviation}, "Quantity");
+  v.member("count", size.count, api::Integer{.least = 1}, "Number of features: 4 of 4X");
+  v.member("entity", size.entity, "Instance in the file: #120");
   v.member("modifiers", size.modifiers, api::List<std::string, api::Text>{},
-           "In the words of the file");
+           "Modifiers as written in the file");
   v.member("remarks", size.remarks, api::List<std::string, api::Text>{},
-           "What to look at before it is used");
+           "What to check before use");
 }
 void members(auto& v, const NotRead& other) {
-  v.member("entity", other.entity, "Its instance in the file");
-  v.member("name", other.name, "Of its callout, else of its entity");
-  v.member("why", other.why, "And what to do");
+  v.member("entity", other.entity, "Instance in the file");
+  v.member("name", other.name, "Name of the callout, else of the entity");
+  v.member("why", other.why, "Reason, and what to do");
 }
 void members(auto& v, const ChangedLimits& change) {
-  v.member("name", change.name, "Of the characteristic");
-  v.member("before", change.before, "Its limits in the plan");
-  v.member("after", change.after, "Its limits in the drawing");
+  v.member("name", change.name, "Name of the characteristic");
+  v.member("before", change.before, "Limits in the plan");
+  v.member("after", change.after, "Limits in the drawing");
 }
 void comparison_members(auto& v, const Comparison& compared) {
   v.member("added", compared.added, api::List<std::string, api::Text>{},
            "Names that the plan has not");
   v.member("gone", compared.gone, api::List<std::string, api::Text>{},
            "Names of drawn ones that the drawing has not");
-  v.member("changed", compared.changed, "Other limits under the same name");
+  v.member("changed", compared.changed, "Sizes with the same name and other limits");
 }
 void members(auto& v, const Comparison& compared) {
-  v.optional("digest", compared.digest, "Of the drawing that the plan came from");
+  v.optional("digest", compared.digest, "SHA-256 of the drawing of the plan");
   comparison_members(v, compared);
 }
 void members(auto& v, const Drawing& drawing) {
   v.member("part", drawing.part, "The number of the product; empty if there are several");
   v.member("digest", drawing.digest, "SHA-256 of the file, in hexadecimal");
-  v.member("sizes", drawing.sizes, "Which a plan can have as they are");
+  v.member("sizes", drawing.sizes, "Sizes that a plan can use as they are");
   v.member("not_read", drawing.not_read,
            "Tolerances of form and place, notes, and sizes that lack something");
-  v.optional("compared", drawing.compared, "With the plan of the part; absent if there is none");
+  v.optional("compared", drawing.compared,
+             "Comparison with the plan of the part; absent if there is none");
 }
 
 /// @param text a whole file, read a stretch at a time if it is mapped; lengths are converted to mm

@@ -20,9 +20,9 @@ struct DrawnPlan {
 
 void members(auto& v, const DrawnPlan& plan) {
   v.member("digest", plan.digest, "SHA-256 of the file, which the plan keeps");
-  v.member("characteristics", plan.characteristics, "How many the plan has");
+  v.member("characteristics", plan.characteristics, "Number of characteristics of the plan");
   comparison_members(v, plan.compared);
-  v.member("not_read", plan.not_read, "What stands in the file and is not in the plan");
+  v.member("not_read", plan.not_read, "Content of the file that is not in the plan");
 }
 
 /// Each size becomes the characteristic of its name. What people gave that one (gauge, rule,

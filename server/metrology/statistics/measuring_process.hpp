@@ -27,7 +27,7 @@ inline constexpr std::array<ComponentRow, 14> kComponents = {{
     {"u_bi", ComponentOf::Master, "Bias on the master/√3"},
     {"u_lin", ComponentOf::Given, "Linearity"},
     {"u_evr", ComponentOf::Master, "Repeatability on the master"},
-    {"u_ms_rest", ComponentOf::Given, "Rest of the measuring system"},
+    {"u_ms_rest", ComponentOf::Given, "Other contributions of the measuring system"},
     {"u_evo", ComponentOf::Parts, "Repeatability on parts"},
     {"u_av", ComponentOf::Parts, "Operators"},
     {"u_ia", ComponentOf::Parts, "Interaction of part and operator"},
@@ -35,7 +35,7 @@ inline constexpr std::array<ComponentRow, 14> kComponents = {{
     {"u_stab", ComponentOf::Given, "Stability over time"},
     {"u_t", ComponentOf::Given, "Temperature"},
     {"u_obj", ComponentOf::Given, "Form of the part"},
-    {"u_mp_rest", ComponentOf::Given, "Rest of the measuring process"},
+    {"u_mp_rest", ComponentOf::Given, "Other contributions of the measuring process"},
 }};
 
 /// Standard uncertainties in the unit of the readings; absent: no part of it.

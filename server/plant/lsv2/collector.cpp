@@ -248,7 +248,7 @@ ConnectionTest test_of(const MachineOptions& machine, const Plant&, const std::s
 
 template <class V>
 void members(V& v, NamedPattern& pattern) {
-  v.member("file", pattern.file, "What it is called");
+  v.member("file", pattern.file, "File name");
   v.member("text", pattern.pattern, By{0, log_reader::Pattern::parse}, "The pattern");
 }
 
@@ -258,12 +258,12 @@ void members(V& v, MachineOptions& machine) {
   v.member("paths", machine.paths,
            Each{1, 100, "paths of the control, such as TNC:\\nc_prog\\TCHPR*.TXT",
                 api::schema::text(), read_watched},
-           "What is watched: TNC:\\nc_prog\\TCHPR*.TXT");
+           "Watched paths: TNC:\\nc_prog\\TCHPR*.TXT");
   v.optional("machine", machine.machine, api::Text{200},
              "Machine of the measurements; the name of the connection when absent");
   v.optional("interval_s", machine.interval, Within{1, 86'400},
              "Time between two attempts; 60 when absent");
-  v.optional("patterns", machine.patterns, Patterns{}, "For files of FN 16");
+  v.optional("patterns", machine.patterns, Patterns{}, "Pattern for files of FN 16");
 }
 
 Kind lsv2_kind() { return kind_of<MachineOptions>("lsv2"); }

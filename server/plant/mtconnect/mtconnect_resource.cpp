@@ -233,13 +233,13 @@ void add_refusal(Routes& add, std::string_view meaning) {
 void add_mtconnect_routes(Routes& add) {
   add_route(add, "probe probeMtconnect", probe,
             "MTConnectDevices 2.4: the device Gauge and what it observes");
-  add_route(
-      add, "current currentMtconnect", current,
-      "MTConnectStreams 2.4: the newest measurement, and counts by verdict",
-      {{.name = "at",
-        .type = http::Integer{.min = 1, .max = kMostSequence},
-        .description = "The state when this sequence was the last"},
-       {.name = "path", .description = "Only what it names: `//DataItem[@type=\"PART_COUNT\"]`"}});
+  add_route(add, "current currentMtconnect", current,
+            "MTConnectStreams 2.4: the newest measurement, and counts by verdict",
+            {{.name = "at",
+              .type = http::Integer{.min = 1, .max = kMostSequence},
+              .description = "The state when this sequence was the last"},
+             {.name = "path",
+              .description = "XPath of the data items: `//DataItem[@type=\"PART_COUNT\"]`"}});
   add_refusal(add, "`at` is beyond the log");
   const auto open = std::make_shared<std::atomic<int>>(0);
   add_route(
@@ -256,14 +256,13 @@ void add_mtconnect_routes(Routes& add) {
       "stream of documents; 32 may be open. Errors are MTConnectError documents.";
   add_refusal(add, "`from` is beyond the log");
   for (const std::string_view head : {"assets listMtconnectAssets", "asset listMtconnectAsset"}) {
-    add_route(
-        add, head, assets, "MTConnectAssets 2.4: QIF results of the newest 100 measurements",
-        {{.name = "type", .description = "Of the assets: QIFDocumentWrapper is the one there is"}});
+    add_route(add, head, assets, "MTConnectAssets 2.4: QIF results of the newest 100 measurements",
+              {{.name = "type", .description = "Type of the assets: QIFDocumentWrapper alone"}});
   }
   add_route(add, "asset/{id} getMtconnectAsset", asset, "MTConnectAssets 2.4: the asset of that id",
             {{.name = "id",
               .place = http::ParameterPlace::Path,
-              .description = "As `AssetChanged` of current says it"}});
+              .description = "Asset id, as in `AssetChanged` of /mtconnect/current"}});
   add_refusal(add, "asset not found");
 }
 

@@ -193,20 +193,21 @@ http::Response mtconnect_response(int status, std::string text) {
 }
 
 std::vector<http::Parameter> sample_parameters() {
-  return {{.name = "from",
-           .type = http::Integer{.min = 1, .max = kMostSequence},
-           .description = "The sequence to begin with; 1 when absent"},
-          {.name = "count",
-           .type = http::Integer{.min = -kMostObservations, .max = kMostObservations},
-           .description = "Most observations of a document, 100 when absent; below 0 they go "
-                          "backwards, from the last when `from` is absent"},
-          {.name = "path", .description = "Only what it names: `//DataItem[@type=\"PART_ID\"]`"},
-          {.name = "interval",
-           .type = http::Integer{.min = 0, .max = kMostMilliseconds},
-           .description = "A stream of documents, at most one in so many milliseconds"},
-          {.name = "heartbeat",
-           .type = http::Integer{.min = 1, .max = kMostMilliseconds},
-           .description = "An empty document after so many milliseconds; 10000 when absent"}};
+  return {
+      {.name = "from",
+       .type = http::Integer{.min = 1, .max = kMostSequence},
+       .description = "The sequence to begin with; 1 when absent"},
+      {.name = "count",
+       .type = http::Integer{.min = -kMostObservations, .max = kMostObservations},
+       .description = "Most observations of a document, 100 when absent; below 0 they go "
+                      "backwards, from the last when `from` is absent"},
+      {.name = "path", .description = "XPath of the data items: `//DataItem[@type=\"PART_ID\"]`"},
+      {.name = "interval",
+       .type = http::Integer{.min = 0, .max = kMostMilliseconds},
+       .description = "A stream of documents, at most one in so many milliseconds"},
+      {.name = "heartbeat",
+       .type = http::Integer{.min = 1, .max = kMostMilliseconds},
+       .description = "An empty document after so many milliseconds; 10000 when absent"}};
 }
 
 void sample_mtconnect(const Services& services, const OpenStreams& open,

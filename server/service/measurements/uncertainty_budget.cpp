@@ -14,7 +14,7 @@ namespace fitgauge::api {
 
 void members(auto& v, UncertaintySimulation& simulation) {
   v.optional("trials", simulation.trials, Integer{1000, simulation.most},
-             "Trials times contributions are limited");
+             "Number of trials; trials times contributions are limited");
   v.optional("seed", simulation.seed, Integer{});
   v.optional("digits", simulation.digits, Integer{1, 2},
              "Significant digits of u, which set the number of trials (JCGM 101, 7.9)");
@@ -104,18 +104,20 @@ void check_width(const ContributionOrder& c, FieldReader& fields) {
 }
 
 void members(auto& v, ContributionOrder& c) {
-  v.member("name", c.name, "No other has it");
-  v.optional("standard_uncertainty", c.standard_uncertainty, Magnitude{}, "This or half_width");
+  v.member("name", c.name, "Unique name");
+  v.optional("standard_uncertainty", c.standard_uncertainty, Magnitude{},
+             "Standard uncertainty; or give half_width");
   v.optional("half_width", c.half_width, Magnitude{});
   v.optional("limits_half_width", c.limits_half_width, Magnitude{},
-             "Of limits that are themselves not known exactly (JCGM 101, 6.4.3)");
+             "Half width of the range of each limit (JCGM 101, 6.4.3)");
   v.optional("distribution", c.distribution, Words{Distribution::T},
              "rectangular with a half width, else normal");
   v.check([&c](FieldReader& fields) { check_width(c, fields); });
   v.optional("value", c.value, Magnitude{-Magnitude::kMost}, "The estimate, with a model");
   v.optional("sensitivity", c.sensitivity, Magnitude{-Magnitude::kMost},
              "1 when absent; with a model its derivative");
-  v.optional("degrees_of_freedom", c.degrees_of_freedom, kPositive, "Without end when absent");
+  v.optional("degrees_of_freedom", c.degrees_of_freedom, kPositive,
+             "Degrees of freedom; infinite when absent");
   v.check([&c](FieldReader& fields) {
     if (c.shape() == Distribution::T && !fields.has("degrees_of_freedom")) {
       fields.report(ErrorCode::FieldMissing, "degrees_of_freedom",
