@@ -155,6 +155,7 @@ describe('what a value demands', () => {
     const says = (source) => page.waitForFunction((text) => new RegExp(text).test(document.querySelector('.verdict').textContent), source);
     await says('RejectPart SN-6001 · bore-B Rejectlength 120.100 mm · Good');
     assert.deepEqual([await page.getAttribute('.verdict', 'data-verdict'), await size() <= large], ['reject', true]);
+    assert.match(await page.textContent('.echo'), /119\.700 to 120\.300/); // the size above it is the one measured last
     await picture(page, 'gauge-part-verdict');
     await page.waitForFunction(() => document.querySelectorAll('.recent .stored .fix').length === 3);
     await page.click('.recent li:nth-child(2) .fix button'); // the reject was a slip of the gauge

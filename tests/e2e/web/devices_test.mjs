@@ -20,7 +20,7 @@ describe('a badge', () => {
   it('logs in by a scan, another one logs in another, and no key is seen or kept', async () => {
     const locked = await new Daemon('--auth', 'read-open').start();
     const [ada, bob] = [await locked.key('ada', 'operator'), await locked.key('bob', 'operator')];
-    const page = await open(browser, locked, '#/gauge/25H7');
+    const page = await open(browser, locked, '#/gauge/25H7?operator=Jo');
     await page.waitForSelector('.echo .figures');
     const says = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.badge')?.textContent), text);
     for (const [i, [key, value]] of [[ada, '25.01'], [bob, '25.011']].entries()) {
@@ -28,10 +28,12 @@ describe('a badge', () => {
       await says(`Key ${key.slice(0, 7)}… in use`);
       await scan(page, value);
       await page.waitForFunction((count) => document.querySelectorAll('.recent li.stored').length === count, i + 1);
+      await says(`^${i ? 'bob' : 'ada'} · key`);
     }
+    // The operator of the address was another person.
     for (const [name, value] of [['ada', 25.01], ['bob', 25.011]]) {
       const { measurements } = await (await fetch(`${locked.url}/v1/measurements?caller=${name}`, { headers: { Authorization: `Bearer ${ada}` } })).json();
-      assert.deepEqual(measurements.map((record) => record.measured_mm), [value]);
+      assert.deepEqual(measurements.map((record) => [record.measured_mm, record.operator]), [[value, undefined]]);
     }
     await picture(page, 'gauge-badge');
     await page.getByRole('button', { name: 'Log out' }).click();
