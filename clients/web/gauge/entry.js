@@ -10,7 +10,7 @@ import { LARGEST_NM, mmText, nmFromMm, parseMeasured } from '../exact.js';
 import { number, t } from '../i18n.js';
 import { forget, readStored, store } from '../stored.js';
 import { isBadge } from './badge.js';
-import { BURST_GAP_MS, BurstWatch, gaugeValue, isFar, isReading, mmOfInches, readLine, scannerTest } from './reading.js';
+import { BURST_GAP_MS, BurstWatch, gaugeValue, isFar, isOfPattern, isReading, mmOfInches, readLine, scannerTest } from './reading.js';
 
 const SECOND_ENTER_MS = 300;
 /** Where characters are typed: what is chosen or ticked takes none of a gauge's. */
@@ -26,7 +26,7 @@ export class Entry {
   /**
    * @param job gives {nominal_nm, limits} or a reason why nothing can be gauged: {reason}
    * @param gauged gives the same, also where no value is taken now; @param isSize whether a field is that of the size
-   * @param prefixes gives what stands before a scan of each field: {part_id: 'P:', …}
+   * @param prefixes gives what stands before a scan of each field: {part_id: 'P:', …}; @param pattern gives that of the numbers of parts, '' where any is one
    * @param onValue takes {text, correcting, confirmed}: the exact decimal, the record it corrects, and whether somebody confirmed it though it is far outside
    * @param onJob takes a designation and whether it was scanned, and resolves to whether there is such a one, undefined where nobody can say
    * @param onField takes (name, text, correcting); @param isName whether a field of that name is of the job
@@ -94,7 +94,7 @@ export class Entry {
       Object.assign(this.scan, { text: this.scan.text + event.key, last: event.timeStamp });
     } else if (['Enter', 'Tab'].includes(event.key) && this.scan?.isFast && this.scan.text.length >= FEWEST_KEYS) {
       const { before, text } = this.scan;
-      const read = readLine(text, { burst: true, prefixes: this.prefixes() });
+      const read = readLine(text, { burst: true, prefixes: this.prefixes(), pattern: this.pattern() });
       this.scan = null;
       if (this.isSize(field) && ['job', 'nothing'].includes(read.kind)) return;
       event.preventDefault();
@@ -113,8 +113,9 @@ export class Entry {
     const isElse = !this.isName(name) || isBadge(text) || this.isKnown(text) || caps || ['error', 'inches', 'test'].includes(read.kind) || (read.kind === 'field' && read.name !== name);
     if (isElse) return this.take(text, true);
     if (this.named(text, true) === null) return undefined;
-    if (read.kind === 'doubt') return this.#doubt(text, read.text, name);
-    return this.onField(name, read.kind === 'field' ? read.text : text);
+    const named = ['doubt', 'field'].includes(read.kind) ? read.text : text;
+    if (read.kind === 'doubt' || (name === 'part_id' && !isOfPattern(named, this.pattern()))) return this.#doubt(text, named, name);
+    return this.onField(name, named);
   }
 
   /**
@@ -194,7 +195,7 @@ export class Entry {
     if (burst && this.caps && parseMeasured(typed) === null) return this.#refuse(t('entry.caps'));
     if (this.correcting?.what === 'part_id') return this.#correctPart(typed, burst);
     if (!this.correcting && parseMeasured(typed) === null && this.isKnown(typed)) return this.#finish(() => this.onField('part_id', typed));
-    const read = readLine(typed, { burst, prefixes: this.prefixes() });
+    const read = readLine(typed, { burst, prefixes: this.prefixes(), pattern: this.pattern() });
     if (read.kind === 'value') return this.#judge(read.text);
     if (['error', 'inches'].includes(read.kind)) return this.#refuse(t(`entry.${read.kind}`, { typed }));
     if (read.kind === 'test') return this.#finish(() => this.onTest(scannerTest(typed)));
@@ -226,7 +227,7 @@ export class Entry {
   #correctPart(typed, burst) {
     const { record } = this.correcting;
     if (isReading(typed, { limits: record })) return this.#refuse(t('entry.reading', { typed }));
-    const read = readLine(typed, { burst, prefixes: this.prefixes() });
+    const read = readLine(typed, { burst, prefixes: this.prefixes(), pattern: this.pattern() });
     if (read.kind === 'doubt') return this.#doubt(typed, read.text, read.name);
     if (read.kind === 'test' || (read.kind === 'field' && read.name !== 'part_id')) return this.#refuse(t('entry.malformed', { typed }));
     return this.#finish(() => this.onField('part_id', read.kind === 'field' ? read.text : typed, record));
@@ -266,10 +267,11 @@ export class Entry {
     ]);
   }
 
-  /** A scan that may have come through another layout of keys, or is an address. */
+  /** A scan that may have come through another layout of keys, is an address, or no number of the plan's parts. */
   #doubt(typed, text, name) {
     this.input.value = typed;
-    this.#question(t('entry.doubt', { part: text }), null, [
+    const pattern = this.pattern();
+    this.#question(t(isOfPattern(text, pattern) ? 'entry.doubt' : 'entry.doubt_pattern', { part: text, pattern }), null, [
       { label: t('entry.doubt_no'), act: () => this.#drop() },
       { label: t('entry.ask_part', { part: text }), act: () => this.#answer(null, () => this.#finish(() => this.onField(name, text, this.correcting?.record))) },
     ]);

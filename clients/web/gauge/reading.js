@@ -30,17 +30,17 @@ const NAME = /^(?=.*[A-Za-z])(?=.*\d).{3,200}$/;
 /**
  * @param text the whole line
  * @param burst whether it came as fast as a scanner types
- * @param prefixes {field: prefix}
+ * @param prefixes {field: prefix}; @param pattern of the numbers of parts, '' where any is one
  * @returns {kind: 'value' | 'job' | 'field' | 'doubt' | 'inches' | 'error' | 'test' | 'nothing', text, name}; a job has the
  *   name of the field it is of where there is no such size; a doubt is a name to be asked about
  */
-export function readLine(text, { burst = false, prefixes = PREFIXES } = {}) {
+export function readLine(text, { burst = false, prefixes = PREFIXES, pattern = '' } = {}) {
   if (isTestCode(text)) return { kind: 'test', text: text.trim() };
   const line = text.trim().replace(burst ? AIM : '', '');
   for (const [name, prefix] of Object.entries(prefixes)) {
     const given = prefix && line.toLowerCase().startsWith(prefix.toLowerCase());
     const rest = given && line.slice(prefix.length).trim();
-    if (rest) return { kind: 'field', name, text: rest };
+    if (rest) return { kind: name === 'part_id' && !isOfPattern(rest, pattern) ? 'doubt' : 'field', name, text: rest };
   }
   if (GAUGE_ERROR.test(line)) return { kind: 'error', text: line };
   if (INCHES.test(line)) return { kind: 'inches', text: line };
@@ -50,13 +50,19 @@ export function readLine(text, { burst = false, prefixes = PREFIXES } = {}) {
   const isScan = burst && NAME.test(line);
   // M12-3A may be the number of a part too.
   if (designation && !EXPONENT.test(line)) return { kind: 'job', text: line, name: designation.standard && isScan ? 'part_id' : undefined };
-  if (isScan && !OF_A_GAUGE.test(line) && !EXPONENT.test(line)) return nameOf(line);
+  if (isScan && !OF_A_GAUGE.test(line) && !EXPONENT.test(line)) return nameOf(line, pattern);
   return { kind: 'nothing', text: line };
 }
 
-/** A scan in the place of the name of a part: taken, or asked about, as an address, ß or ' of another layout of keys. */
-function nameOf(line) {
-  if (PLAIN_NAME.test(line)) return { kind: 'field', name: 'part_id', text: line };
+/** Whether a number of a part is as the plan says: `#` is a figure, `?` a character, `*` any text. */
+export function isOfPattern(text, pattern) {
+  const each = { '#': '\\d', '?': '.', '*': '.*' };
+  return !pattern || new RegExp(`^${[...pattern].map((sign) => each[sign] ?? sign.replace(/[^\w\s]/, '\\$&')).join('')}$`, 'i').test(text);
+}
+
+/** A scan in the place of the name of a part: taken, or asked about, as an address, ß or ' of another layout of keys, or what the plan does not expect. */
+function nameOf(line, pattern) {
+  if (PLAIN_NAME.test(line) && isOfPattern(line, pattern)) return { kind: 'field', name: 'part_id', text: line };
   return /^[+\-−]|^\d+[.,]\d/.test(line) ? { kind: 'nothing', text: line } : { kind: 'doubt', name: 'part_id', text: ADDRESS.exec(line)?.[1] ?? line };
 }
 

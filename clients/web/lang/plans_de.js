@@ -5,6 +5,8 @@ export default {
   'plans.all': 'Alle Pläne',
   'plans.part': 'Teilenummer',
   'plans.name': 'Name des Teils',
+  'plans.part_pattern': 'Nummern der Teile',
+  'plans.hint.part_pattern': '# eine Ziffer, ? ein Zeichen, * beliebiger Text: SN-####. Die Station fragt bei anderen Scans nach.',
   'plans.count': 'Merkmale',
   'plans.modified': 'Gespeichert',
   'plans.measure': 'Messen',

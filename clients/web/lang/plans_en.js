@@ -5,6 +5,8 @@ export default {
   'plans.all': 'All plans',
   'plans.part': 'Part number',
   'plans.name': 'Name of the part',
+  'plans.part_pattern': 'Numbers of its parts',
+  'plans.hint.part_pattern': '# a figure, ? a character, * any text: SN-####. The station asks about other scans.',
   'plans.count': 'Characteristics',
   'plans.modified': 'Stored',
   'plans.measure': 'Measure',

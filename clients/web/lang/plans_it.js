@@ -5,6 +5,8 @@ export default {
   'plans.all': 'Tutti i piani',
   'plans.part': 'Codice del pezzo',
   'plans.name': 'Nome del pezzo',
+  'plans.part_pattern': 'Numeri dei pezzi',
+  'plans.hint.part_pattern': '# una cifra, ? un carattere, * testo qualsiasi: SN-####. La postazione chiede conferma per altre letture.',
   'plans.count': 'Caratteristiche',
   'plans.modified': 'Salvato',
   'plans.measure': 'Misura',

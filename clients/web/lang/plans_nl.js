@@ -5,6 +5,8 @@ export default {
   'plans.all': 'Alle plannen',
   'plans.part': 'Onderdeelnummer',
   'plans.name': 'Naam van het onderdeel',
+  'plans.part_pattern': 'Nummers van de onderdelen',
+  'plans.hint.part_pattern': '# een cijfer, ? een teken, * willekeurige tekst: SN-####. Het station vraagt bij andere scans na.',
   'plans.count': 'Kenmerken',
   'plans.modified': 'Opgeslagen',
   'plans.measure': 'Meten',

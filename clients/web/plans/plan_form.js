@@ -31,24 +31,26 @@ export class PlanForm {
     const text = (attributes) => h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false', maxlength: 200, oninput: () => this.#changed(), ...attributes });
     this.part = text({ name: 'part', required: true });
     this.name = text({ name: 'name' });
-    this.notes = { part: h('span.note'), name: h('span.note') };
+    this.part_pattern = text({ name: 'part_pattern', placeholder: 'SN-####', title: t('plans.hint.part_pattern') });
+    this.notes = { part: h('span.note'), name: h('span.note'), part_pattern: h('span.note') };
     this.list = h('ol.characteristics');
     this.said = h('p.said-of-order', { role: 'status' });
     this.drawing = h('p.aside');
     this.rows = new Map();
     sortable(this.list, (row) => this.#moved(row));
     const head = (name) => h('label.field', h('span.label', t(`plans.${name}`)), this[name], this.notes[name]);
-    this.element = h('div.plan-form', h('div.pair', head('part'), head('name')), this.drawing,
+    this.element = h('div.plan-form', h('div.pair', head('part'), head('name'), head('part_pattern')), this.drawing,
       h('div.head-of-rows', { 'aria-hidden': 'true' }, HEAD.map((each) => h('span.label', t(`plans.member.${each}`)))),
       this.list, this.said, h('p.actions', h('button', { type: 'button', onclick: () => this.add({ name: '' }).focus() }, t('plans.add')), h('span.hint', t('plans.hint.size'))), offers);
   }
 
   /** Shows a plan; what the form has no field for stays as it is. */
   fill(plan = NO_PLAN) {
-    const { part = '', name = '', characteristics, ...rest } = plan;
+    const { part = '', name = '', part_pattern: pattern = '', characteristics, ...rest } = plan;
     this.rest = rest;
     this.part.value = part;
     this.name.value = name;
+    this.part_pattern.value = pattern;
     this.rows.clear();
     this.list.replaceChildren();
     for (const one of characteristics) this.#put(one);
@@ -66,8 +68,8 @@ export class PlanForm {
 
   /** The plan as it is sent, without its part number: that is in the path. */
   get value() {
-    const name = this.name.value.trim();
-    return { ...(name && { name }), ...this.rest, characteristics: this.inOrder.map((row) => row.value) };
+    const [name, pattern] = [this.name, this.part_pattern].map(({ value }) => value.trim());
+    return { ...(name && { name }), ...(pattern && { part_pattern: pattern }), ...this.rest, characteristics: this.inOrder.map((row) => row.value) };
   }
 
   /** What it would store, as one text: to see whether something was changed. */

@@ -44,7 +44,7 @@ export function mount(main, route) {
     job: () => (reason() ? { reason: reason() } : job.current()),
     gauged: () => job.current(),
     isSize: (field) => field === job.input,
-    prefixes: () => job.prefixes.texts,
+    prefixes: () => job.prefixes.texts, pattern: () => plan.plan?.part_pattern ?? '',
     onValue: (value) => post(value),
     onJob: (designation, scanned) => adopt(designation, scanned),
     onField: (name, text, correcting) => (correcting ? correct(correcting, String(correcting.measured_mm), { [name]: text, ...(correcting.confirmed && { confirmed: true }) }) : setField(name, text)),

@@ -148,6 +148,7 @@ Result<std::string> read_plan(const JsonValue& body, std::string_view part,
       plan.report(ErrorCode::FieldConflict, "part", "part must be the part number of the path");
     }
     read_text(plan, "name", kLongestText);
+    read_text(plan, "part_pattern", kLongestText);
     if (plan.has("drawing")) {
       if (const JsonValue* drawing = plan.object("drawing")) {
         FieldReader fields(*drawing, "/drawing", errors);
@@ -177,6 +178,8 @@ void add_plan_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<step::DrawnPlan>("DrawnPlan"));
   const Fields name = {
       {"name", schema::text(200), "Of the part", false},
+      {"part_pattern", schema::text(200),
+       "Numbers of its parts, as SN-####: # a figure, ? a character, * any text", false},
       {"drawing",
        schema::object({{"digest", schema::text(64), "SHA-256 of its file"},
                        {"part", schema::text(200), "Part number of the product", false}},

@@ -15,9 +15,9 @@ class Plans(DaemonTest):
         return self.daemon.request("PUT", f"/v1/plans/{number}", {"characteristics": list(characteristics), **others})
 
     def test_a_plan_is_stored_replaced_listed_and_deleted(self):
-        self.assertEqual(self.put("4711-A", BORE, SLOT, JOURNAL, name="Housing", part="4711-A").status, 201)
+        self.assertEqual(self.put("4711-A", BORE, SLOT, JOURNAL, name="Housing", part_pattern="SN-####", part="4711-A").status, 201)
         plan = self.daemon.request("GET", "/v1/plans/4711-A").json
-        self.assertEqual(plan, {"part": "4711-A", "name": "Housing", "characteristics": [BORE, SLOT, JOURNAL]})
+        self.assertEqual(plan, {"part": "4711-A", "name": "Housing", "part_pattern": "SN-####", "characteristics": [BORE, SLOT, JOURNAL]})
         self.assertEqual(self.put("4711-A", SLOT).status, 200)
         self.assertEqual(self.daemon.request("GET", "/v1/plans/4711-A").json, {"part": "4711-A", "characteristics": [SLOT]})
         self.assertEqual(self.put("A%2F1", BORE).status, 201)
@@ -86,5 +86,7 @@ class Plans(DaemonTest):
             self.assert_problem(answer, 422, "request.invalid")
             self.assertIn((pointer, code), [(each["pointer"], each["code"]) for each in answer.json["errors"]], json.dumps(answer.json))
         self.assert_problem(self.put("bad", BORE, part="another"), 422, "request.invalid")
+        answer = self.put("bad", BORE, part_pattern="#" * 201)
+        self.assertEqual([(each["pointer"], each["code"]) for each in answer.json["errors"]], [("/part_pattern", "field.too_long")])
         self.assert_problem(self.put("x" * 201, BORE), 400, "path.malformed")
         self.assert_problem(self.daemon.request("GET", "/v1/plans/bad"), 404, "plan.unknown")

@@ -108,6 +108,27 @@ describe('the door for keys', () => {
     await close(page);
   });
 
+  it('asks about a scan that is no number of the plan, in its field too, and takes one that is', async () => {
+    await daemon.send('PUT', '/v1/plans/PATTERN-1', { part_pattern: 'SN-####', characteristics: [{ name: 'bore-A', designation: '25 H7' }] });
+    await station('#/gauge?plan=PATTERN-1');
+    await page.waitForSelector('.tiles-of-plan li');
+    await scan(page, 'SN-2010');
+    assert.equal(await part(), 'SN-2010');
+    for (const [at, text] of [[null, 'SN-20101'], [null, 'P:LOT-2010'], ['[name="part_id"]', 'SN-201'], ['[name="part_id"]', '9999999']]) {
+      if (at) await page.focus(at);
+      await scan(page, text);
+      await asks(new RegExp(`Is ${text.replace('P:', '')} the part\\? Numbers of this plan are SN-####`));
+      await sleep(PAIR_MS);
+      await page.keyboard.press('Enter');
+      await page.waitForSelector('.verdict[data-verdict="idle"]');
+      assert.equal(await part(), 'SN-2010');
+    }
+    await scan(page, 'LOT-2011');
+    await page.click('.answers >> text=Part LOT-2011');
+    assert.equal(await part(), 'LOT-2011');
+    await close(page);
+  });
+
   it('corrects a part by the same door', async () => {
     await station('#/gauge/25H7?part_id=SN-20');
     await scan(page, '25.01');

@@ -63,6 +63,7 @@ describe('the form of a plan', () => {
     assert.match(await page.textContent('.plan-form .pair .note'), /part number/);
     await page.fill('[name="part"]', 'F/1');
     await page.fill('[name="name"]', 'Flange');
+    await page.fill('[name="part_pattern"]', 'F-####');
     await field(1, 'name').fill('bore');
     await field(1, 'size').fill('25 H77');
     await page.click('text=Add a characteristic');
@@ -89,7 +90,7 @@ describe('the form of a plan', () => {
     await field(2, 'reaction').fill('Stop, tell the setter');
     await storePlan();
     await stored('F/1');
-    assert.deepEqual(await plan('F%2F1'), { part: 'F/1', name: 'Flange', characteristics: [
+    assert.deepEqual(await plan('F%2F1'), { part: 'F/1', name: 'Flange', part_pattern: 'F-####', characteristics: [
       { name: 'bore', designation: '25 H7' },
       { name: 'slot', nominal_mm: 8, upper_um: 36, lower_um: 0, feature: 'hole', quantity: 'width', frequency: 'each hour', subgroup_size: 5, reaction: 'Stop, tell the setter' }] });
     assert.equal(hashOf(page), '#/plans/F/1');
