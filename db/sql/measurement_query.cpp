@@ -44,6 +44,13 @@ void for_each_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.received_from_ns) add("m.received_at >= ?", *filter.received_from_ns);
   if (filter.received_to_ns) add("m.received_at < ?", *filter.received_to_ns);
   if (filter.confirmed) add("coalesce(m.confirmed, 0) = ?", *filter.confirmed ? 1 : 0);
+  if (filter.set_aside) {
+    static const std::string newest = fmt::format(
+        "coalesce((SELECT CASE n.measure WHEN '{0}' THEN 1 ELSE 0 END FROM notes n WHERE "
+        "n.measurement = m.id AND n.measure IN ('{0}', '{1}') ORDER BY n.id DESC LIMIT 1), 0) = ?",
+        app::kSetAside, app::kCountedAgain);
+    add(newest, *filter.set_aside ? 1 : 0);
+  }
   if (filter.asks_of_notes()) {
     // One note meets all: the parenthesis ends with the last condition.
     add("EXISTS (SELECT 1 FROM notes n WHERE n.measurement = m.id AND n.received_at >= ?",
@@ -79,7 +86,8 @@ void for_each_inside_condition(const MeasurementFilter& filter, Add&& add) {
 
 /// Whether postings tell the rows that match where all times do, but for what was corrected.
 bool is_said_by_index(const MeasurementFilter& filter) {
-  return !filter.asks_of_notes() && !filter.confirmed && (!filter.run_id || filter.run_origin == 0);
+  return !filter.asks_of_notes() && !filter.confirmed && !filter.set_aside &&
+         (!filter.run_id || filter.run_origin == 0);
 }
 
 std::string_view direction(ListOrder order) {

@@ -81,6 +81,7 @@ struct MeasurementFilter {
   std::optional<std::int64_t> noted_to_ns{};    ///< its received_at < to
   bool has_notes = false;                       ///< only rows with a note
   std::optional<bool> confirmed{};              ///< by a person, or not
+  std::optional<bool> set_aside{};              ///< by the newest note that decides, or not
   bool history = false;                         ///< also rows that a later one corrects
   /// The state when this was the newest id, so that a list read in pages is of one piece.
   std::optional<std::int64_t> as_of_id{};
@@ -88,7 +89,9 @@ struct MeasurementFilter {
   std::optional<std::string>& text(TextField field) { return texts[index_of(field)]; }
   const std::optional<std::string>& text(TextField field) const { return texts[index_of(field)]; }
 
-  bool asks_of_notes() const { return cause || noted_from_ns || noted_to_ns || has_notes; }
+  bool asks_of_notes() const {
+    return cause || noted_from_ns || noted_to_ns || has_notes || set_aside.value_or(false);
+  }
   bool has_times() const { return from_ns || to_ns || received_from_ns || received_to_ns; }
 };
 

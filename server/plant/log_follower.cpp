@@ -227,6 +227,7 @@ void LogFollower::find_offsets(const std::stop_token& stop) {
     api::OffsetOrder order{options_.filter.query};
     order.query.history = false;
     order.query.newest_first = true;
+    order.query.set_aside = false;
     order.query.texts[app::kOfCharacteristic] = made.first;
     order.query.texts[app::kOfMachine] = made.second;
     auto news = wait_for_result<api::OffsetNews>(

@@ -78,6 +78,9 @@ struct Accepted {
 
 inline constexpr std::size_t kLongestIdentifier = 200;
 inline constexpr std::size_t kLongestComment = 2000;
+/// Measures of a note that set its value aside and count it again; the newest of them decides.
+inline constexpr std::string_view kSetAside = "set aside";
+inline constexpr std::string_view kCountedAgain = "counted again";
 inline constexpr Accepted kIdentifier{.longest = kLongestIdentifier};
 inline constexpr Accepted kRemark{.longest = kLongestComment};
 inline constexpr Accepted kMaterialName{.longest = 64, .is_thermal = true};

@@ -51,6 +51,13 @@ Error unknown_run(std::string_view text) {
 
 }  // namespace
 
+bool sets_aside(std::span<const Note> notes) {
+  const auto last = std::find_if(notes.rbegin(), notes.rend(), [](const Note& note) {
+    return note.measure == kSetAside || note.measure == kCountedAgain;
+  });
+  return last != notes.rend() && last->measure == kSetAside;
+}
+
 std::string_view word(Source source) { return source == Source::Gauge ? "gauge" : "simulation"; }
 
 std::string_view word(LimitsBasis basis) {

@@ -32,6 +32,9 @@ struct Note {
   bool says_something() const { return cause || measure || text; }
 };
 
+/// Whether notes, the oldest first, set their value aside.
+bool sets_aside(std::span<const Note> notes);
+
 class Origins;
 
 /// The source of a measurement: a gauge at a part, or the simulated machine.

@@ -304,6 +304,7 @@ class Measurement(_Measurement, total=False):
     corrected_by: str
     conflict: bool
     notes: List[Note]
+    set_aside: bool
     warnings: List[MeasurementWarnings]
 
 

@@ -1,7 +1,7 @@
 /** How a characteristic stands: its newest values, their verdicts, and what the service computes of them. */
 
 import { getJson, url } from '../api.js';
-import { capability, FEWEST } from '../trend/figures.js';
+import { FEWEST } from '../trend/figures.js';
 import { isCounted } from '../trend/phases.js';
 import { countVerdicts, pointOf } from '../trend/series.js';
 
@@ -13,7 +13,7 @@ export async function standingOf(filter, signal) {
   const { measurements } = await getJson(url(['measurements'], { ...filter, last: LAST, notes: 'shown' }), { signal });
   const points = measurements.map(pointOf);
   const counted = points.filter(isCounted);
-  const figures = hasSpread(counted.map(({ record }) => record)) ? await (counted.length < points.length ? capability(counted, null, signal) : figuresOf(filter, signal)) : null;
+  const figures = hasSpread(counted.map(({ record }) => record)) ? await figuresOf(filter, counted.length, signal) : null;
   return {
     records: measurements, count: counted.length, verdicts: countVerdicts(counted),
     ppk: figures?.ppk?.value == null ? undefined : figures.ppk, stable: figures?.stable,
@@ -24,10 +24,10 @@ export async function standingOf(filter, signal) {
 const hasSpread = (records) => new Set(records.map((record) => record.deviation_um)).size > 1
   && new Set(records.map((record) => [record.nominal_mm, record.upper_limit_mm, record.lower_limit_mm].join())).size === 1;
 
-/** Null where the values have no figures all the same. */
-async function figuresOf(filter, signal) {
+/** Of so many of the newest values that count. Null where they have no figures all the same. */
+async function figuresOf(filter, last, signal) {
   try {
-    return await getJson(url(['measurements', 'capability'], { ...filter, last: LAST, subgroups: 'ignore' }), { signal });
+    return await getJson(url(['measurements', 'capability'], { ...filter, last, set_aside: 'false', subgroups: 'ignore' }), { signal });
   } catch (problem) {
     if (problem.status === 422) return null;
     throw problem;

@@ -1,9 +1,6 @@
-/**
- * Values set aside: a note with the measure `set aside` and a reason says so, one with `counted again` takes it back; the newest of
- * them counts. Figures leave out what is set aside, charts and lists show it.
- */
+/** Values set aside: the service says which are, by their notes. Figures leave them out (`set_aside=false`), charts and lists show them. */
 
-import { url } from '../api.js';
+import { getJson, url } from '../api.js';
 import { field, h } from '../dom.js';
 import { dateTime, t } from '../i18n.js';
 import { orderOf } from '../parts/order.js';
@@ -14,10 +11,10 @@ const decides = ({ measure }) => measure === ASIDE || measure === COUNTED;
 const LONGEST = 200;
 
 /** The note that sets a record aside, or undefined. */
-export function asideOf({ notes = [] }) {
-  const last = notes.filter(decides).at(-1);
-  return last?.measure === ASIDE ? last : undefined;
-}
+export const asideOf = ({ set_aside: isAside, notes }) => (isAside ? notes.findLast(({ measure }) => measure === ASIDE) : undefined);
+
+/** What the service says of the notes of a record now. */
+export const readNotes = async (record, signal) => Object.assign(record, await getJson(url(['measurements', record.id, 'notes']), { signal }));
 
 /** Whether a record has another note than these. */
 export const isNoted = ({ notes = [] }) => notes.some((note) => !decides(note));

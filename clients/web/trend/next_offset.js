@@ -12,7 +12,7 @@ const tile = (term, value, hint) => h('div', h('dt', term), h('dd', value), hint
 /** @param query of the chart. null for several characteristics: an offset is of one. */
 export async function nextOffset({ characteristic, ...query }, signal) {
   if (!characteristic) return null;
-  return getJson(url(['measurements', 'compensation'], { characteristic, ...query }), { signal, asks: false }).catch((problem) => {
+  return getJson(url(['measurements', 'compensation'], { characteristic, ...query, set_aside: 'false' }), { signal, asks: false }).catch((problem) => {
     if (problem.status === 422) return null;
     throw problem;
   });

@@ -101,13 +101,17 @@ export function mount(main, route) {
 
   function arrived(event) {
     if (event.type === 'resync') return load();
-    if (event.type !== 'measurement.recorded') return null;
     const record = JSON.parse(event.data);
     const { characteristic } = record;
-    if (!characteristic || !bar.has(record) || (plan.value && !standings.has(characteristic))) return null;
+    if (event.type === 'note.added') {
+      for (const [name, { records }] of standings) if (records.some(({ id }) => id === record.measurement_id)) renewSoon(name);
+    } else if (event.type === 'measurement.recorded' && characteristic && bar.has(record) && !(plan.value && !standings.has(characteristic))) renewSoon(characteristic);
+    return null;
+  }
+
+  function renewSoon(characteristic) {
     changed.add(characteristic);
     timer ||= setTimeout(renew, GATHER_MS);
-    return null;
   }
 
   async function renew() {

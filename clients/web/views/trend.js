@@ -8,7 +8,7 @@ import { FilterBar } from '../filter_bar.js';
 import { explain, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { go } from '../route.js';
-import { asideList, askAside } from '../trend/aside.js';
+import { asideList, askAside, readNotes } from '../trend/aside.js';
 import { Boxes } from '../trend/boxes.js';
 import { ChartPlace } from '../trend/chart_place.js';
 import { rulesAt } from '../trend/control_chart.js';
@@ -119,7 +119,7 @@ export function mount(main, route) {
         ? Promise.all([chartOfPhases(drawn, phased, charted, signal), capability(newest, groups?.slice(from) ?? null, signal)]) : [null, null]));
       if (!answers) return;
       figures = { chart: answers[0], indices: answers[1] };
-      propose(points.length === counted.length ? points : []);
+      propose(counted);
       left = groups ? found.left : 0;
       draw(points, drawn, counted, phased.length > 1 ? { from, values: newest } : null);
     } catch (problem) {
@@ -127,7 +127,7 @@ export function mount(main, route) {
     }
   }
 
-  /** What the setter types next: of one characteristic on one machine, with limits that are the same for all values, none of them set aside. */
+  /** What the setter types next: of one characteristic on one machine, with limits that are the same for all values. */
   async function propose(points) {
     const isOne = figures.indices && new Set(points.map(({ record }) => record.machine)).size === 1;
     const found = await proposing.run((signal) => (isOne ? nextOffset(values.query, signal) : null)).catch(() => null);
@@ -192,12 +192,16 @@ export function mount(main, route) {
   }
 
   /** A note that is stored, here or elsewhere, beside a value that is shown. */
-  function noted(stored) {
+  async function noted(stored) {
     const record = values.shown.find(({ id }) => id === stored.measurement_id);
     if (!record || record.notes?.some(({ id }) => id === stored.id)) return;
-    record.notes = [...(record.notes ?? []), stored];
-    told = null;
-    computeSoon();
+    try {
+      await readNotes(record, leaving.signal);
+      told = null;
+      computeSoon();
+    } catch (problem) {
+      if (!leaving.signal.aborted) note.textContent = explain(problem);
+    }
   }
 
   function toggleFrozen() {

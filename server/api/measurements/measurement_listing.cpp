@@ -52,7 +52,7 @@ std::string media_type(Form form) {
 /// Shows the notes behind the members of a record that was written.
 void append_notes(std::string& out, std::span<const app::Note> notes) {
   out.pop_back();
-  out += ",\"notes\":";
+  out += app::sets_aside(notes) ? ",\"set_aside\":true,\"notes\":" : ",\"notes\":";
   JsonWriter json(out);
   json.begin_array();
   for (const app::Note& note : notes) write_body(json, note);
@@ -189,6 +189,9 @@ std::vector<http::Parameter> measurement_filter_parameters(std::string_view pref
        .type = http::Words{{"true", "false"}},
        .description = "false leaves out values that a person confirmed although they were called "
                       "far outside; true shows these alone"},
+      {.name = "set_aside",
+       .type = http::Words{{"true", "false"}},
+       .description = "false leaves out values that a note sets aside; true shows these alone"},
       {.name = "history",
        .type = http::Words{{"current", "all"}},
        .description = "all shows corrected rows too"},
@@ -246,6 +249,7 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
   query.noted_from_ns = time_of("notes_from");
   query.noted_to_ns = time_of("notes_to");
   if (const auto confirmed = text_of("confirmed")) query.confirmed = *confirmed == "true";
+  if (const auto aside = text_of("set_aside")) query.set_aside = *aside == "true";
   query.history = text_of("history") == "all";
   return query;
 }

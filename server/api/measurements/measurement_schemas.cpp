@@ -149,7 +149,9 @@ void add_request_schemas(Schemas& schemas) {
 void add_measurement_schemas(Schemas& schemas) {
   add_request_schemas(schemas);
   const schema::Fields notes = {
-      {"notes", schema::array(schema::ref("Note")), "Notes, in lists with notes=shown", false}};
+      {"notes", schema::array(schema::ref("Note")), "Notes, in lists with notes=shown", false},
+      {"set_aside", schema::boolean(), "true if the notes set the value aside; beside `notes`",
+       false}};
   schemas.push_back({"Measurement", schema::object(record_fields() + notes + warnings_field())});
   schemas.push_back(
       {"Proof",

@@ -27,6 +27,7 @@ struct NotesAnswer {
 };
 void members(auto& v, const NotesAnswer& answer) {
   v.member("notes", answer.notes, List<app::Note>{{"Note"}}, "Oldest first");
+  v.member("set_aside", app::sets_aside(answer.notes), "Whether they set the value aside");
 }
 
 Result<app::Note> read_note(std::string_view text) {

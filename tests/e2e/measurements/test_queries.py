@@ -261,6 +261,41 @@ class Confirmed(DaemonTest):
         self.assertNotIn("confirmed", other)
 
 
+class SetAside(DaemonTest):
+    """Values that a note sets aside with a reason, until another counts them again."""
+
+    def test_figures_leave_out_what_the_newest_note_sets_aside(self):
+        ids = [self.daemon.measure({"designation": "25 H7", "measured_mm": f"25.0{10 + i % 3}", "characteristic": "a",
+                                    "machine": "M1"}).json["id"] for i in range(6)]
+        note = lambda measure: self.daemon.post(f"/v1/measurements/{ids[3]}/notes",
+                                                {"cause": "Burr", "measure": measure}).json
+        listed = lambda query: [m["id"] for m in self.daemon.get(
+            f"/v1/measurements?characteristic=a&{query}").json["measurements"]]
+        count = lambda what, query, of: of(self.daemon.get(f"/v1/measurements/{what}?characteristic=a&{query}").json)
+        figures = lambda query: [
+            count("summary", query, lambda answer: sum(group["count"] for group in answer["groups"])),
+            count("chart", query, lambda answer: len(answer["charts"][0]["points"])),
+            count("capability", query, lambda answer: answer["count"]),
+            count("compensation", query, lambda answer: answer["values"])]
+        rest = [each for each in ids if each != ids[3]]
+        for measure in ("Coolant filled", "set aside", "Coolant filled"):
+            note(measure)
+        self.assertEqual((listed("set_aside=false"), listed("set_aside=true"), listed("")), (rest, ids[3:4], ids))
+        self.assertEqual((figures("set_aside=false"), figures("")), ([5] * 4, [6] * 4))
+        self.assertEqual(listed("set_aside=false&last=4"), rest[-4:])
+        marks = lambda: [m.get("set_aside") for m in self.daemon.get(
+            "/v1/measurements?characteristic=a&notes=shown").json["measurements"]]
+        notes = lambda: self.daemon.get(f"/v1/measurements/{ids[3]}/notes").json["set_aside"]
+        self.assertEqual((marks(), notes()), ([None, None, None, True, None, None], True))
+        note("counted again")
+        self.assertEqual((listed("set_aside=false"), listed("set_aside=true"), figures("set_aside=false")), (ids, [], [6] * 4))
+        self.assertEqual((marks(), notes()), ([None] * 6, False))
+        # A correction is another value: it counts.
+        note("set aside")
+        corrected = self.daemon.post(f"/v1/measurements/{ids[3]}/corrections", {"measured_mm": "25.011", "reason": "misread"}).json
+        self.assertEqual((listed("set_aside=false"), listed("set_aside=true")), ([*rest, corrected["id"]], []))
+
+
 class EveryFilter(DaemonTest):
     """Each field that filters, alone, and what summaries make of it."""
 

@@ -88,7 +88,12 @@ class WebhookEvents(Receivers):
         daemon.start()
         # What was told is not kept: the state comes again with the next value, and is that of M1 alone.
         next_told("propose", self.make(daemon, 8, 1))
-        next_told("limits.mixed", self.make(daemon, 0, 1, designation="25 H8"))
+        other_size = self.make(daemon, 0, 1, designation="25 H8")
+        next_told("limits.mixed", other_size)
+        # Set aside, it is no value of the proposal.
+        note = daemon.post(f"/v1/measurements/{other_size}/notes", {"cause": "another part", "measure": "set aside"})
+        self.assertEqual(note.status, 201)
+        next_told("propose", self.make(daemon, 8, 1))
         other.wait(lambda: len(other.events) == 2)
         self.assertEqual([request["event"]["type"] for request in other.events], ["measurement.recorded", "compensation.changed"])
         self.assertEqual(self.state(daemon)["behind"], 0)

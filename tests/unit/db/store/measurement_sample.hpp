@@ -124,6 +124,7 @@ struct Sample {
            (!filter.received_to_ns || row.received_at_ns < *filter.received_to_ns) &&
            (!filter.has_notes || notes.contains(i)) &&
            (!filter.confirmed || row.confirmed.has_value() == *filter.confirmed) &&
+           (!filter.set_aside || (set_aside.contains(i) && set_aside.at(i)) == *filter.set_aside) &&
            (!filter.cause || has_note(i, *filter.cause));
   }
 
@@ -144,6 +145,7 @@ struct Sample {
   std::vector<MeasurementRow> rows;
   std::multimap<std::size_t, std::size_t> corrections;
   std::multimap<std::size_t, std::optional<std::string>> notes;  ///< causes
+  std::map<std::size_t, bool> set_aside;  ///< by the newest note that decides
 };
 
 inline void add_notes(Fixture& fixture, Sample& sample, std::mt19937& random, std::size_t count) {
@@ -153,6 +155,13 @@ inline void add_notes(Fixture& fixture, Sample& sample, std::mt19937& random, st
     note.measurement = static_cast<std::int64_t>(i) + 1;
     note.cause = any_text(random);
     note.text = "seen";
+    if (random() % 2 == 0) {
+      // Most words decide nothing.
+      const std::string measures[] = {"set aside", "counted again", "Set aside", "set aside "};
+      note.measure = measures[random() % 4];
+      if (note.measure == measures[0] || note.measure == measures[1])
+        sample.set_aside[i] = note.measure == measures[0];
+    }
     sample.notes.emplace(i, note.cause);
     const auto stored = fixture.write(
         [&](Stores& stores) -> Result<std::int64_t> { return stores.notes.append(note); });
@@ -182,6 +191,7 @@ inline MeasurementFilter any_filter(std::mt19937& random, std::size_t size) {
   if (random() % 6 == 0) filter.cause = kTexts[random() % 5];
   filter.has_notes = random() % 8 == 0;
   if (random() % 6 == 0) filter.confirmed = random() % 2 == 0;
+  if (random() % 4 == 0) filter.set_aside = random() % 3 == 0;
   return filter;
 }
 
