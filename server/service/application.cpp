@@ -10,6 +10,7 @@
 #include "proof/frontier.hpp"
 #include "service/log/log_check.hpp"
 #include "service/log/log_keys.hpp"
+#include "service/log/log_reader.hpp"
 #include "service/measurements/mapping.hpp"
 
 namespace fitgauge::app {
@@ -333,8 +334,13 @@ std::optional<std::string> Application::check_leaf(const store::MeasurementRow& 
 
 Result<Application::Verification> Application::verify(
     const std::map<std::string, std::string>& checkpoints) const {
-  // The daemon's own checkpoint is read before the rows, so that they have all that it covers.
-  const auto own = read_small_file(directory_ / kCheckpointFile);
+  // The daemon's own checkpoints are read before the rows, so that they have all that these cover.
+  auto notes = checkpoints;
+  for (const TreeNames& tree : {kTreeOfMeasurements, kTreeOfChanges}) {
+    const auto file = directory_ / tree.file;
+    const auto own = read_small_file(file);
+    if (own && *own && !(*own)->empty()) notes.emplace(file.string(), **own);
+  }
   const LaterNames later(*database_, *tables_, log_->origins());
   const RowNames names = later.names();
   const auto logs = LogService::logs(*database_);
@@ -349,13 +355,12 @@ Result<Application::Verification> Application::verify(
     const auto kept = [this, number = origin](const tlog::Node& node) {
       return kept_node(number, node);
     };
-    LogCheck& check = checks.try_emplace(origin, facts, names, kept).first->second;
+    const auto nodes =
+        origin == LogReader::kChanges ? LogCheck::KeptNodes() : LogCheck::KeptNodes(kept);
+    LogCheck& check = checks.try_emplace(origin, facts, names, nodes).first->second;
     if (!facts.checkpoint.empty()) check.expect("its newest checkpoint", facts.checkpoint);
   }
-  if (own && *own && !(*own)->empty()) {
-    checks.at(0).expect(std::string(kCheckpointFile), **own);
-  }
-  for (const auto& [place, note] : checkpoints) {
+  for (const auto& [place, note] : notes) {
     checks.at(origin_of(note, *logs)).expect(place, note);
   }
   auto report = database_->verify([&](const store::MeasurementRow& row) {
@@ -366,9 +371,11 @@ Result<Application::Verification> Application::verify(
   });
   auto verification = verification_of(std::move(report));
   if (!verification) return verification;
+  const bool has_changes = checks.at(LogReader::kChanges).add_changes(*database_);
   for (auto& [origin, check] : checks) {
-    if (origin != 0) verification->head += '\n';
-    verification->head += check.head_text();
+    const bool is_shown = origin != LogReader::kChanges || has_changes;
+    if (is_shown && origin != 0) verification->head += '\n';
+    if (is_shown) verification->head += check.head_text();
     for (std::string& finding : check.finish()) {
       verification->findings.push_back(std::move(finding));
     }

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include "base/digest.hpp"
+#include "db/store/database.hpp"
+#include "service/log/changes.hpp"
+#include "service/log/log_reader.hpp"
 
 namespace fitgauge::app {
 namespace {
 
 constexpr unsigned kKeptLevels = 8;
+constexpr std::int64_t kChangesAtATime = 1000;
 
 }  // namespace
 
@@ -27,9 +31,8 @@ void LogCheck::expect(const std::string& place, std::string_view note) {
         fmt::format("{} is of the log {}, not of {}", place, checkpoint->origin, facts_.name));
   } else if (is_former && checkpoint->size > former->second) {
     findings_.push_back(fmt::format(
-        "{} has signed {} measurements of {}, of which {} went on into {}: an older copy was put "
-        "back",
-        place, checkpoint->size, checkpoint->origin, former->second, facts_.name));
+        "{} has signed {} {} of {}, of which {} went on into {}: an older copy was put back", place,
+        checkpoint->size, facts_.leaves, checkpoint->origin, former->second, facts_.name));
   } else if (checkpoint->size == 0) {
     empty_.push_back(place);  // every log begins so
   } else {
@@ -53,21 +56,50 @@ std::optional<std::string> LogCheck::add(const store::MeasurementRow& row) {
                          facts_.name, expected);
     }
   }
-  if (whole_) {
-    compare_nodes(frontier_.append(leaf));
-    const auto [first, last] = expected_.equal_range(frontier_.size());
-    for (auto at = first; at != last; ++at) {
-      if (at->second.checkpoint.root == frontier_.root()) continue;
-      findings_.push_back(fmt::format("measurements up to {} are not those that {} has signed",
-                                      row.id, at->second.place));
-    }
-  }
+  if (whole_) append(leaf, row.id);
   return leaf == row.hash ? std::nullopt : std::optional(altered_finding());
+}
+
+bool LogCheck::add_changes(store::Database& database) {
+  std::int64_t after = 0;
+  const auto add_page = [&](const store::Stores& stores) -> Result<bool> {
+    const auto page = stores.changes.list({}, after, kChangesAtATime);
+    const auto count = static_cast<std::int64_t>(page.changes.size());
+    const auto leaves = LogReader(stores, names_, LogReader::kChanges).leaves(after, count);
+    if (leaves.size() != page.changes.size()) {
+      return Error{ErrorCode::StorageCorrupt, fmt::format("changes behind {} are missing", after)};
+    }
+    for (const store::Change& change : page.changes) {
+      const tlog::Hash leaf = tlog::leaf_hash(change_entry(change));
+      append(leaf, change.id);
+      if (leaf != leaves.at(static_cast<std::size_t>(change.id - after - 1))) {
+        findings_.push_back(fmt::format("change {} {}", change.id, altered_finding()));
+      }
+    }
+    after += count;
+    return page.has_more;
+  };
+  for (auto more = Result<bool>(true); more && *more && whole_;) {
+    more = database.readers().wait(add_page);
+    whole_ = more.has_value();
+    if (!whole_) findings_.push_back(more.error().message);
+  }
+  return whole_ && after > 0;
+}
+
+void LogCheck::append(const tlog::Hash& leaf, std::int64_t id) {
+  compare_nodes(frontier_.append(leaf));
+  const auto [first, last] = expected_.equal_range(frontier_.size());
+  for (auto at = first; at != last; ++at) {
+    if (at->second.checkpoint.root == frontier_.root()) continue;
+    findings_.push_back(fmt::format("{} up to {} are not those that {} has signed", facts_.leaves,
+                                    id, at->second.place));
+  }
 }
 
 /// A record that was altered together with its leaf shows in the nodes above.
 void LogCheck::compare_nodes(unsigned completed) {
-  for (unsigned level = kKeptLevels; level < completed; level += kKeptLevels) {
+  for (unsigned level = kKeptLevels; kept_ && level < completed; level += kKeptLevels) {
     const tlog::Node node{.level = level, .index = (frontier_.size() >> level) - 1};
     if (((node.index + 1) << level) > static_cast<std::uint64_t>(facts_.size)) continue;
     const auto kept = kept_(node);
@@ -81,14 +113,13 @@ std::vector<std::string> LogCheck::finish() {
   if (!whole_) return std::move(findings_);  // the rows that are missing have been named
   const std::uint64_t size = frontier_.size();
   if (size < static_cast<std::uint64_t>(facts_.size)) {
-    findings_.push_back(fmt::format(
-        "the log has {} measurements, {} are there: the newest were cut off", facts_.size, size));
+    findings_.push_back(fmt::format("the log has {} {}, {} are there: the newest were cut off",
+                                    facts_.size, facts_.leaves, size));
   }
   for (auto at = expected_.upper_bound(size); at != expected_.end(); ++at) {
     findings_.push_back(fmt::format(
-        "{} has signed {} measurements, {} are there: the newest were cut off, or an older copy "
-        "was put back",
-        at->second.place, at->first, size));
+        "{} has signed {} {}, {} are there: the newest were cut off, or an older copy was put back",
+        at->second.place, at->first, facts_.leaves, size));
   }
   return std::move(findings_);
 }
@@ -98,7 +129,7 @@ std::string LogCheck::head_text() {
     return fmt::format("{}: {} corrections by the centre, which has its log", facts_.name,
                        partial_rows_);
   }
-  std::string text = fmt::format("{}: {} measurements, root {}", facts_.name, frontier_.size(),
+  std::string text = fmt::format("{}: {} {}, root {}", facts_.name, frontier_.size(), facts_.leaves,
                                  tlog::to_base64(frontier_.root()));
   if (frontier_.size() == 0) return text;
   for (const std::string& place : empty_) {

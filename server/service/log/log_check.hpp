@@ -23,7 +23,8 @@ std::string altered_finding();
 /// are read in their order, and holds it against what was stored and what was signed.
 class LogCheck {
  public:
-  /// Gives the kept hash of a node of level 8, 16, …; none where there is none.
+  /// Gives the kept hash of a node of level 8, 16, …; none where there is none. Not set: no node
+  /// is kept.
   using KeptNodes = std::function<std::optional<tlog::Hash>(const tlog::Node&)>;
 
   LogCheck(LogService::Facts facts, RowNames names, KeptNodes kept)
@@ -38,6 +39,10 @@ class LogCheck {
   /// The finding for the next measurement of this log, if any.
   std::optional<std::string> add(const store::MeasurementRow& row);
 
+  /// Takes all changes, in place of measurements: each has to give its leaf.
+  /// @returns whether it could read them all, and there are some.
+  bool add_changes(store::Database& database);
+
   /// The finding for the whole log, after the last measurement.
   std::vector<std::string> finish();
 
@@ -49,6 +54,7 @@ class LogCheck {
     std::string place;
     tlog::Checkpoint checkpoint;
   };
+  void append(const tlog::Hash& leaf, std::int64_t id);
   void compare_nodes(unsigned completed);
 
   const LogService::Facts facts_;
@@ -59,7 +65,7 @@ class LogCheck {
   tlog::Frontier frontier_;
   std::multimap<std::uint64_t, Expected> expected_;  ///< by size
   std::vector<std::string> findings_;
-  std::vector<std::string> empty_;  ///< checkpoints that cover no measurement
+  std::vector<std::string> empty_;  ///< checkpoints that cover no leaf
   bool whole_ = true;               ///< no row was missing so far
 };
 

@@ -50,6 +50,15 @@ std::string digits_of_origin(const std::array<std::uint8_t, 16>& origin) {
   return to_hex(origin).substr(0, kDigitsInIds);
 }
 
+std::vector<tlog::VerifierKey> TreeNames::keys(const std::vector<std::string>& texts) const {
+  std::vector<tlog::VerifierKey> keys;
+  for (const std::string& text : texts) {
+    const auto key = tlog::VerifierKey::parse(text);
+    if (key) keys.push_back(key->named(name(key->name())));
+  }
+  return keys;
+}
+
 bool is_origin_name(std::string_view name) {
   const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
   return !name.empty() && name.size() <= kLongestName && is_plain(name.front()) &&

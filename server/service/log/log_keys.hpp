@@ -17,6 +17,20 @@ namespace fitgauge::app {
 inline constexpr std::string_view kLogKeyFile = "fitgauge.log.key";
 inline constexpr std::string_view kCheckpointFile = "fitgauge.checkpoint";
 
+/// A tree of the folder.
+struct TreeNames {
+  std::string_view file;    ///< of its newest head
+  std::string_view suffix;  ///< of its name, behind that of the log
+  std::string_view leaves;
+
+  std::string name(const std::string& log) const { return log + std::string(suffix); }
+  /// The keys of a log under the name of this tree. A text that was altered is left out: it does
+  /// not fit its seal, which verify tells.
+  std::vector<tlog::VerifierKey> keys(const std::vector<std::string>& texts) const;
+};
+inline constexpr TreeNames kTreeOfMeasurements{kCheckpointFile, "", "measurements"};
+inline constexpr TreeNames kTreeOfChanges{"fitgauge.changes.checkpoint", "/changes", "changes"};
+
 /// The end of the ids of an origin: its first 16 hexadecimal digits.
 std::string digits_of_origin(const std::array<std::uint8_t, 16>& origin);
 

@@ -8,6 +8,7 @@
 #include "db/store/database.hpp"
 #include "proof/frontier.hpp"
 #include "proof/note.hpp"
+#include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/mapping.hpp"
@@ -21,7 +22,6 @@ namespace fitgauge::app {
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{1'100};
-constexpr std::string_view kOfChanges = "/changes";
 
 Error unknown_tile(std::string_view path) {
   return {ErrorCode::NotFound,
@@ -155,20 +155,22 @@ void LogService::changes(store::ChangeFilter filter, std::int64_t after, std::in
 void LogService::changes_head(Done<std::string> done) {
   database_.readers().submit(
       [this](const store::Stores& stores) -> Result<std::string> {
+        const std::lock_guard lock(changes_mutex_);
         const auto size = static_cast<std::uint64_t>(stores.changes.size());
-        const auto kept = changes_head_.get();
-        if (kept && kept->checkpoint.size == size) return kept->note;
+        // A job that sees fewer changes than another one gets the other's.
+        if (changes_head_ && changes_head_->checkpoint.size >= size) return changes_head_->note;
         const RowNames names = row_names(tables_, origins_);
         LogReader reader(stores, names, LogReader::kChanges);
-        const tlog::SigningKey named = signer_->named(name_ + std::string(kOfChanges));
+        const tlog::SigningKey named = signer_->named(kTreeOfChanges.name(name_));
         const tlog::SigningKey* const key = &named;
         Head head{.checkpoint = {.origin = named.verifier().name(),
                                  .size = size,
                                  .root = reader.frontier(size).root()},
                   .note = {}};
         head.note = tlog::sign_note(head.checkpoint.text(), {&key, 1});
-        changes_head_.set(std::make_shared<const Head>(head));
-        return head.note;
+        static_cast<void>(keep(kTreeOfChanges, head.note));
+        changes_head_ = std::move(head);
+        return changes_head_->note;
       },
       std::move(done));
 }
@@ -178,7 +180,7 @@ std::string LogService::changes_keys() const {
   std::string keys;
   for (std::string line; std::getline(lines, line);) {
     const auto key = tlog::VerifierKey::parse(line);
-    if (key) keys += key->named(key->name() + std::string(kOfChanges)).text() + "\n";
+    if (key) keys += key->named(kTreeOfChanges.name(key->name())).text() + "\n";
   }
   return keys;
 }

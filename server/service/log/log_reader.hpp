@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,13 +17,13 @@ namespace fitgauge::app {
 /// in one state of the database: records, leaves and nodes. Used inside a read job.
 class LogReader {
  public:
-  /// In place of an origin: the changes of this folder.
-  static constexpr std::int64_t kChanges = -1;
+  /// In place of an origin, behind all of them: the changes of this folder.
+  static constexpr std::int64_t kChanges = std::numeric_limits<std::int64_t>::max();
 
   /// @param origin 0: this folder.
   LogReader(const store::Stores& stores, const RowNames& names, std::int64_t origin = 0)
       : stores_(stores), names_(names), origin_(origin) {
-    if (origin > 0) base_ = stores.origins.base(origin);
+    if (origin > 0 && origin != kChanges) base_ = stores.origins.base(origin);
   }
 
   /// The leaves of the rows after `after`, at most `count`.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "base/digest.hpp"
@@ -166,7 +167,9 @@ Result<void> LogService::grow(const IsOver& is_over) {
   }
   // Not this growth alone: what was taken in before may not have been signed.
   if (frontier_.size() != head_.get()->checkpoint.size) sign();
-  return {};
+  const auto changes =
+      wait_for_result<std::string>([this](auto done) { changes_head(std::move(done)); });
+  return changes ? Result<void>() : changes.error();
 }
 
 Result<void> LogService::take_leaves(const IsOver& is_over, Stretch& stretch) {
@@ -203,14 +206,7 @@ void LogService::sign() {
   // note.
   if (keys.size() > 1) text += next_key_line(signers_.front().verifier());
   head->note = tlog::sign_note(text, keys);
-  // A folder that is another's by now gets no checkpoint of this log.
-  if (const auto health = database_.health(); health.state == store::HealthState::WritesFailing) {
-    tell("log_checkpoint_not_kept", health.reason);
-  } else if (const auto kept =
-                 replace_file(options_.directory / kCheckpointFile, head->note, false);
-             !kept) {
-    tell("log_checkpoint_not_kept", kept.error().message);
-  } else if (signers_.size() > 1) {
+  if (keep(kTreeOfMeasurements, head->note) && signers_.size() > 1) {
     // The hand-over from the old key is kept: the new one signs alone from now on.
     const auto file = options_.directory /
                       fmt::format("{}.{:08x}", kCheckpointFile, signers_.front().verifier().id());
@@ -220,6 +216,16 @@ void LogService::sign() {
     tell("log_key_replaced", written ? file.string() : written.error().message);
   }
   head_.set(std::move(head));
+}
+
+/// A folder that is another's by now gets no checkpoint of this log.
+Result<void> LogService::keep(const TreeNames& tree, const std::string& note) const {
+  const auto health = database_.health();
+  auto kept = health.state == store::HealthState::WritesFailing
+                  ? Result<void>(Error{ErrorCode::StorageUnavailable, health.reason})
+                  : replace_file(options_.directory / tree.file, note, false);
+  if (!kept) tell("log_checkpoint_not_kept", kept.error().message);
+  return kept;
 }
 
 std::string LogService::head_text() const {
@@ -259,26 +265,25 @@ std::vector<std::string> LogService::hand_overs() const {
 }
 
 Result<LogService::Logs> LogService::logs(store::Database& database) {
-  // A key that was altered does not fit its seal, which verify tells.
-  const auto parsed = [](const std::vector<std::string>& texts) {
-    std::vector<tlog::VerifierKey> keys;
-    for (const std::string& text : texts) {
-      if (const auto key = tlog::VerifierKey::parse(text)) keys.push_back(*key);
-    }
-    return keys;
-  };
-  return database.readers().wait([&](const store::Stores& stores) -> Result<Logs> {
+  return database.readers().wait([](const store::Stores& stores) -> Result<Logs> {
     const store::LogStore::State state = stores.log.state();
     Logs logs;
     logs[0] = {.name = state.name.value_or(""),
                .size = state.size,
-               .keys = parsed(stores.log.keys()),
-               .checkpoint = {}};
+               .keys = kTreeOfMeasurements.keys(stores.log.keys())};
+    Facts& changes = logs[LogReader::kChanges];
+    changes = {.name = kTreeOfChanges.name(logs[0].name),
+               .size = stores.changes.size(),
+               .keys = kTreeOfChanges.keys(stores.log.keys()),
+               .leaves = kTreeOfChanges.leaves};
     for (const auto& ended : stores.log.branches()) {
       logs[0].former.emplace(ended.name, static_cast<std::uint64_t>(ended.size));
+      // How many changes went on is not kept: their root tells.
+      changes.former.emplace(kTreeOfChanges.name(ended.name),
+                             std::numeric_limits<std::uint64_t>::max());
     }
     for (const auto& origin : stores.origins.list()) {
-      const auto keys = parsed(stores.origins.keys(origin.number));
+      const auto keys = kTreeOfMeasurements.keys(stores.origins.keys(origin.number));
       logs[origin.number] = {.name = keys.empty() ? origin.digits : keys.front().name(),
                              .size = origin.size,
                              .keys = keys,

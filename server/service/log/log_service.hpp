@@ -30,6 +30,7 @@ struct Stores;
 namespace fitgauge::app {
 
 class TableCatalog;
+struct TreeNames;
 
 /// The state of a history at the centre.
 struct AtCentre {
@@ -133,8 +134,9 @@ class LogService {
   /// The changes behind `after`, a page, oldest first. @errors those of storage.
   void changes(store::ChangeFilter filter, std::int64_t after, std::int64_t limit,
                Done<store::ChangesStore::Page> done) const;
-  /// The signed head of the tree of changes, of all that there are. Its name is that of the log
-  /// with `/changes` behind it, so that nobody takes it for a head of the measurements.
+  /// The signed head of the tree of changes, of all that there are, which the folder keeps first.
+  /// Its name is that of the log with `/changes` behind it, so that nobody takes it for a head of
+  /// the measurements.
   /// @errors those of storage.
   void changes_head(Done<std::string> done);
   /// The keys of that name: verifier_keys() under it.
@@ -145,14 +147,15 @@ class LogService {
     std::string name;
     std::int64_t size = 0;
     std::vector<tlog::VerifierKey> keys;
-    std::string checkpoint;  ///< the newest that is kept in the database; of forwarded logs
+    std::string checkpoint{};  ///< the newest that is kept in the database; of forwarded logs
     tlog::Frontier base{};   ///< of a branch that was forwarded: the rows below it
     /// Names it had before, and how many rows of each it goes on behind.
     std::map<std::string, std::uint64_t> former{};
     /// Of a centre: only its corrections of this folder's records are here.
     bool is_partial = false;
+    std::string_view leaves = "measurements";
   };
-  /// By origin, of which 0 is this folder.
+  /// By origin, of which 0 is this folder and the last are its changes.
   using Logs = std::map<std::int64_t, Facts>;
   static Result<Logs> logs(store::Database& database);
 
@@ -183,6 +186,8 @@ class LogService {
   Result<void> load_keys(const std::vector<std::string>& known);
   Result<void> write_keys() const;
   void set_aside(std::string_view name, std::string_view why);
+  std::optional<std::string> told_by(const TreeNames& tree, std::int64_t leaves,
+                                     const Loaded& loaded);
   std::optional<std::string> told_by_checkpoint(const Loaded& loaded);
   std::optional<std::string> why_to_branch(const Loaded& loaded);
   Result<void> branch(const Loaded& loaded, const std::string& why);
@@ -193,6 +198,7 @@ class LogService {
   struct Stretch;
   Result<void> take_leaves(const IsOver& is_over, Stretch& stretch);
   void sign();
+  Result<void> keep(const TreeNames& tree, const std::string& note) const;
   void tell(std::string_view event, const std::string& detail) const;
   void end_waiters(std::unique_lock<std::mutex>& lock);
   static Error shutting_down() { return {ErrorCode::ShuttingDown, "the service is shutting down"}; }
@@ -212,8 +218,9 @@ class LogService {
   std::optional<tlog::SigningKey> signer_;  ///< the key in use
   Snapshot<std::string> verifier_keys_;
   Snapshot<Head> head_;
-  Snapshot<Head> changes_head_;  ///< the newest that was asked for
-  tlog::Frontier frontier_;      ///< of the thread
+  std::mutex changes_mutex_;
+  std::optional<Head> changes_head_;  ///< the newest; under changes_mutex_
+  tlog::Frontier frontier_;           ///< of the thread
 
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;

@@ -35,6 +35,7 @@ struct LogService::Loaded {
   std::vector<store::LogStore::Branch> branches{};
   std::vector<std::string> keys{};
   std::int64_t rows = 0;
+  std::int64_t changes = 0;
   bool is_copy = false;
   std::optional<std::string> forked{};
   std::optional<std::string> centre{};
@@ -47,6 +48,7 @@ Result<LogService::Loaded> LogService::read() const {
                   .branches = stores.log.branches(),
                   .keys = stores.log.keys(),
                   .rows = stores.measurements.log_size(),
+                  .changes = stores.changes.size(),
                   .is_copy = stores.log.is_copy(),
                   .forked = stores.log.forked(),
                   .centre = stores.log.centre(),
@@ -91,7 +93,9 @@ Result<void> LogService::load() {
     tell("log_forked", *loaded->forked);
   }
   sign();
-  return {};
+  const auto changes =
+      wait_for_result<std::string>([this](auto done) { changes_head(std::move(done)); });
+  return changes ? Result<void>() : changes.error();
 }
 
 /// Makes the key at the first start of a history, or when it was lost, and lists its public half.
@@ -164,31 +168,36 @@ void LogService::set_aside(std::string_view name, std::string_view why) {
                : fmt::format("{} is {}: it is called {} now", name, why, aside));
 }
 
-/// The finding of the checkpoint in the folder against the database; the file is set aside then.
-std::optional<std::string> LogService::told_by_checkpoint(const Loaded& loaded) {
-  const auto note = read_small_file(options_.directory / kCheckpointFile);
+/// The finding of a tree's checkpoint in the folder against the database, which has so many leaves
+/// of it; the file is set aside then.
+std::optional<std::string> LogService::told_by(const TreeNames& tree, std::int64_t leaves,
+                                               const Loaded& loaded) {
+  const auto note = read_small_file(options_.directory / tree.file);
   if (!note || !*note || (*note)->empty()) return std::nullopt;
   if (!tlog::parse_checkpoint(**note)) {  // cut by a power failure, say
-    set_aside(kCheckpointFile, "no checkpoint");
+    set_aside(tree.file, "no checkpoint");
     return std::nullopt;
   }
-  std::vector<tlog::VerifierKey> keys;
-  for (const std::string& text : loaded.keys) {
-    if (auto key = tlog::VerifierKey::parse(text)) keys.push_back(*std::move(key));
-  }
-  const auto kept = tlog::open_checkpoint(**note, keys);
+  const auto kept = tlog::open_checkpoint(**note, tree.keys(loaded.keys));
   // A branch that was not signed yet when the daemon ended.
-  const auto is_former = [&](const auto& ended) { return kept && kept->origin == ended.name; };
+  const auto is_former = [&](const auto& ended) {
+    return kept && kept->origin == tree.name(ended.name);
+  };
   if (std::any_of(loaded.branches.begin(), loaded.branches.end(), is_former)) return std::nullopt;
-  if (!kept || kept->origin != *loaded.state.name) {
-    set_aside(kCheckpointFile, "of another log or key");
+  if (!kept || kept->origin != tree.name(*loaded.state.name)) {
+    set_aside(tree.file, "of another log or key");
     return "the folder has signed another log than the database's";
   }
-  const auto rows = static_cast<std::uint64_t>(loaded.rows);
-  if (kept->size <= rows) return std::nullopt;
-  set_aside(kCheckpointFile, "newer than the database");
-  return fmt::format("this folder has signed {} measurements, and the database has {}", kept->size,
-                     rows);
+  if (kept->size <= static_cast<std::uint64_t>(leaves)) return std::nullopt;
+  set_aside(tree.file, "newer than the database");
+  return fmt::format("this folder has signed {} {}, and the database has {}", kept->size,
+                     tree.leaves, leaves);
+}
+
+std::optional<std::string> LogService::told_by_checkpoint(const Loaded& loaded) {
+  auto told = told_by(kTreeOfMeasurements, loaded.rows, loaded);
+  auto of_changes = told_by(kTreeOfChanges, loaded.changes, loaded);
+  return told ? told : of_changes;
 }
 
 /// Why ids that would be given out next may have been given out before, if they may.

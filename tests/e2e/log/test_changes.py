@@ -7,7 +7,8 @@ import sqlite3
 import sys
 import unittest
 
-from support.daemon import ROOT, DaemonTest
+from support.daemon import ROOT, Daemon, DaemonTest
+from support.seals import alter, sealed_anew
 
 sys.path.insert(0, str(ROOT / "clients" / "python"))
 
@@ -179,6 +180,34 @@ class Changes(DaemonTest):
         database.close()
         self.daemon.start()
         self.assertEqual(self.daemon.command("verify").returncode, 0)
+
+    def assert_verified(self, daemon, line, *flags, status=1):
+        verified = daemon.command("verify", *flags)
+        self.assertEqual(verified.returncode, status, verified.stdout)
+        self.assertIn(line, verified.stdout)
+
+    def test_a_kept_head_of_changes_is_verified(self):
+        daemon, other = Daemon(), Daemon()
+        heads = []
+        for each, count in ((daemon, 260), (other, 10)):
+            self.addCleanup(each.cleanup)
+            each.start()
+            for number in range(count):
+                self.assertEqual(each.request("PUT", f"/v1/uncertainties/b-{number}", BUDGET).status, 201)
+                if number in (9, 259):
+                    heads.append(each.folder / f"head-{number}")
+                    heads[-1].write_text(each.get("/v1/log/changes/checkpoint").text)
+            self.assertEqual(each.stop(), 0)
+        for head in heads[:2]:
+            self.assert_verified(daemon, "/changes: 260 changes, root ", "--checkpoint", head, status=0)
+        self.assert_verified(daemon, "is no checkpoint of this log", "--checkpoint", heads[2])
+        alter(daemon.database, "DROP TRIGGER changes_are_not_updated", "UPDATE changes SET caller = 'nobody' WHERE id = 7",
+              sealed_anew("changes"))
+        self.assert_verified(daemon, "change 7 was altered")
+        for head in heads[:2]:
+            self.assert_verified(daemon, f"are not those that {head} has signed", "--checkpoint", head)
+        alter(daemon.database, "DROP TRIGGER changes_are_not_deleted", "DELETE FROM changes WHERE id = 100")
+        self.assert_verified(daemon, "changes behind 0 are missing")
 
 
 if __name__ == "__main__":

@@ -176,6 +176,46 @@ class Folders(Restored):
         daemon.start()
         self.assert_unique(kept, lost, self.store(daemon, "n2 n3"))
 
+    def plan(self, daemon, name):
+        answer = daemon.request("PUT", f"/v1/plans/{name}",
+                                {"characteristics": [{"name": "bore", "designation": "25 H7"}]})
+        self.assertEqual(answer.status, 201, answer)
+
+    def changes_head(self, daemon):
+        return daemon.get("/v1/log/changes/checkpoint").text
+
+    def test_a_copy_that_lacks_changes_alone_begins_a_branch(self):
+        daemon = self.made().start()
+        kept = self.store(daemon, "d1")
+        self.plan(daemon, "A")
+        heads = [self.changes_head(daemon)]
+        self.assertEqual(daemon.stop(), 0)
+        copy = daemon.folder / "copy.db"
+        shutil.copy(daemon.database, copy)
+        daemon.start()
+        self.plan(daemon, "B")
+        self.assertEqual(daemon.stop(), 0)
+        known = daemon.data / "fitgauge.changes.checkpoint"
+        heads.append(known.read_text())
+        self.assertEqual([head.split("\n")[1] for head in heads], ["1", "2"])
+        self.restore(daemon, copy)
+        verified = daemon.command("verify")
+        self.assertEqual(verified.returncode, 1)
+        self.assertIn("fitgauge.changes.checkpoint has signed 2 changes, 1 are there", verified.stdout)
+        daemon.start()
+        daemon.wait_for_log("this folder has signed 2 changes, and the database has 1")
+        self.plan(daemon, "C")
+        heads.append(self.changes_head(daemon))
+        self.assertEqual(len({head.split("\n")[0] for head in heads}), 2, "one name has one tree")
+        self.assertEqual([record["id"] for record in daemon.stored()], kept)
+        self.assertEqual(daemon.stop(), 0)
+        self.assertEqual(known.read_text(), heads[2])
+        for head, status in zip(heads, (0, 1, 0), strict=True):
+            (daemon.folder / "head").write_text(head)
+            verified = daemon.command("verify", "--checkpoint", daemon.folder / "head")
+            self.assertEqual(verified.returncode, status, verified.stdout)
+        self.assertIn("/changes: 2 changes, root ", verified.stdout)
+
     def test_a_correction_of_what_the_copy_holds(self):
         daemon = self.made().start()
         kept = self.store(daemon, "d1 d2")

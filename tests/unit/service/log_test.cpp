@@ -6,6 +6,7 @@
 #include <future>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "service/log/log_keys.hpp"
 #include "service/log/log_service.hpp"
@@ -67,4 +68,51 @@ TEST_CASE("what is stored last before the end is in the checkpoint of the folder
   service.record(2);  // a second too early for the next one
   service->log().stop();
   CHECK(checkpoint()->size == 3);
+}
+
+TEST_CASE("a folder that knows changes which the database lacks begins a branch") {
+  const Folder folder;
+  const SystemClock clock;
+  const auto open = [&] {
+    ApplicationOptions options;
+    options.directory = folder.path();
+    options.durable = false;
+    return Application::open(options, clock).value();
+  };
+  const auto change = [](Application& app, const std::string& text) {
+    const auto written = app.documents().write_and_wait(
+        {.kind = DocumentKind::Uncertainty, .name = "bore", .text = text});
+    REQUIRE(written.has_value());
+  };
+  const auto head = [](Application& app) {
+    return wait_for<std::string>([&](auto done) { app.log().changes_head(std::move(done)); })
+        .value();
+  };
+  const auto size_and_name = [](const std::string& note) {
+    const auto checkpoint = tlog::parse_checkpoint(note);
+    return std::pair(checkpoint->size, checkpoint->origin);
+  };
+  const auto database = folder.path() / "fitgauge.db";
+  const auto copy = folder.path() / "copy";
+  auto app = open();
+  change(*app, "{}");
+  const std::string below = head(*app);
+  app.reset();
+  std::filesystem::copy_file(database, copy);
+  app = open();
+  change(*app, "[]");
+  app.reset();  // nobody has asked for the head
+  const std::string lost = read_small_file(folder.path() / kTreeOfChanges.file)->value();
+  CHECK(size_and_name(lost).first == 2);
+  std::filesystem::copy_file(copy, database, std::filesystem::copy_options::overwrite_existing);
+  app = open();
+  change(*app, "[1]");
+  const std::string note = head(*app);
+  CHECK(size_and_name(note).first == 2);
+  CHECK(size_and_name(note).second != size_and_name(lost).second);
+  const auto verified = app->verify({{"kept", note}, {"below", below}});
+  CHECK(verified->findings == std::vector<std::string>());
+  CHECK(verified->head.find("/changes: 2 changes, root ") != std::string::npos);
+  CHECK(app->verify({{"lost", lost}})->findings ==
+        std::vector<std::string>{"changes up to 2 are not those that lost has signed"});
 }
