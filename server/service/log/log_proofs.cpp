@@ -147,6 +147,9 @@ void LogService::changes(store::ChangeFilter filter, std::int64_t after, std::in
   database_.readers().submit(
       [filter = std::move(filter), after,
        limit](const store::Stores& stores) -> Result<store::ChangesStore::Page> {
+        if (after > stores.changes.size()) {
+          return Error{ErrorCode::CursorInvalid, "after must be the `next` of an earlier page"};
+        }
         return stores.changes.list(filter, after, limit);
       },
       std::move(done));

@@ -131,7 +131,8 @@ class LogService {
   /// @errors NotFound; those of storage.
   void tile(std::string_view path, bool of_changes, Done<TileBytes> done);
 
-  /// The changes behind `after`, a page, oldest first. @errors those of storage.
+  /// The changes behind `after`, a page, oldest first.
+  /// @errors CursorInvalid behind the newest; those of storage.
   void changes(store::ChangeFilter filter, std::int64_t after, std::int64_t limit,
                Done<store::ChangesStore::Page> done) const;
   /// The signed head of the tree of changes, of all that there are, which the folder keeps first.

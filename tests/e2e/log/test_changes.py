@@ -87,6 +87,9 @@ class Changes(DaemonTest):
         at = all_of_them[-2]["at"]
         self.assertEqual(self.changes(f"to={at}") + self.changes(f"from={at}"), all_of_them)
         self.assertEqual(self.changes("name=none"), [])
+        newest = all_of_them[-1]["id"]
+        self.assertEqual(self.changes(f"after={newest}"), [])
+        self.assert_problem(self.daemon.get(f"/v1/changes?after={newest + 1}"), 400, "cursor.invalid")
         self.assert_problem(self.daemon.get("/v1/changes?kind=verdict"), 400, "query.invalid")
 
     def test_what_others_name_is_not_deleted(self):
