@@ -83,6 +83,16 @@ Reply take_batch(Application& app, std::string_view origin, std::int64_t from,
   return reply;
 }
 
+app::IdempotencyScope scope_of(const std::string& path, const std::string& body) {
+  return {.caller = "mes", .method = "POST", .path = path, .key = "key-" + body, .body = body};
+}
+
+Result<std::optional<app::Answer>> kept_answer(app::MeasurementService& measurements,
+                                               const app::IdempotencyScope& scope) {
+  return wait_for_result<std::optional<app::Answer>>(
+      [&](auto done) { measurements.find_answer(scope, std::move(done)); });
+}
+
 std::string parameter(std::string_view query, std::string_view name) {
   const std::string key = fmt::format("{}=", name);
   const std::size_t at = query.find(key);
@@ -198,9 +208,43 @@ void Node::end() {
   ending->app->runs().stop();
 }
 
-std::optional<std::string> Node::post(const std::string& part, const std::string& key) {
+std::optional<std::string> Node::add_note(const std::string& text, const std::string& of) {
   if (!up_ || up_->app->log().forked()) return std::nullopt;
   const On on(&machine);
+  auto& measurements = up_->app->measurements();
+  const auto name = measurements.parse_id(of);
+  if (!name) return std::nullopt;
+  const auto scope = scope_of("/v1/measurements/" + of + "/notes", text);
+  auto answer = kept_answer(measurements, scope);
+  if (!answer) return std::nullopt;
+  if (!*answer) {
+    answer = wait_for_result<app::Answer>([&](auto done) {
+      measurements.add_note(*name, {.text = text, .received_at = up_->clock.now()}, scope,
+                            std::move(done));
+    });
+  }
+  const auto note = answer ? parse_json((*answer)->body) : Result<JsonValue>(answer.error());
+  return note ? std::optional(note->member("id").text) : std::nullopt;
+}
+
+std::map<std::string, std::string> Node::notes(const std::string& of) {
+  const On on(&machine);
+  std::map<std::string, std::string> found;
+  auto& measurements = up_->app->measurements();
+  const auto name = measurements.parse_id(of);
+  if (!name) return found;
+  const auto listed = wait_for_result<std::vector<app::Note>>(
+      [&](auto done) { measurements.list_notes(*name, std::move(done)); });
+  if (!listed) return found;
+  for (const app::Note& note : *listed) found.emplace(note.id, note.text.value_or(""));
+  return found;
+}
+
+std::optional<std::string> Node::post(const std::string& part, const std::string& of) {
+  if (!up_ || up_->app->log().forked()) return std::nullopt;
+  const On on(&machine);
+  auto& measurements = up_->app->measurements();
+  std::string digits;
   app::Measurement m;
   m.nominal_size = Length::millimetres(25);
   m.deviations = {.upper = Length::micrometres(50), .lower = Length()};
@@ -209,13 +253,29 @@ std::optional<std::string> Node::post(const std::string& part, const std::string
   m.part_id = part;
   m.received_at = m.measured_at = up_->clock.now();
   judge(m);
-  const app::IdempotencyScope scope{
-      .caller = "mes", .method = "POST", .path = "/v1/measurements", .key = key, .body = part};
-  auto& measurements = up_->app->measurements();
-  auto kept = wait_for_result<std::optional<app::Answer>>(
-      [&](auto done) { measurements.find_answer(scope, std::move(done)); });
+  const auto scope = scope_of("/v1/measurements", part);
+  const auto kept = kept_answer(measurements, scope);
   if (!kept) return std::nullopt;
   if (*kept) return (*kept)->body;
+  if (!of.empty()) {
+    const auto name = measurements.parse_id(of);
+    if (!name) return std::nullopt;
+    const std::string_view own = up_->app->log().origin();
+    const auto found = wait_for_result<std::int64_t>([&](auto done) {
+      measurements.find(
+          *name,
+          [&](const app::Measurement& original) {
+            m.correction_of = original.id;
+            if (original.origin == own) return;
+            digits = original.origin;
+            m.corrected_elsewhere = {
+                .row = original.row, .origin = original.origin_number, .digits = digits};
+          },
+          std::move(done));
+    });
+    if (!found) return std::nullopt;
+    m.correction_reason = "misread";
+  }
   const auto answer = wait_for_result<app::Answer>([&](auto done) {
     measurements.record(
         {m}, scope, [] { return std::make_unique<IdAnswer>(); }, std::move(done));
@@ -241,8 +301,11 @@ std::optional<std::vector<Listed>> Node::list(const std::string& after) {
     measurements.list(
         query, 0, 1'000'000,
         [&all](const app::Measurement& m) {
-          all.push_back({.id = app::measurement_id_text(m.id, m.origin),
-                         .part = std::string(m.part_id.value_or(""))});
+          auto& listed = all.emplace_back(Listed{.id = app::measurement_id_text(m.id, m.origin),
+                                                 .part = std::string(m.part_id.value_or(""))});
+          if (!m.correction_of) return;
+          listed.corrects = app::measurement_id_text(
+              *m.correction_of, m.corrected_elsewhere ? m.corrected_elsewhere->digits : m.origin);
         },
         std::move(done));
   });

@@ -21,6 +21,7 @@ namespace fitgauge::simulation {
 struct Listed {
   std::string id{};
   std::string part{};
+  std::string corrects{};  ///< the id of the record that it corrects
 };
 
 /// A machine with a service on it, as daemon/serve.cpp puts it together, less its HTTP server.
@@ -41,8 +42,13 @@ class Node {
   /// Ends as on SIGTERM, or, when the machine is dead, leaves everything as it was at its death.
   void end();
 
+  /// @param of the id of the record that it corrects; empty: none.
   /// @returns the id; none: there was no answer, or a refusal.
-  std::optional<std::string> post(const std::string& part, const std::string& key);
+  std::optional<std::string> post(const std::string& part, const std::string& of);
+  /// A note beside the record `of`. @returns as post().
+  std::optional<std::string> add_note(const std::string& text, const std::string& of);
+  /// The texts of the notes beside a record, by their ids.
+  std::map<std::string, std::string> notes(const std::string& of);
   /// The records behind an id; none: it does not know the id, or cannot.
   std::optional<std::vector<Listed>> list(const std::string& after = {});
   bool backup(const std::filesystem::path& file);

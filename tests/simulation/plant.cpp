@@ -129,16 +129,25 @@ void Plant::act() {
   for (const auto& each : sites_) bury(*each);
 }
 
-/// A client's post of a new part, and all that were not answered, again.
+/// A client's post of a new part, or about one, and all that were not answered, again.
 void Plant::post(Site& site) {
-  site.posts.push_back({.part = fmt::format("part-{}", ++part_)});
+  Post post{.part = fmt::format("part-{}", ++part_)};
+  if (!site.posts.empty() && draw(4) == 0) {
+    Post& before = site.posts[draw(site.posts.size())];
+    if (!before.id.empty() && !before.is_taken_back && !before.is_note) {
+      post.is_note = draw(2) == 0;
+      if (post.is_note || !std::exchange(before.is_corrected, true)) post.of = before.id;
+    }
+  }
+  site.posts.push_back(std::move(post));
   ask_again(site);
 }
 
 void Plant::ask_again(Site& site) {
   for (Post& post : site.posts) {
     if (!post.id.empty()) continue;
-    const auto id = site.node->post(post.part, "key-" + post.part);
+    const auto id = post.is_note ? site.node->add_note(post.part, post.of)
+                                 : site.node->post(post.part, post.of);
     const bool is_lost = draw(4) == 0;  // the answer, that is
     if (!id || is_lost) {
       ++counts_.repeated;
@@ -225,6 +234,10 @@ void Plant::restore(Site& site) {
     post.is_taken_back = true;
     ++counts_.taken_back;
   }
+  // What is said of a record that is gone is refused.
+  std::erase_if(site.posts, [&copy](const Post& post) {
+    return post.id.empty() && !post.of.empty() && !copy.ids.contains(post.of);
+  });
   site.notes.clear();
   // Records that stations send again may come in another order, which their ids do not say: the
   // guide to backups has readers of a centre begin anew.
@@ -280,11 +293,21 @@ void Plant::check() {
     read(*site);
     check_site(*site);
   }
-  std::map<std::string, std::string> centre;
+  std::map<std::string, Listed> centre;
   const std::vector<Listed> there = sites_.front()->node->list().value();
-  for (const Listed& listed : there) centre.emplace(listed.id, listed.part);
+  for (const Listed& listed : there) centre.emplace(listed.id, listed);
   for (const auto& site : sites_) {
     if (site->is_station) check_centre(*site, centre);
+  }
+}
+
+void Plant::check_notes(const Site& site, Node& at) {
+  for (const Post& post : site.posts) {
+    if (!post.is_note || post.is_taken_back) continue;
+    const auto notes = at.notes(post.of);
+    const auto found = notes.find(post.id);
+    if (found == notes.end() || found->second != post.part)
+      broken(site, fmt::format("{} has not got the note {}", at.machine.name, post.id));
   }
 }
 
@@ -292,16 +315,21 @@ void Plant::check_site(Site& site) {
   const auto listed = site.node->list();
   if (!listed) broken(site, "cannot be listed");
   std::map<std::string, std::string> here;
+  std::map<std::string, std::string> corrects;
   std::set<std::string> parts;
   for (const Listed& each : *listed) {
     sees(site, "the list", each.id, each.part);
     if (!here.emplace(each.id, each.part).second) broken(site, "lists twice " + each.id);
+    corrects[each.id] = each.corrects;
     if (site.is_station && !parts.insert(each.part).second) broken(site, "has twice " + each.part);
   }
   for (const Post& post : site.posts) {
-    if (!post.is_taken_back && !here.contains(post.id))
-      broken(site, fmt::format("has lost {}, {}", post.id, post.part));
+    if (post.is_taken_back || post.is_note) continue;
+    if (!here.contains(post.id)) broken(site, fmt::format("has lost {}, {}", post.id, post.part));
+    if (corrects[post.id] != post.of)
+      broken(site, fmt::format("has {} as a correction of '{}'", post.id, corrects[post.id]));
   }
+  check_notes(site, *site.node);
   for (const auto& [id, part] : here) {
     if (!site.received.contains(id))
       broken(site, fmt::format("its receiver has not got {}, {}", id, part));
@@ -316,12 +344,16 @@ void Plant::check_site(Site& site) {
   note(here.size());
 }
 
-void Plant::check_centre(const Site& station, const std::map<std::string, std::string>& centre) {
+void Plant::check_centre(const Site& station, const std::map<std::string, Listed>& centre) {
   const std::vector<Listed> here = station.node->list().value();
   for (const Listed& listed : here) {
-    if (!centre.contains(listed.id))
+    const auto found = centre.find(listed.id);
+    if (found == centre.end())
       broken(station, fmt::format("the centre has not got {}, {}", listed.id, listed.part));
+    if (found->second.corrects != listed.corrects)
+      broken(station, fmt::format("the centre has not got what {} corrects", listed.id));
   }
+  check_notes(station, *sites_.front()->node);
 }
 
 /// The machines sleep, and their clocks go on.

@@ -55,9 +55,13 @@ class Plant {
   std::string story() const;
 
  private:
-  /// A post of a client, which repeats it with its key until it is answered.
+  /// A post of a client, which repeats it with its key until it is answered: a part, the correction
+  /// of one, or a note beside it.
   struct Post {
-    std::string part{};
+    std::string part{};  ///< or the text of the note
+    std::string of{};    ///< the id of the record that it corrects or says something of
+    bool is_note = false;
+    bool is_corrected = false;
     std::string id{};  ///< empty: not answered
     bool is_taken_back = false;
   };
@@ -65,7 +69,7 @@ class Plant {
   struct Copy {
     std::filesystem::path path{};
     bool is_folder = false;
-    std::set<std::string> ids{};  ///< of the records that were promised when it was made
+    std::set<std::string> ids{};  ///< of what was promised when it was made
   };
   /// A node with those who use it.
   struct Site {
@@ -95,7 +99,8 @@ class Plant {
   void settle();
   void check();
   void check_site(Site& site);
-  void check_centre(const Site& station, const std::map<std::string, std::string>& centre);
+  void check_notes(const Site& site, Node& at);
+  void check_centre(const Site& station, const std::map<std::string, Listed>& centre);
   void sleep_till_morning();
   /// A record was seen: its id is of this part, for ever.
   void sees(const Site& site, const std::string& who, const std::string& id,
