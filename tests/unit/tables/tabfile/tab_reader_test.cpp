@@ -82,8 +82,6 @@ TEST_CASE("a TNC 640 table has its description, a comment and characters of two 
   CHECK(points.header().version == "Version: 'Update:150.21 Date:2004-08-01' U");
   CHECK(points.header().form == HeaderForm::TableDescription);
   CHECK(points.columns()[1].type == "LENGTH");
-  CHECK_FALSE(points.columns()[1].is_text());
-  CHECK(points.columns()[2].is_text());
   CHECK(points.columns()[2].width == 12);
   CHECK(*points.text(0, "DOC") == "Fräser");
   CHECK(*points.text(1, "DOC") == "last one");
