@@ -233,6 +233,7 @@ class Answers(ContractTest):
         record = self.expect("postMeasurements", 201, {"designation": "25 H7", "measured_mm": 25.1}).json["id"]
         self.expect("addNote", 201, {"cause": "Insert worn", "measure": "Insert changed", "text": "x", "operator": "Kim"}, id=record)
         self.expect("listNotes", 200, id=record)
+        self.expect("addNote", 201, {"cause": "Chip at the gauge", "measure": "set aside"}, id=record)
         self.expect("listMeasurements", 200, notes="shown")
         for standard in self.expect("listStandards", 200).json["standards"]:
             for table in standard["tables"]:

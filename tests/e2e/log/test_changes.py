@@ -110,10 +110,10 @@ class Changes(DaemonTest):
             self.delete(path)
 
     def test_a_class_of_a_plan_and_a_mesh_of_a_setup_are_not_deleted(self):
-        for name in ("X9", "Own1", "H7"):
+        for name in ("Own2", "Own1", "H7"):
             self.put(f"/v1/tables/hole/classes/{name}", COLUMN)
         self.put("/v1/plans/P-2", {"characteristics": [
-            {"name": "a", "designation": "25 X9"}, {"name": "b", "nominal_mm": 25, "tolerance_class": "Own1"},
+            {"name": "a", "designation": "25 Own2"}, {"name": "b", "nominal_mm": 25, "tolerance_class": "Own1"},
             {"name": "c", "designation": "25 H7"}]})
         triangles = [((0, 0, 0), (0, 1, 0), (1, 0, 0)), ((0, 0, 0), (1, 0, 0), (0, 0, 1)),
                      ((0, 0, 0), (0, 0, 1), (0, 1, 0)), ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
@@ -122,11 +122,11 @@ class Changes(DaemonTest):
         self.daemon.request("PUT", "/v1/files/parts/a.stl", stl, {"Content-Type": "model/stl"})
         self.put("/v1/setups/meshed", {"workpiece": {"features": [{"type": "mesh", "file": "parts/a.stl"}]}})
         self.delete("/v1/tables/hole/classes/H7")  # ISO 286 has it
-        for path, by in (("/v1/tables/hole/classes/X9", "plan 'P-2'"), ("/v1/tables/hole/classes/Own1", "plan 'P-2'"),
+        for path, by in (("/v1/tables/hole/classes/Own2", "plan 'P-2'"), ("/v1/tables/hole/classes/Own1", "plan 'P-2'"),
                          ("/v1/files/parts/a.stl", "setup 'meshed'")):
             problem = self.assert_problem(self.daemon.request("DELETE", path), 409, "document.in_use")
             self.assertIn(by, problem["detail"])
-        for path in ("/v1/plans/P-2", "/v1/setups/meshed", "/v1/tables/hole/classes/X9", "/v1/tables/hole/classes/Own1",
+        for path in ("/v1/plans/P-2", "/v1/setups/meshed", "/v1/tables/hole/classes/Own2", "/v1/tables/hole/classes/Own1",
                      "/v1/files/parts/a.stl"):
             self.delete(path)
 
