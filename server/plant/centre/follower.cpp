@@ -80,8 +80,8 @@ std::optional<Follower::Heard> Follower::look(CentreLink& link, const CentreLink
 /// @returns whether there is more.
 bool Follower::take_page(CentreLink& link, const CentreLink::GoesOn& goes_on) {
   const std::string_view station = station_();
-  const http_client::HttpAnswer answer = link.get(
-      fmt::format("/v1/log/revisions?station={}&after={}", station, position_), goes_on);
+  const http_client::HttpAnswer answer =
+      link.get(fmt::format("/v1/log/revisions?station={}&after={}", station, position_), goes_on);
   if (answer.status == 0) return failed(answer.failure);
   if (answer.status != kAnswered) return failed(fmt::format("it answers {}", answer.status));
   const auto read = api::read_revisions(answer.body);

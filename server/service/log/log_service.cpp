@@ -116,7 +116,8 @@ void LogService::run(const std::stop_token& stop) {
       next_signing_ = now + kBetweenSignings;
       lock.unlock();
       bool has_grown = false;
-      guarded("the log", [&] { has_grown = grow([&stop] { return stop.stop_requested(); }).has_value(); });
+      guarded("the log",
+              [&] { has_grown = grow([&stop] { return stop.stop_requested(); }).has_value(); });
       lock.lock();
       if (!has_grown) dirty_ = true;  // the storage tells of its failures itself
     }

@@ -149,7 +149,7 @@ class LogService {
     std::int64_t size = 0;
     std::vector<tlog::VerifierKey> keys;
     std::string checkpoint{};  ///< the newest that is kept in the database; of forwarded logs
-    tlog::Frontier base{};   ///< of a branch that was forwarded: the rows below it
+    tlog::Frontier base{};     ///< of a branch that was forwarded: the rows below it
     /// Names it had before, and how many rows of each it goes on behind.
     std::map<std::string, std::uint64_t> former{};
     /// Of a centre: only its corrections of this folder's records are here.
