@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 constexpr int kStations = 2;
 constexpr int kActs = 24;
 constexpr std::int64_t kLongestRest = 600 * kSecond;
+constexpr std::int64_t kMaintenance = 180 * kSecond;
 /// A station asks its centre every five seconds what it has.
 constexpr int kQuietLooks = 4;
 constexpr std::int64_t kBetweenLooks = 2 * kSecond;
@@ -179,8 +180,9 @@ void Plant::harm_clock(Site& site) {
   const std::int64_t jump = kJumps[draw(std::size(kJumps))] * kSecond;
   site.node->machine.wall_ns += draw(3) == 0 ? -jump : jump;
   ++counts_.jumps;
+  // Sometimes long enough for what is done while nobody writes, such as to delete what has expired.
+  sleep_for(draw(4) == 0 ? kMaintenance : static_cast<std::int64_t>(draw(2000)) * kMillisecond);
   if (site.node->is_up()) post(site);
-  sleep_for(static_cast<std::int64_t>(draw(2000)) * kMillisecond);
   if (draw(2) == 0) site.node->machine.wall_ns = 0;
 }
 
