@@ -80,9 +80,9 @@ TEST_CASE("a folder that knows changes which the database lacks begins a branch"
     return Application::open(options, clock).value();
   };
   const auto change = [](Application& app, const std::string& text) {
-    const auto written = app.documents().write_and_wait(
+    const auto put = app.documents().write_and_wait(
         {.kind = DocumentKind::Uncertainty, .name = "bore", .text = text});
-    REQUIRE(written.has_value());
+    REQUIRE(put.has_value());
   };
   const auto head = [](Application& app) {
     return wait_for<std::string>([&](auto done) { app.log().changes_head(std::move(done)); })
