@@ -108,32 +108,53 @@ class MeasurementStream final : public http::BodyStream,
                     std::int64_t after, Form form)
       : measurements_(measurements), query_(std::move(query)), after_(after), form_(form) {}
 
+  /// Reads the first piece: a storage that cannot be read is an error before the first byte.
+  void answer(http::Responder responder) {
+    if (form_ == Form::Csv) piece_ = measurement_csv_header();
+    read([self = shared_from_this(),
+          responder = share(std::move(responder))](const Result<void>& read) {
+      if (!read) return responder->fail(read.error());
+      http::Response response(200, media_type(self->form_), http::StreamedBody{.source = self});
+      responder->answer(std::move(response).with("Vary", "Accept"));
+    });
+  }
+
   void next(http::ChunkSink sink) override {
-    auto piece = std::make_shared<std::string>();
-    if (form_ == Form::Csv && !begun_) *piece = measurement_csv_header();
-    begun_ = true;
-    measurements_.list(
-        query_, after_, kRowsAPiece,
-        [piece, form = form_](const app::Measurement& measurement) {
-          append_row(*piece, form, measurement);
-        },
-        [self = shared_from_this(), piece,
-         sink = std::make_shared<http::ChunkSink>(std::move(sink))](Result<app::ListPage> page) {
-          if (!page) return sink->fail();
-          if (!page->next) return sink->finish(std::move(*piece));
-          self->after_ = *page->next;
-          self->query_.as_of_id = page->as_of;
-          self->query_.after.reset();
-          sink->put(std::move(*piece));
-        });
+    if (is_read_) return hand_over(sink);
+    read([self = shared_from_this(), sink = std::make_shared<http::ChunkSink>(std::move(sink))](
+             const Result<void>& read) { read ? self->hand_over(*sink) : sink->fail(); });
   }
 
  private:
+  void read(std::function<void(const Result<void>&)> done) {
+    measurements_.list(
+        query_, after_, kRowsAPiece,
+        [self = shared_from_this()](const app::Measurement& measurement) {
+          append_row(self->piece_, self->form_, measurement);
+        },
+        [self = shared_from_this(), done = std::move(done)](const Result<app::ListPage>& page) {
+          if (!page) return done(page.error());
+          self->is_read_ = true;
+          self->is_last_ = !page->next;
+          self->after_ = page->next.value_or(0);
+          self->query_.as_of_id = page->as_of;
+          self->query_.after.reset();
+          done({});
+        });
+  }
+
+  void hand_over(http::ChunkSink& sink) {
+    is_read_ = false;
+    is_last_ ? sink.finish(std::exchange(piece_, {})) : sink.put(std::exchange(piece_, {}));
+  }
+
   app::MeasurementService& measurements_;
   app::MeasurementQuery query_;
   std::int64_t after_;
   Form form_;
-  bool begun_ = false;
+  std::string piece_;
+  bool is_read_ = false;  ///< `piece_` is to be sent
+  bool is_last_ = false;
 };
 
 void answer_page(const Services& services, const http::Request& request, http::Responder& responder,
@@ -281,18 +302,9 @@ void list_measurements(const Services& services, const http::Request& request,
                      cursor->after, limit);
   }
   if (!limit && !query->last && form != Form::Json) {
-    // A storage that cannot be read is an error before the first byte.
-    return services.measurements.list(
-        *query, cursor->after, 1, [](const app::Measurement&) {},
-        [&services, query = *query, after = cursor->after, form,
-         responder = share(std::move(responder))](const Result<app::ListPage>& page) {
-          if (!page) return responder->fail(page.error());
-          http::Response response(
-              200, media_type(form),
-              http::StreamedBody{.source = std::make_shared<MeasurementStream>(
-                                     services.measurements, query, after, form)});
-          responder->answer(std::move(response).with("Vary", "Accept"));
-        });
+    return std::make_shared<MeasurementStream>(services.measurements, *std::move(query),
+                                               cursor->after, form)
+        ->answer(std::move(responder));
   }
   auto rows = std::make_shared<std::string>();
   services.measurements.list(
