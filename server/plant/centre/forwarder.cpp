@@ -134,8 +134,9 @@ void Forwarder::run(const std::stop_token& stop) {
 }
 
 Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
-  const auto batch = outbox_.next(confirmed_, most_rows_, noted_);
+  auto batch = outbox_.next(confirmed_, most_rows_, noted_);
   if (!batch) return failed(Sent::Failed, batch.error().message);
+  if (noted_ == refused_note_) batch->notes_after.clear();
   if (batch->unsigned_to && lacks_records_) {
     return failed(Sent::Refused,
                   "the centre lacks records of an earlier history, and the key for their signature "
@@ -169,6 +170,7 @@ Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::
     most_rows_ = app::LogOutbox::kMostRows;
     took(end);
     if (last_note > 0) noted_ = last_note;
+    if (noted_ > refused_note_) refused_note_.reset();
     return Sent::Taken;
   }
   if (answer.status == kTooLarge && most_rows_ > 1) {
@@ -206,6 +208,10 @@ Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root)
     lacks_records_ = size < confirmed_;
     if (lacks_records_) goes_back_to(size);
     took(size);
+    return Sent::Taken;
+  }
+  if (*same == true && noted_.value_or(0) > 0) {  // it lacks notes that those of the batch follow
+    refused_note_ = std::exchange(noted_, 0);
     return Sent::Taken;
   }
   if (*same == true) return failed(Sent::Failed, "the centre is behind itself");

@@ -134,6 +134,9 @@ class Forwarder {
   std::atomic<std::int64_t> confirmed_{0};
   std::atomic<std::int64_t> seen_{0};    ///< records there were at the last look
   std::optional<std::int64_t> noted_{};  ///< the last note there; none: the centre accepts none
+  /// The last note there, said the centre, and it has not got it: once all came again, it has left
+  /// it out, as its record is not there.
+  std::optional<std::int64_t> refused_note_{};
   std::int64_t most_rows_ = app::LogOutbox::kMostRows;
   std::chrono::milliseconds pause_{0};
   Steady::time_point looked_{};

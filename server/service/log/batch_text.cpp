@@ -29,6 +29,7 @@ void write_heading(std::string& text, const app::LogOutbox::Batch& batch) {
     for (const std::string& note : batch.hand_overs) json.value(note);
     json.end_array();
   }
+  if (!batch.notes_after.empty()) json.member("notes_after", batch.notes_after);
   json.end_object();
   text += '\n';
 }
@@ -68,6 +69,7 @@ Error missing(std::string_view what) {
 Result<void> read_heading(const JsonValue& json, app::ForwardedBatch& batch) {
   batch.checkpoint = text_of(json, "checkpoint");
   batch.key = text_of(json, "key");
+  batch.notes_after = text_of(json, "notes_after");
   if (batch.checkpoint.empty()) return missing("checkpoint in its first line");
   if (batch.key.empty()) return missing("key in its first line");
   if (const JsonValue* base = json.find("base")) {

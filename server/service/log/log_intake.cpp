@@ -50,6 +50,7 @@ struct LogIntake::Known {
   std::vector<tlog::VerifierKey> new_keys{};  ///< that this batch has brought
   tlog::Frontier before{};                    ///< of the rows before the batch
   std::optional<tlog::Hash> root_at_end{};    ///< where the batch ends within what is here
+  bool lacks_notes = false;                   ///< of those that the batch's notes follow
 };
 
 /// The result of the tree for a batch.
@@ -73,7 +74,7 @@ Result<LogIntake::Answer> LogIntake::take(const ForwardedBatch& batch) {
   if (batch.rows.empty() && batch.notes.empty()) {
     return Error{ErrorCode::RequestInvalid, "the batch has no record and no note"};
   }
-  if (batch.from > static_cast<std::int64_t>(known->head.size) + 1) {
+  if (batch.from > static_cast<std::int64_t>(known->head.size) + 1 || known->lacks_notes) {
     return Answer{.outcome = Outcome::Elsewhere, .head = known->head};
   }
   auto judged = judge_tree(batch, *known);
@@ -104,6 +105,9 @@ Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
   return database_.readers().wait([&](const store::Stores& stores) -> Result<Known> {
     Known known;
     const auto origin = stores.origins.find(batch.origin);
+    const auto behind = parse_note_id(batch.notes_after, origins_);
+    known.lacks_notes = !batch.notes_after.empty() &&
+                        (!behind || stores.notes.newest_of(behind->origin) < behind->number);
     if (const auto based = read_base(stores, batch, known); !based) return based.error();
     if (!origin) return known;
     known.number = origin->number;

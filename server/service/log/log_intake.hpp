@@ -48,6 +48,7 @@ struct ForwardedBatch {
   /// Kept for idempotency keys when the rows were stored.
   std::vector<store::IdempotencyStore::Forwarded> answers;
   std::vector<Note> notes;  ///< with the ids that they got there, in their order
+  std::string notes_after;  ///< the id of the note before the first; empty: there is none
 };
 
 /// Takes what stations forward: each batch that continues exactly where its log ends here, whole or

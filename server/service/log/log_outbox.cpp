@@ -84,6 +84,9 @@ void LogOutbox::add_notes(const store::Stores& stores, std::int64_t place, std::
       record = measurement_id_text(number, origins.digits(row.origin.value_or(0), number));
     });
     if (record.empty()) return;
+    if (batch.notes.empty() && behind > 0) {
+      batch.notes_after = note_id_text(behind, origins.own(Counted::Note, behind));
+    }
     batch.last_note = note.id;
     batch.notes.push_back(api::body_json(from_store(std::move(note), record, origins)));
   }

@@ -129,6 +129,24 @@ class Stations(Restored):
         self.assertEqual(sorted(self.there().values()), ["s1", "s2", "s3", "x1"])
         self.assert_clean(self.centre)
 
+    def test_a_centre_put_back_while_its_station_branched_gets_what_lies_below_the_branch(self):
+        self.store(self.station, "s1")
+        self.drained()
+        before = self.backup(self.centre)
+        self.store(self.station, "s2 s3")
+        self.drained()
+        copy = self.backup(self.station)
+        self.station.stop()
+        self.centre.stop()
+        self.restore(self.station, copy)
+        self.restore(self.centre, before)
+        self.station.start()  # branches: its centre is away
+        self.station.wait_for_log('"event":"log_branched"')
+        self.centre.start()
+        wait_for(lambda: sorted(self.there().values()) == ["s1", "s2", "s3"], lambda: self.station.log)
+        self.assert_clean(self.centre)
+        self.assert_clean(self.station)
+
     def test_a_centre_that_was_put_back_gives_out_new_ids_and_is_filled_up(self):
         first = self.store(self.station, "s1")
         own = self.store(self.centre, "c1")
@@ -244,6 +262,21 @@ class Stations(Restored):
 
     def test_notes_from_before_a_branch_for_a_centre_whose_lack_a_batch_finds(self):
         self.put_the_centre_back(station_sends_first=True)
+
+    def test_notes_that_a_centre_lost_come_before_the_next(self):
+        record = {"id": self.store(self.station, "s1")[0]}
+        said = [note(self.station, record, "kept")]
+        wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
+        copy = self.backup(self.centre)
+        said += [note(self.station, record, "lost"), note(self.station, record, "lost too")]
+        wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
+        self.centre.stop()
+        self.restore(self.centre, copy)
+        said.append(note(self.station, record, "next"))
+        self.centre.start()
+        wait_for(lambda: said[-1] in notes_of(self.centre, record), lambda: self.station.log)
+        wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
+        self.assert_clean(self.centre)
 
     def test_two_folders_that_go_on_under_one_history(self):
         self.store(self.station, "s1")
