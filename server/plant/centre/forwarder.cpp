@@ -155,7 +155,7 @@ Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
   const std::string path = fmt::format("/v1/log/{}/{}", batch->origin, batch->from);
   const http_client::HttpAnswer answer = link_.put(path, api::batch_text(*batch), goes_on(stop));
   if (stop.stop_requested() && answer.status == 0) return Sent::Nothing;
-  return answered(answer, confirmed_ + static_cast<std::int64_t>(batch->records.size()),
+  return answered(answer, batch->from - 1 + static_cast<std::int64_t>(batch->records.size()),
                   batch->last_note);
 }
 

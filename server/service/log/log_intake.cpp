@@ -354,16 +354,25 @@ Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& 
   return true;
 }
 
-/// Those that are new here, of the station's history or one below it, beside records that are here.
+/// Those that are new here, of the station's history, one below it or a branch of those, beside
+/// records that are here.
 Result<void> LogIntake::store_notes(store::Stores& stores, const ForwardedBatch& batch,
                                     std::int64_t station) const {
   std::set<std::int64_t> histories;
   for (std::int64_t at = station; histories.insert(at).second;) {
     if (const auto base = stores.origins.base(at)) at = base->origin;
   }
+  const auto is_of_station = [&](std::int64_t origin) {
+    while (!histories.contains(origin)) {
+      const auto base = stores.origins.base(origin);
+      if (!base) return false;
+      origin = base->origin;
+    }
+    return true;
+  };
   for (Note note : batch.notes) {
     const auto there = parse_note_id(note.id, origins_);
-    if (!there || !histories.contains(there->origin)) continue;
+    if (!there || !is_of_station(there->origin)) continue;
     if (there->number <= stores.notes.newest_of(there->origin)) continue;
     const auto name = parse_measurement_id(note.measurement, origins_);
     const auto row = name ? existing_row_of(stores, *name, origins_) : name.error();

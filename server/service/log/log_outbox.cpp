@@ -23,10 +23,14 @@ constexpr std::int64_t kNotesABatch = 500;
 Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most,
                                          std::optional<std::int64_t> noted) const {
   return database_.readers().wait([&](const store::Stores& stores) -> Result<Batch> {
-    Batch batch{.from = after + 1};
     const RowNames names = row_names(tables_, log_.origins());
+    const auto next_note = noted ? stores.notes.own_after(*noted, 1) : std::vector<store::Note>();
+    const auto* of_note = next_note.empty() ? nullptr : empty_history(next_note.front().id);
+    const bool is_of_note = of_note != nullptr && of_note->begin <= after;
+    if (is_of_note) after = of_note->begin;
+    const LogService::History& history = is_of_note ? *of_note : log_.history_of(after + 1);
+    Batch batch{.from = after + 1};
     std::int64_t end = std::min(after + most, stores.log.state().size);
-    const LogService::History& history = log_.history_of(after + 1);
     if (history.end) end = std::min(end, *history.end);
     if (!history.signer && end > after) {
       batch.unsigned_to = history.end;
@@ -64,6 +68,12 @@ Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most,
   });
 }
 
+/// The history of the note, if it has no record: those that follow do not name it.
+const LogService::History* LogOutbox::empty_history(std::int64_t note) const {
+  const auto& history = log_.history_of(log_.origins().own(Counted::Note, note));
+  return history.signer && history.end == history.begin ? &history : nullptr;
+}
+
 /// @param place how many records of this folder the centre has with the batch
 void LogOutbox::add_notes(const store::Stores& stores, std::int64_t place, std::int64_t behind,
                           Batch& batch) const {
@@ -76,7 +86,8 @@ void LogOutbox::add_notes(const store::Stores& stores, std::int64_t place, std::
     if (digits_of_origin(ended.origin) == batch.origin) last = ended.newest[3];
   }
   for (store::Note& note : notes) {
-    if (note.id > last) return;
+    const LogService::History* const of = empty_history(note.id);
+    if (note.id > last || (of != nullptr && of->digits != batch.origin)) return;
     std::string record;
     stores.measurements.find(note.measurement, [&](const store::MeasurementRow& row) {
       if (!row.is_forwarded() && row.place_in_log() > place) return;

@@ -81,6 +81,7 @@ class LogOutbox {
   std::int64_t committed() const;
 
  private:
+  const LogService::History* empty_history(std::int64_t note) const;
   void add_notes(const store::Stores& stores, std::int64_t place, std::int64_t behind,
                  Batch& batch) const;
 

@@ -70,6 +70,11 @@ const LogService::History& LogService::history_of(std::int64_t place) const {
   });
 }
 
+const LogService::History& LogService::history_of(std::string_view digits) const {
+  return *std::find_if(histories_.begin(), histories_.end(),
+                       [digits](const History& history) { return history.digits == digits; });
+}
+
 void LogService::start() {
   next_telling_ = Steady::now() + kBetweenTellings;
   thread_ = Thread("the log", [this](const std::stop_token& stop) { run(stop); });

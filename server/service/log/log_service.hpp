@@ -100,6 +100,8 @@ class LogService {
   };
   /// That of a place in the log.
   const History& history_of(std::int64_t place) const;
+  /// @pre it is one of this folder
+  const History& history_of(std::string_view digits) const;
 
   /// Takes note of origins and keys that other daemons have added. Used inside a job.
   /// @throws store::StorageFailure where one of them has begun a branch: this one goes on under the

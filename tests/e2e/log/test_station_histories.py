@@ -278,6 +278,29 @@ class Stations(Restored):
         wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
         self.assert_clean(self.centre)
 
+    def test_notes_of_a_branch_without_records(self):
+        record = {"id": self.store(self.station, "s1")[0]}
+        self.drained()
+        said = []
+        for text in ("of the first branch", "of the second", "of the third"):
+            self.centre.stop()
+            copy = self.backup(self.station, f"{text}.db")
+            self.station.stop()
+            for left in self.station.data.glob("damaged*"):
+                shutil.rmtree(left)
+            self.restore(self.station, copy)
+            self.station.start()
+            said.append(note(self.station, record, text))
+            if text == "of the second":
+                self.centre.start()
+                wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
+                self.centre.stop()
+        new = self.store(self.station, "s2")
+        self.centre.start()
+        wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
+        wait_for(lambda: new[0] in self.there(), lambda: self.station.log)
+        self.assert_clean(self.centre)
+
     def test_two_folders_that_go_on_under_one_history(self):
         self.store(self.station, "s1")
         self.drained()
