@@ -146,16 +146,44 @@ void add_fits(const References& references, Figures& to) {
     const auto circle = probing::fit_circle(points);
     if (circle) to.add(name, ".x .y .r", {circle->centre.x, circle->centre.y, circle->radius});
   }
-  for (int k = 1; k <= 3; ++k) {
-    const std::string name = fmt::format("sphere.{}", k);
-    const auto rows = references.set(name);
-    std::vector<machine::Vec3> points;
-    for (std::size_t i = 1; i < rows.size(); ++i) points.push_back(point(rows[i]));
-    const auto sphere = probing::fit_sphere(points, {point(rows.at(0)), std::stod(rows[0].at(3))});
-    if (!sphere) continue;
+  // Sets of points in space, behind a row that says what is near them.
+  const auto each = [&](const char* kind, int count, const auto& fit) {
+    for (int k = 1; k <= count; ++k) {
+      const std::string name = fmt::format("{}.{}", kind, k);
+      std::vector<machine::Vec3> points;
+      std::vector<double> near;
+      for (const Words& row : references.set(name)) {
+        if (near.empty()) {
+          for (const std::string& word : row) near.push_back(std::stod(word));
+        } else {
+          points.push_back(point(row));
+        }
+      }
+      fit(name, points, near);
+    }
+  };
+  using Points = std::vector<machine::Vec3>;
+  using Near = std::vector<double>;
+  each("sphere", 3, [&](const std::string& name, const Points& points, const Near& n) {
+    const auto sphere = probing::fit_sphere(points, {{n.at(0), n.at(1), n.at(2)}, n.at(3)});
+    if (!sphere) return;
     const auto& [x, y, z] = sphere->centre;
     to.add(name, ".x .y .z .r", {x, y, z, sphere->radius});
-  }
+  });
+  each("plane", 8, [&](const std::string& name, const Points& points, const Near& n) {
+    const auto plane = probing::fit_plane(points, {n.at(0), n.at(1), n.at(2)});
+    if (!plane) return;
+    const auto& [a, b, c] = plane->normal;
+    to.add(name, ".a .b .c .d", {a, b, c, dot(plane->normal, plane->point)});
+  });
+  each("cylinder", 8, [&](const std::string& name, const Points& points, const Near& n) {
+    const auto cylinder = probing::fit_cylinder(
+        points, {{n.at(0), n.at(1), n.at(2)}, {n.at(3), n.at(4), n.at(5)}, n.at(6)});
+    if (!cylinder) return;
+    const auto& [x, y, z] = cylinder->point;
+    const auto& [a, b, c] = cylinder->direction;
+    to.add(name, ".x .y .z .a .b .c .r", {x, y, z, a, b, c, cylinder->radius});
+  });
 }
 
 void add_programs(const References& references, const iso286::ToleranceTables& tables,

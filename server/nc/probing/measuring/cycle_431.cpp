@@ -1,7 +1,6 @@
 #include <array>
 #include <cmath>
 
-#include "nc/machine/tolerance.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
 #include "nc/probing/log/measuring_log.hpp"
@@ -45,11 +44,9 @@ struct TiltedAxes {
 CycleResult<TiltedAxes> axes_through(const std::vector<Contact>& contacts) {
   const Vec3 along = contacts[1].ball_centre - contacts[0].ball_centre;
   const Vec3 side = contacts[2].ball_centre - contacts[0].ball_centre;
-  const Vec3 normal = cross(along, side);
-  if (norm(normal) <= tolerance::kCollinear * norm(along) * norm(side)) {
-    return nc_error(1081, "the three points lie on a straight line");
-  }
-  TiltedAxes axes{.main = unit(along), .secondary = {}, .normal = unit(normal)};
+  const auto plane = fit_plane(centres_in_space(contacts), cross(along, side));
+  if (!plane) return nc_error(1081, "the three points lie on a straight line");
+  TiltedAxes axes{.main = unit(along), .secondary = {}, .normal = plane->normal};
   axes.secondary = cross(axes.normal, axes.main);
   return axes;
 }

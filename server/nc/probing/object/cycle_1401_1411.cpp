@@ -121,10 +121,8 @@ CycleResult<void> probe_sphere(const CycleContext& context) {
   object->touches.back().transit = Transit::ClearanceHeight;
   const auto contacts = probing->touch({object->touches});
   if (!contacts) return contacts.error();
-  std::vector<Vec3> points;
-  for (const Contact& contact : *contacts) points.push_back(contact.ball_centre);
   const double ball = probing->motion().ball_radius();
-  const auto sphere = fit_sphere(points, {centre, half + ball});
+  const auto sphere = fit_sphere(centres_in_space(*contacts), {centre, half + ball});
   if (!sphere) return nc_error(1081, "no sphere passes near the touched points");
   object->point.measured = sphere->centre;
   return probing->finish(

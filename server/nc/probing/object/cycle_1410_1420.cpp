@@ -131,29 +131,26 @@ CycleResult<void> probe_plane(const CycleContext& context) {
     touches.push_back(probing->towards(point->nominal, *direction));
   }
   // Away from the material.
-  const auto normal_of = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 across = cross(b - a, c - a);
-    return dot(across, *direction) > 0 ? -across : across;
-  };
-  const Vec3 expected = normal_of(nominal[0], nominal[1], nominal[2]);
-  if (std::abs(dot(expected, *direction)) <= tolerance::kCollinear * (1 + norm(expected))) {
+  const auto expected = fit_plane(nominal, -*direction);
+  if (!expected || std::abs(dot(expected->normal, *direction)) <= tolerance::kCollinear) {
     return nc_error(1081, "the three points lie on a straight line");
   }
   const auto contacts = probing->touch({touches});
   if (!contacts) return contacts.error();
-  const Vec3 normal = unit(normal_of((*contacts)[0].ball_centre, (*contacts)[1].ball_centre,
-                                     (*contacts)[2].ball_centre));
+  const auto plane = fit_plane(centres_in_space(*contacts), -*direction);
+  if (!plane) return nc_error(1081, "the three touched points lie on a straight line");
+  const Vec3 normal = plane->normal;
   const double ball = probing->motion().ball_radius();
   for (std::size_t i = 0; i < 3; ++i)
     found.points[i].touch(face_behind((*contacts)[i], *direction, normal, ball), *direction);
-  found.turn = shortest_turn(expected, normal);
-  const WorkingPlane& plane = probing->motion().plane();
+  found.turn = shortest_turn(expected->normal, normal);
+  const WorkingPlane& working = probing->motion().plane();
   const auto spatial = [&](const Vec3& from) {
-    return machine::spatial_angles(shortest_turn(plane.to_input(from), plane.to_input(normal)));
+    return machine::spatial_angles(shortest_turn(working.to_input(from), working.to_input(normal)));
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
     found.angles.push_back({kSpatial.at(axis).meaning, kSpatial.at(axis).q,
-                            spatial({0, 0, 1})[axis], spatial(expected)[axis]});
+                            spatial({0, 0, 1})[axis], spatial(expected->normal)[axis]});
   }
   return probing->finish(found);
 }

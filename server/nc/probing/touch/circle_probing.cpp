@@ -38,6 +38,12 @@ std::vector<Point2> ball_centres(std::span<const Contact> contacts) {
   return centres;
 }
 
+std::vector<Vec3> centres_in_space(std::span<const Contact> contacts) {
+  std::vector<Vec3> centres;
+  for (const Contact& contact : contacts) centres.push_back(contact.ball_centre);
+  return centres;
+}
+
 CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
                                    double ball_radius) {
   auto circle = fit_circle(ball_centres(contacts));

@@ -31,6 +31,7 @@ struct CirclePlan {
 std::vector<Touch> circle_touches(const CirclePlan& plan);
 
 std::vector<Point2> ball_centres(std::span<const Contact> contacts);
+std::vector<Vec3> centres_in_space(std::span<const Contact> contacts);
 
 /// The circle through the ball centres, widened (inside) or narrowed (outside) by the ball's
 /// radius: compensating each touch along its probing direction would be wrong for a hole off its

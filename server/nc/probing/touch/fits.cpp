@@ -1,6 +1,8 @@
 #include "nc/probing/touch/fits.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include <cmath>
 #include <optional>
@@ -54,6 +56,20 @@ double diameter_factor(const Eigen::MatrixXd& jacobian) {
   return 2 * std::sqrt(normal.inverse()(2, 2));
 }
 
+Vector3d column_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+Vec3 vec3_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Points by rows around their mean, where they lose no digits.
+struct Centred {
+  explicit Centred(std::span<const Vec3> points) : rows(static_cast<Index>(points.size()), 3) {
+    for (Index row = 0; const Vec3& p : points) rows.row(row++) = column_of(p);
+    mean = rows.colwise().mean();
+    rows.rowwise() -= mean.transpose();
+  }
+  Columns3 rows;
+  Vector3d mean;
+};
+
 }  // namespace
 
 CycleResult<Circle> fit_circle(std::span<const Point2> points) {
@@ -95,6 +111,52 @@ std::optional<FittedSphere> fit_sphere(std::span<const Vec3> points, const Fitte
   Eigen::Vector4d sphere(near.centre.x, near.centre.y, near.centre.z, near.radius);
   if (!gauss_newton(sphere, tolerance::kSamePoint, linearise)) return std::nullopt;
   return FittedSphere{{sphere[0], sphere[1], sphere[2]}, sphere[3]};
+}
+
+std::optional<FittedPlane> fit_plane(std::span<const Vec3> points, const Vec3& towards) {
+  if (points.size() < 3) return std::nullopt;
+  const Centred all(points);
+  const Eigen::JacobiSVD<Columns3> svd(all.rows, Eigen::ComputeFullV);
+  const Vector3d& spread = svd.singularValues();
+  if (!(spread[1] - spread[2] > tolerance::kCollinear * spread[0])) return std::nullopt;
+  const Vec3 normal = vec3_of(svd.matrixV().col(2));
+  return FittedPlane{vec3_of(all.mean), dot(normal, towards) < 0 ? -normal : normal};
+}
+
+std::optional<FittedCylinder> fit_cylinder(std::span<const Vec3> points,
+                                           const FittedCylinder& near) {
+  using Five = Eigen::Matrix<double, 5, 1>;  // tilt and place of the axis across it, and the radius
+  if (points.size() < 5) return std::nullopt;
+  const Centred all(points);
+  const double size = all.rows.rowwise().norm().maxCoeff();
+  const Vector3d axis = column_of(unit(near.direction));
+  Eigen::Matrix<double, 3, 2> across;
+  across << axis.unitOrthogonal(), axis.cross(axis.unitOrthogonal());
+  const auto direction = [&](const Five& at) -> Vector3d { return axis + across * at.head<2>(); };
+  const auto linearise = [&](const Five& at) {
+    const double length = direction(at).norm();
+    const Vector3d along = direction(at) / length;
+    Linearised made{Eigen::VectorXd(all.rows.rows()), Eigen::MatrixXd(all.rows.rows(), 5)};
+    for (Index k = 0; k < all.rows.rows(); ++k) {
+      const Vector3d from_axis = all.rows.row(k).transpose() / size - across * at.segment<2>(2);
+      const double height = from_axis.dot(along);
+      const Vector3d radial = from_axis - height * along;
+      const Eigen::RowVector2d outward = radial.normalized().transpose() * across;
+      made.residuals[k] = radial.norm() - at[4];
+      made.jacobian.row(k) << -height / length * outward, -outward, -1;
+    }
+    return made;
+  };
+  Five cylinder = Five::Zero();
+  cylinder.segment<2>(2) = across.transpose() * (column_of(near.point) - all.mean) / size;
+  cylinder[4] = near.radius / size;
+  if (!gauss_newton(cylinder, kSettled, linearise)) return std::nullopt;
+  const Linearised found = linearise(cylinder);
+  if (!least_squares(found.jacobian, found.residuals, tolerance::kCollinear)) return std::nullopt;
+  const Vector3d along = direction(cylinder).normalized();
+  const Vector3d place = size * across * cylinder.segment<2>(2);
+  return FittedCylinder{vec3_of(all.mean + place - along * along.dot(place)), vec3_of(along),
+                        size * cylinder[4]};
 }
 
 }  // namespace fitgauge::probing

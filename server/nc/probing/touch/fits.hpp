@@ -37,4 +37,27 @@ struct FittedSphere {
 std::optional<FittedSphere> fit_sphere(std::span<const machine::Vec3> points,
                                        const FittedSphere& near);
 
+struct FittedPlane {
+  machine::Vec3 point;   ///< the mean of the points
+  machine::Vec3 normal;  ///< of length 1
+};
+
+/// The plane of least squared distances from the points, exact for three of them, with its normal
+/// on the side of `towards`; nothing if fewer than three are given, or if they show no plane: they
+/// lie on a line, or as far off every plane.
+std::optional<FittedPlane> fit_plane(std::span<const machine::Vec3> points,
+                                     const machine::Vec3& towards);
+
+struct FittedCylinder {
+  machine::Vec3 point;      ///< of the axis, the nearest to the mean of the points
+  machine::Vec3 direction;  ///< of the axis, of length 1
+  double radius = 0;
+};
+
+/// The cylinder of least squared distances from the points (Gauss-Newton), searched from `near`,
+/// whose direction has any length; nothing if the points leave it open, as fewer than five do and
+/// those of one section, or if none is near it.
+std::optional<FittedCylinder> fit_cylinder(std::span<const machine::Vec3> points,
+                                           const FittedCylinder& near);
+
 }  // namespace fitgauge::probing

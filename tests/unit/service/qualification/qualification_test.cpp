@@ -81,6 +81,8 @@ TEST_CASE("this program computes what was published, each figure within its limi
   };
   CHECK(count("iso286.") == 57);  // 28 letters of holes and of shafts, and the rules
   CHECK(count("nist.") == 9 * 3 + 11 * 9);
+  CHECK(count("plane.") == 8 * 4);
+  CHECK(count("cylinder.") == 8 * 7);
   for (const char* kind :
        {"msa.", "iso22514.", "bosch.", "gum.h1.", "gum.h2.", "gum.h3.", "gum.h5.", "jcgm101.",
         "jcgm106.", "circle.", "sphere.", "8255.", "8210.", "444."}) {

@@ -78,4 +78,27 @@ TEST_CASE("what the scatter of touches makes of a diameter") {
   CHECK(factor(3, 30) == doctest::Approx(17).epsilon(0.1));
 }
 
+TEST_CASE("points that show no plane or no cylinder have none") {
+  using Points = std::vector<machine::Vec3>;
+  const machine::Vec3 up{0, 0, 1};
+  const Points corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                       {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  CHECK_FALSE(fit_plane(Points{{0, 0, 0}, {1, 0, 0}}, up));
+  CHECK_FALSE(fit_plane(Points{{3, 3, 3}, {3, 3, 3}, {3, 3, 3}}, up));
+  CHECK_FALSE(fit_plane(Points{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {5, 5, 5}}, up));
+  CHECK_FALSE(fit_plane(corners, up));
+  CHECK(fit_plane(Points{{0, 0, 7}, {1, 0, 7}, {0, 1, 7}}, -up)->normal.z == -1);
+
+  const FittedCylinder near{{0.5, 0.5, 0}, up, 0.7};
+  const auto found = fit_cylinder(corners, near);
+  REQUIRE(found);
+  CHECK(norm(found->point - machine::Vec3{0.5, 0.5, 0.5}) < 1e-12);
+  CHECK(std::abs(found->radius - std::sqrt(0.5)) < 1e-12);
+  CHECK_FALSE(fit_cylinder(Points(corners.begin(), corners.begin() + 4), near));
+  Points section;
+  for (int k = 0; k < 8; ++k) section.push_back({std::cos(k), std::sin(k), 4});
+  CHECK_FALSE(fit_cylinder(section, {{0, 0, 0}, up, 1}));
+  CHECK_FALSE(fit_cylinder(Points(6, {1, 1, 1}), near));
+}
+
 }  // namespace fitgauge::probing
