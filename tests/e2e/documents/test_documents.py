@@ -4,6 +4,7 @@ import re
 import subprocess
 import sys
 import unittest
+import xml.etree.ElementTree as tree
 
 from support.daemon import FITGAUGED, ROOT, DaemonTest
 from support.documents import Reader, agrees, blocks
@@ -75,6 +76,22 @@ class Commands(unittest.TestCase):
             text = re.sub(r"```.*?```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
             for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", text):
                 self.assertTrue((path.parent / target).exists(), f"{path.name}: {target}")
+
+    def test_drawings_are_shown_and_legible_in_both_modes(self):
+        pages = "".join(path.read_text(encoding="utf-8") for path in DOCUMENTS)
+        drawings = sorted((ROOT / "docs/images").glob("*.svg"))
+        self.assertGreaterEqual(len(drawings), 3)
+        for path in drawings:
+            root = tree.parse(path).getroot()
+            parts = {each.tag.rsplit("}")[-1]: each.text for each in root}
+            self.assertRegex(pages, rf"!\[[^\]]{{20,}}\]\(\.\./images/{re.escape(path.name)}\)")
+            self.assertTrue(parts["title"] and parts["desc"], path.name)
+            self.assertIn("prefers-color-scheme: dark", parts["style"], path.name)
+            width = float(root.get("width"))
+            for text in root.iter("{http://www.w3.org/2000/svg}text"):  # of 14 px: 7.2 a letter
+                room = {"middle": 2 * min(float(text.get("x")), width - float(text.get("x")))}.get(
+                    text.get("text-anchor"), width - float(text.get("x")))
+                self.assertLessEqual(7.2 * len(text.text), room, f"{path.name}: {text.text}")
 
     def test_the_index_names_every_document(self):
         for path in (ROOT / "docs").rglob("*.md"):
