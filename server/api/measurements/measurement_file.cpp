@@ -148,7 +148,8 @@ std::vector<std::pair<std::string_view, std::string>> other_fields(const app::Me
   if (m.conformance) fields.emplace_back("probability", format(m.rule.probability()));
   for (const bool is_text : {false, true}) {
     for (const app::MeasurementField& field : app::kGivenFields.subspan(app::kLabels.size())) {
-      if ((field.text != nullptr) == is_text) add(field);
+      const bool has_place = field.name == "size_operator" || field.name == "envelope";
+      if ((field.text != nullptr) == is_text && !has_place) add(field);
     }
   }
   return fields;
@@ -216,6 +217,8 @@ Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& m) {
   value.class_name = m.class_name.value_or("");
   value.quantity = m.quantity.value_or(gauging::Quantity::Diameter);
   if (m.has_feature()) value.feature = word(m.feature);
+  value.size_operator = m.size_operator.value_or("");
+  value.has_envelope = m.envelope.has_value();
   value.status = status_of(m.result.verdict);
   value.uncertainty = m.standard_uncertainty;
   value.part_id = m.part_id;

@@ -73,7 +73,9 @@ struct OutgoingValue {
   std::optional<Length> lower{};
   std::string_view class_name{};  ///< empty: the limits are those of a drawing
   gauging::Quantity quantity = gauging::Quantity::Diameter;
-  std::string_view feature{};  ///< `hole` or `shaft`; empty: it is none
+  std::string_view feature{};        ///< `hole` or `shaft`; empty: it is none
+  std::string_view size_operator{};  ///< of ISO 14405-1; empty: none
+  bool has_envelope = false;         ///< the size has the modifier (E)
   Status status = Status::Pass;
   std::optional<Length> uncertainty{};  ///< standard
   std::optional<std::string_view> part_id{};

@@ -16,6 +16,8 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr std::size_t kUncertainty = aqdef::place_of("uncertainty_um");
+constexpr std::size_t kSizeOperator = aqdef::place_of("size_operator");
+constexpr std::size_t kEnvelope = aqdef::place_of("envelope");
 constexpr std::string_view kEnding = "CharacteristicMeasurement";
 /// Quantities between two points of a surface, as a gauge for sizes measures them.
 constexpr std::array kSizes = {
@@ -189,6 +191,13 @@ Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t 
     std::string_view kind = element.name();
     kind.remove_suffix(kEnding.size());
     fill(aqdef::kQuantity, std::string(quantity_of(kind, !fields_[aqdef::kFeature].empty())));
+  }
+  const auto quantity = gauging::quantity_from_word(fields_[aqdef::kQuantity]);
+  if (!quantity || gauging::has_feature(*quantity)) {  // else the modifiers mean nothing here
+    const auto* const nominal = definitions_.nominal(item->nominal);
+    const auto* const definition = definitions_.definition(nominal->definition);
+    fill(kSizeOperator, definition->size_operator);
+    fill(kEnvelope, definition->envelope);
   }
   if (const auto read = read_value(element, line); !read) return read.error();
   if (const auto read = read_time(element, line); !read) return read.error();

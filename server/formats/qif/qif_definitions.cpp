@@ -65,9 +65,14 @@ void Definitions::take(std::string_view list, const Element& element) {
     Definition& definition = definitions_[id];
     definition = {.upper = element.text("Tolerance/MaxValue"),
                   .lower = element.text("Tolerance/MinValue"),
+                  .size_operator = element.text("DimensionModifiers/DeterminationModifier"),
                   .name = element.text("Name")};
-    const std::string is_limit = element.text("Tolerance/DefinedAsLimit");
-    definition.is_limit = is_limit == "true" || is_limit == "1";
+    const auto is_true = [&](std::string_view path) {
+      const std::string text = element.text(path);
+      return text == "true" || text == "1";
+    };
+    definition.is_limit = is_true("Tolerance/DefinedAsLimit");
+    if (is_true("EnvelopeRequirement")) definition.envelope = "required";
     for (const auto& fits : element.find("LimitsAndFitsSpecification")) {
       definition.class_name = fits.text("FormVariance") + fits.text("Grade");
     }
@@ -75,6 +80,7 @@ void Definitions::take(std::string_view list, const Element& element) {
       if (name == "tolerance_class") definition.class_name = text;
       if (name == "feature") definition.feature = text;
       if (name == "quantity") definition.quantity = text;
+      if (name == "size_operator") definition.size_operator = text;
     }
   } else if (list == "FeatureDefinitions") {
     const std::string side = element.text("InternalExternal");

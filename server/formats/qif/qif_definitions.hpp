@@ -47,6 +47,8 @@ class Definitions {
     std::string class_name{};
     std::string feature{};
     std::string quantity{};
+    std::string size_operator{};
+    std::string envelope{};
     std::string name{};
   };
 

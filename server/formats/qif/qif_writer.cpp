@@ -52,6 +52,10 @@ std::string_view characteristic_of(gauging::Quantity quantity) {
   return "Diameter";
 }
 
+/// DimensionDeterminationEnumType: the operators of ISO 14405-1 that QIF knows.
+constexpr std::string_view kDeterminations[] = {"LP", "LS", "GG", "GX", "GN",
+                                                "GC", "CC", "CA", "CV"};
+
 Result<void> check(std::string_view name, std::string_view text) {
   if (is_xml_text(text)) return {};
   return Error{ErrorCode::FieldInvalid,
@@ -73,7 +77,17 @@ std::uint32_t QifWriter::item_of(const OutgoingValue& value) {
   if (!value.class_name.empty()) {
     of_definition.emplace_back("tolerance_class", std::string(value.class_name));
   }
-  const std::string definition = attributes(of_definition) + tolerance(value);
+  std::string modifiers =
+      value.has_envelope ? "<EnvelopeRequirement>true</EnvelopeRequirement>" : "";
+  if (std::ranges::find(kDeterminations, value.size_operator) != std::end(kDeterminations)) {
+    modifiers += fmt::format(
+        "<DimensionModifiers><DeterminationModifier>{}</DeterminationModifier></"
+        "DimensionModifiers>",
+        value.size_operator);
+  } else if (!value.size_operator.empty()) {
+    of_definition.emplace_back("size_operator", value.size_operator);
+  }
+  const std::string definition = attributes(of_definition) + modifiers + tolerance(value);
   const std::string_view kind = characteristic_of(value.quantity);
   const std::string nominal =
       value.nominal ? fmt::format("<TargetValue>{}</TargetValue>", format_mm(*value.nominal)) : "";
@@ -110,7 +124,8 @@ Result<void> QifWriter::add(const OutgoingValue& value) {
   }
   for (const auto& [name, text] : {std::pair("part_id", value.part_id.value_or("")),
                                    std::pair("characteristic", value.characteristic.value_or("")),
-                                   std::pair("tolerance_class", value.class_name)}) {
+                                   std::pair("tolerance_class", value.class_name),
+                                   std::pair("size_operator", value.size_operator)}) {
     if (const auto checked = check(name, text); !checked) return checked;
   }
   if (is_empty()) qpid_ = aqdef::guid_of(value.origin, value.number);

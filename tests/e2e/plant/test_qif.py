@@ -136,6 +136,8 @@ class Qif(Folders):
                     {"nominal_mm": 8, "feature": "hole", "upper_um": 5, "measured_mm": "8.0001", "part_id": "P2"},
                     {"nominal_mm": 8, "feature": "hole", "lower_um": 5, "measured_mm": "8.0001"},
                     {"designation": "25 g6", "measured_mm": "24.99", "rule": "guard_band", "uncertainty_um": "0.8", "coverage_factor": "1.5"},
+                    {"designation": "25 H7(E)", "measured_mm": "25.01", "size_operator": "GG", "go_gauge": "fails"},
+                    {"nominal_mm": 8, "feature": "hole", "upper_um": 5, "lower_um": 0, "measured_mm": "8.001", "size_operator": "SD"},
                     {"designation": "25 H7", "measured_mm": "25.03", "characteristic": "Bore"}, {"designation": "25 H7", "measured_mm": "24.99"},
                     {"designation": "25 H7", "measured_mm": "25.01", "rule": "conformance", "uncertainty_um": 1, "probability": "0.9",
                      "temperature_c": 23, "part_material": "steel", "scale_temperature_c": "21.5", "scale_expansion_um_per_m_k": 8}):

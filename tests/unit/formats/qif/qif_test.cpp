@@ -65,6 +65,39 @@ TEST_CASE("what is written is read with the same values") {
   CHECK(read->lines.front() < read->lines.back());
 }
 
+TEST_CASE("the operator of a size and the envelope are elements of the definition") {
+  QifWriter writer;
+  for (const char* const name : {"GG", "SD"}) {
+    OutgoingValue sized = value(1, 25'010'000);
+    sized.size_operator = name;
+    sized.has_envelope = name == std::string("GG");
+    REQUIRE(writer.add(sized).has_value());
+  }
+  const std::string text = writer.text();
+  CAPTURE(text);
+  // In the order of the schema: attributes, envelope, modifiers, tolerance.
+  CHECK(text.find("</Attributes><EnvelopeRequirement>true</EnvelopeRequirement><DimensionModifiers>"
+                  "<DeterminationModifier>GG</DeterminationModifier></DimensionModifiers>"
+                  "<Tolerance>") != std::string::npos);
+  CHECK(text.find(R"(<AttributeStr name="size_operator" value="SD"/>)") != std::string::npos);
+  const auto read = read_qif(text, {});
+  REQUIRE(read.has_value());
+  CHECK(read->csv.find(";GG;required;") != std::string::npos);
+  CHECK(read->csv.find(";SD;;") != std::string::npos);
+  // Of a distance, of which nothing says that it is a size, they are passed over.
+  std::string distance = text;
+  for (const auto& [from, to] : {std::pair("Diameter"s, "Length"s),
+                                 std::pair("name=\"tolerance_class\""s, "name=\"other\""s)}) {
+    for (std::size_t at = 0; (at = distance.find(from, at)) != std::string::npos;) {
+      distance.replace(at, from.size(), to);
+    }
+  }
+  const auto other = read_qif(distance, {});
+  REQUIRE(other.has_value());
+  CHECK(other->csv.find("distance") != std::string::npos);
+  CHECK(other->csv.find(";GG;") == std::string::npos);
+}
+
 TEST_CASE("the same values are the same bytes, and a text that XML cannot hold is refused") {
   CHECK(written(20) == written(20));
   QifWriter writer;
