@@ -6,16 +6,15 @@ import { field, h } from '../dom.js';
 import { downloadLink } from '../download.js';
 import { FilterBar } from '../filter_bar.js';
 import { date, dateTime, explain, signed, t, time } from '../i18n.js';
-import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
 import { CertificateForm } from '../parts/certificate.js';
 import { correct } from '../parts/correction.js';
+import { LongList } from '../parts/long_list.js';
 import { note } from '../parts/note.js';
 import { runRow } from '../parts/run_row.js';
 import { limitsText, measuredText, noteText, verdictMark, VERDICTS } from '../verdict.js';
 
 const FIELDS = ['part_id', 'characteristic', 'cause'];
-const PAGE = 50;
 /** What the service writes a list as, by its `format`. */
 const FORMS = { csv: 'CSV', xlsx: 'Excel', dfq: 'Q-DAS', qif: 'QIF' };
 /** Of the times in a workbook. */
@@ -23,7 +22,6 @@ const ZONE = Intl.DateTimeFormat().resolvedOptions().timeZone ?? '';
 
 export function mount(main, route) {
   const leaving = new AbortController();
-  const latest = new Latest(leaving.signal);
   const inputs = Object.fromEntries(FIELDS.map((name) => [name,
     h('input', { type: 'text', name, autocomplete: 'off', spellcheck: 'false', onchange: () => search() })]));
   const bar = new FilterBar(route.options, () => search());
@@ -32,76 +30,61 @@ export function mount(main, route) {
     h('option', { value: word, selected: word === (route.options.verdict ?? '') }, word ? t(`verdict.${word}`) : t('parts.any'))));
   const corrected = h('input', { type: 'checkbox', checked: route.options.history === 'all', onchange: () => search() });
   const said = h('p.note', { role: 'status' });
-  const rows = h('tbody');
-  const table = h('div.scroll.records', { tabindex: 0, role: 'region', 'aria-label': t('view.parts') },
-    h('table', h('thead', h('tr', ['field.part_id', 'field.characteristic', 'trend.verdict', 'trend.value', 'parts.deviation', 'parts.limits', 'parts.by', 'trend.time']
-      .map((name) => h('th', { scope: 'col' }, t(name))), h('td'))), rows));
-  const more = h('button', { type: 'button', hidden: true, onclick: () => read() }, t('parts.more'));
+  const table = h('table', h('thead', h('tr', { 'aria-rowindex': 1 }, ['field.part_id', 'field.characteristic', 'trend.verdict', 'trend.value', 'parts.deviation', 'parts.limits', 'parts.by', 'trend.time']
+    .map((name) => h('th', { scope: 'col' }, t(name))), h('td'))), h('tbody'));
+  const list = new LongList(table, t('view.parts'), {
+    read, rowOf, count, headOf: (run) => runRow(run, leaving.signal), leaving: leaving.signal,
+    onPlace: (rank) => { at = rank; go({ view: 'parts', options: options() }, { refine: true }); },
+    onProblem: (problem) => { said.textContent = explain(problem); },
+  });
   const exported = Object.fromEntries(Object.entries(FORMS).map(([format, form]) => [format,
     downloadLink({ download: `measurements.${format}` }, t('parts.save', { form }), (reason) => { said.textContent = reason; }, { bounded: format !== 'csv' })]));
   const certificate = new CertificateForm((reason) => { said.textContent = reason; });
-  const replaced = new Set();
-  // The list goes on by itself where its end comes into sight.
-  const end = new IntersectionObserver(([{ isIntersecting }]) => isIntersecting && !reading && read(), { rootMargin: '400px' });
-  let after = '';
-  let run;
-  let reading = false;
+  /** How many rows are older than the first in sight. */
+  let at = /^\d+$/.test(route.options.at ?? '') ? Number(route.options.at) : undefined;
 
   main.replaceChildren(h('div.desk.parts', h('h1.unseen', { tabindex: -1 }, t('view.parts')),
     h('form.line', { onsubmit: (event) => { event.preventDefault(); search(); } },
       FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict), bar.element,
       h('label.choice', corrected, h('span', t('parts.history'))),
       h('button.unseen', { type: 'submit', tabindex: -1 }, t('parts.search'))),
-    h('p.actions', Object.values(exported)), certificate.element, said, table, h('p.actions', more)));
+    h('p.actions', Object.values(exported)), certificate.element, said, list.place, list.scroller));
 
   /** As the address has it. */
-  const options = () => ({ ...filter(), source: '', from: '', to: '', ...bar.options });
+  const options = () => ({ ...filter(), source: '', from: '', to: '', ...bar.options, at });
   /** As the service takes it. What runs have measured belongs to the history of a part. */
   const filter = () => ({
     source: inputs.part_id.value.trim() ? 'all' : '',
     ...bar.query, ...Object.fromEntries(FIELDS.map((name) => [name, inputs[name].value.trim()])), verdict: verdict.value, history: corrected.checked ? 'all' : '',
   });
 
-  function search() {
+  async function search(rank) {
+    at = rank;
     go({ view: 'parts', options: options() }, { refine: true });
-    after = '';
-    run = undefined;
-    more.hidden = true;
-    rows.replaceChildren();
     for (const [format, link] of Object.entries(exported)) link.href = url(['measurements'], { ...filter(), format, time_zone: format === 'xlsx' ? ZONE : '' });
     const { part_id, order } = filter();
     certificate.show({ part_id, order });
-    return read();
+    said.textContent = '';
+    await list.open(rank);
+    if (list.length === 0) said.textContent = t('parts.none');
   }
 
-  async function read() {
-    reading = true;
-    try {
-      const page = await latest.run((signal) => getJson(url(['measurements'], { ...filter(), sort: 'newest', limit: PAGE, notes: 'shown', after }), { signal }));
-      if (!page) return;
-      // A correction is newer than what it corrects, so it was read before.
-      for (const { correction_of: old } of page.measurements) if (old) replaced.add(old);
-      rows.append(...page.measurements.flatMap(rowsOf));
-      after = page.next ?? '';
-      more.hidden = !after;
-      said.textContent = rows.children.length ? '' : t('parts.none');
-      table.hidden = !rows.children.length;
-    } catch (problem) {
-      said.textContent = explain(problem);
-    } finally {
-      reading = false;
-    }
-    // What is in sight already tells nobody that it is.
-    end.unobserve(more);
-    end.observe(more);
+  const listed = async (asked, signal) => (await getJson(url(['measurements'], { ...filter(), ...asked }), { signal })).measurements;
+
+  /** A record does not say that it was corrected: it is missing among those that count. */
+  async function read(asked, signal) {
+    const [records, current] = await Promise.all([listed({ ...asked, notes: 'shown' }, signal), corrected.checked && listed({ ...asked, history: '' }, signal)]);
+    const counting = current && new Set(current.map(({ id }) => id));
+    return records.map((record) => ({ record, isReplaced: counting && !counting.has(record.id) }));
   }
 
-  /** What a run has measured stands below it. */
-  function rowsOf(record) {
-    const isNext = record.run_id && record.run_id !== run;
-    run = record.run_id;
-    return [isNext && runRow(run, leaving.signal),
-      row(record, replaced.has(record.id), { onCorrect: () => change(record), onNote: () => addNote(record) })].filter(Boolean);
+  async function count(before, signal) {
+    const { groups } = await getJson(url(['measurements', 'summary'], { ...filter(), group_by: 'machine', received_to: before }), { signal });
+    return groups.reduce((sum, group) => sum + group.count, 0);
+  }
+
+  function rowOf({ record, isReplaced }) {
+    return row(record, isReplaced, { onCorrect: () => change(record), onNote: () => addNote(record) });
   }
 
   async function change(record) {
@@ -109,15 +92,12 @@ export function mount(main, route) {
   }
 
   async function addNote(record) {
-    if (await note(record)) search();
+    if (await note(record)) search(at);
   }
 
   bar.offer(leaving.signal);
-  search();
-  return () => {
-    leaving.abort();
-    end.disconnect();
-  };
+  search(at);
+  return () => leaving.abort();
 }
 
 function row(record, isReplaced, { onCorrect, onNote }) {
