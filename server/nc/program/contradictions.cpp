@@ -80,14 +80,17 @@ bool contradict(unsigned said, unsigned meant, std::span<const unsigned> groups)
   });
 }
 
-/// The nominal size of a cycle, and a limit of it.
-constexpr int kLimitsOfSize[][2] = {{262, 275}, {262, 276}, {262, 277}, {262, 278},
-                                    {282, 284}, {282, 285}, {283, 286}, {283, 287},
-                                    {311, 288}, {311, 289}, {262, 288}, {262, 289}};
+/// The nominal size of a cycle, and a limit of it or a tolerance of its centre.
+constexpr int kLimitsOfSize[][2] = {
+    {262, 275}, {262, 276}, {262, 277}, {262, 278}, {282, 284}, {282, 285}, {283, 286}, {283, 287},
+    {311, 288}, {311, 289}, {262, 288}, {262, 289}, {262, 279}, {262, 280}, {282, 279}, {283, 280}};
 
 /// The results of cycles.
 constexpr std::size_t kFirstResult = 150;
 constexpr std::size_t kEndOfResults = 200;
+
+/// Blocks of subprograms that are looked at for their calls.
+constexpr std::size_t kMostEntered = 10'000;
 
 class Contradictions {
  public:
@@ -95,6 +98,12 @@ class Contradictions {
       : program_(program), diagnostics_(diagnostics) {}
 
   void check() {
+    for (const Block& block : program_.blocks()) {
+      const auto* definition = std::get_if<klartext::LabelDefinition>(&block.statement);
+      const auto* number =
+          definition == nullptr ? nullptr : std::get_if<std::uint32_t>(&definition->label);
+      if (number != nullptr) labels_.try_emplace(*number, &block);
+    }
     for (const Block& block : program_.blocks()) {
       block_ = &block;
       std::visit([this](const auto& statement) { visit(statement); }, block.statement);
@@ -117,7 +126,7 @@ class Contradictions {
   // --- what stands before a block that probes
   void visit(const auto&) {}
   void visit(const klartext::LabelDefinition&) { forget(); }
-  void visit(const klartext::LabelCall&) { forget(); }
+  void visit(const klartext::LabelCall& call) { forget(), enter(call); }
   void visit(const klartext::CallProgram&) { leave(); }
   void visit(const klartext::CallSelectedProgram&) { leave(); }
   void visit(const klartext::ToolCall&) { forget(); }
@@ -126,18 +135,25 @@ class Contradictions {
   void visit(const klartext::CycleCall& call) { read(call.words); }
   void visit(const klartext::Stop&) { forget(); }
   void visit(const klartext::CyclePart& part) {
+    if (part.family == klartext::CycleFamily::TchProbe) constants_.clear();
     if (part.family == klartext::CycleFamily::CyclDef && part.number == 12) leave();
   }
   void forget() { spindle_ = cutter_ = nullptr; }
-  void leave() { forget(), calls_programs_ = true; }
+  void leave() { forget(), constants_.clear(), calls_programs_ = true; }
 
   // --- what is read and set
   void visit(const klartext::Assignment& assignment) {
     check_line_before(assignment.target);
     read(assignment.value);
-    set(assignment.target);
+    assign(assignment);
   }
-  void visit(const klartext::ConditionalJump& jump) { read(jump.condition); }
+  void assign(const klartext::Assignment& assignment) {
+    set(assignment.target);
+    const auto* number = std::get_if<double>(&assignment.value);
+    if (number != nullptr && !block_->skip)
+      constants_[key(assignment.target)] = {*number, block_->written, block_};
+  }
+  void visit(const klartext::ConditionalJump& jump) { read(jump.condition), constants_.clear(); }
   void visit(const klartext::SetUndefined& statement) { set(statement.target); }
   void visit(const klartext::CircleData& data) { set(data.target), set(data.target, 3); }
   void visit(const klartext::TableRead& table) {
@@ -146,6 +162,7 @@ class Contradictions {
 
   void set(klartext::QRef parameter, unsigned behind = 0) {
     const std::size_t number = parameter.number + behind;
+    constants_.erase({parameter.space, number});
     if (parameter.space == klartext::QSpace::Q && number < kEndOfResults) set_.set(number);
   }
   void read(const klartext::Expr& value) {
@@ -165,7 +182,35 @@ class Contradictions {
       const int m = static_cast<int>(*number);
       if (m == 3 || m == 4 || m == 13 || m == 14) spindle_ = block_;
       if (m == 5 || m == 6 || m == 19) spindle_ = nullptr;
+      if (m == 2 || m == 30) constants_.clear();
     }
+  }
+
+  /// Looks at the cycles of a called subprogram with the constants of the call.
+  void enter(const klartext::LabelCall& call) {
+    const Block* const caller = block_;
+    const Block* const end = program_.blocks().data() + program_.blocks().size();
+    const auto* number = std::get_if<std::uint32_t>(&call.label);
+    const auto label = number == nullptr ? labels_.end() : labels_.find(*number);
+    bool is_plain = label != labels_.end();
+    is_called_ = true;
+    for (block_ = is_plain ? label->second : end; is_plain && block_ != end; ++block_) {
+      if (const auto* definition = std::get_if<klartext::LabelDefinition>(&block_->statement)) {
+        if (definition->label == klartext::Label(0U)) break;
+      } else if (const auto* cycle = std::get_if<klartext::Cycle>(&block_->statement)) {
+        const CycleDescriptor* descriptor = bind_cycle(program_, *cycle).descriptor();
+        if (descriptor != nullptr) check_order(*cycle, *descriptor);
+      } else if (const auto* assignment = std::get_if<klartext::Assignment>(&block_->statement)) {
+        assign(*assignment);
+      } else {
+        is_plain = std::holds_alternative<klartext::Motion>(block_->statement) ||
+                   std::holds_alternative<klartext::Empty>(block_->statement);
+      }
+      is_plain = is_plain && ++entered_ < kMostEntered;
+    }
+    if (!is_plain) constants_.clear();
+    is_called_ = false;
+    block_ = caller;
   }
 
   void report_unset_results() {
@@ -269,54 +314,76 @@ class Contradictions {
                : std::string_view();
   }
 
+  /// A number, and where it is written.
+  struct Constant {
+    double value = 0;
+    klartext::Slice<char> place{};
+    const Block* block = nullptr;
+  };
+  static std::pair<klartext::QSpace, std::size_t> key(klartext::QRef parameter) {
+    return {parameter.space, parameter.number};
+  }
+  /// At that of two numbers that is written last, but not in the cycle if the other is not.
+  void contradicts(const Constant& a, const Constant& b, std::string message) {
+    const Constant& at = b.block != block_ && (a.block == block_ || b.block > a.block) ? b : a;
+    const auto is_same = [&](const auto& found) { return found.message == message; };
+    if (is_called_ && (at.block == block_ || std::ranges::any_of(diagnostics_, is_same))) return;
+    warn(DiagnosticCode::OrderContradicts, at.place, std::move(message), at.block);
+  }
+
   void check_order(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {
-    std::map<int, double> values;
-    std::map<int, klartext::Slice<char>> places;
+    std::map<int, Constant> values;
     for (const auto& written : program_.view(cycle.parameters)) {
-      const auto* number = std::get_if<double>(&written.value);
-      if (number == nullptr || written.kind != klartext::CycleValue::Expression) continue;
-      values[written.parameter.number] = *number;
-      places[written.parameter.number] = written.written;
+      if (written.kind != klartext::CycleValue::Expression) continue;
+      const auto* parameter = std::get_if<klartext::QRef>(&written.value);
+      const auto known = parameter == nullptr ? constants_.end() : constants_.find(key(*parameter));
+      if (const auto* number = std::get_if<double>(&written.value))
+        values[written.parameter.number] = {*number, written.written, block_};
+      else if (known != constants_.end())
+        values[written.parameter.number] = known->second;
     }
+    const auto value = [&](int number) { return values[number].value; };
     const bool is_probing = descriptor.family == probing::CycleFamily::TchProbe;
     for (const int height : {261, 294}) {
       if (!is_probing || !values.contains(260) || !values.contains(height) ||
-          values[260] >= values[height])
+          value(260) >= value(height))
         continue;
-      warn(DiagnosticCode::OrderContradicts, places[260],
-           fmt::format("the clearance height Q260 = {} lies below Q{} = {}, at which the cycle "
-                       "probes: the ball moves through "
-                       "the part; raise Q260",
-                       values[260], height, values[height]));
+      contradicts(values[260], values[height],
+                  fmt::format("the clearance height Q260 = {} lies below Q{} = {}, at which the "
+                              "cycle probes: the ball moves through the part; raise Q260",
+                              value(260), height, value(height)));
     }
     for (std::size_t i = 1; i < descriptor.parameters.size(); ++i) {
       const auto& most = descriptor.parameters[i - 1];
       const auto& least = descriptor.parameters[i];
       const int upper = static_cast<int>(most.id);
       const int lower = static_cast<int>(least.id);
-      if (!values.contains(upper) || !values.contains(lower) || values[upper] >= values[lower])
+      if (!values.contains(upper) || !values.contains(lower) || value(upper) >= value(lower))
         continue;
       if ((senses_of(most.meaning) & kMaximum) == 0 || (senses_of(least.meaning) & kMinimum) == 0)
         continue;
-      warn(DiagnosticCode::OrderContradicts, places[upper],
-           fmt::format("the maximum Q{} = {} lies below the minimum Q{} = {}: exchange them", upper,
-                       values[upper], lower, values[lower]));
+      contradicts(values[upper], values[lower],
+                  fmt::format("the maximum Q{} = {} lies below the minimum Q{} = {}: exchange them",
+                              upper, value(upper), lower, value(lower)));
     }
     for (const auto& [nominal, limit] : kLimitsOfSize) {
+      const bool is_tolerance = limit == 279 || limit == 280;
       // Grade IT16 of ISO 286 with its largest deviation lies within.
       if (!is_probing || !values.contains(nominal) || !values.contains(limit) ||
-          values[limit] == 0 ||
-          std::abs(values[limit] - values[nominal]) <= std::max(2.0, values[nominal] / 10))
+          value(limit) == 0 ||
+          std::abs(value(limit) - (is_tolerance ? 0 : value(nominal))) <=
+              std::max(2.0, value(nominal) / 10))
         continue;
-      warn(DiagnosticCode::OrderContradicts, places[limit],
-           fmt::format("the limit Q{} = {} is far from the nominal size Q{} = {}: correct one of "
-                       "them",
-                       limit, values[limit], nominal, values[nominal]));
+      contradicts(values[limit], values[nominal],
+                  fmt::format("{} Q{} = {} {} the nominal size Q{} = {}: correct one of them",
+                              is_tolerance ? "the tolerance of the centre" : "the limit", limit,
+                              value(limit), is_tolerance ? "is too large for" : "is far from",
+                              nominal, value(nominal)));
     }
-    if (!is_probing && values.contains(201) && values[201] > 0) {
-      warn(DiagnosticCode::OrderContradicts, places[201],
-           fmt::format("the depth Q201 = {} lies above the surface: write it with a minus",
-                       values[201]));
+    if (!is_probing && values.contains(201) && value(201) > 0) {
+      contradicts(values[201], values[201],
+                  fmt::format("the depth Q201 = {} lies above the surface: write it with a minus",
+                              value(201)));
     }
   }
 
@@ -344,8 +411,13 @@ class Contradictions {
   const Block* spindle_ = nullptr;  ///< the block that has started the spindle
   const Block* cutter_ = nullptr;   ///< the block that machines with the tool in the spindle
   bool calls_programs_ = false;
+  std::map<std::uint32_t, const Block*> labels_;
+  bool is_called_ = false;  ///< a subprogram is looked at for its call
+  std::size_t entered_ = 0;
   const CycleDescriptor* last_measured_ = nullptr;
   std::bitset<kEndOfResults> set_;
+  /// Parameters that are this number on every way to the block.
+  std::map<std::pair<klartext::QSpace, std::size_t>, Constant> constants_;
   std::map<std::size_t, const Block*> reads_;  ///< results by the first block that reads them
 };
 

@@ -44,7 +44,8 @@ TEST_CASE("a contradiction is found at its line") {
     Found found;
   };
   const std::string dialog = "warning 2 cycle.dialog_contradicts";
-  const std::string tail = kHole.substr(kHole.find("Q276"));
+  const std::string order = "warning 2 cycle.order_contradicts";
+  const std::string by_q1 = replaced(hole(), "Q275=+12.1", "Q275=+Q1");
   const Case cases[] = {
       {hole(), {}},
       {hole("MESSEN BOHRUNG"), {}},
@@ -73,6 +74,21 @@ TEST_CASE("a contradiction is found at its line") {
       {replaced(hole(), "Q275=+12.1", "Q275=+13.2"), {}},
       {replaced(hole(), "Q260=+20", "Q260=-20"), {"warning 10 cycle.order_contradicts"}},
       {replaced(hole(), "Q320=+0", "Q320=-1"), {"error 9 cycle.parameter_invalid"}},
+      {replaced(hole(), "Q279=+0", "Q279=+20"), {"warning 14 cycle.order_contradicts"}},
+      {replaced(hole(), "Q279=+0", "Q279=+1"), {}},
+      // a parameter that is a number when the cycle begins, on the way to it or at a call
+      {"Q1 = 121\n" + by_q1, {order}},
+      {"Q1 = 12.1\n" + by_q1, {}},
+      {"Q1 = 121\nQ1 = Q2\n" + by_q1, {}},
+      {"/Q1 = 121\n" + by_q1, {}},
+      {"Q1 = 121\nFN 9: IF +Q5 EQU +0 GOTO LBL 3\nLBL 3\n" + by_q1, {}},
+      {"Q1 = 121\nCALL PGM OTHER\n" + by_q1, {"warning 3 file.missing"}},
+      {"Q1 = 121\nM30\n" + by_q1, {}},
+      {"Q1 = 121\nCALL LBL 1\nM30\nLBL 1\n" + by_q1 + "LBL 0\n", {order}},
+      {"Q1 = 12.1\nCALL LBL 1\nQ1 = 121\nCALL LBL 1\nM30\nLBL 1\n" + by_q1 + "LBL 0\n",
+       {"warning 4 cycle.order_contradicts"}},
+      {"Q1 = 121\nCALL LBL 1\nM30\nLBL 1\nQ1 = 12.1\n" + by_q1 + "LBL 0\n", {}},
+      {"Q1 = 121\nCALL LBL 1\nM30\nLBL 1\nQ1 = Q7\n" + by_q1 + "LBL 0\n", {}},
       {"CYCL DEF 200 DRILLING Q200=2 Q201=5 Q206=100 Q202=5 Q203=0 Q204=50",
        {"warning 2 cycle.order_contradicts"}},
       {"TOOL CALL 5 Z S1000\nM3\n" + hole(), {"warning 4 cycle.stylus_missing"}},
