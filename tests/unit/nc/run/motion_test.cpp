@@ -38,8 +38,6 @@ class Mill : public Control {
   RunResult last;
 };
 
-using Lines = std::vector<std::string>;
-
 TEST_CASE("coordinates are absolute or incremental, omitted axes stay") {
   Mill mill;
   CHECK(mill.moves("L X+10 Y+20 Z+30 FMAX\nL IX-5 FMAX\nL IZ+2,5 F100\nL Y+0") ==

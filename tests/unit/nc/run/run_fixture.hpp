@@ -15,6 +15,8 @@
 
 namespace fitgauge::interpreter {
 
+using Lines = std::vector<std::string>;
+
 /// 2026-11-20T08:05:09Z.
 class FixedClock final : public Clock {
  public:

@@ -4,8 +4,6 @@
 
 namespace fitgauge::interpreter {
 
-using Lines = std::vector<std::string>;
-
 /// A control with a cutter 5 of radius 4 over X+10 Y+10 Z+50, where each body begins.
 class Workshop : public Control {
  public:
