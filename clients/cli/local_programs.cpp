@@ -5,18 +5,15 @@
 #include <optional>
 
 #include "api/runs/run_codec.hpp"
-#include "base/allowance.hpp"
 #include "base/number.hpp"
 #include "base/text.hpp"
 #include "cli/address.hpp"
-#include "cli/folder_disk.hpp"
 #include "cli/json_object.hpp"
 #include "cli/local_files.hpp"
 #include "cli/problem.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/iso/printer.hpp"
 #include "nc/klartext/printer.hpp"
-#include "nc/program/check.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -92,18 +89,6 @@ Outcome<std::vector<Diagnostic>> found_there(const Context& context, const std::
   return all;
 }
 
-Outcome<std::vector<Diagnostic>> found_here(const std::string& file) {
-  const auto name = local_program(file);
-  if (!name) return name.error();
-  const FolderDisk disk(file);
-  Allowance unlimited;
-  interpreter::ProgramCache programs;
-  auto found = interpreter::check(*name, disk, programs, unlimited);
-  if (!found) return Failure{ExitCode::LocalFile, file + ": " + found.error().message};
-  for (Diagnostic& each : *found) each.program = disk.name_here(each.program);
-  return *std::move(found);
-}
-
 }  // namespace
 
 Outcome<Levels> read_levels(const std::vector<std::string>& written) {
@@ -141,10 +126,16 @@ void apply_levels(const Levels& levels, std::vector<Diagnostic>& found) {
 Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options) {
   const auto levels = read_levels(options.levels);
   if (!levels) return levels.error();
+  if (options.from_control && !options.setup.empty())
+    return Failure{ExitCode::Usage, "--setup is for local files: remove it with --from-control"};
   std::vector<Diagnostic> all;
   std::optional<Failure> failed;
   for (const std::string& file : options.files) {
-    auto found = options.from_control ? found_there(context, file) : found_here(file);
+    auto found =
+        options.from_control
+            ? found_there(context, file)
+            : found_here(
+                  {.program = file, .setup_file = options.setup, .parameters = options.parameters});
     if (!found) {
       failed = found.error();
       continue;

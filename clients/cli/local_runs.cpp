@@ -7,6 +7,7 @@
 #include "cli/local_files.hpp"
 #include "cli/nc_commands.hpp"
 #include "nc/program/check.hpp"
+#include "nc/program/diagnose.hpp"
 #include "service/runs/control_files.hpp"
 #include "service/runs/run_executor.hpp"
 
@@ -38,7 +39,71 @@ Outcome<app::RunOrder> order_of(const std::string& text, const FolderDisk& disk)
   return *std::move(order);
 }
 
+/// What the check of a program of this machine finds and, without an error, its run.
+struct LocalRun {
+  std::vector<klartext::Diagnostic> found{};
+  app::RunReport report{};
+  std::string document{};  ///< empty: it has not run
+  interpreter::MachineBuilder builder{};
+};
+
+/// @param is_run else the program is only checked
+Outcome<LocalRun> check_and_run(RunOptions options, bool is_run) {
+  const std::string file = std::exchange(options.program, std::string(base_name(options.program)));
+  if (options.setup_file.empty()) options.setup_file = std::exchange(options.setup, {});
+  const auto text = run_order(options);
+  if (!text) return text.error();
+  const auto name = local_program(file);
+  if (!name) return name.error();
+  const FolderDisk disk(file);
+  LocalRun local;
+  Allowance unlimited;
+  std::optional<app::RunOrder> order;
+  if (is_run) {
+    auto made = order_of(*text, disk);
+    if (!made) return made.error();
+    order = *std::move(made);
+    local.builder = order->options.builder;
+  }
+  interpreter::ProgramCache programs;
+  auto found = interpreter::check(*name, disk, programs, unlimited);
+  if (!found) return Failure{ExitCode::LocalFile, file + ": " + found.error().message};
+  local.found = *std::move(found);
+  for (klartext::Diagnostic& each : local.found) each.program = disk.name_here(each.program);
+  if (!is_run || interpreter::has_errors(local.found)) return local;
+  const SystemClock clock;
+  const app::RunFormat format = api::run_format();
+  local.report = {.program = file, .seed = order->setup.seed, .created_at = clock.now()};
+  app::ActiveRun run(local.report.id, {}, std::make_shared<const app::RunOrder>(*std::move(order)),
+                     local.report.created_at);
+  local.report.result = app::execute({disk, programs, clock, format.trace}, run).result;
+  local.report.finished_at = clock.now();
+  for (klartext::Diagnostic& each : interpreter::findings_of(local.report.result)) {
+    each.program = disk.name_here(each.program);
+    local.found.push_back(std::move(each));
+  }
+  for (auto& message : local.report.result.messages)
+    message.program = disk.name_here(message.program);
+  local.document = format.report(local.report);
+  return local;
+}
+
 }  // namespace
+
+Outcome<std::vector<klartext::Diagnostic>> found_here(const RunOptions& options) {
+  auto local = check_and_run(options, !options.setup_file.empty());
+  if (!local) return local.error();
+  // What the builder of the machine made, the setup says.
+  for (const auto& [number, action] : local->builder.m_functions)
+    std::erase_if(local->found, [hint = interpreter::m_function_hint(number)](const auto& each) {
+      return each.message == hint;
+    });
+  for (const auto& [number, action] : local->builder.cycles)
+    for (const bool is_probing : {false, true})
+      std::erase_if(local->found, [hint = interpreter::cycle_hint(is_probing, number)](
+                                      const auto& each) { return each.message == hint; });
+  return std::move(local->found);
+}
 
 Outcome<std::string> run_here(const Context& context, RunOptions options) {
   if (!options.part_id.empty() || !options.order.empty()) {
@@ -46,36 +111,15 @@ Outcome<std::string> run_here(const Context& context, RunOptions options) {
         ExitCode::Usage,
         "--part-id and --order need --from-control: the service stores them with its records"};
   }
-  const std::string file = options.program;
-  options.program = base_name(file);
-  if (options.setup_file.empty()) options.setup_file = std::exchange(options.setup, {});
-  const auto text = run_order(options);
-  if (!text) return text.error();
-  const auto name = local_program(file);
-  if (!name) return name.error();
-  const FolderDisk disk(file);
-  Allowance unlimited;
-  auto order = order_of(*text, disk);
-  if (!order) return order.error();
-  interpreter::ProgramCache programs;
-  auto found = interpreter::check(*name, disk, programs, unlimited);
-  if (!found) return Failure{ExitCode::LocalFile, file + ": " + found.error().message};
-  if (interpreter::has_errors(*found)) {
-    for (klartext::Diagnostic& each : *found) {
-      each.program = disk.name_here(each.program);
+  auto local = check_and_run(options, true);
+  if (!local) return local.error();
+  if (local->document.empty()) {
+    for (const klartext::Diagnostic& each : local->found)
       if (!context.json) fmt::print(stderr, "{}\n", klartext::render(each));
-    }
-    return Failure{ExitCode::ProgramFailed, file + " or a program that it calls has errors"};
+    return Failure{ExitCode::ProgramFailed,
+                   options.program + " or a program that it calls has errors"};
   }
-  const SystemClock clock;
-  const app::RunFormat format = api::run_format();
-  app::RunReport report{.program = file, .seed = order->setup.seed, .created_at = clock.now()};
-  app::ActiveRun run(report.id, {}, std::make_shared<const app::RunOrder>(*std::move(order)),
-                     report.created_at);
-  report.result = app::execute({disk, programs, clock, format.trace}, run).result;
-  report.finished_at = clock.now();
-  for (auto& message : report.result.messages) message.program = disk.name_here(message.program);
-  for (const interpreter::WrittenFile& each : report.result.files) {
+  for (const interpreter::WrittenFile& each : local->report.result.files) {
     if (options.files_to.empty()) break;
     std::error_code failed;
     const std::string target = options.files_to + "/" + relative_of(each.path.text());
@@ -83,7 +127,7 @@ Outcome<std::string> run_here(const Context& context, RunOptions options) {
     if (const auto allowed = may_replace(target, options.force); !allowed) return allowed.error();
     if (const auto written = write_file(target, each.bytes); !written) return written.error();
   }
-  return format.report(report);
+  return std::move(local->document);
 }
 
 }  // namespace fitgauge::cli

@@ -51,6 +51,10 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   check->add_option("--format", checked->format, "Format of the findings: text, json, sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
   add_levels(*check, checked->levels);
+  check->add_option("--setup", checked->setup, "JSON file: the programs also run on this setup");
+  check->add_option("--set", checked->parameters, "Parameter before block 0 of these runs: Q1=25")
+      ->expected(1)
+      ->take_all();
 
   const auto formatted = std::make_shared<FormatOptions>();
   CLI::App* format = add_command(nc, "format", "Format programs as a control does", chosen,

@@ -112,7 +112,7 @@ _fitgauge() {
     nc)
       case ${words[1]-} in
         '') options='check format convert lsp run put get ls' ;;
-        check) options='--from-control --format --level' ;;
+        check) options='--from-control --format --level --setup --set' ;;
         format) options='--in-place --from-control' ;;
         lsp) options=--level ;;
         convert) options='--from-control --force' ;;

@@ -143,6 +143,8 @@ export default {
   'finding.cycle.order_contradicts': 'Werte haben das falsche Vorzeichen oder die falsche Reihenfolge.',
   'finding.cycle.stylus_missing': 'Es steht kein Tastsystem in der Spindel, oder sie dreht sich.',
   'finding.parameter.result_unset': 'Kein Zyklus dieses Programms setzt diesen Parameter.',
+  'finding.run.failed': 'Auf dieser Einrichtung scheitert der Satz.',
+  'finding.run.setup_contradicts': 'Das Teil der Einrichtung hat ein anderes Maß als der Zyklus.',
   'finding.mask.keyword_unknown': 'Dieses Schlüsselwort kennt die Maske nicht.',
   'finding.mask.placeholder_malformed': 'Der Platzhalter ist nicht lesbar.',
   'finding.mask.value_missing': 'Zum Platzhalter fehlt der Wert.',

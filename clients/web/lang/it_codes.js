@@ -143,6 +143,8 @@ export default {
   'finding.cycle.order_contradicts': 'I valori hanno il segno o l\'ordine sbagliato.',
   'finding.cycle.stylus_missing': 'Nel mandrino non c\'è il tastatore, o il mandrino gira.',
   'finding.parameter.result_unset': 'Nessun ciclo di questo programma imposta questo parametro.',
+  'finding.run.failed': 'Con questa configurazione il blocco fallisce.',
+  'finding.run.setup_contradicts': 'Il pezzo della configurazione ha una misura diversa da quella del ciclo.',
   'finding.mask.keyword_unknown': 'La maschera non conosce questa parola chiave.',
   'finding.mask.placeholder_malformed': 'Il segnaposto non è leggibile.',
   'finding.mask.value_missing': 'Manca il valore del segnaposto.',

@@ -143,6 +143,8 @@ export default {
   'finding.cycle.order_contradicts': 'Waarden hebben het verkeerde teken of de verkeerde volgorde.',
   'finding.cycle.stylus_missing': 'Er staat geen taster in de spil, of de spil draait.',
   'finding.parameter.result_unset': 'Geen cyclus van dit programma zet deze parameter.',
+  'finding.run.failed': 'Op deze opstelling mislukt het blok.',
+  'finding.run.setup_contradicts': 'Het werkstuk van de opstelling heeft een andere maat dan de cyclus.',
   'finding.mask.keyword_unknown': 'Dit sleutelwoord kent het masker niet.',
   'finding.mask.placeholder_malformed': 'De plaatshouder is niet leesbaar.',
   'finding.mask.value_missing': 'Bij de plaatshouder ontbreekt de waarde.',

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.hpp"
 #include "nc/klartext/lexer.hpp"
+#include "nc/program/diagnose.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -15,6 +17,40 @@ std::string_view word(RunStatus status) {
 
 std::string_view word(MessageKind kind) {
   return word_of(kind, {"error", "stop", "limit", "cancelled", "note"});
+}
+
+std::vector<klartext::Diagnostic> findings_of(const RunResult& result) {
+  constexpr double kFar = 0.5;  // mm
+  std::vector<klartext::Diagnostic> found;
+  const auto add = [&](const auto& at, klartext::Severity severity, klartext::DiagnosticCode code,
+                       std::string text) {
+    if (found.size() >= kMostFindings) return;
+    const SourcePosition place{at.line, 1};
+    found.push_back({severity, code, std::move(text), at.program, {place, place}, at.block});
+    if constexpr (requires { at.source; }) found.back().source = at.source;
+  };
+  for (const RunMessage& message : result.messages) {
+    if (message.kind != MessageKind::Error && message.kind != MessageKind::Limit) continue;
+    add(message, klartext::Severity::Error, klartext::DiagnosticCode::RunFailed, message.text);
+  }
+  for (const Measurement& each : result.measurements) {
+    const auto quantity = probing::quantity_of(each.record.cycle, false);
+    const bool has_size =
+        std::ranges::any_of(each.record.sizes, [](const auto& size) { return !size.is_position; });
+    if (!has_size || quantity == gauging::Quantity::Position ||
+        quantity == gauging::Quantity::Deviation)
+      continue;
+    for (const probing::MeasuredSize& size : each.record.sizes) {
+      const double measured = size.measured.to_mm();
+      const double nominal = size.nominal.to_mm();
+      if (std::abs(measured - nominal) <= kFar) continue;
+      add(each, klartext::Severity::Warning, klartext::DiagnosticCode::SetupContradicts,
+          fmt::format("{} of cycle {} is {} mm on the part of the setup, but {} mm in the program: "
+                      "correct one of them",
+                      size.characteristic, each.record.cycle, measured, nominal));
+    }
+  }
+  return found;
 }
 
 std::uint32_t Place::line() const { return program->program().range(source().written).begin.line; }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "nc/klartext/diagnostic.hpp"
 #include "nc/machine/tables.hpp"
 #include "nc/probing/measuring_record.hpp"
 #include "nc/program/control_disk.hpp"
@@ -81,5 +82,9 @@ struct RunResult {
   int active_preset = 0;
   std::vector<machine::Preset> presets;
 };
+
+/// What a run on a setup says of its program: as errors what ended it, as warnings every size or
+/// centre of a bore, stud, slot or ridge that is measured more than 0.5 mm from its nominal.
+std::vector<klartext::Diagnostic> findings_of(const RunResult& result);
 
 }  // namespace fitgauge::interpreter

@@ -230,6 +230,42 @@ class Programs(ClientTest):
         self.assert_fails(4, "nc", "check", "a.h", "--level", "x=loud")
         self.assert_fails(5, "nc", "check", "gone.h")
 
+    def test_a_program_is_checked_on_the_part_of_a_setup(self):
+        block = {"type": "block", "min_mm": [0, 0, -40], "max_mm": [100, 80, 0]}
+        bore = {"type": "bore", "center_mm": [50, 40], "top_mm": 0, "depth_mm": 30, "diameter_mm": 25.013}
+        setup = {"workpiece": {"features": [block, bore]}, "cycles": {"392": "ignore"}}
+        self.client.write("part.json", json.dumps(setup))
+
+        def check(status, centre, *more, tool=30, depth=-5, cycle=392):
+            self.client.write("hole.h", f"""BEGIN PGM HOLE MM
+TOOL CALL {tool} Z
+CYCL DEF {cycle} OF THE BUILDER Q1500=+1
+TCH PROBE 421 MEASURE HOLE ~
+ Q273=+{centre} ~
+ Q274=+40 ~
+ Q262=+25 ~
+ Q247=+90 ~
+ Q261={depth} ~
+ Q260=+20
+END PGM HOLE MM
+""")
+            text = self.assert_runs(status, "nc", "check", "hole.h", "--format", "json", *more)
+            return [(each["code"], each["line"], each["program"]) for each in json.loads(text)["diagnostics"]]
+
+        on_it = ("--setup", "part.json")
+        self.assertEqual(check(1, 50), [("cycle.unknown", 3, "hole.h")])
+        self.assertEqual(check(0, 50, *on_it), [])
+        self.assertEqual(check(2, 50, *on_it, cycle=393)[-1], ("run.failed", 3, "hole.h"))
+        self.assertEqual(check(1, 51, *on_it), [("run.setup_contradicts", 4, "hole.h")])
+        self.assertEqual(check(0, 51, *on_it, "--level", "run.setup_contradicts=off"), [])
+        self.assertEqual(check(2, 50, *on_it, tool=5), [("run.failed", 2, "hole.h")])
+        self.assertEqual(check(2, 70, *on_it), [("run.failed", 4, "hole.h")])
+        self.assertEqual(check(2, 50, *on_it, depth="+Q7"), [("run.failed", 4, "hole.h")])
+        self.assertEqual(check(0, 50, *on_it, "--set", "Q7=-5", depth="+Q7"), [])
+        self.assert_fails(4, "nc", "check", "--from-control", "hole.h", *on_it)
+        self.assert_fails(4, "nc", "check", "hole.h", *on_it, "--set", "Q7")
+        self.assert_fails(5, "nc", "check", "hole.h", "--setup", "gone.json")
+
     def test_no_text_of_a_program_is_lost_by_formatting(self):
         for name, text in (("t.h", "0 BEGIN PGM T MM\r\n1 L  X+5 FMAX\r\n2 END PGM T MM\r\n3 L Y+9\r\n"),
                            ("t.i", "%T G71 *\nN10 G00 G40 G90 X+5 *\nN99999999 %T G71 *\nN20 X+9 *\n")):
