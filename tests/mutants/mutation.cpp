@@ -216,7 +216,6 @@ class Finder {
 
   void look_at(const Value& value) {
     if (value.meaning == nullptr) return;
-    const std::size_t first = sites_.size();
     const std::string_view meaning = value.meaning->meaning;
     const auto& range = value.meaning->range;
     const bool is_length = value.meaning->unit == probing::Unit::Length;
@@ -247,18 +246,6 @@ class Finder {
         return std::vector{value.place};
       });
     }
-    for (std::size_t i = first; i < sites_.size(); ++i) sites_[i].others = others(value);
-  }
-
-  /// Values that the parameter takes, to see whether anything reads it.
-  static std::vector<Edit> others(const Value& value) {
-    std::vector<Edit> found;
-    for (const double other : {value.value + 1, value.value * 2 + 3, value.value - 2, 0.0, 1.0}) {
-      const bool counts = value.meaning == nullptr || value.meaning->range.contains(other);
-      if (counts && other != value.value)
-        found.push_back({value.place.at, value.place.length, written(other)});
-    }
-    return found;
   }
 
   void swap(const Value& a, const Value& b) {
@@ -266,9 +253,6 @@ class Finder {
       return std::vector{Edit{a.place.at, a.place.length, written(b.value)},
                          Edit{b.place.at, b.place.length, written(a.value)}};
     });
-    site.others = others(a);
-    const auto more = others(b);
-    site.others.insert(site.others.end(), more.begin(), more.end());
     const bool is_limits = a.meaning != nullptr && b.meaning != nullptr &&
                            has(a.meaning->meaning, "maxim") && has(b.meaning->meaning, "minim");
     if (is_limits) {
@@ -312,11 +296,11 @@ class Finder {
     each_match(text, kWord, [&](const std::smatch& each) {
       const double value = std::stod(each[2]);
       const Edit number = place(*block_, each, 2);
-      if (value != 0) replace(Kind::Sign, number, written(-value)).others = others({number, value});
+      if (value != 0) replace(Kind::Sign, number, written(-value));
       for (const char* axis : {"X", "Y", "Z"}) {
         if (text.find(std::string(axis) + "+") == text.npos &&
             text.find(std::string(axis) + "-") == text.npos)
-          replace(Kind::Axis, place(*block_, each, 1), axis).others = others({number, value});
+          replace(Kind::Axis, place(*block_, each, 1), axis);
       }
     });
   }

@@ -39,8 +39,6 @@ struct Site {
   std::uint32_t first_line = 0;  ///< of the block
   std::uint32_t last_line = 0;
   std::function<std::vector<Edit>(Random&)> draw;
-  /// What to vary when nothing differs: other values in the same places, one edit each.
-  std::vector<Edit> others{};
   std::string target{};  ///< `QL2` of an assignment that is changed; its value differs anyway
 };
 

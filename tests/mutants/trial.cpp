@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/program/parameter.hpp"
@@ -30,9 +31,87 @@ class Follower final : public interpreter::RunObserver {
   bool is_here_ = false;
 };
 
+/// The faces of a feature with how far a point lies off each, in mm.
+class Faces {
+ public:
+  explicit Faces(const machine::Vec3& at) : at_(at) {}
+
+  void operator()(const machine::Block& block) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bool is_beside = false;
+      for (std::size_t across = 0; across < 3; ++across)
+        is_beside = is_beside || (across != axis && (at_[across] < block.min[across] - kNear ||
+                                                     at_[across] > block.max[across] + kNear));
+      if (is_beside) continue;
+      add(fmt::format("{}-", "XYZ"[axis]), at_[axis] - block.min[axis]);
+      add(fmt::format("{}+", "XYZ"[axis]), at_[axis] - block.max[axis]);
+    }
+  }
+  void operator()(const machine::Bore& bore) {
+    cylinder(bore.centre, bore.top - bore.depth, bore.top, bore.diameter);
+  }
+  void operator()(const machine::Boss& boss) {
+    cylinder(boss.centre, boss.top - boss.height, boss.top, boss.diameter);
+  }
+  void operator()(const machine::CalibrationRing& ring) {
+    cylinder(ring.centre, ring.top - ring.height, ring.top, ring.diameter);
+    add("top", at_.z - ring.top);
+  }
+  void operator()(const machine::Sphere& sphere) {
+    add("sphere", machine::norm(at_ - sphere.centre) - sphere.diameter / 2);
+  }
+  void operator()(const machine::Surface&) { add("surface", kNear / 2); }
+  void operator()(const auto&) {}
+
+  const std::string& nearest() const { return nearest_; }
+  double off() const { return off_; }
+  static constexpr double kNear = 0.5;  // mm: more than any error of a machine of the tree
+
+ private:
+  void cylinder(const std::array<double, 2>& centre, double bottom, double top, double diameter) {
+    const double from_axis = std::hypot(at_.x - centre[0], at_.y - centre[1]);
+    if (at_.z > bottom - kNear && at_.z < top + kNear) add("wall", from_axis - diameter / 2);
+    if (from_axis > diameter / 2) return;
+    add("top", at_.z - top);
+    add("bottom", at_.z - bottom);
+  }
+  void add(std::string face, double off) {
+    if (std::abs(off) >= off_) return;
+    off_ = std::abs(off);
+    nearest_ = std::move(face);
+  }
+
+  machine::Vec3 at_;
+  std::string nearest_;
+  double off_ = kNear;
+};
+
+/// The face that is touched at a point of the machine; the point itself where none is near, so that
+/// another one counts as another face.
+std::string face_at(const machine::Setup& setup, const machine::Vec3& at) {
+  std::string face = fmt::format("{:.3f} {:.3f} {:.3f}", at.x, at.y, at.z);
+  double off = Faces::kNear;
+  const auto look_at = [&](const std::string& name, const auto& feature) {
+    Faces faces(at);
+    faces(feature);
+    if (faces.off() >= off) return;
+    off = faces.off();
+    face = name + " " + faces.nearest();
+  };
+  for (std::size_t i = 0; i < setup.features.size(); ++i)
+    std::visit([&](const auto& each) { look_at(std::to_string(i), each); }, setup.features[i]);
+  const machine::MachineSetup& machine = setup.machine;
+  if (machine.calibration_ring) look_at("ring", *machine.calibration_ring);
+  if (machine.calibration_stud) look_at("stud", *machine.calibration_stud);
+  if (machine.calibration_sphere)
+    look_at("calibration", machine::Sphere{machine.calibration_sphere->centre,
+                                           2 * machine.calibration_sphere->radius});
+  return face;
+}
+
 std::string text_of(const interpreter::ParameterValue& parameter) {
   const auto* number = std::get_if<double>(&parameter.value);
-  return number != nullptr ? fmt::format("{:.5f}", *number + 0.0)
+  return number != nullptr ? fmt::format("{:.6f}", std::round(*number * 1e6) / 1e6 + 0.0)
                            : std::get<std::string>(parameter.value);
 }
 
@@ -102,10 +181,16 @@ Outcome outcome_of(const Subject& subject, const std::string& text) {
   const auto ran = trial.execute(subject.main, follower);
   if (!ran) return outcome;
   outcome.lines = std::move(follower.lines);
+  for (const auto& found : interpreter::findings_of(ran->result))
+    if (found.severity == klartext::Severity::Warning)
+      outcome.alarms.push_back({found.message, found.range.begin.line});
   add(outcome, ran->result);
+  for (const machine::Vec3& point : ran->touched)
+    outcome.faces.push_back({face_at(trial.setup().machine, point), 0});
+  std::ranges::sort(outcome.faces);
   for (const std::string& command : ran->commands) {
-    outcome.commands.push_back({command, 0});
-    if (command.starts_with("PROBE ")) outcome.touched.push_back({command, 0});
+    const bool is_way = command.starts_with("PROBE ") || command.find(" FMAX") != command.npos;
+    if (!is_way || command.starts_with("PROBE DATA")) outcome.commands.push_back({command, 0});
     // Data of tools, the probe and the rotary axes, which the run leaves behind.
     if (command.starts_with("TOOL ") || command.starts_with("PROBE DATA") ||
         command.starts_with("TT ") || command.starts_with("KINEMATICS"))
@@ -117,7 +202,7 @@ Outcome outcome_of(const Subject& subject, const std::string& text) {
 
 std::string_view word(Found found) {
   constexpr std::array<std::string_view, kFound> kWords{
-      "check", "run", "verdict", "value", "record", "touches", "way", "nothing", "equivalent"};
+      "check", "run", "verdict", "value", "record", "faces", "commands", "equivalent"};
   return kWords[static_cast<std::size_t>(found)];
 }
 
@@ -144,11 +229,11 @@ Judgement compare(const Outcome& original, const Outcome& mutant, const std::str
   if (const auto* found = first_difference(original.records, mutant.records))
     return {Found::Record, found->line, found->text};
   if (original.files != mutant.files) return {Found::Record, 0, "files"};
-  if (const auto* found = first_difference(original.touched, mutant.touched))
-    return {Found::Touches, 0, found->text};
+  if (const auto* found = first_difference(original.faces, mutant.faces))
+    return {Found::Faces, 0, found->text};
   if (const auto* found = first_difference(original.commands, mutant.commands))
-    return {Found::Way, 0, found->text};
-  return {Found::Nothing, 0, ""};
+    return {Found::Commands, 0, found->text};
+  return {Found::Equivalent, 0, ""};
 }
 
 }  // namespace fitgauge::mutants

@@ -36,8 +36,8 @@ struct Outcome {
   std::vector<Finding> written;   ///< presets, tool data, screen: what the program leaves behind
   std::map<std::string, std::string> parameters;
   std::string files;
-  std::vector<Finding> commands;  ///< to the machine
-  std::vector<Finding> touched;   ///< those of them that probe
+  std::vector<Finding> commands;  ///< to the machine, but for rapid traverse and probing
+  std::vector<Finding> faces;     ///< of the part, one for each touch, sorted
   std::set<std::uint32_t> lines;  ///< of the file that is mutated, entered by the run
   bool tests_itself = false;
 };
@@ -50,12 +50,11 @@ enum class Found : std::uint8_t {
   Verdict,    ///< another verdict
   Value,      ///< another measured value, datum, tool length, line of the screen or parameter
   Record,     ///< the records and logs have another nominal size or limit, with the same verdict
-  Touches,    ///< not found: it touches other points, with the same results
-  Way,        ///< not found: it touches the same points and moves freely between them another way
-  Nothing,    ///< not found: nothing differs, and the value is read somewhere
-  Equivalent  ///< nothing differs, nor with any other value there
+  Faces,      ///< missed: it touches other faces of the part, with the same results
+  Commands,   ///< missed: it cuts another way, or the machine has other modes
+  Equivalent  ///< only free ways and points of the same faces differ
 };
-constexpr std::size_t kFound = 9;
+constexpr std::size_t kFound = 8;
 std::string_view word(Found found);
 
 struct Judgement {

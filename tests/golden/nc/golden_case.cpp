@@ -110,13 +110,17 @@ std::optional<Ran> Case::execute(const std::string& name, RunObserver& observer)
   const auto file = programs_.get(*disk.find(path(name)));
   if (file->program == nullptr) return std::nullopt;
   machine::SimulatedMachine machine(setup_.machine);
-  machine::TracingMachine tracing(machine, {.keep = {}, .longest = 10'000, .lines = true});
+  std::vector<machine::Vec3> touched;
+  const auto keep = [&](const machine::TracedMove& move) {
+    if (move.contact) touched.push_back(move.contact->machine_surface);
+  };
+  machine::TracingMachine tracing(machine, {.keep = keep, .longest = 10'000, .lines = true});
   const GoldenClock clock;
   RunResult result =
       interpreter::run(file->program, {tracing, disk, programs_, clock, observer}, setup_.options);
   const RunMessage last = result.messages.empty() ? RunMessage{} : result.messages.back();
   outcome_ = fmt::format("{} line {}: {}", word(result.status), last.line, last.text);
-  return Ran{std::move(result), tracing.lines()};
+  return Ran{std::move(result), tracing.lines(), std::move(touched)};
 }
 
 std::string Case::run(const std::string& name) {

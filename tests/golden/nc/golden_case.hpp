@@ -16,10 +16,11 @@ inline const std::filesystem::path kFolder =
 
 std::string read_file(const std::filesystem::path& path);
 
-/// A run and every command to its machine, a line each.
+/// A run, every command to its machine, a line each, and the touched points in machine coordinates.
 struct Ran {
   RunResult result;
   std::vector<std::string> commands;
+  std::vector<machine::Vec3> touched;
 };
 
 /// A folder of control files and what it takes to run its main program.
