@@ -93,15 +93,14 @@ Outcome<LocalRun> check_and_run(RunOptions options, bool is_run) {
 Outcome<std::vector<klartext::Diagnostic>> found_here(const RunOptions& options) {
   auto local = check_and_run(options, !options.setup_file.empty());
   if (!local) return local.error();
-  // What the builder of the machine made, the setup says.
-  for (const auto& [number, action] : local->builder.m_functions)
-    std::erase_if(local->found, [hint = interpreter::m_function_hint(number)](const auto& each) {
-      return each.message == hint;
-    });
-  for (const auto& [number, action] : local->builder.cycles)
+  const auto drop = [&](const std::string& hint) {
+    std::erase_if(local->found, [&](const auto& each) { return each.message == hint; });
+  };
+  for (const auto& each : local->builder.m_functions)
+    drop(interpreter::m_function_hint(each.first));
+  for (const auto& each : local->builder.cycles)
     for (const bool is_probing : {false, true})
-      std::erase_if(local->found, [hint = interpreter::cycle_hint(is_probing, number)](
-                                      const auto& each) { return each.message == hint; });
+      drop(interpreter::cycle_hint(is_probing, each.first));
   return std::move(local->found);
 }
 

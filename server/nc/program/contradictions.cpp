@@ -90,7 +90,7 @@ constexpr std::size_t kFirstResult = 150;
 constexpr std::size_t kEndOfResults = 200;
 
 /// Blocks of subprograms that are looked at for their calls.
-constexpr std::size_t kMostEntered = 10'000;
+constexpr std::size_t kMostEntered = 1'000;
 
 class Contradictions {
  public:
@@ -99,10 +99,9 @@ class Contradictions {
 
   void check() {
     for (const Block& block : program_.blocks()) {
-      const auto* definition = std::get_if<klartext::LabelDefinition>(&block.statement);
-      const auto* number =
-          definition == nullptr ? nullptr : std::get_if<std::uint32_t>(&definition->label);
-      if (number != nullptr) labels_.try_emplace(*number, &block);
+      if (const auto* label = std::get_if<klartext::LabelDefinition>(&block.statement))
+        if (const auto* number = std::get_if<std::uint32_t>(&label->label))
+          labels_.try_emplace(*number, &block);
     }
     for (const Block& block : program_.blocks()) {
       block_ = &block;
@@ -191,10 +190,9 @@ class Contradictions {
     const Block* const caller = block_;
     const Block* const end = program_.blocks().data() + program_.blocks().size();
     const auto* number = std::get_if<std::uint32_t>(&call.label);
-    const auto label = number == nullptr ? labels_.end() : labels_.find(*number);
-    bool is_plain = label != labels_.end();
+    bool is_plain = number != nullptr && labels_.contains(*number);
     is_called_ = true;
-    for (block_ = is_plain ? label->second : end; is_plain && block_ != end; ++block_) {
+    for (block_ = is_plain ? labels_[*number] : end; is_plain && block_ != end; ++block_) {
       if (const auto* definition = std::get_if<klartext::LabelDefinition>(&block_->statement)) {
         if (definition->label == klartext::Label(0U)) break;
       } else if (const auto* cycle = std::get_if<klartext::Cycle>(&block_->statement)) {
