@@ -16,7 +16,8 @@ bool is_loopback(std::string_view url);
 
 /// `text` as one segment of a path or one value of a query (RFC 3986: all but the unreserved
 /// characters is encoded).
-std::string percent_encoded(std::string_view text);
+/// @param kept further characters that are not encoded
+std::string percent_encoded(std::string_view text, std::string_view kept = {});
 
 /// `nc_prog/8255/8255.h` or `TNC:\nc_prog\8255\8255.h` as the service's path of the file.
 std::string file_target(std::string_view path);

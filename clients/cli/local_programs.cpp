@@ -36,7 +36,7 @@ std::string sarif_of(const Diagnostic& found) {
   std::ranges::replace(uri, '\\', '/');
   const std::string place =
       fmt::format(R"({{"physicalLocation":{{"artifactLocation":{{"uri":{}}},"region":{}}}}})",
-                  json_quoted(uri), region.text());
+                  json_quoted(percent_encoded(uri, "/:")), region.text());
   JsonObject result;
   result.add("ruleId", id(found.code)).add("level", word(found.severity));
   result.add_raw("message", fmt::format(R"({{"text":{}}})", json_quoted(found.message)));

@@ -220,6 +220,10 @@ class Programs(ClientTest):
         self.assertEqual([(each["code"], each["line"], each["program"]) for each in found], [(code, 2, "a.h")])
         result = json.loads(self.assert_runs(1, "nc", "check", "a.h", "--format", "sarif"))["runs"][0]["results"][0]
         self.assertEqual((result["ruleId"], result["level"]), (code, "warning"))
+        self.client.write("a b#ü.h", hole)
+        result = json.loads(self.assert_runs(1, "nc", "check", "a b#ü.h", "--format", "sarif"))["runs"][0]["results"][0]
+        uri = result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+        self.assertEqual(uri, "a%20b%23%C3%BC.h")
         self.client.write("b.h", "BEGIN PGM B MM\nCALL PGM a.h\nLX 5\nEND PGM B MM\n")
         text = self.assert_runs(2, "nc", "check", "b.h")
         self.assertIn("a.h:2:", text)
