@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <set>
 
 #include "base/text.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/program/diagnose.hpp"
+#include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -79,8 +81,35 @@ class Walk {
                   fmt::format("{} '{}' does not exist: the run fails when it reaches this block",
                               word(reference.kind), reference.written));
     }
+    if (!reference.columns.empty()) return read_cells(named, reference);
     if (!is_program || !seen_.insert(named.key()).second) return;
     pending_.push_back({std::move(named), reference});
+  }
+
+  /// Warns of the first column, else of the row, that the table lacks.
+  void read_cells(const ControlPath& path, const FileReference& reference) {
+    auto& table = tables_[path.key()];
+    if (table == nullptr) {
+      const auto file = disk_.find(path);
+      if (!file) return;
+      table = file->table;
+      if (table == nullptr) {
+        auto read = tabfile::read_tab_file(*file->bytes, allowance_);
+        if (read.has_error()) return;  // another block finds it
+        table = std::make_shared<const tabfile::TabTable>(*std::move(read));
+      }
+    }
+    const auto lacks = [&](const Result<std::size_t>& found) {
+      if (found) return false;
+      warn(reference, found.error().message + ": the run fails when it reaches this block");
+      return true;
+    };
+    for (std::string_view left = reference.columns; !left.empty();) {
+      const std::size_t end = std::min(left.find(','), left.size());
+      if (lacks(table->find_column(trim(left.substr(0, end))))) return;
+      left.remove_prefix(std::min(end + 1, left.size()));
+    }
+    if (reference.row) lacks(table->find_row(*reference.row));
   }
 
   void warn(const FileReference& reference, std::string message,
@@ -95,6 +124,7 @@ class Walk {
   ProgramCache& programs_;
   Allowance& allowance_;
   std::set<std::string> seen_;
+  std::map<std::string, std::shared_ptr<const tabfile::TabTable>> tables_;
   std::deque<Named> pending_;
   std::vector<Diagnostic> diagnostics_;
 };

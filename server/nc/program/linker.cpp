@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.hpp"
 #include "nc/program/arithmetic.hpp"
@@ -53,6 +54,7 @@ class Linker {
       }
       link_block(i, blocks[i]);
     }
+    collect_cells();
     writer_.begin_block(blocks.empty() ? 0 : static_cast<std::uint32_t>(blocks.size() - 1));
     writer_.add({.op = Op::End});
     resolve_jumps();
@@ -254,13 +256,48 @@ class Linker {
     }
   }
 
+  void add_reference(FileReference::Kind kind, const Expr& path, const Block& block) {
+    const auto* text = std::get_if<Text>(&path);
+    if (text == nullptr || file_.references.size() == kMostReferences) return;
+    file_.references.push_back(
+        {kind, std::string(program_.text(*text)),
+         diagnose(program_, block, Severity::Warning, DiagnosticCode::FileMissing, {})});
+  }
+
+  /// Which table is open at a block is certain if the program opens one alone and writes none.
+  void collect_cells() {
+    const Expr* opened = nullptr;
+    std::vector<std::pair<const Block*, const klartext::TableRead*>> reads;
+    const auto path_of = [&](const Expr& path) {
+      const auto* text = std::get_if<Text>(&path);
+      return text == nullptr ? std::string_view() : program_.text(*text);
+    };
+    for (const Block& block : program_.blocks()) {
+      if (std::holds_alternative<klartext::TableWrite>(block.statement)) return;
+      if (const auto* open = std::get_if<klartext::TableOpen>(&block.statement)) {
+        if (opened != nullptr && path_of(*opened) != path_of(open->path)) return;
+        opened = &open->path;
+      } else if (const auto* read = std::get_if<klartext::TableRead>(&block.statement)) {
+        reads.emplace_back(&block, read);
+      }
+    }
+    if (opened == nullptr || path_of(*opened).empty()) return;
+    for (const auto& [block, read] : reads) {
+      const auto cell = program_.operands(std::get<klartext::NodeIndex>(read->cell));
+      const std::size_t before = file_.references.size();
+      if (path_of(cell[1]).empty()) continue;
+      add_reference(FileReference::Kind::Table, *opened, *block);
+      if (file_.references.size() == before) return;
+      file_.references.back().columns = path_of(cell[1]);
+      if (const auto* row = std::get_if<double>(&cell[0])) {
+        file_.references.back().row = std::llround(*row);
+      }
+    }
+  }
+
   void collect_reference(const Block& block) {
     const auto add = [&](FileReference::Kind kind, const Expr& path) {
-      const auto* text = std::get_if<Text>(&path);
-      if (text == nullptr || file_.references.size() == kMostReferences) return;
-      file_.references.push_back(
-          {kind, std::string(program_.text(*text)),
-           diagnose(program_, block, Severity::Warning, DiagnosticCode::FileMissing, {})});
+      add_reference(kind, path, block);
     };
     using Kind = FileReference::Kind;
     const auto& statement = block.statement;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct FileReference {
   Kind kind = Kind::Program;
   std::string written;
   klartext::Diagnostic place;  ///< the warning where the file is missing, without its message
+  /// What FN 28 reads of a table: its columns, `A,B`, and the row if that is a number.
+  std::string columns{};
+  std::optional<std::int64_t> row{};
 };
 
 /// A program file, ready to run, with all that was found in it.

@@ -30,6 +30,29 @@ TEST_CASE("all findings of all named programs are reported at once, each file on
   CHECK(has_errors(warnings));
 }
 
+TEST_CASE("a row and columns that the only open table lacks are found before the run") {
+  Control control;
+  control.file("t.tab", "BEGIN T .TAB\nNR X  Y\n12 +1 +2\n[END]\n");
+  const auto found = [&](std::string_view blocks) {
+    control.program(blocks);
+    const auto diagnostics = control.diagnostics();
+    return diagnostics.empty() ? std::string() : diagnostics[0].message;
+  };
+  const std::string open = "FN 26: TABOPEN t.tab\n";
+  const std::string fails = ": the run fails when it reaches this block";
+  CHECK(found(open + "FN 28: TABREAD Q1 = 12/\"X,Y\"").empty());
+  CHECK(found(open + "FN 28: TABREAD Q1 = Q9/\"X, Y\"").empty());
+  CHECK(found(open + "FN 28: TABREAD Q1 = 12/\"X,Z\"") == "table T has no column 'Z'" + fails);
+  CHECK(found(open + "FN 28: TABREAD Q1 = Q9/\"Z\"") == "table T has no column 'Z'" + fails);
+  CHECK(found(open + "FN 28: TABREAD Q1 = 13/\"X\"") ==
+        "table T has no row 13 in its column NR" + fails);
+  CHECK(
+      found(open + "Q2 = 1\nFN 27: TABWRITE 13/\"X\" = Q2\nFN 28: TABREAD Q1 = 13/\"X\"").empty());
+  CHECK(found(open + "FN 26: TABOPEN QS1\nFN 28: TABREAD Q1 = 13/\"X\"").empty());
+  CHECK(found("FN 26: TABOPEN none.tab\nFN 28: TABREAD Q1 = 13/\"X\"")
+            .starts_with("table 'none.tab' does not exist"));
+}
+
 TEST_CASE("cycle parameters are checked before the run") {
   Control control;
   const auto code_of = [&](std::string_view parameters) {
