@@ -114,9 +114,13 @@ export class ControlChart {
     const row = { scale: 'nm', data: points.map(({ deviation }) => clamped(deviation, range)) };
     this.row = row;
     this.firsts = firstsOf(rules);
-    this.beyond = points.flatMap(({ deviation }, i) => (deviation > range.high || deviation < range.low ? [i] : []));
-    const of = (verdict) => points.flatMap((point, i) => (point.record.verdict === verdict && isCounted(point) ? [i] : []));
-    const aside = points.flatMap((point, i) => (isCounted(point) ? [] : [i]));
+    this.beyond = [];
+    const aside = [];
+    const of = Object.fromEntries(Object.keys(MARKS).map((verdict) => [verdict, []]));
+    points.forEach((point, i) => {
+      if (point.deviation > range.high || point.deviation < range.low) this.beyond.push(i);
+      (isCounted(point) ? of[point.record.verdict] : aside)?.push(i);
+    });
     const sides = points[0].members ? [] : ['upper', 'lower'].filter((side) => Number.isFinite(range[side]));
     const limits = [range.upper, range.lower].filter(Number.isFinite);
     const target = limits.length === 2 ? [(range.upper + range.lower) / 2] : [];
@@ -126,7 +130,7 @@ export class ControlChart {
         ...sides.map((side) => stepped({ scale: 'nm', data: points.map((point) => point[side]) }, dots, { stroke: colours.ink, width: 1.5 })),
         { ...row, stroke: colours.edge, width: dots },
         marked(row, RING, this.firsts, dots, { stroke: colours.ink, width: 1.75 }),
-        ...Object.entries(MARKS).map(([verdict, shape]) => marked(row, shape, of(verdict), dots, {
+        ...Object.entries(MARKS).map(([verdict, shape]) => marked(row, shape, of[verdict], dots, {
           always: verdict !== 'good', fill: colours[verdict], stroke: verdict === 'rework' ? colours.ink : colours.sheet })),
         marked(row, CROSS, aside, dots, { stroke: colours.soft, width: 2 }),
       ],

@@ -12,8 +12,8 @@ const post = async (what, body, signal) => (await request('POST', url(['statisti
 /** A limit that a drawing does not have is not sent. */
 const decimal = (um) => (um === undefined ? undefined : new Decimal(String(um)));
 
-/** Deviations in µm as the service printed them: nothing is rounded on the way. */
-const valuesOf = (points) => points.map(({ record }) => new Decimal(String(record.deviation_um)));
+/** Deviations in µm as the service printed them: nothing is rounded on the way. One text, as there may be 100,000. */
+const valuesOf = (points) => new Decimal(`[${points.map(({ record }) => record.deviation_um).join()}]`);
 
 /** Values one by one, or subgroup by subgroup where `groups` are given. */
 const dataOf = (points, groups) => (groups ? { subgroups: groups.map(valuesOf) } : { values: valuesOf(points) });

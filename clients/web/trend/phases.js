@@ -19,7 +19,7 @@ const BEGINS = {
 /** [{from, to, why, record}] of points in order: why each begins, and the record at its beginning; the first begins for nothing. */
 export function phasesOf(points, causes) {
   const found = [{ from: 0, to: points.length - 1, why: [], record: points[0]?.record }];
-  for (let i = 1; i < points.length; ++i) {
+  for (let i = 1; causes.length && i < points.length; ++i) {
     const rows = [...recordsOf(points[i - 1]), ...recordsOf(points[i])];
     const first = rows.length - recordsOf(points[i]).length;
     const why = CAUSES.filter((cause) => causes.includes(cause) && rows.some((own, k) => k > 0 && (k >= first || cause === 'note') && BEGINS[cause](rows[k - 1], own)));

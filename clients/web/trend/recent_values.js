@@ -1,8 +1,9 @@
 /** The newest measurements of a filter. */
 
 import { get, getJson, url } from '../api.js';
+import { pause } from '../latest.js';
 
-/** The service gives at most this many on a page. */
+/** The service gives at most this many on a page; so many are read at once, then the page answers its reader. */
 const PAGE = 1000;
 
 /** At most `count` records, the newest last. More than a page are read as they come, without a trip for each page. */
@@ -17,7 +18,10 @@ export async function newestValues(filter, count, signal) {
     if (done) break;
     const lines = (begun + value).split('\n');
     begun = lines.pop();
-    for (const line of lines) records.push(JSON.parse(line));
+    for (let i = 0; i < lines.length; i += PAGE) {
+      for (const line of lines.slice(i, i + PAGE)) records.push(JSON.parse(line));
+      await pause();
+    }
   }
   await reader.cancel();
   return records.slice(0, count).reverse();

@@ -1,6 +1,6 @@
 /** What a trend shows: deviations in nm with their limits, the newest last. */
 
-import { nmFromUm } from '../exact.js';
+import { NM_PER_UM } from '../exact.js';
 import { VERDICTS } from '../verdict.js';
 import { isNoted } from './aside.js';
 
@@ -14,13 +14,11 @@ const OUTSIDE = 0.5;
 export const sizeOf = (record) => record.designation
   ?? `${record.nominal_mm} ${[record.upper_deviation_um, record.lower_deviation_um].map((um = '–') => (um > 0 ? `+${um}` : um)).join('/')} µm`;
 
+/** A deviation in µm is a decimal of whole nanometres. */
+const nmOf = (um) => Math.round(um * NM_PER_UM);
+
 /** A limit that a drawing does not have is infinite. */
-export const pointOf = (record) => ({
-  record,
-  deviation: nmFromUm(record.deviation_um),
-  upper: record.upper_deviation_um === undefined ? Infinity : nmFromUm(record.upper_deviation_um),
-  lower: record.lower_deviation_um === undefined ? -Infinity : nmFromUm(record.lower_deviation_um),
-});
+export const pointOf = (record) => ({ record, deviation: nmOf(record.deviation_um), upper: nmOf(record.upper_deviation_um ?? Infinity), lower: nmOf(record.lower_deviation_um ?? -Infinity) });
 
 /**
  * Points by their subgroup, in order: {groups, left}. Groups of another size than most, such as one that is
@@ -55,37 +53,46 @@ const HAS = {
   note: isNoted, correction: (record) => record.correction_of !== undefined,
   tool: (record, before) => record.tool !== undefined && before?.tool !== undefined && record.tool !== before.tool,
 };
-const recordsOf = ({ record, members }) => members?.map((one) => one.record) ?? [record];
 
-/** {index: names of events}, in order. */
+const knownEvents = new WeakMap();
+/** {index: names of events}, in order; found once for the points of a drawing. */
 export function eventsOf(points) {
+  if (knownEvents.has(points)) return knownEvents.get(points);
   const found = new Map();
+  knownEvents.set(points, found);
   let before;
   points.forEach((point, i) => {
-    const own = recordsOf(point);
-    const names = EVENTS.filter((name) => own.some((record, k) => HAS[name](record, own[k - 1] ?? before)));
-    if (names.length) found.set(i, names);
-    before = own.at(-1);
+    let names = null;
+    for (const { record } of point.members ?? [point]) {
+      for (const name of EVENTS) if (HAS[name](record, before)) (names ??= new Set()).add(name);
+      before = record;
+    }
+    if (names) found.set(i, EVENTS.filter((name) => names.has(name)));
   });
   return found;
 }
 
-const greatest = (values) => values.reduce((most, value) => Math.max(most, value), -Infinity);
-const least = (values) => values.reduce((most, value) => Math.min(most, value), Infinity);
-
 /** The range of the vertical axis, with the limits, of which one may be infinite. @param others values in nm that are to be seen too */
 export function rangeOf(points, others = []) {
-  const upper = greatest(points.map((point) => point.upper));
-  const lower = least(points.map((point) => point.lower));
+  let [upper, lower] = [-Infinity, Infinity];
+  for (const point of points) {
+    upper = Math.max(upper, point.upper);
+    lower = Math.min(lower, point.lower);
+  }
   const limits = [lower, upper].filter(Number.isFinite);
   const tolerance = Math.max(limits.length === 2 ? upper - lower : Math.abs(limits[0]), 1);
   const isOut = ({ deviation }) => deviation > upper + OUTSIDE * tolerance || deviation < lower - OUTSIDE * tolerance;
   const out = points.filter(isOut).length;
   const isFew = out > 0 && out <= points.length / FEW;
   const most = (isFew ? OUTSIDE : FARTHEST) * tolerance;
-  const near = [...points.map(({ deviation }) => deviation), ...others].map((deviation) => Math.min(Math.max(deviation, lower - most), upper + most));
-  const high = greatest([...limits, ...near]);
-  const low = least([...limits, ...near]);
+  let [high, low] = [Math.max(...limits), Math.min(...limits)];
+  const widen = (deviation) => {
+    const near = Math.min(Math.max(deviation, lower - most), upper + most);
+    high = Math.max(high, near);
+    low = Math.min(low, near);
+  };
+  for (const { deviation } of points) widen(deviation);
+  others.forEach(widen);
   const margin = Math.max((high - low) / 12, 1);
   return { high: high + margin, low: low - margin, upper, lower };
 }

@@ -6,7 +6,7 @@ import { field, h, refill } from '../dom.js';
 import { follow } from '../events.js';
 import { FilterBar } from '../filter_bar.js';
 import { explain, t } from '../i18n.js';
-import { Latest } from '../latest.js';
+import { Latest, pause } from '../latest.js';
 import { go } from '../route.js';
 import { asideList, askAside, readNotes } from '../trend/aside.js';
 import { Boxes } from '../trend/boxes.js';
@@ -60,6 +60,7 @@ export function mount(main, route) {
   let figures = { chart: null, indices: null };
   let timer = 0;
   let told = null;
+  let turns = 0;
 
   count.append(...COUNTS.map((each) => option(each, String(each), each === values.count)));
   kind.append(...KINDS.map((each) => option(each, t(`trend.kind.${each}`), each === options.kind)));
@@ -115,13 +116,22 @@ export function mount(main, route) {
     const newest = drawn.slice(from).flatMap((point) => point.members ?? (isCounted(point) ? point : []));
     const charted = { kind: groups ? kind.value : 'i_mr', rules: chosenRules(), frozen };
     try {
-      const answers = await computing.run((signal) => (newest.length
-        ? Promise.all([chartOfPhases(drawn, phased, charted, signal), capability(newest, groups?.slice(from) ?? null, signal)]) : [null, null]));
+      const answers = await computing.run(async (signal) => {
+        if (!newest.length) return [null, null];
+        // Each step is a turn of its own: 100,000 values are long work.
+        await pause();
+        eventsOf(drawn);
+        await pause();
+        const charts = chartOfPhases(drawn, phased, charted, signal);
+        await pause();
+        return Promise.all([charts, capability(newest, groups?.slice(from) ?? null, signal)]);
+      });
       if (!answers) return;
+      await pause();
       figures = { chart: answers[0], indices: answers[1] };
       propose(counted);
       left = groups ? found.left : 0;
-      draw(points, drawn, counted, phased.length > 1 ? { from, values: newest } : null);
+      await draw(points, drawn, counted, phased.length > 1 ? { from, values: newest } : null);
     } catch (problem) {
       note.textContent = explain(problem);
     }
@@ -147,7 +157,8 @@ export function mount(main, route) {
   }
 
   /** @param points the values one by one; @param drawn the same, or the means of their subgroups; @param counted those not set aside; @param newest {from, values}: the newest phase, where there are several */
-  function draw(points, drawn, counted, newest) {
+  async function draw(points, drawn, counted, newest) {
+    const turn = ++turns;
     refill(designation, [...new Set([...values.sizes, values.size].filter(Boolean))].sort()
       .map((name) => option(name, designationText(name).replace('Ø ', ''), name === values.size)));
     designation.value = values.size;
@@ -164,12 +175,14 @@ export function mount(main, route) {
       told = null;
       return;
     }
-    chart.show({ points: drawn, singles: counted, chart: figures.chart });
     refill(figured, inFigures(drawn, figures.chart, (index) => chart.goTo(index)));
     tiles.replaceChildren(...countTiles(counted, points.length - counted.length));
     const own = newest && figures.chart && { ...figures.chart, violations: figures.chart.violations.filter(({ index }) => index >= newest.from) };
     indices.replaceChildren(...capabilityTiles(figures.indices, newest?.values ?? counted, own ?? figures.chart, drawn), ...(newest ? [h('p.aside', t('phases.newest', { count: newest.values.length }))] : []));
     table.replaceChildren(lastRows(points));
+    const charted = figures.chart;
+    await pause();
+    if (turn === turns && !leaving.signal.aborted) chart.show({ points: drawn, singles: counted, chart: charted });
   }
 
   /** What there is to say of the point that was picked; nothing new where only the stretch has moved. */
