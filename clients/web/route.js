@@ -26,16 +26,17 @@ export function fragment({ view, path = [], options = {} }) {
 
 /**
  * Goes to a state; a new entry of the history unless it only refines the one shown. A view that was
- * left refines nothing any more.
+ * left refines nothing.
+ * @param quiet whether the place within the view alone has changed, which nothing else shows
  */
-export function go(route, { refine = false } = {}) {
+export function go(route, { refine = false, quiet = false } = {}) {
   const next = fragment(route);
   if (next === location.hash) return;
   const shown = currentRoute().view;
   if (refine && shown && shown !== route.view) return;
   history[refine ? 'replaceState' : 'pushState'](null, '', next);
   remember(route.view);
-  dispatchEvent(new Event('routechange'));
+  if (!quiet) dispatchEvent(new Event('routechange'));
 }
 
 /** A view comes back as it was left. */

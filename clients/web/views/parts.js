@@ -34,7 +34,7 @@ export function mount(main, route) {
     .map((name) => h('th', { scope: 'col' }, t(name))), h('td'))), h('tbody'));
   const list = new LongList(table, t('view.parts'), {
     read, rowOf, count, headOf: (run) => runRow(run, leaving.signal), leaving: leaving.signal,
-    onPlace: (rank) => { at = rank; go({ view: 'parts', options: options() }, { refine: true }); },
+    onPlace: (rank) => { at = rank; go({ view: 'parts', options: options() }, { refine: true, quiet: true }); },
     onProblem: (problem) => { said.textContent = explain(problem); },
   });
   const exported = Object.fromEntries(Object.entries(FORMS).map(([format, form]) => [format,
@@ -48,7 +48,7 @@ export function mount(main, route) {
       FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict), bar.element,
       h('label.choice', corrected, h('span', t('parts.history'))),
       h('button.unseen', { type: 'submit', tabindex: -1 }, t('parts.search'))),
-    h('p.actions', Object.values(exported)), certificate.element, said, list.place, list.scroller));
+    h('p.actions', Object.values(exported), list.place), certificate.element, said, list.scroller));
 
   /** As the address has it. */
   const options = () => ({ ...filter(), source: '', from: '', to: '', ...bar.options, at });
