@@ -30,11 +30,12 @@ export async function controlChart(points, { kind, groups = null, rules = RULES,
   return orNull(post('chart', { kind, ...dataOf(points, groups), rules, ...known }, signal));
 }
 
-/** Cp, Cpk, Pp, Ppk with their intervals; null where they have no meaning: other limits among the values, too few of them. */
+/** Cp, Cpk, Pp, Ppk with their intervals; null where they have no meaning: other limits among the values, too few of them, or no spread. */
 export async function capability(points, groups, signal) {
   const [{ record }] = points;
   const same = points.every(({ upper, lower }) => upper === points[0].upper && lower === points[0].lower);
-  if (!same || (groups ?? points).length < 2) return null;
+  const isEqual = points.every(({ deviation }) => deviation === points[0].deviation);
+  if (!same || isEqual || (groups ?? points).length < 2) return null;
   return orNull(post('capability', {
     ...dataOf(points, groups), lower: decimal(record.lower_deviation_um), upper: decimal(record.upper_deviation_um),
   }, signal));

@@ -51,6 +51,18 @@ describe('the filter bar', () => {
     await close(page);
   });
 
+  it('asks for no figures of values that are all equal, in the chart either', async () => {
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 3 }, () => ({ designation: '25 H7', measured_mm: '25.01', characteristic: 'equal' })));
+    const page = await open(browser, daemon, '#/fit/25H7/g6');
+    const refused = [];
+    page.on('response', (answer) => answer.status() >= 400 && refused.push(answer.url()));
+    await page.evaluate(() => { location.hash = '#/trend?characteristic=equal'; });
+    await untilPoints(page, 3);
+    assert.match(await page.textContent('.indices'), /two different values/);
+    assert.deepEqual(refused, []);
+    await close(page);
+  });
+
   it('knows when a day and a shift begin, also over midnight', () => {
     const at = (hour, day = 10) => new Date(2026, 4, day, hour, 30);
     assert.deepEqual(periodOf('today', at(7)), [new Date(2026, 4, 10), null]);
