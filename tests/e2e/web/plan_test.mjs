@@ -68,6 +68,9 @@ describe('a plan', () => {
     await line('SN-00018');
     await progress('1 of 3');
     assert.equal(await page.$$eval('.tiles-of-plan .shape', (shapes) => shapes.length), 0);
+    await page.setViewportSize({ width: 300, height: 844 });
+    assert.deepEqual(await page.$$eval('.tiles-of-plan button', (tiles) => tiles.filter((tile) => tile.scrollWidth > tile.clientWidth).map(({ textContent }) => textContent)), []);
+    await page.setViewportSize({ width: 1280, height: 800 });
     const records = await daemon.stored();
     assert.deepEqual(records.map(({ part_id, characteristic, verdict: word, gauge }) => [part_id, characteristic, word, gauge]), [
       ['SN-00017', 'bore-A', 'reject', 'G-07'], ['SN-00017', 'slot', 'good', 'own-gauge'], ['SN-00017', 'journal', 'indeterminate', 'own-gauge']]);
