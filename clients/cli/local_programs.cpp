@@ -126,16 +126,14 @@ void apply_levels(const Levels& levels, std::vector<Diagnostic>& found) {
 Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options) {
   const auto levels = read_levels(options.levels);
   if (!levels) return levels.error();
-  if (options.from_control && !options.setup.empty())
+  if (options.from_control && !options.run.setup_file.empty())
     return Failure{ExitCode::Usage, "--setup is for local files: remove it with --from-control"};
   std::vector<Diagnostic> all;
   std::optional<Failure> failed;
   for (const std::string& file : options.files) {
-    auto found =
-        options.from_control
-            ? found_there(context, file)
-            : found_here(
-                  {.program = file, .setup_file = options.setup, .parameters = options.parameters});
+    RunOptions run = options.run;
+    run.program = file;
+    auto found = options.from_control ? found_there(context, file) : found_here(run);
     if (!found) {
       failed = found.error();
       continue;

@@ -22,20 +22,6 @@ Outcome<Levels> read_levels(const std::vector<std::string>& written);
 /// An error of the program stays one: it does not run.
 void apply_levels(const Levels& levels, std::vector<klartext::Diagnostic>& found);
 
-struct CheckOptions {
-  std::vector<std::string> files;
-  bool from_control = false;  ///< the files are those of the service
-  std::string format{};       ///< text, json or sarif; text when empty, json with --json
-  std::vector<std::string> levels{};
-  std::string setup{};                    ///< a file: the programs also run on it
-  std::vector<std::string> parameters{};  ///< of these runs
-};
-
-/// `nc check FILE…`, of files here without a service or of those of the service: programs and what
-/// they call. Exit code 0: nothing or notes, 1: warnings, 2: errors. @errors LocalFile, Refused for
-/// the setup, Usage for a level or a parameter that cannot be read.
-Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options);
-
 struct FormatOptions {
   std::vector<std::string> files;
   bool in_place = false;  ///< writes the files, else prints
@@ -103,6 +89,19 @@ Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options);
 /// @errors LocalFile, Usage, Refused for the setup, ProgramFailed for a program with errors, which
 ///   are printed.
 Outcome<std::string> run_here(const Context& context, RunOptions options);
+
+struct CheckOptions {
+  std::vector<std::string> files;
+  bool from_control = false;  ///< the files are those of the service
+  std::string format{};       ///< text, json or sarif; text when empty, json with --json
+  std::vector<std::string> levels{};
+  RunOptions run{};  ///< with a setup_file the programs also run on it
+};
+
+/// `nc check FILE…`, of files here without a service or of those of the service: programs and what
+/// they call. Exit code 0: nothing or notes, 1: warnings, 2: errors. @errors LocalFile, Refused for
+/// the setup, Usage for a level or a parameter that cannot be read.
+Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options);
 
 /// What the check of a program of this machine finds, and with a setup its run.
 /// @errors as of run_here, but for a program with errors.

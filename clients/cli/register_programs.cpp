@@ -51,8 +51,8 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   check->add_option("--format", checked->format, "Format of the findings: text, json, sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
   add_levels(*check, checked->levels);
-  check->add_option("--setup", checked->setup, "JSON file: the programs also run on this setup");
-  check->add_option("--set", checked->parameters, "Parameter before block 0 of these runs: Q1=25")
+  check->add_option("--setup", checked->run.setup_file, "JSON file: also run on this setup");
+  check->add_option("--set", checked->run.parameters, "Parameter before block 0 of the run: Q1=25")
       ->expected(1)
       ->take_all();
 

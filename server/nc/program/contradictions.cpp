@@ -88,7 +88,6 @@ constexpr int kLimitsOfSize[][2] = {
 /// The results of cycles.
 constexpr std::size_t kFirstResult = 150;
 constexpr std::size_t kEndOfResults = 200;
-
 /// Blocks of subprograms that are looked at for their calls.
 constexpr std::size_t kMostEntered = 1'000;
 
@@ -196,8 +195,8 @@ class Contradictions {
       if (const auto* definition = std::get_if<klartext::LabelDefinition>(&block_->statement)) {
         if (definition->label == klartext::Label(0U)) break;
       } else if (const auto* cycle = std::get_if<klartext::Cycle>(&block_->statement)) {
-        const CycleDescriptor* descriptor = bind_cycle(program_, *cycle).descriptor();
-        if (descriptor != nullptr) check_order(*cycle, *descriptor);
+        if (const auto* known = bind_cycle(program_, *cycle).descriptor())
+          check_order(*cycle, *known);
       } else if (const auto* assignment = std::get_if<klartext::Assignment>(&block_->statement)) {
         assign(*assignment);
       } else {

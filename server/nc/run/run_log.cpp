@@ -25,8 +25,8 @@ std::vector<klartext::Diagnostic> findings_of(const RunResult& result) {
   const auto add = [&](const auto& at, klartext::Severity severity, klartext::DiagnosticCode code,
                        std::string text) {
     if (found.size() >= kMostFindings) return;
-    const SourcePosition place{at.line, 1};
-    found.push_back({severity, code, std::move(text), at.program, {place, place}, at.block});
+    found.push_back(
+        {severity, code, std::move(text), at.program, {{at.line, 1}, {at.line, 1}}, at.block});
     if constexpr (requires { at.source; }) found.back().source = at.source;
   };
   for (const RunMessage& message : result.messages) {
