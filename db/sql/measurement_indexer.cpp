@@ -28,12 +28,11 @@ struct BlockColumn {
   enum : int {
     MeasuredAt,
     ReceivedAt,
-    Measured,
     Verdict,
     Source,
     Nominal,
     Run,
-    Corrected,
+    Measured,  ///< at 20 °C where it was corrected
     Lower,
     Upper,
     CorrectionOf,
@@ -46,11 +45,11 @@ std::string block_sql() {
   std::string columns;
   for (const TextColumn& column : kTextColumns) columns += fmt::format(", m.{}", column.column);
   return fmt::format(
-      "SELECT m.measured_at, m.received_at, m.measured_nm, m.verdict, m.source, m.nominal_nm, "
-      "m.run_id, coalesce(m.corrected_nm, m.measured_nm), m.nominal_nm + m.lower_deviation_nm, "
+      "SELECT m.measured_at, m.received_at, m.verdict, m.source, m.nominal_nm, m.run_id, {}, "
+      "m.nominal_nm + m.lower_deviation_nm, "
       "m.nominal_nm + m.upper_deviation_nm, m.correction_of, coalesce(m.origin, 0){} FROM "
       "measurements m WHERE m.id BETWEEN ? AND ? ORDER BY m.id",
-      columns);
+      kSummedLength, columns);
 }
 
 int kind_of(int source, int verdict) { return 8 * source + verdict; }
@@ -216,19 +215,19 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
     index.max_measured_at = std::max(index.max_measured_at, measured_at);
     index.min_received_at = std::min(index.min_received_at, received_at);
     index.max_received_at = std::max(index.max_received_at, received_at);
+    const auto measured_nm = rows.get<std::int64_t>(BlockColumn::Measured);
     const bool corrects =
         rows.get<std::optional<std::int64_t>>(BlockColumn::CorrectionOf).has_value();
     const bool is_current = !corrected.contains(row) &&
                             (!corrects || stands_.returning<std::int64_t>(ids.first + row) == 1);
     is_plain = is_plain && rows.get<std::int64_t>(BlockColumn::Origin) == 0 && !corrects;
-    block.add({.measured_nm = rows.get<std::int64_t>(BlockColumn::Corrected),
+    block.add({.measured_nm = measured_nm,
                .lower_limit_nm = rows.get<std::int64_t>(BlockColumn::Lower),
                .upper_limit_nm = rows.get<std::int64_t>(BlockColumn::Upper),
                .subgroup = rows.get<std::optional<std::string_view>>(
                    BlockColumn::Texts + static_cast<int>(index_of(TextField::Subgroup)))});
     const auto source = rows.get<int>(BlockColumn::Source);
     const auto verdict = rows.get<int>(BlockColumn::Verdict);
-    const auto measured_nm = rows.get<std::int64_t>(BlockColumn::Measured);
     if (row == 0 || kind_of(source, verdict) != kind) {
       kind = kind_of(source, verdict);
       sources = post(number_of(IndexField::Source), std::to_string(source));
@@ -330,7 +329,7 @@ NodeIndex MeasurementIndexer::derive_parent(const IndexNode& node) {
 
 void MeasurementIndexer::aggregate_rows(const IndexNode& node, TextField field, NodeIndex& index) {
   MeasurementQuery query(connection_,
-                         fmt::format("m.{}, m.source, m.verdict, m.measured_nm", column_of(field)));
+                         fmt::format("m.{}, m.source, m.verdict, {}", column_of(field), kSummedLength));
   Values values;
   const MeasurementFilter current{.source = std::nullopt};
   const bool few = query.run(current, node.ids(), ListOrder::OldestFirst, [&](const Rows& rows) {

@@ -20,6 +20,9 @@ namespace fitgauge::store {
 std::int64_t indexed_to(sql::Statement& last_block);
 sql::Statement last_block_statement(sql::Connection& connection);
 
+/// The length that summaries and figures are of, in nm: at 20 °C if the row was corrected to it.
+inline constexpr std::string_view kSummedLength = "coalesce(m.corrected_nm, m.measured_nm)";
+
 /// The value of a field that aggregates are of, where the rows have none: NULL, or 0 in an engine
 /// whose keys cannot be NULL.
 struct AggregatedValue {

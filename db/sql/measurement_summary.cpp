@@ -17,7 +17,7 @@ bool is_summed(TextField field) { return index_of(field) < kSummedColumns.size()
 
 MeasurementSummary::MeasurementSummary(sql::Connection& c, TextField group_by)
     : group_by_(group_by),
-      rows_(c, fmt::format("m.{}, m.verdict, m.measured_nm", column_of(group_by))),
+      rows_(c, fmt::format("m.{}, m.verdict, {}", column_of(group_by), kSummedLength)),
       nodes_(c),
       last_block_(last_block_statement(c)),
       columns_(c,

@@ -32,8 +32,7 @@ MeasurementRow read_row(const Rows& rows) {
 }
 
 constexpr std::string_view kValueColumns =
-    "m.id, coalesce(m.corrected_nm, m.measured_nm), m.nominal_nm + m.lower_deviation_nm, "
-    "m.nominal_nm + m.upper_deviation_nm, m.subgroup, ";
+    "m.nominal_nm + m.lower_deviation_nm, m.nominal_nm + m.upper_deviation_nm, m.subgroup, ";
 constexpr std::string_view kPlaceColumns =
     "coalesce(m.origin, 0), CASE WHEN m.origin > 0 THEN coalesce(m.number, m.seq) ELSE m.id END";
 /// The same where every row is of this folder: the columns at the far end are dear to reach.
@@ -97,8 +96,8 @@ struct MeasurementsStore::Statements {
   LogQuery log_hashes{connection, "hash"};
   MeasurementIndexer indexer{connection};
   MeasurementQuery whole_rows{connection, measurement_columns()};
-  MeasurementQuery values{connection, fmt::format("{}{}", kValueColumns, kPlaceColumns)};
-  MeasurementQuery own_values{connection, fmt::format("{}{}", kValueColumns, kOwnPlaceColumns)};
+  MeasurementQuery values{connection, fmt::format("m.id, {}, {}{}", kSummedLength, kValueColumns, kPlaceColumns)};
+  MeasurementQuery own_values{connection, fmt::format("m.id, {}, {}{}", kSummedLength, kValueColumns, kOwnPlaceColumns)};
   Statement block_values{connection, "SELECT bytes FROM measurement_values WHERE block = ?"};
   Statement corrected_among{connection,
                             "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of "

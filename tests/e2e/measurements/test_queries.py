@@ -222,6 +222,14 @@ class Statistics(DaemonTest):
         self.assertEqual(group["min_mm"], decimal.Decimal(min(nanometres)) / 10**6)
         self.assertEqual(group["max_mm"], decimal.Decimal(max(nanometres)) / 10**6)
 
+    def test_a_summary_is_of_the_size_at_20_degrees(self):
+        for measured, temperature in ((25.022, 25), (25.012, 30), (25.005, 20), (25.003, 15)):
+            self.daemon.measure({"designation": "25H7", "part_material": "steel", "measured_mm": measured,
+                                 "temperature_c": temperature, "characteristic": "warm"})
+        group, = self.daemon.get("/v1/measurements/summary?characteristic=warm").json["groups"]
+        self.assertEqual((group["mean_mm"], group["min_mm"], group["max_mm"]), (25.00978075, 25.004438, 25.020561))
+        self.assertAlmostEqual(group["standard_deviation_mm"], 0.0074843, 7)
+
     def test_one_value_has_no_deviation(self):
         self.daemon.measure({"designation": "25 H7", "measured_mm": 25.01,
                              "characteristic": "single"})

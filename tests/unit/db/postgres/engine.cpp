@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "db/postgres/connection.hpp"
+#include "db/sql/sealed_table.hpp"
 #include "db/sql/statement.hpp"
 #include "db/store/database.hpp"
 
@@ -77,6 +78,10 @@ std::int64_t query_integer(const OpenOptions& options, const std::string& sql) {
   postgres::Connection connection(options.address);
   sql::Statement statement(connection, sql);
   return statement.returning<std::int64_t>();
+}
+
+std::string migration(std::size_t number) {
+  return std::string(postgres::migrations()[number - 1].sql);
 }
 
 }  // namespace fitgauge::store::test

@@ -19,5 +19,6 @@ Result<std::unique_ptr<Database>> open_database(const OpenOptions& options, cons
 /// Past the stores.
 void execute(const OpenOptions& options, const std::string& sql);
 std::int64_t query_integer(const OpenOptions& options, const std::string& sql);
+std::string migration(std::size_t number);
 
 }  // namespace fitgauge::store::test

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "db/sql/sealed_table.hpp"
 #include "db/sqlite/connection.hpp"
 #include "db/store/database.hpp"
 
@@ -23,6 +24,9 @@ inline void execute(const OpenOptions& options, const std::string& sql) {
 inline std::int64_t query_integer(const OpenOptions& options, const std::string& sql) {
   return sqlite::Connection(options.directory / "fitgauge.db", sqlite::Mode::Read)
       .query_integer(sql);
+}
+inline std::string migration(std::size_t number) {
+  return std::string(sqlite::migrations()[number - 1].sql);
 }
 
 }  // namespace fitgauge::store::test

@@ -21,6 +21,8 @@ namespace {
 
 /// One node of level 1, three blocks, and rows that are not indexed.
 constexpr std::size_t kSize = 36'000;
+/// So many at the beginning, two blocks, have no size at 20 °C.
+constexpr std::size_t kMeasuredAlone = 2'048;
 constexpr std::size_t kDesignation = kTextColumns.size();
 constexpr std::size_t kNoFilter = kDesignation + 1;
 constexpr std::size_t kTwoFilters = kNoFilter + 1;
@@ -43,8 +45,8 @@ struct Shop : Fixture {
       row.measured_at_ns = static_cast<std::int64_t>(i + random() % 50);
       row.received_at_ns = static_cast<std::int64_t>(i);
       if (random() % 10 == 0) row.verdict = Verdict::Indeterminate;
-      if (random() % 10 == 0 && row.measured_nm + 3 <= row.upper_limit_nm()) {
-        row.corrected_nm = row.measured_nm + 3;  // not what is summed up
+      if (i >= kMeasuredAlone && random() % 10 == 0 && row.measured_nm + 3 <= row.upper_limit_nm()) {
+        row.corrected_nm = row.measured_nm + 3;  // what is summed up
       }
       if (random() % 4 != 0) {
         row.tolerance_class = random() % 2 == 0 ? "H7" : "H8";
@@ -129,7 +131,7 @@ struct Shop : Fixture {
       }
       if (!sample.matches(i, all)) continue;
       Group& group = groups[row.*kTextColumns[index_of(group_by)].text];
-      group.statistics.add(row.measured_nm);
+      group.statistics.add(row.corrected_nm.value_or(row.measured_nm));
       ++group.verdicts.at(static_cast<std::size_t>(row.verdict) - 1);
     }
     if (groups.size() > 10'000) return "too many";
@@ -260,6 +262,18 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   REQUIRE(shop.count("measurement_columns") == 35);
   REQUIRE(shop.count("measurement_pairs WHERE field = 4 AND by_field = 3") == 1);
   shop.check("with all of them again");
+  CHECK(shop.database->verify()->findings.empty());
+
+  // As releases left it that summed up the values before their correction to 20 °C.
+  shop.execute("UPDATE measurement_aggregates SET statistics = (SELECT statistics FROM "
+               "measurement_aggregates WHERE level = 1 LIMIT 1) WHERE level = 1 OR node > 1");
+  shop.execute("DELETE FROM measurement_columns WHERE block > 1");
+  shop.execute(migration(11));
+  REQUIRE(shop.count("measurement_nodes WHERE stale = 1 AND paired = 0") == 34);
+  REQUIRE(shop.count("measurement_nodes WHERE stale = 0 AND level = 0 AND node < 2") == 2);
+  shop.check("with what was summed up before the correction");
+  shop.index(1'000'000);
+  shop.check("and summed up again");
   CHECK(shop.database->verify()->findings.empty());
 
   shop.execute("DELETE FROM measurement_pairs WHERE field = 0 AND by_field = 1");
