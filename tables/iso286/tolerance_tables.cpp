@@ -120,8 +120,7 @@ Result<ClassId> ToleranceTables::find_class(std::string_view name) const {
     if (std::binary_search(listed.begin(), listed.end(), id)) return id;
     return Error{ErrorCode::ClassUnknown, fmt::format("ISO 286 defines {} for no size", name)};
   }
-  const bool has_digit = name.find_first_of("0123456789") != std::string_view::npos;
-  if (!is_class_name(name) || !has_digit) {
+  if (!is_class_name(name) || class_from_name(std::string(name) + '7')) {  // `H` lacks its grade
     return Error{ErrorCode::DesignationMalformed,
                  "a tolerance class must be letters and a grade such as H7, or the name of a "
                  "custom tolerance class"};

@@ -70,7 +70,7 @@ class BadInput(DaemonTest):
         for designation, code in (
                 ("25 H", "designation.malformed"), ("7H", "designation.malformed"),
                 ("25 H19", "class.unknown"), ("25 I7", "class.unknown"),
-                ("25 h7x", "class.unknown"), ("10 t6", "class.undefined_for_size"),
+                ("25 NEU", "class.unknown"), ("25 h7x", "class.unknown"), ("10 t6", "class.undefined_for_size"),
                 ("0.8 N9", "class.undefined_for_size"), ("25 K9", "class.undefined_for_size")):
             with self.subTest(designation):
                 self.refuse({"designation": designation, "measured_mm": 25}, 422, code)

@@ -48,6 +48,8 @@ class Limits(DaemonTest):
                 ("25..5H7", 400, "designation.malformed"), ("25H", 400, "designation.malformed"),
                 ("25H7%00", 400, "path.malformed"),
                 ("25H19", 404, "class.unknown"), ("25I7", 404, "class.unknown"), ("25h7x", 404, "class.unknown"),
+                ("25NEU", 404, "class.unknown"), ("25ZZZ", 404, "class.unknown"),
+                ("25js", 400, "designation.malformed"),
                 ("10t6", 422, "class.undefined_for_size"), ("0.8N9", 422, "class.undefined_for_size"),
                 ("25K9", 422, "class.undefined_for_size"), ("0.001d9", 422, "class.undefined_for_size"),
                 ("0H7", 422, "size.out_of_range"), ("-1H7", 422, "size.out_of_range"),
@@ -55,6 +57,9 @@ class Limits(DaemonTest):
                 ("25.0000001H7", 422, "length.too_fine")]:
             with self.subTest(path):
                 self.assert_problem(self.daemon.get(f"/v1/limits/{path}"), status, code)
+        for path in ("limits?nominal_mm=25&tolerance_class=NEU", "gauges/25NEU", "fits/25NEU/g6",
+                     "verdicts/25NEU?measured_mm=25"):
+            self.assert_problem(self.daemon.get(f"/v1/{path}"), 404, "class.unknown")
         self.assert_problem(self.daemon.get("/v1/limits?nominal_mm=-1&tolerance_class=H7"), 422,
                             "size.out_of_range")
         self.assert_problem(self.daemon.get("/v1/limits?nominal_mm=1e1&tolerance_class=H7"), 400, "length.malformed")

@@ -73,7 +73,7 @@ class CustomColumns(DaemonTest):
         self.assertIn("PRESS", self.daemon.get("/v1/tables/hole.tab").text)
         self.assertEqual(self.daemon.get(f"/v1/tables/hole?classes=H7&revision={before}").json["revision"], before)
         self.assertEqual(self.daemon.request("DELETE", "/v1/tables/hole/classes/PRESS").status, 204)
-        self.assert_problem(self.daemon.get("/v1/limits/25PRESS"), 400, "designation.malformed")
+        self.assert_problem(self.daemon.get("/v1/limits/25PRESS"), 404, "class.unknown")
         self.assert_problem(self.daemon.request("DELETE", "/v1/tables/hole/classes/PRESS"), 404, "class.unknown")
 
     def test_a_name_that_no_column_has_cannot_be_read(self):
