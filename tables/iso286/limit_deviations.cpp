@@ -6,11 +6,15 @@ namespace fitgauge::iso286 {
 
 std::optional<LimitDeviations> deviations_in_range(const ToleranceTables& tables, ClassId id,
                                                    const NominalSizeRange& range) {
-  const NominalSize end = NominalSize::make(range.up_to).value();
-  const auto deviations = tables.limit_deviations(end, id);
+  NominalSize size = NominalSize::make(range.up_to).value();
+  const auto deviations = tables.limit_deviations(size, id);
   if (!deviations || tables.basis(id) == Basis::Iso286) return deviations;
-  const bool whole_range = tables.limits_of_size(end, id)->size_range.contains(range);
-  return whole_range ? deviations : std::nullopt;
+  for (;;) {
+    const Length over = tables.limits_of_size(size, id)->size_range.over;
+    if (over <= range.over) return deviations;
+    size = NominalSize::make(over).value();
+    if (tables.limit_deviations(size, id) != deviations) return std::nullopt;
+  }
 }
 
 std::string_view word(FitKind kind) {

@@ -23,7 +23,7 @@ struct LimitDeviations {
 class ToleranceTables;
 
 /// A class for every size of one range of the tables: of a class of the standard, the
-/// deviations at its end; of a custom column, those of the row that holds the whole range.
+/// deviations at its end; of a custom column, those that its rows there share, if they cover it.
 std::optional<LimitDeviations> deviations_in_range(const ToleranceTables& tables, ClassId id,
                                                    const NominalSizeRange& range);
 

@@ -102,6 +102,21 @@ class CustomColumns(DaemonTest):
         lines = self.daemon.get("/v1/tables/hole?classes=CUT&format=csv").text.split()
         self.assertEqual(lines[6:9], ["18,24,,", "24,30,7,0", "30,40,9,0"])
 
+    def test_rows_of_the_same_deviations_are_one_for_the_table(self):
+        """Whole steps from 18 mm on; 14 to 18 mm is not covered, and 30 to 40 mm has two answers."""
+        for name in ("D10", "JOINED"):
+            self.put(name, [{"over_mm": over, "up_to_mm": up_to, "upper_um": upper, "lower_um": 0}
+                            for over, up_to, upper in ((16, 19, 5), (19, 20.5, 5), (20.5, 35, 5), (35, 36, 7), (36, 50, 7))])
+            rows = self.daemon.get(f"/v1/tables/hole?classes={name}").json["rows"]
+            self.assertEqual({row["up_to_mm"]: row["limits"][name]["upper_um"] for row in rows if row["limits"]},
+                             {24: 5, 30: 5, 50: 7})
+        lines = self.daemon.get("/v1/tables/hole.tab").text.splitlines()
+        head = next(line for line in lines if line.startswith("NR"))
+        cell = slice(head.index("D10 "), head.index("D10 ") + 4)
+        upper = {line.split()[1]: line[cell].strip() for line in lines[lines.index(head) + 1:-1:2]}
+        self.assertEqual([upper[size] for size in ("18", "24", "30", "40", "50")], ["", "5", "5", "", "7"])
+        self.daemon.request("DELETE", "/v1/tables/hole/classes/D10")
+
     def test_if_match_guards_a_change(self):
         tag = self.daemon.get("/v1/tables").headers["etag"]
         self.assertEqual(self.put("A1x", ROWS, **{"If-Match": tag}).status, 201)
