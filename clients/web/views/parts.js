@@ -34,7 +34,7 @@ export function mount(main, route) {
     .map((name) => h('th', { scope: 'col' }, t(name))), h('td'))), h('tbody'));
   const list = new LongList(table, t('view.parts'), {
     read, rowOf, count, headOf: (run) => runRow(run, leaving.signal), leaving: leaving.signal,
-    onPlace: (rank) => { at = rank; go({ view: 'parts', options: options() }, { refine: true, quiet: true }); },
+    onPlace: (rank) => { if (location.hash === address) toAddress(rank, true); },
     onProblem: (problem) => { said.textContent = explain(problem); },
   });
   const exported = Object.fromEntries(Object.entries(FORMS).map(([format, form]) => [format,
@@ -42,6 +42,8 @@ export function mount(main, route) {
   const certificate = new CertificateForm((reason) => { said.textContent = reason; });
   /** How many rows are older than the first in sight. */
   let at = /^\d+$/.test(route.options.at ?? '') ? Number(route.options.at) : undefined;
+  /** Of this list: where another is chosen, the place does not count. */
+  let address;
 
   main.replaceChildren(h('div.desk.parts', h('h1.unseen', { tabindex: -1 }, t('view.parts')),
     h('form.line', { onsubmit: (event) => { event.preventDefault(); search(); } },
@@ -58,9 +60,14 @@ export function mount(main, route) {
     ...bar.query, ...Object.fromEntries(FIELDS.map((name) => [name, inputs[name].value.trim()])), verdict: verdict.value, history: corrected.checked ? 'all' : '',
   });
 
-  async function search(rank) {
+  function toAddress(rank, quiet) {
     at = rank;
-    go({ view: 'parts', options: options() }, { refine: true });
+    go({ view: 'parts', options: options() }, { refine: true, quiet });
+    address = location.hash;
+  }
+
+  async function search(rank) {
+    toAddress(rank);
     for (const [format, link] of Object.entries(exported)) link.href = url(['measurements'], { ...filter(), format, time_zone: format === 'xlsx' ? ZONE : '' });
     const { part_id, order } = filter();
     certificate.show({ part_id, order });

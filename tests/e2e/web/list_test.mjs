@@ -143,6 +143,21 @@ describe('the list of 100,000', () => {
     await close(again);
   });
 
+  it('leaves the address alone once another is chosen', async () => {
+    const page = await open(browser, daemon, '#/parts?order=WO-L', VIEW);
+    await page.waitForSelector('.place input');
+    await rest(page);
+    // A view that comes late: the list still stands when its place is due.
+    const address = await page.evaluate(async () => {
+      history.pushState(null, '', '#/parts?part_id=L-17');
+      document.querySelector('.records').scrollTop += 700;
+      await new Promise((resolve) => { setTimeout(resolve, 1000); });
+      return location.hash;
+    });
+    assert.equal(address, '#/parts?part_id=L-17');
+    await close(page);
+  });
+
   it('strikes out what was corrected, however far away the correction stands', async () => {
     const { measurements: [record] } = await daemon.json('/v1/measurements?part_id=L-500');
     await daemon.send('POST', `/v1/measurements/${record.id}/corrections`, { measured_mm: '25.0001', reason: 'slipped' });
