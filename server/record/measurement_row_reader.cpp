@@ -55,10 +55,11 @@ void MeasurementRowReader::begin(std::optional<std::size_t> row, std::optional<s
   draft_ = {};
 }
 
-void MeasurementRowReader::report(ErrorCode code, std::string_view field, std::string message) {
+void MeasurementRowReader::report(ErrorCode code, std::optional<std::string_view> field,
+                                  std::string message) {
   draft_.failed = true;
   std::string pointer = row_ ? pointer_to("", *row_) : std::string();
-  if (!field.empty()) pointer = pointer_to(pointer, field);
+  if (field) pointer = pointer_to(pointer, *field);
   errors_.add(code, std::move(pointer), std::move(message), line_);
 }
 
@@ -71,7 +72,7 @@ void MeasurementRowReader::report_unknown(std::string_view name) {
 }
 
 void MeasurementRowReader::report_row(ErrorCode code, std::string message) {
-  report(code, "", std::move(message));
+  report(code, std::nullopt, std::move(message));
 }
 
 bool MeasurementRowReader::field(std::string_view name, const RawValue& value) {

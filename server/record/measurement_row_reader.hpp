@@ -185,7 +185,8 @@ class MeasurementRowReader {
   bool is_open_designation() const;
   bool is_open_class() const;
   Result<iso286::ClassId> find_class(std::string_view name);
-  void report(ErrorCode code, std::string_view field, std::string message);
+  /// @param field none: the whole row
+  void report(ErrorCode code, std::optional<std::string_view> field, std::string message);
   void report(std::size_t field, const Error& error);
 
   const iso286::ToleranceTables& tables_;

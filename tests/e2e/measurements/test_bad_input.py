@@ -32,6 +32,11 @@ class BadInput(DaemonTest):
             self.assertEqual((answer.status, answer.json["code"]), (400, code))
             self.assertEqual([(e["pointer"], e["line"], e["code"]) for e in answer.json["errors"]], [(row, 2, code)])
 
+    def test_a_field_without_a_name_has_a_pointer(self):
+        for body, pointer in (({**GOOD, "": 2}, "/"), ([GOOD, {**GOOD, "": 2}], "/1/"), ([GOOD, 3], "/1")):
+            error, = self.daemon.measure(body, JSON).json["errors"]
+            self.assertEqual(error["pointer"], pointer)
+
     def test_the_detail_is_the_first_error_and_counts_the_others(self):
         row = {"designation": "25 H7"}
         for rows, more in (({**GOOD, "measured_mm": None}, ""), ([row], ""), ([row, row, row], " (and 2 more)"),
