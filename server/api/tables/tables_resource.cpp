@@ -11,6 +11,8 @@
 #include "api/wire/request_facts.hpp"
 #include "base/json/json_value.hpp"
 #include "base/json/json_writer.hpp"
+#include "base/text.hpp"
+#include "http/field_list.hpp"
 #include "service/tables/custom_column.hpp"
 #include "tables/iso286/limit_deviations.hpp"
 #include "tables/iso286/tolerance_class.hpp"
@@ -168,6 +170,26 @@ Result<std::string> column_name(const http::Request& request) {
       "name"};
 }
 
+/// Whether entity tags name the tables of a revision, in whatever form, or `*` a class that exists.
+bool name_tables(std::string_view tags, std::string_view revision, bool exists, bool weakly) {
+  if (trim(tags) == "*") return exists;
+  const auto items = http::list_items(tags);
+  return std::any_of(items.begin(), items.end(), [&](std::string_view tag) {
+    if (weakly && tag.starts_with("W/")) tag.remove_prefix(2);
+    if (!tag.starts_with('"') || !tag.substr(1).starts_with(revision)) return false;
+    const std::string_view form = tag.substr(1 + revision.size());
+    return form == "\"" || form == "-gzip\"" || (form.starts_with('.') && form.ends_with('"'));
+  });
+}
+
+app::TableCatalog::Condition condition_of(const http::Request& request) {
+  return [asked = preconditions_of(request)](std::string_view revision, bool exists) {
+    return (!asked.if_match || name_tables(*asked.if_match, revision, exists, false)) &&
+           !(exists && asked.if_none_match &&
+             name_tables(*asked.if_none_match, revision, exists, true));
+  };
+}
+
 void put_column(const Services& services, Feature feature, const http::Request& request,
                 http::Responder responder) {
   auto name = column_name(request);
@@ -179,7 +201,7 @@ void put_column(const Services& services, Feature feature, const http::Request& 
   const auto shared = share(std::move(responder));
   services.tables.put_column(
       {.feature = feature, .name = *std::move(name), .rows = std::move(column->rows)},
-      revisions_to_match(request), caller_text(request),
+      condition_of(request), caller_text(request),
       [shared](Result<app::TableCatalog::ColumnStored> stored) {
         if (stored) return answer_change(shared, stored->created ? 201 : 200, *stored);
         Error error = std::move(stored).error();
@@ -195,7 +217,7 @@ void remove_column(const Services& services, Feature feature, const http::Reques
   auto name = column_name(request);
   if (!name) return responder.fail(name.error());
   const auto shared = share(std::move(responder));
-  services.tables.remove_column(feature, *std::move(name), revisions_to_match(request),
+  services.tables.remove_column(feature, *std::move(name), condition_of(request),
                                 caller_text(request),
                                 [shared](Result<app::TableCatalog::ColumnStored> stored) {
                                   if (!stored) return shared->fail(stored.error());
@@ -237,13 +259,10 @@ void add_feature_routes(Routes& add, Feature feature) {
        .outcomes = {{.meaning = "The file"}}});
   const http::Parameter name =
       path_parameter("name", "Letter, then letters, digits and _; at most 16");
-  const http::Parameter if_match{.name = "If-Match",
-                                 .place = http::ParameterPlace::Header,
-                                 .description = "Tag of the tables the change follows"};
   add("PUT " + path + "/classes/{name} put" + table + "Column admin",
       with(add.services, feature, put_column),
       {.summary = "Store a custom tolerance class as a new revision",
-       .parameters = {name, if_match},
+       .parameters = with_preconditions(name),
        .body = json_body("Column"),
        .outcomes = {{.meaning = "Custom class replaced", .schema = "Revision"},
                     {.status = 201, .meaning = "Custom class created", .schema = "Revision"}},
@@ -251,7 +270,7 @@ void add_feature_routes(Routes& add, Feature feature) {
   add("DELETE " + path + "/classes/{name} delete" + table + "Column admin",
       with(add.services, feature, remove_column),
       {.summary = "Delete a custom class; the standard class counts again",
-       .parameters = {name, if_match},
+       .parameters = with_preconditions(name),
        .outcomes = {{.status = 204, .meaning = "Deleted"}},
        .refusals = {404, 412}});
 }

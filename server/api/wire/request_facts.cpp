@@ -77,20 +77,6 @@ Result<std::optional<std::string>> idempotency_key(const http::Request& request)
   return std::optional(std::string(key));
 }
 
-std::optional<std::vector<std::string>> revisions_to_match(const http::Request& request) {
-  const auto header = request.header_list("If-Match");
-  if (!header || trim(*header) == "*") return std::nullopt;
-  std::vector<std::string> revisions;
-  for (std::string_view tag : list_items(*header)) {
-    // If-Match compares strongly: a weak tag never matches (RFC 9110, 13.1.1).
-    if (tag.size() < 2 || tag.front() != '"' || tag.back() != '"') continue;
-    if (tag.ends_with(http::kPackedEtagEnd)) tag.remove_suffix(http::kPackedEtagEnd.size());
-    tag = tag.substr(1, tag.size() - 2);
-    revisions.emplace_back(tag.substr(0, tag.find('.')));
-  }
-  return revisions;
-}
-
 Preconditions preconditions_of(const http::Request& request) {
   return {.if_match = request.header_list("If-Match"),
           .if_none_match = request.header_list("If-None-Match")};

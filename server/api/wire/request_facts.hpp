@@ -38,9 +38,6 @@ http::Parameter csv_or_json();
 /// @errors IdempotencyKeyInvalid unless it has 1 to 255 visible ASCII characters.
 Result<std::optional<std::string>> idempotency_key(const http::Request& request);
 
-/// The revisions an If-Match names, from their entity tags; none without the header or with `*`.
-std::optional<std::vector<std::string>> revisions_to_match(const http::Request& request);
-
 /// Preconditions of a request on the current representation (RFC 9110,
 /// section 13): evaluated in the transaction that does it.
 struct Preconditions {

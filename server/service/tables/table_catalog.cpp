@@ -134,8 +134,7 @@ void TableCatalog::at_revision(std::string revision, Callback<Tables> done) {
       std::move(done));
 }
 
-void TableCatalog::put_column(iso286::CustomColumn column,
-                              std::optional<std::vector<std::string>> condition,
+void TableCatalog::put_column(iso286::CustomColumn column, Condition condition,
                               std::optional<std::string> caller, Callback<ColumnStored> done) {
   if (const auto checked = iso286::check_custom_column(column); !checked) {
     return done(checked.error());
@@ -156,8 +155,7 @@ void TableCatalog::put_column(iso286::CustomColumn column,
       std::move(condition), std::move(caller), std::move(done));
 }
 
-void TableCatalog::remove_column(iso286::Feature feature, std::string name,
-                                 std::optional<std::vector<std::string>> condition,
+void TableCatalog::remove_column(iso286::Feature feature, std::string name, Condition condition,
                                  std::optional<std::string> caller, Callback<ColumnStored> done) {
   ColumnName removed{feature, name};
   change(
@@ -176,8 +174,7 @@ void TableCatalog::remove_column(iso286::Feature feature, std::string name,
       std::move(condition), std::move(caller), std::move(done));
 }
 
-void TableCatalog::change(ColumnName column, Edit edit,
-                          std::optional<std::vector<std::string>> condition,
+void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
                           std::optional<std::string> caller, Callback<ColumnStored> done) {
   struct Changed {
     bool created = false;
@@ -191,16 +188,15 @@ void TableCatalog::change(ColumnName column, Edit edit,
           return centre_decides("the tables with their own columns");
         }
         const auto latest = stores.tables.load_latest().value();
-        if (condition && std::find(condition->begin(), condition->end(), latest.revision.id) ==
-                             condition->end()) {
-          return Error{ErrorCode::PreconditionFailed,
-                       "the tables have changed since you read them: read them again, and repeat "
-                       "the change"};
-        }
         const TableState state = audit(latest);
         if (state.tables == nullptr) return inconsistent(state.findings);
         auto data = from_store(latest.content).value();
         auto before = column_text(data.custom_columns, column);
+        if (!condition(latest.revision.id, before.has_value())) {
+          return Error{ErrorCode::PreconditionFailed,
+                       "the tables have changed since you read them, or the class is there or not "
+                       "against `*`: read them again, and repeat the change"};
+        }
         const auto created = edit(data.custom_columns);
         if (!created) return created.error();
         const std::int64_t now = clock_.now().nanoseconds;

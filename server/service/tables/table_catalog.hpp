@@ -65,13 +65,14 @@ class TableCatalog {
     bool created = false;  ///< no custom column of that name stood there before
     std::string revision;
   };
+  /// Decides whether a change may follow a revision, in which the column is custom or is not.
+  using Condition = std::function<bool(std::string_view revision, bool exists)>;
   /// Stores the column in a new revision; from then on every reader sees it, and the event
   /// `table.changed` says so.
-  /// @param condition the revisions a change may follow (If-Match), or none for any.
   /// @param caller who changes them.
   /// @errors TableRowsInvalid, PreconditionFailed, Forbidden (the centre's), StorageUnavailable,
   /// StorageBusy.
-  void put_column(iso286::CustomColumn column, std::optional<std::vector<std::string>> condition,
+  void put_column(iso286::CustomColumn column, Condition condition,
                   std::optional<std::string> caller, Callback<ColumnStored> done);
 
   /// Tables of a centre, stored and not yet in force.
@@ -111,8 +112,7 @@ class TableCatalog {
   std::optional<std::int64_t> revision_number(std::string_view id) const;
 
   /// Back to the standard. @errors ClassUnknown when the class is not custom; those of put_column.
-  void remove_column(iso286::Feature feature, std::string name,
-                     std::optional<std::vector<std::string>> condition,
+  void remove_column(iso286::Feature feature, std::string name, Condition condition,
                      std::optional<std::string> caller, Callback<ColumnStored> done);
 
  private:
@@ -122,8 +122,8 @@ class TableCatalog {
   void put_in_force(std::shared_ptr<const TableState> state);
 
   using Edit = std::function<Result<bool>(std::vector<iso286::CustomColumn>&)>;
-  void change(ColumnName column, Edit edit, std::optional<std::vector<std::string>> condition,
-              std::optional<std::string> caller, Callback<ColumnStored> done);
+  void change(ColumnName column, Edit edit, Condition condition, std::optional<std::string> caller,
+              Callback<ColumnStored> done);
 
   store::Database& database_;
   const Clock& clock_;

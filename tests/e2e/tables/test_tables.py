@@ -122,6 +122,29 @@ class CustomColumns(DaemonTest):
         self.assertEqual(self.put("A1x", ROWS, **{"If-Match": tag}).status, 201)
         self.assert_problem(self.put("A1x", ROWS, **{"If-Match": tag}), 412, "precondition.failed")
 
+    def test_each_form_of_the_tables_is_a_tag_for_a_change(self):
+        for n, (path, fields) in enumerate((
+                ("hole", {}), ("hole", {"Accept-Encoding": "gzip"}), ("hole?format=csv", {"Accept-Encoding": "gzip"}),
+                ("hole.tab", {}), ("hole?classes=H7", {}))):
+            tag = self.daemon.get(f"/v1/tables/{path}", **fields).headers["etag"]
+            self.assertEqual("-gzip" in tag, bool(fields))
+            rows = [{**ROWS[0], "upper_um": n}]
+            for other in ("W/" + tag, tag.replace("-", "9-", 1), tag[:4] + '"', '"x"'):
+                self.assert_problem(self.put("FORM", rows, **{"If-Match": other}), 412, "precondition.failed")
+            self.assertEqual(self.put("FORM", rows, **{"If-Match": '"x", ' + tag}).status, 200 if n else 201)
+            self.assert_problem(self.put("FORM", rows, **{"If-Match": tag}), 412, "precondition.failed")
+
+    def test_a_star_is_a_class_that_exists(self):
+        refused = lambda answer: self.assert_problem(answer, 412, "precondition.failed")
+        refused(self.put("STAR", ROWS, **{"If-Match": "*"}))
+        refused(self.put("H9", ROWS, **{"If-Match": "*"}))
+        self.assertEqual(self.put("STAR", ROWS, **{"If-None-Match": "*"}).status, 201)
+        refused(self.put("STAR", ROWS[:1], **{"If-None-Match": "*"}))
+        refused(self.put("STAR", ROWS[:1], **{"If-None-Match": "W/" + self.daemon.get("/v1/tables").headers["etag"]}))
+        self.assertEqual(self.put("STAR", ROWS[:1], **{"If-Match": "*", "If-None-Match": '"x"'}).status, 200)
+        refused(self.daemon.request("DELETE", "/v1/tables/hole/classes/STAR", None, {"If-None-Match": "*"}))
+        self.assertEqual(self.daemon.request("DELETE", "/v1/tables/hole/classes/STAR", None, {"If-Match": "*"}).status, 204)
+
     def test_every_bad_field_is_named(self):
         problem = self.assert_problem(
             self.put("BAD", [{"over_mm": 18, "up_to_mm": 30, "upper_um": -4, "lower_um": -3},
