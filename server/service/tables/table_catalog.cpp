@@ -199,6 +199,8 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
         }
         const auto created = edit(data.custom_columns);
         if (!created) return created.error();
+        auto after = column_text(data.custom_columns, column);
+        if (after == before) return Changed{false, latest.revision, state_.get()};
         const std::int64_t now = clock_.now().nanoseconds;
         const auto imported = stores.tables.import({.content = to_store(data),
                                                     .source = "custom column",
@@ -211,7 +213,7 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
                             .kind = "tables",
                             .name = fmt::format("{}/{}", word(column.feature), column.name),
                             .before = std::move(before),
-                            .after = column_text(data.custom_columns, column)});
+                            .after = std::move(after)});
         auto loaded = stores.tables.load_latest().value();
         stores.events.append(kChangedEvent, change_text(column, loaded.revision.id), now);
         // Audited here, so that nothing is left to do between the commit and the first reader.

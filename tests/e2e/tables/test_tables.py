@@ -145,6 +145,17 @@ class CustomColumns(DaemonTest):
         refused(self.daemon.request("DELETE", "/v1/tables/hole/classes/STAR", None, {"If-None-Match": "*"}))
         self.assertEqual(self.daemon.request("DELETE", "/v1/tables/hole/classes/STAR", None, {"If-Match": "*"}).status, 204)
 
+    def test_the_same_rows_change_nothing(self):
+        revision = self.put("SAME", ROWS).json["revision"]
+        changes = lambda: self.daemon.get("/v1/changes?kind=tables").json["changes"]
+        before = changes()
+        again = self.put("SAME", [{**ROWS[0], "upper_um": "15.000"}, ROWS[1]])
+        self.assertEqual((again.status, again.json["revision"], again.headers["etag"]), (200, revision, f'"{revision}"'))
+        self.assertEqual(self.daemon.get("/v1/tables").json["revision"], revision)
+        self.assertEqual(changes(), before)
+        self.assertNotEqual(self.put("SAME", ROWS[:1]).json["revision"], revision)
+        self.assertEqual(len(changes()), len(before) + 1)
+
     def test_every_bad_field_is_named(self):
         problem = self.assert_problem(
             self.put("BAD", [{"over_mm": 18, "up_to_mm": 30, "upper_um": -4, "lower_um": -3},
