@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "db/sql/connection.hpp"
+#include "record/measurement.hpp"
 
 namespace fitgauge::store {
 namespace {
@@ -34,6 +35,7 @@ void for_each_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.designation) {
     add("m.nominal_nm = ?", filter.designation->nominal_nm);
     add("m.tolerance_class = ?", std::string_view(filter.designation->tolerance_class));
+    if (filter.designation->has_envelope) add("m.envelope = ?", app::kEnvelopeRequired);
   }
   for (std::size_t i = 0; i < kTextColumns.size(); ++i) {
     if (!filter.texts[i]) continue;
@@ -86,8 +88,7 @@ void for_each_inside_condition(const MeasurementFilter& filter, Add&& add) {
 
 /// Whether postings tell the rows that match where all times do, but for what was corrected.
 bool is_said_by_index(const MeasurementFilter& filter) {
-  return !filter.asks_of_notes() && !filter.confirmed && !filter.set_aside &&
-         (!filter.run_id || filter.run_origin == 0);
+  return !filter.asks_of_rows() && (!filter.run_id || filter.run_origin == 0);
 }
 
 std::string_view direction(ListOrder order) {

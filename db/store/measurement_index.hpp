@@ -61,6 +61,7 @@ constexpr std::string_view column_of(TextField field) {
 struct DesignationFilter {
   std::int64_t nominal_nm = 0;
   std::string tolerance_class{};
+  bool has_envelope = false;  ///< only rows that require the envelope
 };
 
 /// Which measurements a list or a summary shows. A text filter matches the whole text exactly.
@@ -91,6 +92,10 @@ struct MeasurementFilter {
 
   bool asks_of_notes() const {
     return cause || noted_from_ns || noted_to_ns || has_notes || set_aside.value_or(false);
+  }
+  /// Whether the index does not know all that is asked for.
+  bool asks_of_rows() const {
+    return asks_of_notes() || confirmed || set_aside || (designation && designation->has_envelope);
   }
   bool has_times() const { return from_ns || to_ns || received_from_ns || received_to_ns; }
 };

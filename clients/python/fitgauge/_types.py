@@ -518,4 +518,6 @@ class Verdict(_Verdict, total=False):
     probability: Decimal
     conformance_probability: Decimal
     guard_band_um: Decimal
+    envelope: Literal["required"]
+    envelope_result: Literal["not_verified"]
     warnings: List[VerdictWarnings]

@@ -18,7 +18,7 @@ Result<store::DesignationFilter> parse_designation(std::string_view text) {
   auto designation = iso286::parse_designation(text);
   if (!designation) return designation.error();
   return store::DesignationFilter{designation->nominal_size.length().count(),
-                                  std::move(designation->class_name)};
+                                  std::move(designation->class_name), designation->has_envelope};
 }
 
 void write_limits_members(JsonWriter& json, const iso286::LimitsOfSize& limits,
@@ -226,6 +226,8 @@ void add_limits_schemas(Schemas& schemas) {
        "Least probability of conformance of a good part (rule conformance)"},
       {"conformance_probability", schema::number(0, 1), "Of the part, to 1e-9"},
       {"guard_band_um", schema::number(), "Guard band inside both limits (rule conformance)"},
+      {"envelope", schema::words({app::kEnvelopeRequired}), "Of a designation with (E)"},
+      {"envelope_result", schema::words({"not_verified"}), "No GO gauge verifies it here"},
   });
   schemas.push_back(
       {"Verdict", schema::object(limits_fields() + verdict_fields() + rule + warnings_field())});

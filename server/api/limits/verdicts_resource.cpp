@@ -77,6 +77,7 @@ struct Limits {
   gauging::Quantity quantity = gauging::Quantity::Diameter;
   Length nominal;
   gauging::ConformanceLimits of;
+  bool has_envelope = false;
   std::string etag;
   std::function<void(JsonWriter&)> write_members;
 };
@@ -108,6 +109,7 @@ Result<Limits> limits_of(const http::Request& request, const iso286::ToleranceTa
   return Limits{.feature = limits->feature,
                 .nominal = limits->nominal_size.length(),
                 .of = {limits->upper_limit(), limits->lower_limit()},
+                .has_envelope = designation->has_envelope,
                 .etag = etag_of(tables),
                 .write_members = [limits = *limits, &tables](JsonWriter& json) {
                   write_limits_members(json, limits, tables);
@@ -168,6 +170,10 @@ Result<http::Response> verdict(const http::Request& request,
                        limits->write_members(json);
                        write_verdict_members(json, limits->nominal, measured, result);
                        write_rule_members(json, *rule, words, limits->of, measured.decisive());
+                       if (limits->has_envelope) {
+                         json.member("envelope", app::kEnvelopeRequired)
+                             .member("envelope_result", "not_verified");
+                       }
                        write_warnings(json, warnings);
                      }),
                      limits->etag);

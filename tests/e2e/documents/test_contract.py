@@ -138,7 +138,7 @@ class Answers(ContractTest):
         self.expect("getFitAsOne", 200, fit="25H7/g6")
         self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="guard_band", uncertainty_um=1,
                     degrees_of_freedom=9)
-        self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, temperature_c=30)
+        self.expect("getVerdict", 200, designation="25H7(E)", measured_mm=25.02, temperature_c=30)
         self.expect("getVerdict", 200, designation="25H7", measured_mm=25.02, rule="conformance", uncertainty_um=1,
                     temperature_c=23, part_material="steel", temperature_uncertainty_c=0.1)
         self.expect("getVerdict", 422, designation="25H7", measured_mm=25.02, rule="conformance", uncertainty_um=9)

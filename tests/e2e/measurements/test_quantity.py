@@ -99,6 +99,22 @@ class Quantity(DaemonTest):
         self.assertEqual(self.daemon.get("/v1/limits/25H7(E)").json["upper_limit_mm"], 25.021)
         self.assertEqual(self.daemon.command("verify").returncode, 0)
 
+    def test_an_envelope_is_asked_for_by_its_designation(self):
+        for path, members in (("25H7(E)", ("required", "not_verified")), ("25%20H7%20%E2%92%BA", ("required", "not_verified")),
+                              ("25H7", (None, None))):
+            verdict = self.daemon.get(f"/v1/verdicts/{path}?measured_mm=25.01").json
+            self.assertEqual((verdict.get("envelope"), verdict.get("envelope_result")), members)
+            self.assertNotIn("warnings", verdict)
+        kept = {"characteristic": "enveloped", "measured_mm": 25.01}
+        ids = [self.record(designation=designation, **kept)["id"] for designation in ("25H7", "25H7(E)", "26H7(E)")]
+        for designation, expected in (("25H7(E)", ids[1:2]), ("25H7", ids[:2])):
+            query = f"characteristic=enveloped&designation={designation}"
+            listed = self.daemon.get(f"/v1/measurements?{query}").json["measurements"]
+            self.assertEqual([record["id"] for record in listed], expected)
+            for by in ("characteristic", "tool"):
+                groups = self.daemon.get(f"/v1/measurements/summary?group_by={by}&{query}").json["groups"]
+                self.assertEqual([group["count"] for group in groups], [len(expected)])
+
     def test_a_cycle_tells_how_it_measured(self):
         run, stored = self.run_program(PROGRAM)
         self.assertEqual([(each["quantity"], each["verdict"]) for each in stored],
