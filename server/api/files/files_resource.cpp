@@ -43,28 +43,23 @@ std::string href(std::string_view path) {
   return out;
 }
 
-std::string etag(std::int64_t revision) { return '"' + std::to_string(revision) + '"'; }
-
-app::FileService::Precondition precondition_of(const http::Request& request) {
-  Preconditions conditions = preconditions_of(request);
-  if (!conditions.any()) return {};
-  return [conditions = std::move(conditions)](std::optional<std::int64_t> revision) {
-    if (!revision) return conditions.hold(std::nullopt);
-    return conditions.hold(etag(*revision));
-  };
-}
-
 void put_file(const Services& services, const http::Request& request, http::Responder responder) {
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
   const std::string location = href(path->text());
-  services.files.write(
-      *std::move(path), request.body(), caller_text(request), precondition_of(request),
-      answer_with(std::move(responder), [location](const app::FileService::Written& written) {
-        return http::Response(written.created ? 201 : 200)
-            .with("Location", location)
-            .with("ETag", etag(written.revision));
-      }));
+  const auto put = [&services, &request, path = *std::move(path), location,
+                    shared = share(std::move(responder))](const Result<std::string>& tag) {
+    if (!tag) return shared->fail(tag.error());
+    services.files.write(path, request.body(), caller_text(request), text_precondition_of(request),
+                         [shared, location, tag = *tag](const Result<bool>& created) {
+                           if (!created) return shared->fail(created.error());
+                           shared->answer(http::Response(*created ? 201 : 200)
+                                              .with("Location", location)
+                                              .with("ETag", tag));
+                         });
+  };
+  services.jobs.orders.run([&request]() -> Result<std::string> { return etag_of_text(request.body()); },
+                           put);
 }
 
 void get_file(const Services& services, const http::Request& request, http::Responder responder) {
@@ -74,7 +69,7 @@ void get_file(const Services& services, const http::Request& request, http::Resp
                       answer_with(std::move(responder),
                                   [if_match = preconditions_of(request).if_match](
                                       app::DiskFile file) -> Result<http::Response> {
-                                    const std::string tag = etag(file.revision);
+                                    const std::string tag = etag_of_text(file.bytes);
                                     if (!Preconditions{.if_match = if_match}.hold(tag))
                                       return other_state();
                                     http::Response response = foreign_bytes(
@@ -95,7 +90,7 @@ void delete_file(const Services& services, const http::Request& request,
     return responder.fail(free.error());
   }
   services.files.remove(
-      *std::move(path), caller_text(request), precondition_of(request),
+      *std::move(path), caller_text(request), text_precondition_of(request),
       answer_with(std::move(responder), [](bool) { return http::Response(204); }));
 }
 

@@ -64,7 +64,7 @@ Result<void> keep(app::FileService& files, const MachineOptions& machine, const 
   const auto there = wait_for_result<app::DiskFile>([&](auto done) { files.read(*kept, done); });
   if (there && there->bytes == bytes) return {};
   if (!there && there.error().code != ErrorCode::FileUnknown) return there.error();
-  const auto written = wait_for_result<app::FileService::Written>(
+  const auto written = wait_for_result<bool>(
       [&](auto done) { files.write(*std::move(kept), bytes, machine.name, {}, done); });
   if (!written) return written.error();
   return {};

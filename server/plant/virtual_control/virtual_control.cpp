@@ -37,10 +37,10 @@ std::string tool_table(const machine::Setup& setup) {
 Result<void> bring(app::FileService& files, std::string_view path, const std::string& bytes) {
   auto parsed = interpreter::ControlPath::parse(path);
   if (!parsed) return parsed.error();
-  const auto done = wait_for_result<app::FileService::Written>([&](auto written) {
+  const auto done = wait_for_result<bool>([&](auto written) {
     files.write(
         *std::move(parsed), bytes, std::nullopt,
-        [](std::optional<std::int64_t> revision) { return !revision; }, written);
+        [](std::optional<std::string_view> stored) { return !stored; }, written);
   });
   if (!done && done.error().code != ErrorCode::PreconditionFailed) return done.error();
   return {};
@@ -68,7 +68,7 @@ void keep_files(app::FileService& files, const std::shared_ptr<app::ActiveRun>& 
     if (written == nullptr) return;
     for (const interpreter::WrittenFile& file : *written) {
       files.write(file.path, file.bytes, std::nullopt, {},
-                  [written](const Result<app::FileService::Written>&) {});
+                  [written](const Result<bool>&) {});
     }
   });
 }

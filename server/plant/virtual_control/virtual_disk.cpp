@@ -207,7 +207,7 @@ VirtualDisk::Answer<std::shared_ptr<const std::string>> VirtualDisk::read(const 
 
 VirtualDisk::Answer<void> VirtualDisk::write(const Path& path, std::string_view bytes) {
   if (!has_directory(path.directory())) return ControlError::NoDirectory;
-  const auto written = wait_for<app::FileService::Written>(
+  const auto written = wait_for<bool>(
       [&](auto done) { files_.write(path, bytes, std::nullopt, {}, std::move(done)); });
   if (!written) return written.error();
   hide(path);

@@ -18,15 +18,15 @@ Error changed(const interpreter::ControlPath& path) {
           path.text() + " has changed since you read it: read it again"};
 }
 
-std::optional<std::int64_t> revision_of(const store::Stores& stores,
-                                        const interpreter::ControlPath& path) {
-  const auto file = stores.files.stat(path.text());
-  return file ? std::optional(file->revision) : std::nullopt;
+bool holds(const FileService::Precondition& precondition, const store::Stores& stores,
+           const interpreter::ControlPath& path) {
+  if (!precondition) return true;
+  const auto file = stores.files.find(path.text());
+  return precondition(file ? std::optional<std::string_view>(file->content) : std::nullopt);
 }
 
 DiskFile disk_file(store::FileEntry entry) {
   return {.path = std::move(entry.path),
-          .revision = entry.revision,
           .size = entry.size,
           .modified_at = {entry.modified_at_ns}};
 }
@@ -93,17 +93,18 @@ bool DraftDisk::has_directory(std::string_view directory) const {
 
 void FileService::write(interpreter::ControlPath path, std::string_view bytes,
                         std::optional<std::string> caller, Precondition precondition,
-                        Done<Written> done) {
+                        Done<bool> done) {
   database_.writer().submit(
       [path = std::move(path), bytes, caller = std::move(caller),
        precondition = std::move(precondition),
-       now = clock_.now()](store::Stores& stores) -> Result<Written> {
-        if (precondition && !precondition(revision_of(stores, path))) return changed(path);
-        const auto put = stores.files.put({.path = path.text(),
-                                           .content = bytes,
-                                           .modified_at_ns = now.nanoseconds,
-                                           .caller = caller});
-        return Written{.created = put.created, .revision = put.revision};
+       now = clock_.now()](store::Stores& stores) -> Result<bool> {
+        if (!holds(precondition, stores, path)) return changed(path);
+        return stores.files
+            .put({.path = path.text(),
+                  .content = bytes,
+                  .modified_at_ns = now.nanoseconds,
+                  .caller = caller})
+            .created;
       },
       std::move(done));
 }
@@ -125,9 +126,8 @@ void FileService::remove(interpreter::ControlPath path, std::optional<std::strin
   database_.writer().submit(
       [path = std::move(path), caller = std::move(caller), precondition = std::move(precondition),
        now = clock_.now()](store::Stores& stores) -> Result<bool> {
-        const auto revision = revision_of(stores, path);
-        if (!revision) return unknown(path);
-        if (precondition && !precondition(revision)) return changed(path);
+        if (!stores.files.stat(path.text())) return unknown(path);
+        if (!holds(precondition, stores, path)) return changed(path);
         const auto names_it = [&](const JsonValue& feature) {
           std::string file(feature.text_of("file"));
           if (file.find(':') == std::string::npos) file.insert(0, "TNC:\\");

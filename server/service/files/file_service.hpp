@@ -52,8 +52,7 @@ class DraftDisk final : public interpreter::ControlDisk {
 /// A file of the control's disk.
 struct DiskFile {
   std::string path;           ///< TNC:\..., as it was last written
-  std::int64_t revision = 0;  ///< rises with every write
-  std::int64_t size = 0;      ///< bytes
+  std::int64_t size = 0;  ///< bytes
   Timestamp modified_at;
   std::string bytes{};  ///< empty in lists
 };
@@ -67,18 +66,14 @@ class FileService {
 
   FileService(store::Database& database, const Clock& clock) : database_(database), clock_(clock) {}
 
-  struct Written {
-    bool created = false;  ///< false: an existing file was replaced
-    std::int64_t revision = 0;
-  };
-  /// Decides on the current revision, none where there is no file, whether a change is made; called
+  /// Decides on the current bytes, none where there is no file, whether a change is made; called
   /// in the transaction that makes it. An empty one allows every change.
-  using Precondition = std::function<bool(std::optional<std::int64_t> revision)>;
+  using Precondition = std::function<bool(std::optional<std::string_view> bytes)>;
 
-  /// @param bytes stays alive until `done`.
+  /// Gives whether the file is new. @param bytes stays alive until `done`.
   /// @errors PreconditionFailed, StorageUnavailable, StorageBusy.
   void write(interpreter::ControlPath path, std::string_view bytes,
-             std::optional<std::string> caller, Precondition precondition, Done<Written> done);
+             std::optional<std::string> caller, Precondition precondition, Done<bool> done);
 
   /// @errors FileUnknown, StorageUnavailable.
   void read(interpreter::ControlPath path, Done<DiskFile> done);

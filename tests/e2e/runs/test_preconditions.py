@@ -1,6 +1,8 @@
 """Files and setups with If-Match and If-None-Match (RFC 9110 section 13), and the forms of a path."""
 
-from support.daemon import DaemonTest
+import shutil
+
+from support.daemon import Daemon, DaemonTest
 
 PROGRAM = "0 BEGIN PGM p MM\n1 L X+%d FMAX\n2 END PGM p MM\n"
 
@@ -64,6 +66,25 @@ class Preconditions(DaemonTest):
         answers = [self.daemon.request("PUT", path, PROGRAM % n, {"If-Match": tag}).status for n in (1, 2)]
         self.assertEqual(answers, [200, 412])
         self.assertIn("X+1", self.daemon.get(path).text)
+
+
+    def test_after_a_backup_is_put_back_a_tag_still_names_one_content(self):
+        copy = self.daemon.folder / "copy.db"
+        self.assertEqual(self.daemon.command("backup", copy).returncode, 0)
+        branch = Daemon()
+        self.addCleanup(branch.cleanup)
+        branch.data.mkdir()
+        shutil.copy(copy, branch.database)
+        branch.start()
+        path = "/v1/files/branched.h"
+        tag = self.daemon.request("PUT", path, PROGRAM % 1).headers["etag"]
+        other = branch.request("PUT", path, PROGRAM % 2).headers["etag"]
+        self.assertEqual(branch.get(path, If_None_Match=tag).status, 200)
+        self.assertEqual(branch.request("PUT", path, PROGRAM % 3, {"If-Match": tag}).status, 412)
+        self.assertEqual(branch.request("DELETE", path, headers={"If-Match": tag}).status, 412)
+        packed = other[:-1] + '-gzip"'
+        self.assertEqual([branch.get(path, If_None_Match=each).status for each in (other, packed)], [304, 304])
+        self.assertEqual(branch.request("PUT", path, PROGRAM % 1, {"If-Match": packed}).headers["etag"], tag)
 
 
 class Paths(DaemonTest):

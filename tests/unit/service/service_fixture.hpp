@@ -97,7 +97,7 @@ class Service {
   const std::filesystem::path& folder() const { return folder_.path(); }
 
   void upload(std::string_view path, std::string_view bytes) {
-    const auto written = wait_for<FileService::Written>([&](auto done) {
+    const auto written = wait_for<bool>([&](auto done) {
       app_->files().write(interpreter::ControlPath::parse(path).value(), bytes, "test", {},
                           std::move(done));
     });
