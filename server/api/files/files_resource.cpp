@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "api/files/file_path.hpp"
 #include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/wire/request_facts.hpp"
@@ -21,13 +20,13 @@ constexpr std::size_t kBodyLimit = std::size_t{8} << 20;
 
 /// `nc_prog/8255/8255.h` is TNC:\nc_prog\8255\8255.h.
 Result<ControlPath> path_of(const http::Request& request) {
-  return ControlPath::parse(std::string(kDrive) + std::string(*request.text("path")));
+  return ControlPath::parse(std::string(app::kDrive) + std::string(*request.text("path")));
 }
 
 /// The same the other way round, as a path of this service.
 std::string href(std::string_view path) {
-  std::string out(kFiles);
-  for (const char c : path.substr(kDrive.size())) {
+  std::string out(app::kFiles);
+  for (const char c : path.substr(app::kDrive.size())) {
     constexpr std::string_view kPlain = "-._~!$&'()*+,;=:@";
     const bool plain = is_ascii_alphanumeric(c) || kPlain.find(c) != std::string_view::npos;
     constexpr std::string_view kDigits = "0123456789ABCDEF";
@@ -83,14 +82,9 @@ void delete_file(const Services& services, const http::Request& request,
                  http::Responder responder) {
   auto path = path_of(request);
   if (!path) return responder.fail(path.error());
-  const auto runs_it = [&](const app::RunOrder& order) {
-    return order.program.key() == path->key();
-  };
-  if (const auto free = services.runs.check_unused(path->text(), runs_it); !free) {
-    return responder.fail(free.error());
-  }
   services.files.remove(
-      *std::move(path), caller_text(request), text_precondition_of(request),
+      *path, caller_text(request), text_precondition_of(request),
+      services.runs.queued([&](const app::RunOrder& order) { return order.names(*path); }),
       answer_with(std::move(responder), [](bool) { return http::Response(204); }));
 }
 
@@ -115,7 +109,7 @@ void members(auto& v, const FilesAnswer& answer) {
 void list_files(const Services& services, const http::Request& request, http::Responder responder) {
   std::string prefix(request.text("prefix").value_or(""));
   std::replace(prefix.begin(), prefix.end(), '/', '\\');
-  if (!ascii_iequals(prefix.substr(0, kDrive.size()), kDrive)) prefix.insert(0, kDrive);
+  if (!ascii_iequals(prefix.substr(0, app::kDrive.size()), app::kDrive)) prefix.insert(0, app::kDrive);
   services.files.list(std::move(prefix),
                       answer_with(std::move(responder), [](std::vector<app::DiskFile> files) {
                         return json_response(body_json(FilesAnswer{std::move(files)}));
@@ -187,7 +181,7 @@ void add_files_routes(Routes& add) {
       {.summary = "Delete a file",
        .parameters = with_preconditions(kPath),
        .outcomes = {{.status = 204, .meaning = "Deleted"}},
-       .refusals = {404, 412}});
+       .refusals = {404, 409, 412}});
   add("POST /v1/files/{path*} checkFile viewer", act_on_file,
       {.summary = "Check a program with those it calls, a mask or a table, or format a program; "
                   "nothing runs and nothing is stored",

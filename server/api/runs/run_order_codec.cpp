@@ -7,7 +7,6 @@
 #include <charconv>
 #include <chrono>
 
-#include "api/files/file_path.hpp"
 #include "api/runs/setup_codec.hpp"
 
 namespace fitgauge::api {
@@ -264,7 +263,7 @@ Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_set
       decode_setup(given != nullptr ? *given : nothing, "/setup", tables, errors);
   if (given != nullptr) decode_builder(*given, "/setup", order.options, errors);
   if (auto error = errors.take()) return std::move(*error);
-  return app::RunOrder{.program = *parse_file_path(order.program),
+  return app::RunOrder{.program = *app::parse_file_path(order.program),
                        .setup = std::move(setup),
                        .options = std::move(order.options),
                        .request = json_text(body),

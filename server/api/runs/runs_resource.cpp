@@ -1,6 +1,5 @@
 #include "api/resources.hpp"
 
-#include "api/files/file_path.hpp"
 #include "api/handlers.hpp"
 #include "api/runs/run_codec.hpp"
 #include "api/runs/run_posting.hpp"
@@ -144,7 +143,7 @@ void list_runs(const Services& services, const http::Request& request, http::Res
   app::RunQuery query;
   if (const auto status = request.text("status")) query.state = app::run_state_from_word(*status);
   if (const auto program = request.text("program")) {
-    const auto path = parse_file_path(*program);
+    const auto path = app::parse_file_path(*program);
     if (!path) return responder.fail(path.error());
     query.program = path->text();
   }

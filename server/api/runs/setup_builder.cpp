@@ -4,11 +4,11 @@
 
 #include <map>
 
-#include "api/files/file_path.hpp"
 #include "base/json/schema.hpp"
 #include "base/number.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
+#include "service/files/file_service.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -153,7 +153,7 @@ bool PointList::read(FieldReader& fields, std::string_view name,
 bool DiskFile::read(FieldReader& fields, std::string_view name, std::string& to) const {
   const auto given = fields.text(name);
   if (!given) return false;
-  const auto parsed = parse_file_path(*given);
+  const auto parsed = app::parse_file_path(*given);
   if (parsed) {
     to = parsed->text();
   } else {

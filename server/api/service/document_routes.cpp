@@ -134,16 +134,11 @@ void get(const Services& services, const KindOfDocument& kind, const http::Reque
 void remove(const Services& services, const KindOfDocument& kind, const http::Request& request,
             http::Responder responder) {
   const std::string name = name_in_path(kind, request);
-  const auto names_it = [&](const app::RunOrder& order) {
-    return kind.kind == app::DocumentKind::Setup && order.setup_name == name;
-  };
-  if (const auto free =
-          services.runs.check_unused(fmt::format("{} '{}'", kind.one, name), names_it);
-      !free) {
-    return responder.fail(free.error());
-  }
   services.documents.remove(
       kind.kind, name, text_precondition_of(request), caller_text(request),
+      services.runs.queued([&](const app::RunOrder& order) {
+        return kind.kind == app::DocumentKind::Setup && order.setup_name == name;
+      }),
       [&services, &kind, shared = share(std::move(responder))](const Result<bool>& removed) {
         if (!removed) return shared->fail(removed.error());
         answer_change(services, kind, shared, http::Response(204));

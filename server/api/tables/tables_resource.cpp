@@ -272,7 +272,7 @@ void add_feature_routes(Routes& add, Feature feature) {
       {.summary = "Delete a custom class; the standard class counts again",
        .parameters = with_preconditions(name),
        .outcomes = {{.status = 204, .meaning = "Deleted"}},
-       .refusals = {404, 412}});
+       .refusals = {404, 409, 412}});
 }
 
 }  // namespace

@@ -64,8 +64,9 @@ Result<void> check_owner(const store::Stores& stores, DocumentKind kind, const s
   return centre_decides(called(kind, name));
 }
 
-/// No current document names what is removed. @errors DocumentInUse with the names
-Result<void> check_free(const store::Stores& stores, DocumentKind kind, const std::string& name) {
+/// Neither `users` nor a current document names what is removed. @errors DocumentInUse with names
+Result<void> check_free(const store::Stores& stores, DocumentKind kind, const std::string& name,
+                        std::vector<std::string> users) {
   struct Use {
     DocumentKind by;
     DocumentKind of;
@@ -77,14 +78,10 @@ Result<void> check_free(const store::Stores& stores, DocumentKind kind, const st
       {DocumentKind::Plan, DocumentKind::GaugeInUse, "gauge"},
       {DocumentKind::Study, DocumentKind::GaugeInUse, "gauge"},
       {DocumentKind::Plan, DocumentKind::Catalogue, "catalogue"}};
-  std::vector<std::string> users;
   for (const Use& use : kUses) {
     if (use.of != kind) continue;
-    for (std::string& user : users_of(stores, use.by, [&](const JsonValue& each) {
-           return each.text_of(use.member) == name;
-         })) {
-      users.push_back(std::move(user));
-    }
+    add_users(users, stores, use.by,
+              [&](const JsonValue& each) { return each.text_of(use.member) == name; });
   }
   return check_unused(called(kind, name), users);
 }
@@ -112,9 +109,8 @@ Result<std::vector<NamedDocument>> all_of(const store::Stores& stores, DocumentK
 
 }  // namespace
 
-std::vector<std::string> users_of(const store::Stores& stores, DocumentKind kind,
-                                  const std::function<bool(const JsonValue&)>& names_it) {
-  std::vector<std::string> users;
+void add_users(std::vector<std::string>& users, const store::Stores& stores, DocumentKind kind,
+               const std::function<bool(const JsonValue&)>& names_it) {
   for (const store::Document& document : stores.documents.list(kind)) {
     const auto body = parse_json(document.text);
     if (!body) continue;
@@ -136,7 +132,6 @@ std::vector<std::string> users_of(const store::Stores& stores, DocumentKind kind
     }
     users.push_back(called(kind, user));
   }
-  return users;
 }
 
 Result<void> check_unused(std::string_view what, const std::vector<std::string>& users) {
@@ -189,20 +184,21 @@ void DocumentService::read(DocumentKind kind, std::string name, Done<NamedDocume
 }
 
 void DocumentService::remove(DocumentKind kind, std::string name, Precondition precondition,
-                             std::optional<std::string> caller, Done<bool> done) {
+                             std::optional<std::string> caller, std::vector<std::string> users,
+                             Done<bool> done) {
   database_.writer().submit(
       [kind, name = std::move(name), precondition = std::move(precondition),
-       caller = std::move(caller), at = clock_.now().nanoseconds,
+       users = std::move(users), caller = std::move(caller), at = clock_.now().nanoseconds,
        has_centre = has_centre_](store::Stores& stores) -> Result<bool> {
+        const auto current = stores.documents.find(kind, name);
+        if (!current) return unknown_document(kind, name);
         if (has_centre) {
           if (const auto own = check_owner(stores, kind, name); !own) return own.error();
         }
-        const auto current = stores.documents.find(kind, name);
-        if (!current) return unknown_document(kind, name);
+        if (const auto free = check_free(stores, kind, name, users); !free) return free.error();
         if (const auto allowed = check_change(precondition, kind, name, current); !allowed) {
           return allowed.error();
         }
-        if (const auto free = check_free(stores, kind, name); !free) return free.error();
         return remove_document(stores, kind, name, at, caller);
       },
       std::move(done));
@@ -242,7 +238,7 @@ Result<bool> DocumentService::write_and_wait(Change change) {
 Result<bool> DocumentService::remove_and_wait(DocumentKind kind, const std::string& name,
                                               std::optional<std::string> caller) {
   return wait_for_result<bool>(
-      [&](Done<bool> done) { remove(kind, name, {}, std::move(caller), std::move(done)); });
+      [&](Done<bool> done) { remove(kind, name, {}, std::move(caller), {}, std::move(done)); });
 }
 
 }  // namespace fitgauge::app

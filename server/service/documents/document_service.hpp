@@ -24,10 +24,10 @@ using store::DocumentKind;
 std::string calibration_name(std::string_view gauge, Timestamp from);
 std::string_view gauge_of_calibration(std::string_view name);
 
-/// The documents of a kind, as `plan '4711'`, of which the body, a characteristic, or a feature or
-/// fixture of the workpiece names something. Used inside a job.
-std::vector<std::string> users_of(const store::Stores& stores, DocumentKind kind,
-                                  const std::function<bool(const JsonValue&)>& names_it);
+/// Adds the documents of a kind, as `plan '4711'`, of which the body, a characteristic, or a feature
+/// or fixture of the workpiece names something. Used inside a job.
+void add_users(std::vector<std::string>& users, const store::Stores& stores, DocumentKind kind,
+               const std::function<bool(const JsonValue&)>& names_it);
 /// @errors DocumentInUse, where there are users.
 Result<void> check_unused(std::string_view what, const std::vector<std::string>& users);
 
@@ -72,10 +72,11 @@ class DocumentService {
   void write(Change change, Done<bool> done);
   /// @errors what is said of a name that is not there, StorageUnavailable.
   void read(DocumentKind kind, std::string name, Done<NamedDocument> done);
-  /// @errors as read; PreconditionFailed, Forbidden (the centre's), DocumentInUse (with the names
-  ///   of those that name it), StorageBusy.
+  /// @param users that are not documents: RunService::queued().
+  /// @errors as read; DocumentInUse (with the names of those that name it) and then
+  ///   PreconditionFailed, as RFC 9110, 13.2.1 has it; Forbidden (the centre's), StorageBusy.
   void remove(DocumentKind kind, std::string name, Precondition precondition,
-              std::optional<std::string> caller, Done<bool> done);
+              std::optional<std::string> caller, std::vector<std::string> users, Done<bool> done);
   void list(DocumentKind kind, Done<std::vector<NamedDocument>> done);  ///< by name
   /// The lists of several kinds, of one state of the storage.
   void list_each(std::vector<DocumentKind> kinds,

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/text.hpp"
 #include "db/store/database.hpp"
 #include "db/store/stores.hpp"
 #include "service/documents/document_service.hpp"
@@ -32,6 +33,14 @@ DiskFile disk_file(store::FileEntry entry) {
 }
 
 }  // namespace
+
+Result<interpreter::ControlPath> parse_file_path(std::string_view text) {
+  if (ascii_iequals(trim(text).substr(0, kDrive.size()), kDrive) || text.empty()) {
+    return interpreter::ControlPath::parse(text);
+  }
+  if (text.starts_with(kFiles)) text.remove_prefix(kFiles.size());
+  return interpreter::ControlPath::parse(std::string(kDrive).append(text));
+}
 
 std::optional<interpreter::ControlFile> StoredDisk::find(
     const interpreter::ControlPath& path) const {
@@ -122,21 +131,21 @@ void FileService::read(interpreter::ControlPath path, Done<DiskFile> done) {
 }
 
 void FileService::remove(interpreter::ControlPath path, std::optional<std::string> caller,
-                         Precondition precondition, Done<bool> done) {
+                         Precondition precondition, std::vector<std::string> users,
+                         Done<bool> done) {
   database_.writer().submit(
       [path = std::move(path), caller = std::move(caller), precondition = std::move(precondition),
-       now = clock_.now()](store::Stores& stores) -> Result<bool> {
+       users = std::move(users), now = clock_.now()](store::Stores& stores) mutable -> Result<bool> {
         if (!stores.files.stat(path.text())) return unknown(path);
+        for (const auto& [kind, member] :
+             {std::pair{DocumentKind::Setup, "file"}, std::pair{DocumentKind::Plan, "picture"}}) {
+          add_users(users, stores, kind, [&path, name = member](const JsonValue& each) {
+            const auto named = parse_file_path(each.text_of(name));
+            return named && *named == path;
+          });
+        }
+        if (const auto free = check_unused(path.text(), users); !free) return free.error();
         if (!holds(precondition, stores, path)) return changed(path);
-        const auto names_it = [&](const JsonValue& feature) {
-          std::string file(feature.text_of("file"));
-          if (file.find(':') == std::string::npos) file.insert(0, "TNC:\\");
-          const auto named = ControlPath::parse(file);
-          return named && named->key() == path.key();
-        };
-        const auto free =
-            check_unused(path.text(), users_of(stores, DocumentKind::Setup, names_it));
-        if (!free) return free.error();
         if (!stores.files.remove(path.text(), now.nanoseconds, caller)) return unknown(path);
         return true;
       },

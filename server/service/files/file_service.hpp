@@ -17,6 +17,13 @@ class Database;
 
 namespace fitgauge::app {
 
+inline constexpr std::string_view kDrive = "TNC:\\";
+inline constexpr std::string_view kFiles = "/v1/files/";
+
+/// A file of the control's disk in either form: `TNC:\nc_prog\8255.h`, or as under /v1/files,
+/// `nc_prog/8255.h`, with or without that in front. @errors those of ControlPath::parse.
+Result<interpreter::ControlPath> parse_file_path(std::string_view text);
+
 /// The uploaded files as a control's disk. Thread-safe. Every call reads the database and waits for
 /// it, so it is for worker threads alone. Throws when the storage fails.
 class StoredDisk final : public interpreter::ControlDisk {
@@ -78,9 +85,11 @@ class FileService {
   /// @errors FileUnknown, StorageUnavailable.
   void read(interpreter::ControlPath path, Done<DiskFile> done);
 
-  /// @errors FileUnknown, PreconditionFailed, StorageUnavailable, StorageBusy.
+  /// @param users that are not documents: RunService::queued().
+  /// @errors FileUnknown, DocumentInUse with the names, PreconditionFailed, StorageUnavailable,
+  ///   StorageBusy.
   void remove(interpreter::ControlPath path, std::optional<std::string> caller,
-              Precondition precondition, Done<bool> done);
+              Precondition precondition, std::vector<std::string> users, Done<bool> done);
 
   /// Every file whose path begins so, by path.
   void list(std::string prefix, Done<std::vector<DiskFile>> done);

@@ -1,7 +1,6 @@
 #include "service/runs/run_service.hpp"
 
 #include "db/store/database.hpp"
-#include "service/documents/document_service.hpp"
 #include "service/measurements/mapping.hpp"
 
 namespace fitgauge::app {
@@ -194,8 +193,8 @@ std::shared_ptr<ActiveRun> RunService::active(std::int64_t id) const {
   return run && !run->is_being_stored() ? run : nullptr;
 }
 
-Result<void> RunService::check_unused(std::string_view what,
-                                      const std::function<bool(const RunOrder&)>& names_it) const {
+std::vector<std::string> RunService::queued(
+    const std::function<bool(const RunOrder&)>& names_it) const {
   std::vector<std::string> users;
   const std::lock_guard lock(mutex_);
   for (const auto& [id, entry] : active_) {
@@ -203,7 +202,7 @@ Result<void> RunService::check_unused(std::string_view what,
       users.push_back("queued run " + entry.run->id_text());
     }
   }
-  return app::check_unused(what, users);
+  return users;
 }
 
 std::shared_ptr<ActiveRun> RunService::own(std::int64_t id) const {

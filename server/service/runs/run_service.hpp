@@ -109,9 +109,8 @@ class RunService {
   /// then knows more.
   std::shared_ptr<ActiveRun> active(std::int64_t id) const;
 
-  /// No queued run is of an order for which `names_it` holds. @errors DocumentInUse with the runs
-  Result<void> check_unused(std::string_view what,
-                            const std::function<bool(const RunOrder&)>& names_it) const;
+  /// Queued runs, as `queued run r7`, whose order names something.
+  std::vector<std::string> queued(const std::function<bool(const RunOrder&)>& names_it) const;
 
   /// The run that began last, under way or over; null before the first. It is kept only where
   /// RunServiceOptions::keeps_newest says so.

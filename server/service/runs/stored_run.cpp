@@ -88,6 +88,15 @@ std::string TraceWriter::finish(std::size_t dropped) {
   return packed_.finish();
 }
 
+bool RunOrder::names(const interpreter::ControlPath& file) const {
+  bool is_named = program == file;
+  machine::each_feature(setup, [&](const std::string&, const machine::Feature& feature) {
+    const auto* const mesh = std::get_if<machine::Mesh>(&feature);
+    is_named |= mesh != nullptr && interpreter::ControlPath::parse(mesh->file).value() == file;
+  });
+  return is_named;
+}
+
 std::string empty_trace(const TraceFormat& format) { return TraceWriter(format, {}).finish(0); }
 
 TraceReader::TraceReader(std::string stored)

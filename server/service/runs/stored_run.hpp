@@ -42,6 +42,9 @@ struct RunOrder {
   std::string setup_name{};  ///< of the stored setup it was ordered with; empty: its own
   /// Parameters whose values after each block stand in the trace.
   std::vector<klartext::QRef> watch{};
+
+  /// Whether the file is its program or a mesh of its setup.
+  bool names(const interpreter::ControlPath& file) const;
 };
 
 enum class RunState : std::uint8_t {

@@ -192,14 +192,14 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
         if (state.tables == nullptr) return inconsistent(state.findings);
         auto data = from_store(latest.content).value();
         auto before = column_text(data.custom_columns, column);
-        if (!condition(latest.revision.id, before.has_value())) {
-          return Error{ErrorCode::PreconditionFailed,
-                       "the tables have changed since you read them, or the class is there or not "
-                       "against `*`: read them again, and repeat the change"};
-        }
+        const bool holds = condition(latest.revision.id, before.has_value());
+        const Error changed{ErrorCode::PreconditionFailed,
+                            "the tables have changed since you read them, or the class is there or "
+                            "not against `*`: read them again, and repeat the change"};
         const auto created = edit(data.custom_columns);
         if (!created) return created.error();
         auto after = column_text(data.custom_columns, column);
+        if (after == before && !holds) return changed;
         if (after == before) return Changed{false, latest.revision, state_.get()};
         const std::int64_t now = clock_.now().nanoseconds;
         const auto imported = stores.tables.import({.content = to_store(data),
@@ -226,10 +226,14 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
             return characteristic.text_of("tolerance_class") == column.name ||
                    (designation && designation->class_name == column.name);
           };
-          const auto free = check_unused(fmt::format("the custom tolerance class {}", column.name),
-                                         users_of(stores, DocumentKind::Plan, names_it));
+          std::vector<std::string> users;
+          add_users(users, stores, DocumentKind::Plan, names_it);
+          const auto free =
+              check_unused(fmt::format("the custom tolerance class {}", column.name), users);
           if (!free) return free.error();
         }
+        // RFC 9110, 13.2.1: last of all that may refuse.
+        if (!holds) return changed;
         return Changed{*created, std::move(loaded.revision), std::move(audited)};
       },
       [this, done = std::move(done)](Result<Changed> changed) {

@@ -109,6 +109,36 @@ class Changes(DaemonTest):
         for path in ("/v1/plans/P-1", "/v1/studies/S-1", *reversed(paths)):
             self.delete(path)
 
+    def test_the_picture_of_a_plan_is_not_deleted(self):
+        forms = ("pic.png", "/v1/files/Shop/pic.png", "TNC:\\shop\\PIC.png")
+        for part, form in enumerate(forms):
+            self.put(f"/v1/plans/P-{part}", {"characteristics": [{"name": "a", "designation": "25 H7", "picture": form}]})
+        for path, plans in (("/v1/files/pic.png", (0,)), ("/v1/files/shop/pic.png", (1, 2))):
+            self.daemon.request("PUT", path, b"png")
+            problem = self.assert_problem(self.daemon.request("DELETE", path), 409, "document.in_use")
+            self.assertIn("by " + ", ".join(f"plan 'P-{part}'" for part in plans), problem["detail"])
+            for part in plans:
+                self.delete(f"/v1/plans/P-{part}")
+            self.delete(path)
+
+    def test_what_is_in_use_is_told_before_its_tag(self):
+        """RFC 9110, 13.2.1: a precondition counts where the answer would be a success without it."""
+        self.put("/v1/uncertainties/used-too", BUDGET)
+        self.put("/v1/gauges-in-use/G-2", {"uncertainty": "used-too", "calibration_due": "2027-03-31"})
+        self.daemon.request("PUT", "/v1/files/shop.png", b"png")
+        self.put("/v1/plans/P-3", {"characteristics": [{"name": "a", "designation": "25 H7", "picture": "shop.png"}]})
+        self.put("/v1/tables/hole/classes/Own3", COLUMN)
+        self.put("/v1/plans/P-4", {"characteristics": [{"name": "a", "designation": "25 Own3"}]})
+        of_others = {"If-Match": '"none"'}
+        for path in ("/v1/uncertainties/used-too", "/v1/files/shop.png", "/v1/tables/hole/classes/Own3"):
+            self.assert_problem(self.daemon.request("DELETE", path, headers=of_others), 409, "document.in_use")
+        for path in ("/v1/gauges-in-use/G-2", "/v1/plans/P-3", "/v1/plans/P-4"):
+            self.delete(path)
+        for path in ("/v1/uncertainties/used-too", "/v1/files/shop.png", "/v1/tables/hole/classes/Own3"):
+            self.assert_problem(self.daemon.request("DELETE", path, headers=of_others), 412, "precondition.failed")
+            self.delete(path)
+            self.assertEqual(self.daemon.request("DELETE", path, headers=of_others).status, 404)
+
     def test_a_class_of_a_plan_and_a_mesh_of_a_setup_are_not_deleted(self):
         for name in ("Own2", "Own1", "H7"):
             self.put(f"/v1/tables/hole/classes/{name}", COLUMN)

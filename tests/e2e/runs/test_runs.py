@@ -2,6 +2,7 @@
 
 import unittest
 
+from runs.test_mesh import binary, ring
 from support.control import FOREVER, ControlTest
 from support.daemon import Daemon
 
@@ -140,11 +141,28 @@ class Runs(ControlTest):
             places.append(answer.headers["location"])
         self.assert_problem(answer, 503, "service.overloaded")
         for path in ("/v1/setups/queued", "/v1/files/endless3.h"):
-            problem = self.assert_problem(self.daemon.request("DELETE", path), 409, "document.in_use")
-            self.assertIn("queued run r", problem["detail"])
+            for condition in ({}, {"If-Match": '"none"'}):
+                problem = self.assert_problem(self.daemon.request("DELETE", path, headers=condition), 409, "document.in_use")
+                self.assertIn("queued run r", problem["detail"])
         self.assertIn("retry-after", answer.headers)
         for place in places:
             self.assertEqual(self.daemon.request("DELETE", place).status, 204)
+
+    def test_the_meshes_of_a_queued_run_are_not_deleted(self):
+        endless = self.upload_program("endless4", *FOREVER)
+        meshes = [{"type": "mesh", "file": f"parts/{name}.stl"} for name in ("part", "clamp", "free")]
+        for mesh in meshes:
+            self.upload(mesh["file"], binary(ring(12.5, 30, 30, 8)))
+        own = {"workpiece": {"features": meshes[:1], "fixtures": meshes[1:2]}}
+        places = [self.start(endless, own, limits=LONG) for _ in range(3)]
+        for mesh in meshes[:2]:
+            problem = self.assert_problem(self.daemon.request("DELETE", "/v1/files/" + mesh["file"]), 409, "document.in_use")
+            self.assertIn("queued run r", problem["detail"])
+        self.assertEqual(self.daemon.request("DELETE", "/v1/files/parts/free.stl").status, 204)
+        for place in reversed(places):
+            self.assertEqual(self.daemon.request("DELETE", place).status, 204)
+        for mesh in meshes[:2]:
+            self.assertEqual(self.daemon.request("DELETE", "/v1/files/" + mesh["file"]).status, 204)
 
     def test_repeat_with_the_same_key_is_the_same_run(self):
         program = self.upload_program("once", "Q1 = 5")

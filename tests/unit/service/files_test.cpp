@@ -32,7 +32,7 @@ TEST_CASE("a file is written, replaced, read and removed, whatever the case of i
 
   const auto remove = [&] {
     return wait_for<bool>(
-        [&](auto done) { files.remove(path("TNC:\\dir\\FILE.h"), {}, {}, std::move(done)); });
+        [&](auto done) { files.remove(path("TNC:\\dir\\FILE.h"), {}, {}, {}, std::move(done)); });
   };
   CHECK(remove().has_value());
   CHECK(remove().error().code == ErrorCode::FileUnknown);
@@ -54,7 +54,7 @@ TEST_CASE("a precondition is asked with the state that a change would replace") 
   CHECK(write(is_first, "z").error().code == ErrorCode::PreconditionFailed);
   const auto remove = [&](const FileService::Precondition& allowed) {
     return wait_for<bool>(
-        [&](auto done) { files.remove(path("TNC:\\a.h"), {}, allowed, std::move(done)); });
+        [&](auto done) { files.remove(path("TNC:\\a.h"), {}, allowed, {}, std::move(done)); });
   };
   CHECK(remove(is_first).error().code == ErrorCode::PreconditionFailed);
   CHECK(remove({}).has_value());
@@ -118,7 +118,7 @@ TEST_CASE("a named setup is kept as it was written") {
   REQUIRE(listed->size() == 1);
   CHECK((*listed)[0].name == "mill");
   CHECK(wait_for<bool>([&](auto done) {
-          documents.remove(kSetup, "mill", {}, {}, std::move(done));
+          documents.remove(kSetup, "mill", {}, {}, {}, std::move(done));
         }).has_value());
   CHECK(documents.wait_for(kSetup, "mill").error().code == ErrorCode::SetupUnknown);
 }
