@@ -182,6 +182,11 @@ std::optional<Timestamp> parse_due(std::string_view text) {
   return parse_date(text, "T23:59:59.999999999Z");
 }
 
+std::optional<std::string> due_in_utc(std::string_view text) {
+  if (const auto time = parse_rfc3339(text)) return format_rfc3339(*time);
+  return parse_due(text) ? std::optional(std::string(text)) : std::nullopt;
+}
+
 std::optional<Length> rounded_up(double micrometres) {
   constexpr double kNanometres = 1e3;
   constexpr double kNoise = 1e6;  // binary fractions of decimals are not rounded up

@@ -26,7 +26,7 @@ struct GaugePeriod {
   /// such budget any more.
   std::optional<Length> standard_uncertainty{};
   std::optional<std::int64_t> degrees_of_freedom{};  ///< of the budget, in millionths
-  std::string calibration_due{};                     ///< as it was given; empty: not at all
+  std::string calibration_due{};                     ///< a date, or a time in UTC; empty: none
   std::optional<Timestamp> due{};                    ///< the same; a date lasts to its end in UTC
   std::optional<std::string> certificate{};
   std::optional<std::string> laboratory{};
@@ -50,6 +50,8 @@ using GaugeBook = std::map<std::string, GaugeInUse, std::less<>>;
 /// RFC 3339 time. None for other texts.
 std::optional<Timestamp> parse_from(std::string_view text);
 std::optional<Timestamp> parse_due(std::string_view text);
+/// The same text with its time in UTC; a date stays as it is.
+std::optional<std::string> due_in_utc(std::string_view text);
 
 /// A standard uncertainty in µm as measurements have it: rounded up to the nanometre. None where it
 /// is no length.

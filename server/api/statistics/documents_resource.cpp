@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "api/handlers.hpp"
 #include "api/service/document_routes.hpp"
@@ -29,19 +30,20 @@ void reload_gauges(const Services& services, std::function<void(Result<void>)> d
   services.gauges.reload(std::move(done));
 }
 
-/// The form of the time from which or to which a calibration holds.
+/// The form of the time from which or to which a calibration holds, in UTC.
 struct Due {
   std::string schema(Side) const { return schema::text(); }
   bool read(FieldReader& fields, std::string_view name, std::string& to) const {
     const auto given = fields.text(name);
     if (!given) return false;
-    to = *given;
-    const bool is_due = parse_due(to).has_value();
-    if (!is_due) {
+    auto due = due_in_utc(*given);
+    if (due) {
+      to = *std::move(due);
+    } else {
       fields.report(ErrorCode::TimeMalformed, name,
                     fmt::format("{} must be a date such as 2027-03-31, or an RFC 3339 time", name));
     }
-    return is_due;
+    return due.has_value();
   }
   void write(JsonWriter& json, std::string_view from) const { json.value(from); }
 };
@@ -51,19 +53,21 @@ struct GaugeOrder {
   std::string calibration_due{};
   std::optional<std::string> comment{};
 };
-void members(auto& v, GaugeOrder& gauge) {
+void gauge_members(auto& v, auto& gauge) {
   v.optional("uncertainty", gauge.uncertainty, "The name of its budget, in µm");
   v.member("calibration_due", gauge.calibration_due, Due{},
            "A date, to its end in UTC, or an RFC 3339 time");
   v.optional("comment", gauge.comment, Text{.longest = 2000});
 }
+void members(auto& v, GaugeOrder& gauge) { gauge_members(v, gauge); }
+void members(auto& v, const GaugeOrder& gauge) { gauge_members(v, gauge); }
 
 Result<CheckedDocument> check_gauge(const Services&, const std::string&, std::string_view text) {
   const auto body = parse_json(text);
   if (!body) return body.error();
   auto gauge = read_whole<GaugeOrder>(*body);
   if (!gauge) return gauge.error();
-  return CheckedDocument{.text = std::string(text), .uncertainty = std::move(gauge->uncertainty)};
+  return CheckedDocument{.text = body_json(*gauge), .uncertainty = std::move(gauge->uncertainty)};
 }
 
 enum class Status : std::uint8_t { InUse, Blocked };
@@ -157,18 +161,20 @@ void list_calibrations(const Services& services, const http::Request& request,
       [gauge = std::string(*request.text("name")), shared = share(std::move(responder))](
           const Result<std::vector<std::vector<app::NamedDocument>>>& lists) {
         if (!lists) return shared->fail(lists.error());
+        std::multimap<std::optional<Timestamp>, std::string_view> found;
+        for (const app::NamedDocument& calibration : (*lists)[1]) {
+          const std::string_view name = calibration.name;
+          if (app::gauge_of_calibration(name) != gauge) continue;
+          found.emplace(parse_from(name.substr(gauge.size() + 1)), calibration.text);
+        }
         std::string body;
         JsonWriter json(body);
         json.begin_object().key("calibrations").begin_array();
-        bool is_known = std::any_of((*lists)[0].begin(), (*lists)[0].end(),
-                                    [&](const auto& found) { return found.name == gauge; });
-        for (const app::NamedDocument& calibration : (*lists)[1]) {
-          if (app::gauge_of_calibration(calibration.name) != gauge) continue;
-          json.raw(calibration.text);
-          is_known = true;
-        }
+        for (const auto& [from, text] : found) json.raw(text);
         json.end_array().end_object();
-        if (!is_known) {
+        if (found.empty() &&
+            std::none_of((*lists)[0].begin(), (*lists)[0].end(),
+                         [&](const auto& each) { return each.name == gauge; })) {
           return shared->fail(
               {ErrorCode::GaugeUnknown, fmt::format("gauge in use not found: '{}'", gauge)});
         }

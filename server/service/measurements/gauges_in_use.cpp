@@ -48,7 +48,7 @@ GaugeBook book_of(const Documents& gauges, const Documents& calibrations,
     if (!body) continue;
     GaugeInUse gauge;
     GaugePeriod& own = gauge.periods.front();
-    own.calibration_due = std::string(body->text_of("calibration_due"));
+    own.calibration_due = due_in_utc(body->text_of("calibration_due")).value_or("");
     own.due = parse_due(own.calibration_due);
     if (!own.due) continue;
     set_budget(own, std::string(body->text_of("uncertainty")), combined);
@@ -59,7 +59,8 @@ GaugeBook book_of(const Documents& gauges, const Documents& calibrations,
     const auto body = parse_json(document.text);
     const auto from = body ? parse_from(body->text_of("from")) : std::nullopt;
     if (gauge == book.end() || !from) continue;
-    GaugePeriod period = {.from = *from, .calibration_due = std::string(body->text_of("due"))};
+    GaugePeriod period = {.from = *from,
+                          .calibration_due = due_in_utc(body->text_of("due")).value_or("")};
     period.due = parse_due(period.calibration_due);
     period.is_blocked = body->text_of("status") == "blocked";
     if (body->find("certificate") != nullptr) period.certificate = body->text_of("certificate");

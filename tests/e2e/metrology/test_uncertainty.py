@@ -70,6 +70,24 @@ class Uncertainty(DaemonTest):
                                       "rule": "guard_band"}).json
         self.assertEqual((record["uncertainty_um"], record["verdict"]), (0.5, "indeterminate"))
 
+    def test_the_times_of_a_gauge_are_in_utc(self):
+        path, noon = "/v1/gauges-in-use/G-U", "2026-07-01T12:00:00+02:00"
+        self.assertEqual(self.daemon.request("PUT", path, {"calibration_due": noon, "comment": "ü"}).status, 201)
+        self.assertEqual(self.daemon.get(path).json, {"calibration_due": "2026-07-01T10:00:00Z", "comment": "ü"})
+        late = self.daemon.measure({"designation": "25 H7", "measured_mm": 25.01, "gauge": "G-U",
+                                    "measured_at": "2026-07-01T12:30:00+02:00"}).json
+        self.assertEqual(late["calibration_due"], "2026-07-01T10:00:00Z")
+        made = [self.daemon.post(f"{path}/calibrations", {"from": start, "due": end}) for start, end in (
+            ("2026-07-02T00:00:00.5+02:00", "2026-08-01T00:00:00+02:00"), ("2026-07-02T00:00:00+02:00", "2026-08-01"),
+            ("2026-07-03", "2026-08-01"), ("2026-07-01T22:00:00Z", "2026-09-01"))]
+        self.assertEqual([answer.status for answer in made], [201, 201, 201, 200])
+        self.assertEqual([(each["from"], each["due"]) for each in self.daemon.get(f"{path}/calibrations").json["calibrations"]],
+                         [("2026-07-01T22:00:00Z", "2026-09-01"), ("2026-07-01T22:00:00.5Z", "2026-07-31T22:00:00Z"),
+                          ("2026-07-03", "2026-08-01")])
+        study = {"gauge": "G-U", "at": noon, "kind": "type1", "input": {"values": [1, 2, 4], "reference": 2, "tolerance": 1}}
+        self.assertEqual(self.daemon.request("PUT", "/v1/studies/S-U", study).json["at"], "2026-07-01T10:00:00Z")
+        self.assertEqual([each["at"] for each in self.daemon.get("/v1/studies").json["studies"]], ["2026-07-01T10:00:00Z"])
+
     def test_a_model_is_refused_with_its_place(self):
         a, b = ({"name": name, "value": 2, "standard_uncertainty": 1} for name in "ab")
         inexact = {**a, "half_width": 1, "limits_half_width": 0.1}
