@@ -84,7 +84,11 @@ struct Parameters {
         continue;
       }
       interpreter::ParameterValue given{*parameter, *std::move(read)};
-      if (const auto valid = interpreter::validate(given); !valid) {
+      const auto is_same = [&](const auto& other) { return other.parameter == *parameter; };
+      if (std::any_of(to.begin(), to.end(), is_same)) {
+        errors.add(ErrorCode::FieldConflict, pointer,
+                   fmt::format("{} is given twice: keep one", interpreter::name(*parameter)));
+      } else if (const auto valid = interpreter::validate(given); !valid) {
         errors.add(valid.error().code, pointer, valid.error().message);
       } else {
         to.push_back(std::move(given));
@@ -110,7 +114,7 @@ struct ParameterNames {
       const JsonValue& item = names->items[i];
       const auto parameter = interpreter::parse_parameter_name(item.text);
       if (item.is(Kind::String) && parameter) {
-        to.push_back(*parameter);
+        if (std::find(to.begin(), to.end(), *parameter) == to.end()) to.push_back(*parameter);
       } else {
         fields.errors().add(item.is(Kind::String) ? parameter.error().code : ErrorCode::FieldType,
                             pointer_to(fields.at(of), i),

@@ -1,5 +1,6 @@
 """Files, setups and the life of a run: asynchronous, followed, cancelled, repeated, interrupted."""
 
+import json
 import unittest
 
 from runs.test_mesh import binary, ring
@@ -163,6 +164,17 @@ class Runs(ControlTest):
             self.assertEqual(self.daemon.request("DELETE", place).status, 204)
         for mesh in meshes[:2]:
             self.assertEqual(self.daemon.request("DELETE", "/v1/files/" + mesh["file"]).status, 204)
+
+    def test_a_parameter_is_watched_once_and_set_once(self):
+        program = self.upload_program("once1", "Q1 = 1")
+        run = self.run_program(program, watch=["q1", "Q1", "Q01", "QS1"])
+        trace = self.daemon.get(f"/v1/runs/{run['id']}/trace").text
+        blocks = dict(json.loads(trace, object_pairs_hook=list))["blocks"]
+        self.assertEqual([dict(block)["values"] for block in blocks][-1], [("Q1", 1)])
+        problem = self.assert_problem(self.post_run(program, parameters={"q1": 1, "Q1": 2, "Q2": 3, "Q01": 1}),
+                                      422, "request.invalid")
+        self.assertEqual([(each["pointer"], each["code"]) for each in problem["errors"]],
+                         [("/parameters/Q1", "field.conflict"), ("/parameters/Q01", "field.conflict")])
 
     def test_repeat_with_the_same_key_is_the_same_run(self):
         program = self.upload_program("once", "Q1 = 5")
