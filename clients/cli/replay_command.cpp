@@ -48,7 +48,7 @@ Outcome<ByCycle> written_logs(const Context& context, const JsonValue& run) {
   for (const JsonValue& file : run.member("files").items) {
     const std::string target =
         fmt::format("/v1/runs/{}/files/{}", percent_encoded(run.text_of("id")),
-                    percent_encoded(base_name(file.text_of("path"))));
+                    percent_encoded(file.text_of("path")));
     const auto answer = expect_ok(context.client.send({.target = target}), context.client.url());
     if (!answer) return answer.error();
     sort_in(log_reader::read_logs(answer->body).logs, logs);

@@ -100,7 +100,7 @@ Outcome<ExitCode> run_runs_show(const Context& context, const std::string& id) {
 
 Outcome<ExitCode> run_runs_get(const Context& context, const std::string& id,
                                const std::string& name, const std::string& file) {
-  return fetch(context, run_target(id) + "/files/" + percent_encoded(base_name(name)), file);
+  return fetch(context, run_target(id) + "/files/" + percent_encoded(name), file);
 }
 
 Outcome<ExitCode> run_runs_cancel(const Context& context, const std::string& id) {

@@ -150,12 +150,16 @@ std::optional<std::string> RunsStore::trace(std::int64_t id) const {
   return std::string(rows.get<Blob>(0).bytes);
 }
 
-std::optional<RunFile> RunsStore::file(std::int64_t id, std::string_view name) const {
+std::optional<RunFile> RunsStore::file(std::int64_t id, std::string_view name,
+                                       std::string_view path) const {
   const std::string key = ascii_upper(name);
-  Rows rows = statements_->file.query(id, key);
-  if (!rows.next()) return std::nullopt;
-  require_sound(rows, 2, kRunFiles);
-  return RunFile{rows.get<std::string>(0), std::string(rows.get<Blob>(1).bytes)};
+  for (Rows rows = statements_->file.query(id, key); rows.next();) {
+    auto found = rows.get<std::string>(0);
+    if (!path.empty() && !ascii_iequals(found, path)) continue;
+    require_sound(rows, 2, kRunFiles);
+    return RunFile{std::move(found), std::string(rows.get<Blob>(1).bytes)};
+  }
+  return std::nullopt;
 }
 
 RunsStore::Page RunsStore::list(const RunFilter& filter, std::optional<std::int64_t> after,

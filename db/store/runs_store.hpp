@@ -88,7 +88,9 @@ class RunsStore {
   std::optional<Run> find(std::int64_t id) const;
   std::optional<std::string> trace(std::int64_t id) const;
   /// The file of a run by its name (the last part of its path), without regard to ASCII case.
-  std::optional<RunFile> file(std::int64_t id, std::string_view name) const;
+  /// @param path the whole path; empty: the first of that name by path
+  std::optional<RunFile> file(std::int64_t id, std::string_view name,
+                              std::string_view path = {}) const;
 
   struct Page {
     std::vector<Run> runs;

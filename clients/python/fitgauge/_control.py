@@ -128,7 +128,7 @@ class ControlCalls(Transport):
         return self._get(path_of("runs", run_id, "request"))
 
     def run_file(self, run_id: str, name: str) -> bytes:
-        """A file the run has written."""
+        """A file the run has written, by its name or, of several files of that name, by its path."""
         return self._bytes(path_of("runs", run_id, "files", name))
 
     def trace(self, run_id: str) -> list[dict[str, Any]]:

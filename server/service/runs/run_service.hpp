@@ -142,7 +142,7 @@ class RunService {
     std::string path;
     std::string bytes;
   };
-  /// By its file name, without regard to case. @errors RunUnknown, FileUnknown.
+  /// By its file name, the first by path, or by its path. @errors RunUnknown, FileUnknown.
   void file(std::int64_t id, std::string name, Done<File> done);
 
   struct Page {

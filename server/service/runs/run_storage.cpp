@@ -211,7 +211,10 @@ void RunService::trace(std::int64_t id, Done<TraceReader> done) {
 void RunService::file(std::int64_t id, std::string name, Done<File> done) {
   database_.readers().submit(
       [this, id, name = std::move(name)](const store::Stores& stores) -> Result<File> {
-        if (auto file = stores.runs.file(id, name)) {
+        const bool is_path = name.find_first_of("/\\") != std::string::npos;
+        const auto path = parse_file_path(name);
+        const std::string_view last = is_path && path ? path->file_name() : std::string_view(name);
+        if (auto file = stores.runs.file(id, last, is_path && path ? path->key() : "")) {
           return File{.path = std::move(file->path), .bytes = std::move(file->content)};
         }
         if (!stores.runs.find(id)) return unknown_run(run_id_text(id, origin_of(id)));

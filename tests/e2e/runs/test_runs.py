@@ -176,6 +176,21 @@ class Runs(ControlTest):
         self.assertEqual([(each["pointer"], each["code"]) for each in problem["errors"]],
                          [("/parameters/Q1", "field.conflict"), ("/parameters/Q01", "field.conflict")])
 
+    def test_files_of_one_name_are_read_by_their_paths(self):
+        self.upload("out.a", '"IN %s", QS1;\n')
+        program = self.upload_program("twice", 'QS1 = "A"', "FN 16: F-PRINT out.a / a\\out.txt", 'QS1 = "B"',
+                                      "FN 16: F-PRINT out.a / b\\out.txt")
+        run = self.run_program(program)
+        self.assertEqual([each["path"] for each in run["files"]], ["TNC:\\a\\out.txt", "TNC:\\b\\out.txt"])
+        files = f"/v1/runs/{run['id']}/files/"
+        for name, text in (("out.txt", "IN A"), ("a%2Fout.txt", "IN A"), ("b%2FOUT.TXT", "IN B"), ("b%5Cout.txt", "IN B"),
+                           ("tnc%3A%5CB%5Cout.txt", "IN B")):
+            self.assertEqual(self.daemon.get(files + name).text.strip(), text, name)
+        for name in ("c%2Fout.txt", "b%2Fnone.txt", "D%3A%5Cout.txt"):
+            self.assert_problem(self.daemon.get(files + name), 404, "file.unknown")
+        with self.daemon.client() as client:
+            self.assertEqual(client.run_file(run["id"], "TNC:\\b\\out.txt").strip(), b"IN B")
+
     def test_repeat_with_the_same_key_is_the_same_run(self):
         program = self.upload_program("once", "Q1 = 5")
         key = {"Idempotency-Key": '"run-1"'}
