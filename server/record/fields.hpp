@@ -65,13 +65,14 @@ struct MeasurementFields {
 
 /// Values that a request may give a field; none if the service fills it.
 struct Accepted {
-  std::size_t longest = 0;  ///< of a text, in bytes
+  std::size_t longest = 0;  ///< of a text, in bytes, or in characters if it counts those
   // Of a number, in units of 10^-scale, and both bounds in words:
   std::int64_t least = 0;
   std::int64_t most = 0;
   std::string_view range{};
   bool is_thermal = false;  ///< the field corrects to 20 °C
   bool is_truth = false;    ///< a number that is 1 for true; false is as good as not given
+  bool counts_characters = false;
 
   constexpr bool nothing() const { return longest == 0 && most == 0; }
 };
@@ -96,7 +97,7 @@ inline constexpr Accepted kOffset{
     .least = -1'000'000'000, .most = 1'000'000'000, .range = "must be from -1000000 to 1000000"};
 inline constexpr Accepted kDegreesOfFreedom{
     .least = 1'000'000, .most = 1'000'000'000'000, .range = "must be from 1 to 1000000"};
-inline constexpr Accepted kSizeOperator{.longest = 8};
+inline constexpr Accepted kSizeOperator{.longest = 8, .counts_characters = true};
 inline constexpr Accepted kEnvelopeWord{.longest = 16};
 inline constexpr Accepted kTruth{.most = 1, .is_truth = true};
 inline constexpr Accepted kNotGiven{};
@@ -192,7 +193,7 @@ inline constexpr MeasurementField kMeasurementFields[] = {
     {"offset_um", &Of::offset, 3, "offset_nm", 54, kOffset,
      "Correction of the machine that was made before this part, -1000000 to 1000000"},
     {"size_operator", &Of::size_operator, "size_operator", 57, kSizeOperator,
-     "Size operator of ISO 14405-1; LP (two-point) when absent"},
+     "Size operator of ISO 14405-1, its length in characters; LP (two-point) when absent"},
     {"envelope", &Of::envelope, "envelope", 58, kEnvelopeWord,
      "required: the size has the modifier (E) of ISO 14405-1"},
     {"go_gauge", &Of::go_gauge, "go_gauge", 59, kEnvelopeWord,

@@ -211,9 +211,16 @@ std::optional<std::string_view> MeasurementRowReader::text(std::size_t field,
            fmt::format("{} must be a string; got {}", name, name_of(value.kind)));
     return std::nullopt;
   }
-  if (value.text.size() > longest) {
+  const auto* const plain = kRowFields[field].plain;
+  const bool counts_characters = plain != nullptr && plain->accepted.counts_characters;
+  const auto counts = [&](char c) {
+    return !counts_characters || (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;  // UTF-8
+  };
+  if (value.text.size() > longest &&
+      std::cmp_greater(std::count_if(value.text.begin(), value.text.end(), counts), longest)) {
     report(ErrorCode::FieldTooLong, name,
-           fmt::format("{} must have at most {} bytes", name, longest));
+           fmt::format("{} must have at most {} {}", name, longest,
+                       counts_characters ? "characters" : "bytes"));
     return std::nullopt;
   }
   if (value.text.find('\0') != std::string_view::npos) {

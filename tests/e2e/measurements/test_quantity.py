@@ -24,6 +24,16 @@ class Quantity(DaemonTest):
         stored = self.daemon.get(f"/v1/measurements?run_id={run['id']}").json["measurements"]
         return run, stored
 
+    def test_the_operator_of_a_size_is_counted_in_characters(self):
+        longest = "ØØØØØØØ⌀"
+        record = self.record(designation="25 H7", measured_mm=25.01, size_operator=longest)
+        self.assertEqual(record["size_operator"], longest)
+        text = f"designation,measured_mm,size_operator\n25 H7,25.01,{longest}\n25 H7,25.01,{longest}X\n"
+        problem = self.assert_problem(self.daemon.measure(text.encode(), {"Content-Type": "text/csv"}), 422, "request.invalid")
+        self.assertEqual([(each["pointer"], each["code"]) for each in problem["errors"]],
+                         [("/1/size_operator", "field.too_long")])
+        self.assertIn("8 characters", problem["detail"])
+
     def test_a_value_without_limits_is_unjudged_everywhere(self):
         record = self.record(measured_mm=-50.08, quantity="position", part_id="U", characteristic="free")
         self.assertEqual({name: record[name] for name in record if name not in ("id", "measured_at", "received_at")},
