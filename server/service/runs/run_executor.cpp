@@ -183,6 +183,7 @@ interpreter::RunResult unstarted(RunStatus status, MessageKind kind, std::string
                                  std::string program) {
   interpreter::RunResult result;
   result.status = status;
+  result.active_preset = 1;
   result.messages.push_back({.kind = kind,
                              .text = std::move(text),
                              .program = std::move(program),

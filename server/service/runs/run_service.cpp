@@ -119,6 +119,9 @@ void RunService::run(const std::shared_ptr<ActiveRun>& run) {
 }
 
 void RunService::end(ActiveRun& active, ExecutedRun executed) {
+  if (executed.result.blocks_executed == 0) {
+    executed.result.active_preset = active.order().setup.machine.active_preset;
+  }
   const RunReport report{.id = active.id(),
                          .origin = origin_of(active.id()),
                          .program = active.program(),

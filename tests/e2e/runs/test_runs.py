@@ -113,11 +113,12 @@ class Runs(ControlTest):
 
     def test_queued_run_is_cancelled_before_its_first_block(self):
         endless = self.upload_program("endless2", *FOREVER)
-        places = [self.start(endless, {"seed": seed}, limits=LONG) for seed in range(10, 14)]
+        places = [self.start(endless, {"seed": seed, "machine": {"presets": [{"number": seed}], "active_preset": seed}},
+                             limits=LONG) for seed in range(10, 14)]
         for seed, place in reversed(list(enumerate(places, start=10))):
             self.assertEqual(self.daemon.request("DELETE", place).status, 204)
             run = self.daemon.get(place).json
-            self.assertEqual((run["status"], run["setup_seed"]), ("cancelled", seed))
+            self.assertEqual((run["status"], run["setup_seed"], run["active_preset"]), ("cancelled", seed, seed))
 
     def test_end_of_a_run_is_an_event(self):
         completed = self.run_program(self.upload_program("over", "Q1 = 1"))
