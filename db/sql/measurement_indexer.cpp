@@ -328,8 +328,8 @@ NodeIndex MeasurementIndexer::derive_parent(const IndexNode& node) {
 }
 
 void MeasurementIndexer::aggregate_rows(const IndexNode& node, TextField field, NodeIndex& index) {
-  MeasurementQuery query(connection_,
-                         fmt::format("m.{}, m.source, m.verdict, {}", column_of(field), kSummedLength));
+  MeasurementQuery query(
+      connection_, fmt::format("m.{}, m.source, m.verdict, {}", column_of(field), kSummedLength));
   Values values;
   const MeasurementFilter current{.source = std::nullopt};
   const bool few = query.run(current, node.ids(), ListOrder::OldestFirst, [&](const Rows& rows) {

@@ -79,7 +79,8 @@ void MeasurementSummary::look_at_filter() {
     const auto& text = filter.text(column.field);
     if (text && column.field != group_by_) others_.push_back({number_of(column.field), *text});
   }
-  is_additive_ = !filter.run_id && !filter.as_of_id && !filter.asks_of_rows() && is_summed(group_by_) &&
+  is_additive_ = !filter.run_id && !filter.as_of_id && !filter.asks_of_rows() &&
+                 is_summed(group_by_) &&
                  std::none_of(others_.begin(), others_.end(),
                               [&](const auto& other) { return is_rare(other); }) &&
                  !filter.text(TextField::Tool);

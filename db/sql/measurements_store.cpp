@@ -96,8 +96,10 @@ struct MeasurementsStore::Statements {
   LogQuery log_hashes{connection, "hash"};
   MeasurementIndexer indexer{connection};
   MeasurementQuery whole_rows{connection, measurement_columns()};
-  MeasurementQuery values{connection, fmt::format("m.id, {}, {}{}", kSummedLength, kValueColumns, kPlaceColumns)};
-  MeasurementQuery own_values{connection, fmt::format("m.id, {}, {}{}", kSummedLength, kValueColumns, kOwnPlaceColumns)};
+  MeasurementQuery values{
+      connection, fmt::format("m.id, {}, {}{}", kSummedLength, kValueColumns, kPlaceColumns)};
+  MeasurementQuery own_values{
+      connection, fmt::format("m.id, {}, {}{}", kSummedLength, kValueColumns, kOwnPlaceColumns)};
   Statement block_values{connection, "SELECT bytes FROM measurement_values WHERE block = ?"};
   Statement corrected_among{connection,
                             "SELECT count(*) FROM (SELECT 1 FROM measurements WHERE correction_of "

@@ -55,9 +55,9 @@ struct MeasurementFields {
   std::optional<std::int64_t> start_angle{};      ///< of the first, in millionths of a degree
   std::optional<std::int64_t> diameter_factor{};  ///< of its scatter over that of a touch, in 1e-6
   std::optional<std::int64_t> form{};             ///< deviation of form that they show, in nm
-  std::optional<std::string_view> correction_reason{};   ///< of a correction, and of no other
-  std::optional<std::string_view> uncertainty_budget{};  ///< of the gauge, if it gave u
-  std::optional<std::string_view> calibration_due{};     ///< of the gauge, if overdue
+  std::optional<std::string_view> correction_reason{};        ///< of a correction, and of no other
+  std::optional<std::string_view> uncertainty_budget{};       ///< of the gauge, if it gave u
+  std::optional<std::string_view> calibration_due{};          ///< of the gauge, if overdue
   std::optional<std::string_view> calibration_certificate{};  ///< of the gauge, if in date
   std::optional<std::string_view> calibration_laboratory{};   ///< the same
   std::optional<std::int64_t> added_uncertainty{};  ///< by the correction to 20 °C, in pm

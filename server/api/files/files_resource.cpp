@@ -49,16 +49,16 @@ void put_file(const Services& services, const http::Request& request, http::Resp
   const auto put = [&services, &request, path = *std::move(path), location,
                     shared = share(std::move(responder))](const Result<std::string>& tag) {
     if (!tag) return shared->fail(tag.error());
-    services.files.write(path, request.body(), caller_text(request), text_precondition_of(request),
-                         [shared, location, tag = *tag](const Result<bool>& created) {
-                           if (!created) return shared->fail(created.error());
-                           shared->answer(http::Response(*created ? 201 : 200)
-                                              .with("Location", location)
-                                              .with("ETag", tag));
-                         });
+    services.files.write(
+        path, request.body(), caller_text(request), text_precondition_of(request),
+        [shared, location, tag = *tag](const Result<bool>& created) {
+          if (!created) return shared->fail(created.error());
+          shared->answer(
+              http::Response(*created ? 201 : 200).with("Location", location).with("ETag", tag));
+        });
   };
-  services.jobs.orders.run([&request]() -> Result<std::string> { return etag_of_text(request.body()); },
-                           put);
+  services.jobs.orders.run(
+      [&request]() -> Result<std::string> { return etag_of_text(request.body()); }, put);
 }
 
 void get_file(const Services& services, const http::Request& request, http::Responder responder) {
@@ -109,7 +109,8 @@ void members(auto& v, const FilesAnswer& answer) {
 void list_files(const Services& services, const http::Request& request, http::Responder responder) {
   std::string prefix(request.text("prefix").value_or(""));
   std::replace(prefix.begin(), prefix.end(), '/', '\\');
-  if (!ascii_iequals(prefix.substr(0, app::kDrive.size()), app::kDrive)) prefix.insert(0, app::kDrive);
+  if (!ascii_iequals(prefix.substr(0, app::kDrive.size()), app::kDrive))
+    prefix.insert(0, app::kDrive);
   services.files.list(std::move(prefix),
                       answer_with(std::move(responder), [](std::vector<app::DiskFile> files) {
                         return json_response(body_json(FilesAnswer{std::move(files)}));

@@ -166,17 +166,17 @@ Result<http::Response> verdict(const http::Request& request,
     warnings.push_back({"query.unused", fmt::format("{} changes nothing {}", name, reason)});
   }
   warn_of_no_acceptance(*rule, limits->of.upper - limits->of.lower, warnings);
-  return tagged_json(json_object([&](JsonWriter& json) {
-                       limits->write_members(json);
-                       write_verdict_members(json, limits->nominal, measured, result);
-                       write_rule_members(json, *rule, words, limits->of, measured.decisive());
-                       if (limits->has_envelope) {
-                         json.member("envelope", app::kEnvelopeRequired)
-                             .member("envelope_result", "not_verified");
-                       }
-                       write_warnings(json, warnings);
-                     }),
-                     limits->etag);
+  return tagged_json(
+      json_object([&](JsonWriter& json) {
+        limits->write_members(json);
+        write_verdict_members(json, limits->nominal, measured, result);
+        write_rule_members(json, *rule, words, limits->of, measured.decisive());
+        if (limits->has_envelope) {
+          json.member("envelope", app::kEnvelopeRequired).member("envelope_result", "not_verified");
+        }
+        write_warnings(json, warnings);
+      }),
+      limits->etag);
 }
 
 /// A field of a measurement as a parameter.

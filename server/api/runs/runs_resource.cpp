@@ -206,9 +206,10 @@ void add_reading_routes(Routes& add) {
        .refusals = {404, 409}});
   add("GET /v1/runs/{id}/files/{name} getRunFile viewer", get_run_file,
       {.summary = "A file the run has written, by its name or path",
-       .parameters = {kId, path_parameter("name",
-                                        "TCHPR421.TXT or, of several files of that name, the path "
-                                        "(b%2FTCHPR421.TXT), without regard to case")},
+       .parameters = {kId,
+                      path_parameter("name",
+                                     "TCHPR421.TXT or, of several files of that name, the path "
+                                     "(b%2FTCHPR421.TXT), without regard to case")},
        .response_types = {},
        .outcomes = {{.meaning = "Bytes of the file", .media_types = {"text/plain", "text/html"}}},
        .refusals = {404, 409}});

@@ -172,9 +172,8 @@ void list_calibrations(const Services& services, const http::Request& request,
         json.begin_object().key("calibrations").begin_array();
         for (const auto& [from, text] : found) json.raw(text);
         json.end_array().end_object();
-        if (found.empty() &&
-            std::none_of((*lists)[0].begin(), (*lists)[0].end(),
-                         [&](const auto& each) { return each.name == gauge; })) {
+        if (found.empty() && std::none_of((*lists)[0].begin(), (*lists)[0].end(),
+                                          [&](const auto& each) { return each.name == gauge; })) {
           return shared->fail(
               {ErrorCode::GaugeUnknown, fmt::format("gauge in use not found: '{}'", gauge)});
         }

@@ -67,8 +67,7 @@ void keep_files(app::FileService& files, const std::shared_ptr<app::ActiveRun>& 
     const auto written = run->look(app::Look::StateAndFiles, {}).files;
     if (written == nullptr) return;
     for (const interpreter::WrittenFile& file : *written) {
-      files.write(file.path, file.bytes, std::nullopt, {},
-                  [written](const Result<bool>&) {});
+      files.write(file.path, file.bytes, std::nullopt, {}, [written](const Result<bool>&) {});
     }
   });
 }

@@ -217,8 +217,8 @@ VirtualDisk::Answer<void> VirtualDisk::write(const Path& path, std::string_view 
 VirtualDisk::Answer<void> VirtualDisk::remove(const Path& path) {
   const auto found = find(path);
   if (!found) return found.error();
-  const auto removed =
-      wait_for<bool>([&](auto done) { files_.remove(path, std::nullopt, {}, {}, std::move(done)); });
+  const auto removed = wait_for<bool>(
+      [&](auto done) { files_.remove(path, std::nullopt, {}, {}, std::move(done)); });
   // One that only the run has: nothing is stored of it.
   if (!removed && removed.error() != ControlError::NoFile) return removed.error();
   hide(path);

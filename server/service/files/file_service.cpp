@@ -27,9 +27,7 @@ bool holds(const FileService::Precondition& precondition, const store::Stores& s
 }
 
 DiskFile disk_file(store::FileEntry entry) {
-  return {.path = std::move(entry.path),
-          .size = entry.size,
-          .modified_at = {entry.modified_at_ns}};
+  return {.path = std::move(entry.path), .size = entry.size, .modified_at = {entry.modified_at_ns}};
 }
 
 }  // namespace
@@ -135,7 +133,8 @@ void FileService::remove(interpreter::ControlPath path, std::optional<std::strin
                          Done<bool> done) {
   database_.writer().submit(
       [path = std::move(path), caller = std::move(caller), precondition = std::move(precondition),
-       users = std::move(users), now = clock_.now()](store::Stores& stores) mutable -> Result<bool> {
+       users = std::move(users),
+       now = clock_.now()](store::Stores& stores) mutable -> Result<bool> {
         if (!stores.files.stat(path.text())) return unknown(path);
         for (const auto& [kind, member] :
              {std::pair{DocumentKind::Setup, "file"}, std::pair{DocumentKind::Plan, "picture"}}) {

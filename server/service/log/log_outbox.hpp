@@ -41,8 +41,8 @@ class LogOutbox {
     std::vector<std::string> records{};
     std::vector<store::IdempotencyStore::Forwarded> answers{};
     std::vector<std::string> notes{};  ///< as JSON
-    std::string notes_after{};         ///< the id of the note before the first; empty: there is none
-    std::int64_t last_note = 0;        ///< the number in the id of the last of them
+    std::string notes_after{};   ///< the id of the note before the first; empty: there is none
+    std::int64_t last_note = 0;  ///< the number in the id of the last of them
   };
   /// The rows behind the first `after` records, at most `most`, of one history; no record where
   /// nothing does.

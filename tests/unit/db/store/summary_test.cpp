@@ -45,7 +45,8 @@ struct Shop : Fixture {
       row.measured_at_ns = static_cast<std::int64_t>(i + random() % 50);
       row.received_at_ns = static_cast<std::int64_t>(i);
       if (random() % 10 == 0) row.verdict = Verdict::Indeterminate;
-      if (i >= kMeasuredAlone && random() % 10 == 0 && row.measured_nm + 3 <= row.upper_limit_nm()) {
+      if (i >= kMeasuredAlone && random() % 10 == 0 &&
+          row.measured_nm + 3 <= row.upper_limit_nm()) {
         row.corrected_nm = row.measured_nm + 3;  // what is summed up
       }
       if (random() % 4 != 0) {
@@ -265,8 +266,9 @@ TEST_CASE("a summary is what a pass over the rows gives, whatever the index hold
   CHECK(shop.database->verify()->findings.empty());
 
   // As releases left it that summed up the values before their correction to 20 °C.
-  shop.execute("UPDATE measurement_aggregates SET statistics = (SELECT statistics FROM "
-               "measurement_aggregates WHERE level = 1 LIMIT 1) WHERE level = 1 OR node > 1");
+  shop.execute(
+      "UPDATE measurement_aggregates SET statistics = (SELECT statistics FROM "
+      "measurement_aggregates WHERE level = 1 LIMIT 1) WHERE level = 1 OR node > 1");
   shop.execute("DELETE FROM measurement_columns WHERE block > 1");
   shop.execute(migration(11));
   REQUIRE(shop.count("measurement_nodes WHERE stale = 1 AND paired = 0") == 34);

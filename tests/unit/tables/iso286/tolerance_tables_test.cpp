@@ -136,7 +136,8 @@ TEST_CASE("names that are no class are told apart from names that cannot be one"
   const auto code = [](std::string_view name) {
     return standard_tables().find_class(name).error().code;
   };
-  for (const char* name : {"H19", "I7", "h7x", "J9", "V2", "H007", "Press_1", "Press", "NEU", "neu"}) {
+  for (const char* name :
+       {"H19", "I7", "h7x", "J9", "V2", "H007", "Press_1", "Press", "NEU", "neu"}) {
     CAPTURE(std::string(name));
     CHECK(code(name) == ErrorCode::ClassUnknown);
   }
