@@ -78,6 +78,7 @@ def document(root: Path, system: Path, version: str, architecture: str) -> dict[
     parts += [(installed(name), "STATIC_LINK") for name in compiled_in()
               if field(system, name, "source:Package") not in sources]
     parts += [(part, "CONTAINS") for part in of_page()]
+    parts += [(installed(name), "CONTAINS") for name in ("ca-certificates", "tzdata")]  # in the image
     identity = f"fitgauge-{version}-{architecture}-{EPOCH}"
     return {
         "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
