@@ -16,8 +16,26 @@ from support.postgres import Cluster
 RELEASED = {
     "sqlite/0001_service.sql": "5a277f5f1ab5fb987e020f84205779e7363857f090c1509bba45e3d6bfb4e614",
     "sqlite/0002_additions.sql": "77cd7fd6373ae848de768586c59eddf1c86c4da949c49b9bb45ae7bed200b860",
+    "sqlite/0003_offset.sql": "66ca6519b300814afcce2b7423c2a12cdcbc5e71d1e6349016a9e4125d410679",
+    "sqlite/0004_quantity.sql": "058fae9e2d1da81ca85791ff9b2c81167358815c37cffb6123190fbf9dbbdd38",
+    "sqlite/0005_key_expiry.sql": "b44366057b37f834faffef3f8c94a0fa40c81aa0f804847bb85179b5bf9da9af",
+    "sqlite/0006_branches.sql": "0bb33c3c2e1be5c9113fa54eab38a69baf771f68819f0ff391880de11393c5c8",
+    "sqlite/0007_changes.sql": "40c36b199b60296be69eb16e3c6cfa8868cefc4086ff11187ad59bc90eaf5c46",
+    "sqlite/0008_tool.sql": "67596229282718a5d7c1cb251ee2b81a079c301d9cbc107c68595eeb2651c400",
+    "sqlite/0009_forwarded_notes.sql": "c4620a63414e07e1bd46bc6c46a995f7c3e7b8823f1ac41e421dd487d0d1127d",
+    "sqlite/0010_calibration.sql": "12642700e4202480a0f4c8922f6db6eb522c850008498649b932c50eecbc1b7c",
+    "sqlite/0011_summed_lengths.sql": "34dbf2c1620369a1fb897641cfaf67618849a9ea94d7fb73f4445b28ebc56d41",
     "postgres/0001_service.sql": "de5c6334c873daf3a74b0b66b9e0609eb3d27306e148cc6b8eff9054b876000f",
     "postgres/0002_additions.sql": "77dc1cf3340f58269966eca28b48130f81dc4efdd28ac271e95085f9fe48e0c2",
+    "postgres/0003_offset.sql": "5c9f899bfdf04b42ba56f275030a56562e2496a16084646abe17895a5a970d68",
+    "postgres/0004_quantity.sql": "14e0c141e7d0594bcff1195288f257a9855fd9c51fbe860d6832e143cf9b2ade",
+    "postgres/0005_key_expiry.sql": "c36974e8286e56a9fc36a3729c69ab4bbdc178b12a0207b23c906530eae4469f",
+    "postgres/0006_branches.sql": "703b7574f4dc9532e3f71178ba2a9223b7b2d80a9b71b79e6d23ed09bcef330e",
+    "postgres/0007_changes.sql": "f05c2960166e9a62cf98f11074e8868f516bd0846ad7e5dfdc8e130543a36e12",
+    "postgres/0008_tool.sql": "ec62d53edeaedf0810ba15485cd5f5afc79eb72daba36ba8440aa0296e23c397",
+    "postgres/0009_forwarded_notes.sql": "bf3cfea1e103180d3a09b358445c2e7c8f36163365ffc5b45c0d58dbd52f3b3c",
+    "postgres/0010_calibration.sql": "d934467e514a844f6c171f99b0548bc1f90537c5854fee237af0b021e7298ca2",
+    "postgres/0011_summed_lengths.sql": "400e8b20d1d9290e4edcbefa218e4d0b7481b2dd4acd7554243f33db0e7e7430",
 }
 ONLY_SQLITE = {"storage_probe"}  # whether the file takes a write again
 ONLY_POSTGRES = {"head"}  # of several daemons: who writes next
