@@ -42,10 +42,10 @@ TEST_CASE("a row and columns that the only open table lacks are found before the
   const std::string fails = ": the run fails when it reaches this block";
   CHECK(found(open + "FN 28: TABREAD Q1 = 12/\"X,Y\"").empty());
   CHECK(found(open + "FN 28: TABREAD Q1 = Q9/\"X, Y\"").empty());
-  CHECK(found(open + "FN 28: TABREAD Q1 = 12/\"X,Z\"") == "table T has no column 'Z'" + fails);
-  CHECK(found(open + "FN 28: TABREAD Q1 = Q9/\"Z\"") == "table T has no column 'Z'" + fails);
+  CHECK(found(open + "FN 28: TABREAD Q1 = 12/\"X,Z\"") == "table T .TAB has no column 'Z'" + fails);
+  CHECK(found(open + "FN 28: TABREAD Q1 = Q9/\"Z\"") == "table T .TAB has no column 'Z'" + fails);
   CHECK(found(open + "FN 28: TABREAD Q1 = 13/\"X\"") ==
-        "table T has no row 13 in its column NR" + fails);
+        "table T .TAB has no row 13 in its column NR" + fails);
   CHECK(
       found(open + "Q2 = 1\nFN 27: TABWRITE 13/\"X\" = Q2\nFN 28: TABREAD Q1 = 13/\"X\"").empty());
   CHECK(found(open + "FN 26: TABOPEN QS1\nFN 28: TABREAD Q1 = 13/\"X\"").empty());
