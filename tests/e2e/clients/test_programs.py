@@ -1,0 +1,206 @@
+"""fitgauge nc: programs on the service and on this machine, checked, run, formatted and converted."""
+
+import json
+import unittest
+
+from support.cli import ClientTest
+from support.control import EXAMPLES
+
+
+class Programs(ClientTest):
+    def setUp(self):
+        super().setUp()
+        files = [EXAMPLES / "8255" / name for name in ("8255.h", "82551.h", "82552.a")]
+        self.assert_runs(0, "nc", "put", *files, "nc_prog/8255/")
+
+    def test_files_come_back_byte_for_byte(self):
+        self.assertIn("TNC:\\nc_prog\\8255\\82552.a\n", self.assert_runs(0, "nc", "ls", "nc_prog/8255/"))
+        self.assert_runs(0, "nc", "get", "TNC:\\nc_prog\\8255\\8255.h")
+        original = (EXAMPLES / "8255" / "8255.h").read_bytes()
+        self.assertEqual((self.client.folder / "8255.h").read_bytes(), original)
+        self.assertEqual(self.assert_runs(0, "nc", "get", "nc_prog/8255/8255.h", "-").encode(), original)
+        self.assert_fails(7, "nc", "get", "nc_prog/none.h")
+        self.assert_fails(4, "nc", "put", "a", "b", "folder")
+
+    def test_the_exit_code_of_a_run_is_its_verdict(self):
+        for name, code in (("hole-good", 0), ("hole-rework", 1), ("hole-reject", 2)):
+            with self.subTest(name):
+                setup = EXAMPLES / "8255" / "setups" / f"{name}.json"
+                screen = self.assert_runs(code, "nc", "run", "--from-control", "TNC:\\nc_prog\\8255\\8255.h",
+                                          "--setup-file", setup)
+                self.assertIn("CHECKED FIT: 25H7\n", screen)
+
+    def test_parameters_and_stored_setups(self):
+        setup = json.loads((EXAMPLES / "8255" / "setups" / "hole-good.json").read_text())
+        self.daemon.request("PUT", "/v1/setups/hole-good", setup)
+        run = json.loads(self.assert_runs(2, "--json", "nc", "run", "--from-control", "nc_prog/8255/8255.h", "--setup",
+                                          "hole-good", "--set", "Q1=25", "--set", "QS1=H5"))
+        self.assertEqual((run["verdict"], run["parameters"]["QS1"]), ("reject", "H5"))
+        self.assert_fails(4, "nc", "run", "nc_prog/8255/8255.h", "--set", "Q1=x")
+
+    def test_programs_are_checked_and_formatted_without_the_service(self):
+        hole = ("BEGIN PGM A MM\nTCH PROBE 421 MEASURE BOSS ~\n Q273=+1 ~\n Q274=+1 ~\n Q262=+12 ~\n Q247=+90 ~\n Q261=-5 ~\n"
+                " Q260=+20 ~\n Q275=+12.1 ~\n Q276=+12\nEND PGM A MM\n")
+        self.client.write("a.h", hole)
+        self.assertIn("warning", self.assert_runs(1, "nc", "check", "a.h"))
+        code = "cycle.dialog_contradicts"
+        self.assert_runs(0, "nc", "check", "a.h", "--level", f"{code}=off")
+        self.assert_runs(2, "nc", "check", "a.h", "--level", f"{code}=error")
+        found = json.loads(self.assert_runs(1, "nc", "check", "a.h", "--format", "json"))["diagnostics"]
+        self.assertEqual([(each["code"], each["line"], each["program"]) for each in found], [(code, 2, "a.h")])
+        result = json.loads(self.assert_runs(1, "nc", "check", "a.h", "--format", "sarif"))["runs"][0]["results"][0]
+        self.assertEqual((result["ruleId"], result["level"]), (code, "warning"))
+        self.client.write("a b#ü.h", hole)
+        result = json.loads(self.assert_runs(1, "nc", "check", "a b#ü.h", "--format", "sarif"))["runs"][0]["results"][0]
+        uri = result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+        self.assertEqual(uri, "a%20b%23%C3%BC.h")
+        self.client.write("b.h", "BEGIN PGM B MM\nCALL PGM a.h\nLX 5\nEND PGM B MM\n")
+        text = self.assert_runs(2, "nc", "check", "b.h")
+        self.assertIn("a.h:2:", text)
+        self.assertIn("b.h:3:", text)
+        self.assertIn("0 BEGIN PGM A MM\n1 TCH PROBE 421", self.assert_runs(0, "nc", "format", "a.h"))
+        self.assert_runs(0, "nc", "format", "--in-place", "a.h")
+        self.assert_runs(1, "nc", "check", "a.h")
+        self.assert_fails(4, "nc", "check", "a.h", "--level", "x=loud")
+        self.assert_fails(5, "nc", "check", "gone.h")
+
+    def test_a_program_is_checked_on_the_part_of_a_setup(self):
+        block = {"type": "block", "min_mm": [0, 0, -40], "max_mm": [100, 80, 0]}
+        bore = {"type": "bore", "center_mm": [50, 40], "top_mm": 0, "depth_mm": 30, "diameter_mm": 25.013}
+        setup = {"workpiece": {"features": [block, bore]}, "cycles": {"392": "ignore"}}
+        self.client.write("part.json", json.dumps(setup))
+
+        def check(status, centre, *more, tool=30, depth=-5, cycle=392):
+            self.client.write("hole.h", f"""BEGIN PGM HOLE MM
+TOOL CALL {tool} Z
+CYCL DEF {cycle} OF THE BUILDER Q1500=+1
+TCH PROBE 421 MEASURE HOLE ~
+ Q273=+{centre} ~
+ Q274=+40 ~
+ Q262=+25 ~
+ Q247=+90 ~
+ Q261={depth} ~
+ Q260=+20
+END PGM HOLE MM
+""")
+            text = self.assert_runs(status, "nc", "check", "hole.h", "--format", "json", *more)
+            return [(each["code"], each["line"], each["program"]) for each in json.loads(text)["diagnostics"]]
+
+        on_it = ("--setup", "part.json")
+        self.assertEqual(check(1, 50), [("cycle.unknown", 3, "hole.h")])
+        self.assertEqual(check(0, 50, *on_it), [])
+        self.assertEqual(check(2, 50, *on_it, cycle=393)[-1], ("run.failed", 3, "hole.h"))
+        self.assertEqual(check(1, 51, *on_it), [("run.setup_contradicts", 4, "hole.h")])
+        self.assertEqual(check(0, 51, *on_it, "--level", "run.setup_contradicts=off"), [])
+        self.assertEqual(check(2, 50, *on_it, tool=5), [("run.failed", 2, "hole.h")])
+        self.assertEqual(check(2, 70, *on_it), [("run.failed", 4, "hole.h")])
+        self.assertEqual(check(2, 50, *on_it, depth="+Q7"), [("run.failed", 4, "hole.h")])
+        self.assertEqual(check(0, 50, *on_it, "--set", "Q7=-5", depth="+Q7"), [])
+        self.assert_fails(4, "nc", "check", "--from-control", "hole.h", *on_it)
+        self.assert_fails(4, "nc", "check", "hole.h", *on_it, "--set", "Q7")
+        self.assert_fails(5, "nc", "check", "hole.h", "--setup", "gone.json")
+
+    def test_no_text_of_a_program_is_lost_by_formatting(self):
+        for name, text in (("t.h", "0 BEGIN PGM T MM\r\n1 L  X+5 FMAX\r\n2 END PGM T MM\r\n3 L Y+9\r\n"),
+                           ("t.i", "%T G71 *\nN10 G00 G40 G90 X+5 *\nN99999999 %T G71 *\nN20 X+9 *\n")):
+            self.client.write(name, text)
+            self.assertIn("program.text_after_end", self.assert_runs(0, "nc", "check", name))
+            for command in (("format", "--in-place", name), ("convert", name, "out.h" if name == "t.i" else "out.i")):
+                refused = self.client.run("nc", *command)
+                self.assertEqual(refused.returncode, 9)
+                self.assertIn(f"{name}:4:", refused.stderr_text)
+            self.assertEqual((self.client.folder / name).read_bytes(), text.encode())
+        self.client.write("t.h", "0 BEGIN PGM T MM\r\n1 L  X+5 FMAX\r\n2 END PGM T MM\r\n")
+        self.assert_runs(0, "nc", "format", "--in-place", "t.h")
+        self.assertEqual((self.client.folder / "t.h").read_bytes(), b"0 BEGIN PGM T MM\r\n1 L X+5 FMAX\r\n2 END PGM T MM\r\n")
+        for name, text in (("t.h", "0 BEGIN PGM T MM\n1 L  X+5 ;Höhe 5 € Ø\n2 END PGM T MM\n"),
+                           ("t.i", "%T G71 *\nN10 G00 G90  X+5 G40 * ;Höhe 5 € Ø\nN99999999 %T G71 *\n")):
+            for encoding in ("cp1252", "utf-8", "utf-8-sig"):
+                (self.client.folder / name).write_bytes(text.encode(encoding))
+                self.assert_runs(0, "nc", "format", "--in-place", name)
+                self.assertEqual((self.client.folder / name).read_bytes(), text.replace("  ", " ").encode(encoding))
+        self.assertIn("unknown finding", self.assert_fails(4, "nc", "check", "t.h", "--level", "program.misssing=off"))
+
+    def test_programs_run_here_as_at_the_service(self):
+        folder = EXAMPLES / "8255"
+        for name, code in (("hole-good", 0), ("hole-rework", 1), ("hole-reject", 2)):
+            with self.subTest(name):
+                setup = folder / "setups" / f"{name}.json"
+                there = self.assert_runs(code, "nc", "run", "--from-control", "nc_prog/8255/8255.h", "--setup-file", setup)
+                here = self.assert_runs(code, "--server", "localhost:1", "nc", "run", folder / "8255.h", "--setup", setup)
+                self.assertEqual(here, there)
+        documents = [json.loads(self.assert_runs(2, "--json", "nc", "run", *program, "--setup-file", setup, "--set", "Q1=25"))
+                     for program in (("--from-control", "nc_prog/8255/8255.h"), (folder / "8255.h",))]
+        for name in ("status", "verdict", "parameters", "screen", "tables", "measurements", "presets", "machining_time_s"):
+            if name not in ("tables", "measurements"):  # they have paths
+                self.assertEqual(documents[1][name], documents[0][name], name)
+        self.assertEqual(documents[1]["measurements"][0]["sizes"], documents[0]["measurements"][0]["sizes"])
+        self.client.write("tool.t", "BEGIN TOOL .T MM\nT       NAME            L          R\n7       MILL7           +80        +4\n[END]\n")
+        self.client.write("t.h", "BEGIN PGM T MM\nTOOL CALL \"MILL7\" Z S1000\nFN 16: F-PRINT m.a / out\\r.txt\nEND PGM T MM\n")
+        self.client.write("m.a", '"L %5.1f", Q114;\n')
+        self.client.write("u.h", "BEGIN PGM U MM\nCALL PGM T.H\nEND PGM U MM\n")
+        self.assert_runs(0, "nc", "run", "t.h", "--files-to", "kept")
+        self.assertIn("80.0", (self.client.folder / "kept/out/r.txt").read_text())
+        self.assertIn("--force", self.assert_fails(5, "nc", "run", "t.h", "--files-to", "kept"))
+        self.assert_runs(0, "nc", "run", "t.h", "--files-to", "kept", "--force")
+        self.assert_runs(0, "nc", "run", "t.h", "u.h", "--files-to", "each")
+        self.assertEqual(len(list((self.client.folder / "each").rglob("r.txt"))), 2)
+        self.assertIn("save the program", self.assert_fails(5, "nc", "run", "/dev/null"))
+        self.client.write("bad.h", "0 BEGIN PGM BAD MM\n1 LX 5\n2 END PGM BAD MM\n")
+        refused = self.client.run("nc", "run", "bad.h")
+        self.assertEqual(refused.returncode, 9)
+        self.assertIn("bad.h:2:", refused.stderr_text)
+        self.client.write("fails.h", "0 BEGIN PGM F MM\n1 CALL PGM GONE.H\n2 END PGM F MM\n")
+        failed = self.client.run("nc", "run", "fails.h")
+        self.assertEqual(failed.returncode, 9)
+        self.assertIn("fails.h:2:", failed.stderr_text)
+        self.client.write("wrong.json", '{"machine":{"tools":5}}')
+        self.assertIn("/setup/machine/tools", self.assert_fails(7, "nc", "run", "t.h", "--setup", "wrong.json"))
+        self.assertIn("--from-control", self.assert_fails(5, "nc", "run", "gone.h"))
+        self.assert_fails(4, "nc", "run", "t.h", "--part-id", "p1")
+        self.assert_fails(4, "nc", "run", "--from-control", "t.h", "--files-to", "kept")
+
+    def test_programs_are_converted_to_the_other_dialect(self):
+        program = "0 BEGIN PGM C MM\n1 TOOL CALL 5 Z S1000\n2 L X+5 IY+2 FMAX\n3 CALL LBL 1 ;once\n4 LBL 1\n5 END PGM C MM\n"
+        self.client.write("c.h", program)
+        self.assert_runs(0, "nc", "convert", "c.h", "c.i")
+        text = (self.client.folder / "c.i").read_text()
+        self.assertIn("N2 G00 G90 X+5 G91 Y+2 *\nN3 L1,0 * ;once\nN4 G98 L1 *\n", text)
+        self.assert_runs(0, "nc", "check", "c.i")
+        self.assertEqual(self.assert_runs(0, "nc", "format", "c.i"), text)
+        self.assert_runs(0, "nc", "convert", "c.i", "back.h")
+        self.assertEqual((self.client.folder / "back.h").read_text(), program)
+        self.assertIn("--force", self.assert_fails(5, "nc", "convert", "c.h", "c.i"))
+        self.assert_fails(4, "nc", "convert", "c.h", "d.h")
+        self.assert_fails(5, "nc", "convert", "gone.i", "d.h")
+        self.client.write("klartext.i", program)
+        self.assert_fails(5, "nc", "convert", "klartext.i", "d.h")
+        self.client.write("arc.h", "BEGIN PGM A MM\nC X+5 Y+5\nEND PGM A MM\n")
+        self.assertIn("arc.h:2:", self.client.run("nc", "convert", "arc.h", "arc.i").stderr_text)
+        self.assertFalse((self.client.folder / "arc.i").exists())
+        self.assert_runs(0, "nc", "put", "c.i", "c.i")
+        self.assert_runs(0, "nc", "convert", "--from-control", "c.i", "there.h")
+        self.assertEqual(self.assert_runs(0, "nc", "format", "--from-control", "c.i"), text)
+
+    def test_errors_name_their_place(self):
+        self.client.write("bad.h", "0 BEGIN PGM BAD MM\n1 LX 5\n2 END PGM BAD MM\n")
+        self.assert_runs(0, "nc", "put", "bad.h", "bad.h")
+        self.assertIn("TNC:\\bad.h:2:", self.assert_runs(2, "nc", "check", "--from-control", "bad.h"))
+        self.client.write("calls.h", "BEGIN PGM C MM\nCALL PGM gone.h\nEND PGM C MM\n")
+        self.assert_runs(0, "nc", "put", "calls.h", "calls.h")
+        for level, code in (("off", 0), ("note", 0), ("warning", 1), ("error", 2)):
+            self.assert_runs(code, "nc", "check", "--from-control", "calls.h", "--level", f"file.missing={level}")
+        refused = self.client.run("nc", "run", "--from-control", "bad.h")
+        self.assertEqual(refused.returncode, 9)
+        self.assertIn("TNC:\\bad.h:2:", refused.stderr_text)
+        self.client.write("fails.h", "0 BEGIN PGM F MM\n1 CALL PGM GONE.H\n2 END PGM F MM\n")
+        self.assert_runs(0, "nc", "put", "fails.h", "fails.h")
+        self.assertIn("warning", self.assert_runs(1, "nc", "check", "--from-control", "fails.h"))
+        failed = self.client.run("nc", "run", "--from-control", "fails.h")
+        self.assertEqual(failed.returncode, 9)
+        self.assertIn("TNC:\\fails.h:2:", failed.stderr_text)
+        self.assertIn("ended with status failed", failed.stderr_text)
+
+
+if __name__ == "__main__":
+    unittest.main()
