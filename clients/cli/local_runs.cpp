@@ -39,7 +39,7 @@ Outcome<app::RunOrder> order_of(const std::string& text, const FolderDisk& disk)
   return *std::move(order);
 }
 
-/// What the check of a program of this machine finds and, without an error, its run.
+/// The findings of the check of a local program and, if it has no error, of its run.
 struct LocalRun {
   std::vector<klartext::Diagnostic> found{};
   app::RunReport report{};

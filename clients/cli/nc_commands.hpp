@@ -103,7 +103,7 @@ struct CheckOptions {
 /// the setup, Usage for a level or a parameter that cannot be read.
 Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options);
 
-/// What the check of a program of this machine finds, and with a setup its run.
+/// The findings of the check of a local program, and with a setup those of its run.
 /// @errors as of run_here, but for a program with errors.
 Outcome<std::vector<klartext::Diagnostic>> found_here(const RunOptions& options);
 

@@ -32,7 +32,7 @@ struct BlockColumn {
     Source,
     Nominal,
     Run,
-    Measured,  ///< at 20 °C where it was corrected
+    Measured,  ///< at 20 °C if it was corrected
     Lower,
     Upper,
     CorrectionOf,

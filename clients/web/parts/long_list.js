@@ -180,7 +180,7 @@ export class LongList {
       this.isTop = isDown ? this.isTop && !spare : isEnd;
       this.isBottom = isDown ? isEnd : this.isBottom && !spare;
       this.held = all;
-      // What has come since above moves all places.
+      // Rows that came since at the top move all places.
       if (!isDown && isEnd) this.length -= this.start;
       this.#number();
       this.#space();

@@ -18,7 +18,7 @@ struct FileReference {
   Kind kind = Kind::Program;
   std::string written;
   klartext::Diagnostic place;  ///< the warning where the file is missing, without its message
-  /// What FN 28 reads of a table: its columns, `A,B`, and the row if that is a number.
+  /// Columns that FN 28 reads, such as `A,B`, and the row if it is a number.
   std::string columns{};
   std::optional<std::int64_t> row{};
 };

@@ -83,7 +83,7 @@ struct RunResult {
   std::vector<machine::Preset> presets;
 };
 
-/// What a run on a setup says of its program: as errors what ended it, as warnings every size or
+/// The findings of a run on a setup: an error that ended it, and a warning for every size or
 /// centre of a bore, stud, slot or ridge that is measured more than 0.5 mm from its nominal.
 std::vector<klartext::Diagnostic> findings_of(const RunResult& result);
 

@@ -73,7 +73,7 @@ class FileService {
 
   FileService(store::Database& database, const Clock& clock) : database_(database), clock_(clock) {}
 
-  /// Decides on the current bytes, none where there is no file, whether a change is made; called
+  /// Decides on the current bytes, none if there is no file, whether a change is made; called
   /// in the transaction that makes it. An empty one allows every change.
   using Precondition = std::function<bool(std::optional<std::string_view> bytes)>;
 

@@ -59,7 +59,7 @@ double diameter_factor(const Eigen::MatrixXd& jacobian) {
 Vector3d column_of(const Vec3& v) { return {v.x, v.y, v.z}; }
 Vec3 vec3_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Points by rows around their mean, where they lose no digits.
+/// Points by rows around their mean, so that they lose no digits.
 struct Centred {
   explicit Centred(std::span<const Vec3> points) : rows(static_cast<Index>(points.size()), 3) {
     for (Index row = 0; const Vec3& p : points) rows.row(row++) = column_of(p);
