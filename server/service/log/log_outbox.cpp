@@ -24,8 +24,9 @@ Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most,
                                          std::optional<std::int64_t> noted) const {
   return database_.readers().wait([&](const store::Stores& stores) -> Result<Batch> {
     const RowNames names = row_names(tables_, log_.origins());
-    const auto next_note = noted ? stores.notes.own_after(*noted, 1) : std::vector<store::Note>();
-    const auto* of_note = next_note.empty() ? nullptr : empty_history(next_note.front().id);
+    std::vector<store::Note> notes;
+    if (noted) notes = stores.notes.own_after(*noted, kNotesABatch);
+    const auto* of_note = notes.empty() ? nullptr : empty_history(notes.front().id);
     const bool is_of_note = of_note != nullptr && of_note->begin <= after;
     if (is_of_note) after = of_note->begin;
     const LogService::History& history = is_of_note ? *of_note : log_.history_of(after + 1);
@@ -56,7 +57,9 @@ Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most,
           });
     }
     const std::int64_t place = after + static_cast<std::int64_t>(batch.records.size());
-    if (noted && history.signer && place > 0) add_notes(stores, place, *noted, batch);
+    if (!notes.empty() && history.signer && place > 0) {
+      add_notes(stores, place, *noted, std::move(notes), batch);
+    }
     if (!first_row && batch.notes.empty()) return batch;
     batch.checkpoint = log_.sign_at(stores, history, static_cast<std::uint64_t>(place));
     batch.key = history.signer->verifier().text();
@@ -75,11 +78,10 @@ const LogService::History* LogOutbox::empty_history(std::int64_t note) const {
 }
 
 /// @param place how many records of this folder the centre has with the batch
+/// @param notes those behind that number
 void LogOutbox::add_notes(const store::Stores& stores, std::int64_t place, std::int64_t behind,
-                          Batch& batch) const {
+                          std::vector<store::Note> notes, Batch& batch) const {
   const Origins& origins = log_.origins();
-  std::vector<store::Note> notes = stores.notes.own_after(behind, kNotesABatch);
-  if (notes.empty()) return;
   // The centre takes them in their order: those of a later history come with its own batches.
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
   for (const auto& ended : stores.log.branches()) {

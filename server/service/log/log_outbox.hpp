@@ -8,6 +8,7 @@
 
 #include "base/clock.hpp"
 #include "base/result.hpp"
+#include "db/store/documents_store.hpp"
 #include "db/store/keys_store.hpp"
 #include "proof/frontier.hpp"
 #include "service/log/log_intake.hpp"
@@ -83,7 +84,7 @@ class LogOutbox {
  private:
   const LogService::History* empty_history(std::int64_t note) const;
   void add_notes(const store::Stores& stores, std::int64_t place, std::int64_t behind,
-                 Batch& batch) const;
+                 std::vector<store::Note> notes, Batch& batch) const;
 
   store::Database& database_;
   const TableCatalog& tables_;
