@@ -174,6 +174,7 @@ export default {
   'trend.event.correction': 'K',
   'trend.event.tool': 'WW',
   'trend.events': 'N: eine Notiz, K: ein korrigierter Wert, WW: ein anderes Werkzeug.',
+  'trend.cluster': '3×: drei nahe Stellen, an denen Werte beginnen, Regeln zu verletzen.',
   'trend.corrected': 'korrigiert',
   'trend.stretch': '{from} bis {to} von {count}',
   'trend.whole': 'Alle zeigen',

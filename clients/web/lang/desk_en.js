@@ -174,6 +174,7 @@ export default {
   'trend.event.correction': 'C',
   'trend.event.tool': 'TC',
   'trend.events': 'N: a note, C: a corrected value, TC: another tool.',
+  'trend.cluster': '3×: three places close together where values begin to break rules.',
   'trend.corrected': 'corrected',
   'trend.stretch': '{from} to {to} of {count}',
   'trend.whole': 'Show all',

@@ -174,6 +174,7 @@ export default {
   'trend.event.correction': 'C',
   'trend.event.tool': 'CU',
   'trend.events': 'N: una nota, C: un valore corretto, CU: un altro utensile.',
+  'trend.cluster': '3×: tre punti vicini in cui i valori iniziano a violare le regole.',
   'trend.corrected': 'corretto',
   'trend.stretch': 'da {from} a {to} di {count}',
   'trend.whole': 'Mostra tutti',

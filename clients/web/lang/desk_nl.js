@@ -174,6 +174,7 @@ export default {
   'trend.event.correction': 'C',
   'trend.event.tool': 'GW',
   'trend.events': 'N: een notitie, C: een gecorrigeerde waarde, GW: ander gereedschap.',
+  'trend.cluster': '3×: drie plaatsen dicht bij elkaar waar waarden regels beginnen te schenden.',
   'trend.corrected': 'gecorrigeerd',
   'trend.stretch': '{from} tot {to} van {count}',
   'trend.whole': 'Alles tonen',

@@ -23,8 +23,10 @@ const HISTOGRAM = 150;
 /** Narrower figures have no histogram beside them. */
 const WIDE = 620;
 const LETTERING = 13;
-/** Of labels from each other: of times, of control limits, of the numbers of rules. */
-const APART = { time: 150, control: 14, rules: 18, beyond: 70, events: 14 };
+/** Of labels from each other: of times, of control limits, of the numbers of rules with their rings. */
+const APART = { time: 150, control: 14, rules: 20, beyond: 70, events: 14 };
+/** Of more points in sight, a ring that stands for several says how many. */
+export const CLUSTERED = 500;
 const LONGEST_PART = 18;
 /** Of the range, so many parts from its edge are a mark beyond it. */
 const EDGE = 30;
@@ -129,7 +131,7 @@ export class ControlChart {
       series: [
         ...sides.map((side) => stepped({ scale: 'nm', data: points.map((point) => point[side]) }, dots, { stroke: colours.ink, width: 1.5 })),
         { ...row, stroke: colours.edge, width: dots },
-        marked(row, RING, this.firsts, dots, { stroke: colours.ink, width: 1.75 }),
+        marked(row, RING, this.firsts, dots, { apart: APART.rules, stroke: colours.ink, width: 1.75 }),
         ...Object.entries(MARKS).map(([verdict, shape]) => marked(row, shape, of[verdict], dots, {
           always: verdict !== 'good', fill: colours[verdict], stroke: verdict === 'rework' ? colours.ink : colours.sheet })),
         marked(row, CROSS, aside, dots, { stroke: colours.soft, width: 2 }),
@@ -230,7 +232,10 @@ export class ControlChart {
       ctx.strokeText(...text);
       ctx.fillText(...text);
     };
-    for (const [i, x] of inSight(plot, this.firsts, APART.rules * size)) write([...rules.get(i)].join(','), x, plot.valToPos(row.data[i], 'nm', true) - 13 * size);
+    const isCluster = plot.scales.x.max - plot.scales.x.min > CLUSTERED;
+    for (const [i, x, count] of inSight(plot, this.firsts, APART.rules * size)) {
+      write(isCluster && count > 1 ? `${count}×` : [...rules.get(i)].join(','), x, plot.valToPos(row.data[i], 'nm', true) - 13 * size);
+    }
     // Marks of notes and corrections stand below their value, at the foot of the chart.
     const foot = plot.valToPos(this.range.low, 'nm', true) - 4 * size;
     for (const [i, x] of inSight(plot, this.events.keys(), APART.events * size)) write(this.events.get(i).map((name) => t(`trend.event.${name}`)).join(''), x, foot);
@@ -249,11 +254,8 @@ export class ControlChart {
   }
 }
 
-/** Of points that break the same rules one after the other, the first. */
-function firstsOf(rules) {
-  const textOf = (i) => [...rules.get(i) ?? []].join();
-  return [...rules.keys()].filter((i) => textOf(i) !== textOf(i - 1));
-}
+/** Of points that break rules one after the other, the first. */
+const firstsOf = (rules) => [...rules.keys()].filter((i) => !rules.has(i - 1));
 
 /** {index: rules broken there}, in order, of the chart of the location. */
 export function rulesAt(chart) {

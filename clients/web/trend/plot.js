@@ -26,7 +26,7 @@ export function coloursOf(element) {
 /** How many pixels of the canvas a pixel of a figure with so many dots a pixel is. */
 const scaleOf = (dots) => dots * uPlot.pxRatio;
 
-/** Of indices, in order, those in sight that are so many pixels apart: [index, x on the canvas]. */
+/** Of indices, in order, those in sight that are so many pixels apart: [index, x on the canvas, how many it stands for]. */
 export function inSight(plot, indices, apart) {
   const { min, max } = plot.scales.x;
   const found = [];
@@ -35,9 +35,12 @@ export function inSight(plot, indices, apart) {
     if (i < min) continue;
     if (i > max) break;
     const x = plot.valToPos(i, 'x', true);
-    if (x - last < apart) continue;
+    if (x - last < apart) {
+      ++found.at(-1)[2];
+      continue;
+    }
     last = x;
-    found.push([i, x]);
+    found.push([i, x, 1]);
   }
   return found;
 }
@@ -45,16 +48,16 @@ export function inSight(plot, indices, apart) {
 /**
  * A row of points that uPlot draws with a mark at some of them.
  * @param shape path of the mark about its point; @param indices of the points that get it, in order
- * @param always whether also where points are dense
+ * @param always whether also where points are dense; @param apart so many pixels from each other, those of dense points at the least NEAR
  */
-export function marked(row, shape, indices, dots, { always = true, ...look }) {
+export function marked(row, shape, indices, dots, { always = true, apart = 0, ...look }) {
   const outline = new Path2D(shape);
   const paths = (plot) => {
     const path = new Path2D();
     const size = scaleOf(dots);
     const { min, max } = plot.scales.x;
     const dense = plot.bbox.width < DENSE * (max - min) * size;
-    for (const [i, x] of dense && !always ? [] : inSight(plot, indices, dense ? NEAR * size : 0)) {
+    for (const [i, x] of dense && !always ? [] : inSight(plot, indices, Math.max(apart, dense ? NEAR : 0) * size)) {
       path.addPath(outline, { a: size, d: size, e: x, f: plot.valToPos(row.data[i], row.scale, true) });
     }
     return { stroke: path, fill: path };

@@ -11,7 +11,7 @@ import { go } from '../route.js';
 import { asideList, askAside, readNotes } from '../trend/aside.js';
 import { Boxes } from '../trend/boxes.js';
 import { ChartPlace } from '../trend/chart_place.js';
-import { rulesAt } from '../trend/control_chart.js';
+import { CLUSTERED, rulesAt } from '../trend/control_chart.js';
 import { capability } from '../trend/figures.js';
 import { HeldValues } from '../trend/held_values.js';
 import { inFigures } from '../trend/in_figures.js';
@@ -190,7 +190,7 @@ export function mount(main, route) {
     const { picked, shown } = chart;
     if (told?.picked === picked && told.shown === shown) return;
     told = { picked, shown };
-    refill(detail, picked === null ? h('p.aside', [left && t('trend.left_out', { count: left }), priceText(), eventsOf(shown.points).size > 0 && t('trend.events')].filter(Boolean).join(' '))
+    refill(detail, picked === null ? h('p.aside', [left && t('trend.left_out', { count: left }), priceText(), eventsOf(shown.points).size > 0 && t('trend.events'), shown.points.length > CLUSTERED && shown.chart?.violations.length > 0 && t('trend.cluster')].filter(Boolean).join(' '))
       : pointDetail(shown.points[picked], rulesAt(shown.chart).get(picked), setAside));
   }
 

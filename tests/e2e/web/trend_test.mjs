@@ -252,6 +252,24 @@ describe('the trend', () => {
     await picture(page, 'trend-control', { fullPage: true });
   });
 
+  it('rings where values begin to break rules, and counts those that fall together among many', async () => {
+    const post = (characteristic, count, mmOf) => daemon.send('POST', '/v1/measurements', Array.from({ length: count }, (_, i) => ({ designation: '25 H7', measured_mm: mmOf(i).toFixed(4), characteristic })));
+    const rings = async () => (await lettering(page)).filter((text) => /^[1-4](,[1-4])*$|^\d+×$/.test(text));
+    // Two levels far apart: each value breaks rule 1, and others come and go along the way.
+    await post('two-levels', 30, (i) => (i < 15 ? 25.004 : 25.016) + (i % 2) * 0.0005);
+    page = await openChart(browser, daemon, '#/trend?characteristic=two-levels');
+    await untilPoints(page, 30);
+    assert.deepEqual(await rings(), ['1']);
+    assert.doesNotMatch(await page.textContent('.detail'), /3×/);
+    await close(page);
+    await post('pairs-out', 1200, (i) => (i % 40 === 0 || i % 40 === 2 ? 25.018 : 25.01 + (i % 2) * 0.001));
+    page = await openChart(browser, daemon, '#/trend?characteristic=pairs-out&count=5000&rules=1');
+    await untilPoints(page, 1200);
+    const counted = await rings();
+    assert.ok(counted.length > 10 && counted.every((text) => text === '2×'), String(counted));
+    assert.match(await page.textContent('.detail'), /3×: three places/);
+  });
+
   it('marks where a note was added, a value was corrected or another tool came', async () => {
     const content = { designation: '25 H7', characteristic: 'events' };
     const stored = [];
