@@ -30,6 +30,9 @@ export const CLUSTERED = 500;
 const LONGEST_PART = 18;
 /** Of the range, so many parts from its edge are a mark beyond it. */
 const EDGE = 30;
+/** A few spreads, one in so many, that are more than twice their limit do not flatten the others. An outlier makes two. */
+const FEW_SPREADS = 15;
+const OUTLYING = 2;
 
 /** The inside of a sheet of A4 in CSS pixels (Letter is wider), and how many dots each of them has in print. */
 export const PAPER = { width: 650, dots: 4 };
@@ -78,7 +81,8 @@ export class ControlChart {
     const height = TOP + inner + AXIS;
     const { high, low } = this.range;
     const values = this.#values(own);
-    const spreads = spread ? this.#spreads(spread) : { most: 1, series: [], axes: [] };
+    const spreads = spread ? this.#spreads(spread) : { most: 1, beyond: new Map(), series: [], axes: [] };
+    this.spreads = spreads;
     const series = [...values.series, ...spreads.series];
     this.plot = new uPlot({
       width: (width - beside) * dots,
@@ -148,12 +152,17 @@ export class ControlChart {
   #spreads(own) {
     const { points, colours, dots } = this;
     const uppers = this.phases.flatMap(({ charts }) => charts?.[1]?.upper_limit ?? []);
-    const most = [...own.points, ...uppers].reduce((greatest, value) => Math.max(greatest, value), Math.max(own.upper_limit, 1e-6));
-    const row = { scale: 'spread', data: own.points };
+    const highest = (values, least) => values.reduce((greatest, value) => Math.max(greatest, value), least);
+    const limit = highest(uppers, Math.max(own.upper_limit, 1e-6));
+    const out = own.points.flatMap((value, i) => (value > OUTLYING * limit ? [[i, value]] : []));
+    const beyond = out.length <= own.points.length / FEW_SPREADS ? out : [];
+    const most = beyond.length ? OUTLYING * limit : highest(own.points, limit);
+    const row = { scale: 'spread', data: own.points.map((value) => value && Math.min(value, most)) };
     const limitAt = (i) => this.phases.find(({ from, to }) => i >= from && i <= to)?.charts?.[1].upper_limit ?? own.upper_limit;
-    const outside = row.data.flatMap((value, i) => (value !== null && value > limitAt(i) ? [i] : []));
+    const outside = own.points.flatMap((value, i) => (value !== null && value > limitAt(i) ? [i] : []));
     return {
       most,
+      beyond: new Map(beyond),
       series: [
         { ...row, stroke: colours.edge, width: dots, points: { size: 5 * dots, width: 0, fill: colours.edge, space: DENSE * dots } },
         marked(row, DOT, outside, dots, { fill: colours.ink, stroke: colours.ink, width: 3 }),
@@ -244,6 +253,8 @@ export class ControlChart {
       const isHigh = this.points[i].deviation > this.range.high;
       write(`${isHigh ? '▲' : '▼'} ${signed(umText(Math.round(this.points[i].deviation)))}`, x, plot.valToPos(row.data[i], 'nm', true) + (isHigh ? 22 : -14) * size);
     }
+    const { most, beyond } = this.spreads;
+    for (const [i, x] of inSight(plot, beyond.keys(), APART.beyond * size)) write(`▲ ${umOf(beyond.get(i))}`, x, plot.valToPos(most, 'spread', true) + 16 * size);
     const x = picked === null ? NaN : plot.valToPos(picked, 'x', true);
     if (x >= bbox.left && x <= bbox.left + bbox.width) {
       Object.assign(ctx, { strokeStyle: colours.ink, lineWidth: size });

@@ -270,6 +270,13 @@ describe('the trend', () => {
     assert.match(await page.textContent('.detail'), /3×: three places/);
   });
 
+  it('draws a range far beyond its limit at the edge with its size, so that the others are seen', async () => {
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 60 }, (_, i) => ({ designation: '25 H7', measured_mm: i === 30 ? '25.09' : `25.01${i % 2}`, characteristic: 'one-slip' })));
+    page = await openChart(browser, daemon, '#/trend?characteristic=one-slip');
+    await untilPoints(page, 60);
+    assert.deepEqual((await lettering(page)).filter((text) => text.startsWith('▲')), ['▲ +90', '▲ 79']);
+  });
+
   it('marks where a note was added, a value was corrected or another tool came', async () => {
     const content = { designation: '25 H7', characteristic: 'events' };
     const stored = [];
