@@ -77,6 +77,9 @@ const dateFormat = (name, options) => (formats[`${name} ${language}`] ??= new In
 export const time = (date) => dateFormat('time', { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' }).format(date);
 export const timeOfDay = (date) => dateFormat('timeOfDay', { hour: '2-digit', minute: '2-digit', hourCycle: 'h23' }).format(date);
 export const date = (day) => dateFormat('date', { day: 'numeric', month: 'short', year: 'numeric' }).format(day);
+export const dayAndMonth = (day) => dateFormat('dayAndMonth', { day: '2-digit', month: '2-digit' }).format(day);
+/** The day here, as a field for a date has it: "2026-11-27". */
+export const dayText = (moment) => [moment.getFullYear(), moment.getMonth() + 1, moment.getDate()].map((part) => String(part).padStart(2, '0')).join('-');
 export const dateTime = (moment) => `${date(moment)}, ${time(moment)}`;
 
 /** Why a call failed, in the reader's language, with the field it is about. */

@@ -4,7 +4,7 @@ import { getJson, request, url } from '../api.js';
 import { connection } from '../connection.js';
 import { field, h, refill } from '../dom.js';
 import { gaugeInUse } from '../gauge/in_use.js';
-import { date, explain, number, t } from '../i18n.js';
+import { date, dayText, explain, number, t } from '../i18n.js';
 
 const CALIBRATION = ['from', 'due', 'certificate', 'laboratory', 'status', 'uncertainty', 'comment'];
 const COLUMNS = ['from', 'due', 'status', 'certificate', 'laboratory', 'uncertainty', 'comment'];
@@ -69,7 +69,7 @@ export class Calibrations {
     const { gauge } = this;
     const { calibrations } = await getJson(url(['gauges-in-use', gauge, 'calibrations']), { signal: this.leaving });
     const cell = { from: day, due: day, status: (state) => t(`calibration.${state}`) };
-    this.inputs.from.value ||= connection.now().toISOString().slice(0, 10);
+    this.inputs.from.value ||= dayText(connection.now());
     refill(this.ofOne, h('h2', t('calibration.title', { gauge })), calibrations.length ? h('div.scroll.listed', { tabindex: 0, role: 'region', 'aria-label': t('calibration.title', { gauge }) },
       h('table', h('thead', h('tr', COLUMNS.map((name) => h('th', { scope: 'col' }, t(`calibration.${name}`))))), h('tbody', [...calibrations].reverse().map((one) => h('tr', COLUMNS.map((name) =>
         h('td', { class: name === 'status' && one.status === 'blocked' && 'overdue' }, one[name] ? (cell[name] ?? String)(one[name]) : '–'))))))) : h('p.aside', t('calibration.none')),

@@ -4,7 +4,7 @@ import { getJson, request, url } from '../api.js';
 import { connection } from '../connection.js';
 import { field, h, refill } from '../dom.js';
 import { gaugeNames } from '../gauge/in_use.js';
-import { date, explain, t } from '../i18n.js';
+import { date, dayText, explain, t } from '../i18n.js';
 
 const COLUMNS = ['study.name', 'field.gauge', 'study.kind', 'study.at'];
 
@@ -14,7 +14,7 @@ export class StoredStudies {
     Object.assign(this, { leaving, orderOf, onStudy });
     const input = (name, attributes) => h('input', { name, type: 'text', maxlength: 200, autocomplete: 'off', spellcheck: 'false', ...attributes });
     this.inputs = { name: input('study-name'), gauge: input('study-gauge', { list: 'gauges-of-studies' }), at: input('study-at', { type: 'date' }) };
-    this.inputs.at.value = connection.now().toISOString().slice(0, 10);
+    this.inputs.at.value = dayText(connection.now());
     this.gauges = h('datalist', { id: 'gauges-of-studies' });
     this.note = h('p.note', { role: 'alert' });
     this.done = h('p.aside', { role: 'status' });

@@ -3,7 +3,7 @@
 import { uPlot } from '../bundled/uplot.js';
 import { h } from '../dom.js';
 import { NM_PER_UM, umText } from '../exact.js';
-import { number, signed, t, time } from '../i18n.js';
+import { dayAndMonth, number, signed, t, timeOfDay } from '../i18n.js';
 import { brush } from './brush.js';
 import { histogram } from './histogram.js';
 import { axes, coloursOf, DENSE, inSight, marked, stepped } from './plot.js';
@@ -192,7 +192,8 @@ export class ControlChart {
     const label = (i) => {
       if (!points[i]) return null;
       const { part_id: part, measured_at: at } = points[i].record;
-      return `${at.slice(5, 10)} ${time(new Date(at)).slice(0, 5)}${part ? `\n${part.slice(-LONGEST_PART)}` : ''}`;
+      const moment = new Date(at);
+      return `${dayAndMonth(moment)} ${timeOfDay(moment)}${part ? `\n${part.slice(-LONGEST_PART)}` : ''}`;
     };
     return axes(dots, this.font, colours.soft).axis({
       scale: 'x', size: AXIS, space: APART.time * dots, splits: undefined, values: (plot, splits) => splits.map(label),

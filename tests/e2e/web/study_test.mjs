@@ -81,6 +81,14 @@ describe('a gauge', () => {
     await close(page);
   });
 
+  it('is dated today as the day is here, and so is a calibration', async () => {
+    await daemon.send('PUT', '/v1/gauges-in-use/G-NIGHT', { calibration_due: '2099-03-31' });
+    const page = await open(browser, daemon, '#/gauges/G-NIGHT', { at: '2026-03-31T22:30:00Z', timezoneId: 'Europe/Berlin' });
+    await page.waitForSelector('.of-gauge [name="from"]');
+    assert.deepEqual([await page.inputValue('[name="study-at"]'), await page.inputValue('.of-gauge [name="from"]')], ['2026-04-01', '2026-04-01']);
+    await close(page);
+  });
+
   it('is studied in a grid that Enter goes down, which says what is missing or no value', async () => {
     const page = await open(browser, daemon, '#/gauges');
     await page.fill('[name="parts"]', '2');

@@ -277,6 +277,14 @@ describe('the trend', () => {
     assert.deepEqual((await lettering(page)).filter((text) => text.startsWith('▲')), ['▲ +90', '▲ 79']);
   });
 
+  it('writes the day and the time of a value as they are here, in the form of the language', async () => {
+    await daemon.send('POST', '/v1/measurements', ['25.01', '25.011'].map((measured_mm) => ({ designation: '25 H7', measured_mm, characteristic: 'at-night', measured_at: '2026-03-31T22:30:00Z' })));
+    page = await openChart(browser, daemon, '#/trend?characteristic=at-night', { locale: 'de-DE', timezoneId: 'Europe/Berlin' });
+    await untilPoints(page, 2);
+    const texts = await lettering(page);
+    assert.ok(texts.includes('01.04. 00:30'), String(texts));
+  });
+
   it('marks where a note was added, a value was corrected or another tool came', async () => {
     const content = { designation: '25 H7', characteristic: 'events' };
     const stored = [];
