@@ -109,6 +109,17 @@ describe('the reach of the page', () => {
     await close(page);
   });
 
+  it('hides no value of a list behind what is done with it, nor beyond the edge of a phone', async () => {
+    const parts = await openView('parts', { viewport: PHONE });
+    const cells = await parts.$$eval('.records tbody tr:first-child > *', (all) => all.map((cell) => cell.getBoundingClientRect()).map(({ left, right }) => [left, right]));
+    for (let i = 1; i < cells.length; ++i) assert.ok(cells[i][0] >= cells[i - 1][1] - 1, `cell ${i} lies over the one before: ${cells}`);
+    await close(parts);
+    const trend = await openView('trend', { viewport: PHONE });
+    const ends = await trend.$$eval('.trend > .scroll tbody td', (all) => all.map((cell) => cell.getBoundingClientRect().right));
+    assert.ok(ends.length >= 5 && ends.every((right) => right <= PHONE.width), String(ends));
+    await close(trend);
+  });
+
   it('shows a whole verdict on a phone', async () => {
     const page = await openView('gauge', { viewport: PHONE });
     await page.keyboard.type('25.0131\n');
