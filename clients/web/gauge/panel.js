@@ -65,7 +65,7 @@ export class Panel {
     const how = away ? t('panel.provisional') : late ? t('panel.waiting_how') : distanceText(judged);
     this.#show(shown.verdict, [
       verdictShape(shown.verdict),
-      h('div.said', word(t(`verdict.${shown.verdict}`)), about(shown), h('p.measured', `${measuredText(judged)} mm`), h('p.distance', how)),
+      h('div.said', word(t(`verdict.${shown.verdict}`)), about(shown), h('p.measured.figure', `${measuredText(judged)} mm`), h('p.distance', how)),
       limitStrip(judged), this.#run({ ...shown, ...judged }),
     ], away ? 'away' : 'storing');
   }
@@ -77,7 +77,7 @@ export class Panel {
     this.#show(record.verdict, [
       verdictShape(record.verdict),
       h('div.said', word(t(`verdict.${record.verdict}`)), about(record),
-        h('p.measured', `${measuredText(record)} mm`),
+        h('p.measured.figure', `${measuredText(record)} mm`),
         h('p.distance', distanceText(record))),
       limitStrip(record), this.#run(record),
     ]);

@@ -126,6 +126,16 @@ describe('the reach of the page', () => {
     await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
     const { bottom } = await page.$eval('.verdict', (panel) => panel.getBoundingClientRect().toJSON());
     assert.ok(bottom <= PHONE.height, `${bottom}`);
+    const { lines, right } = await page.$eval('.verdict .measured', (one) => {
+      const range = document.createRange();
+      range.selectNodeContents(one);
+      return { lines: new Set([...range.getClientRects()].map(({ top }) => top)).size, right: range.getBoundingClientRect().right };
+    });
+    assert.ok(lines === 1 && right <= PHONE.width, `${lines} lines to ${right}`);
+    // One left edge for all of the station.
+    await page.waitForSelector('.recent li.stored');
+    const edges = await page.$$eval('.job, .entry, .verdict, .recent h2, .recent li', (all) => all.map((one) => one.getBoundingClientRect().left + parseFloat(getComputedStyle(one).paddingLeft)));
+    assert.deepEqual([...new Set(edges)], [16]);
     await close(page);
   });
 
