@@ -92,7 +92,7 @@ export default {
   'budget.done': '{name} ist gespeichert.',
   'style.colours': 'Farben',
   'style.type': 'Schrift',
-  'style.least': 'Am Messplatz hat die kleinste Schrift 16 px; 13 px stehen nur in Tabellen.',
+  'style.least': 'Am Messplatz hat die kleinste Schrift 16 px; 13 px stehen nur in Tabellen und Klassenkarten.',
   'style.space': 'Abstand',
   'style.buttons': 'Knöpfe',
   'style.button': 'Prüfen',

@@ -92,7 +92,7 @@ export default {
   'budget.done': '{name} is stored.',
   'style.colours': 'Colours',
   'style.type': 'Type',
-  'style.least': 'At the station the least type has 16 px; 13 px stand in tables alone.',
+  'style.least': 'At the station the least type has 16 px; 13 px stand in tables and maps of classes alone.',
   'style.space': 'Space',
   'style.buttons': 'Buttons',
   'style.button': 'Judge',

@@ -92,7 +92,7 @@ export default {
   'budget.done': '{name} è salvato.',
   'style.colours': 'Colori',
   'style.type': 'Caratteri',
-  'style.least': 'Alla stazione il carattere minimo è di 16 px; 13 px solo nelle tabelle.',
+  'style.least': 'Alla stazione il carattere minimo è di 16 px; 13 px solo nelle tabelle e nelle mappe delle classi.',
   'style.space': 'Spazio',
   'style.buttons': 'Pulsanti',
   'style.button': 'Giudicare',

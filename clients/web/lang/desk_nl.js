@@ -92,7 +92,7 @@ export default {
   'budget.done': '{name} is opgeslagen.',
   'style.colours': 'Kleuren',
   'style.type': 'Letters',
-  'style.least': 'Aan het meetstation zijn de kleinste letters 16 px; 13 px staat alleen in tabellen.',
+  'style.least': 'Aan het meetstation zijn de kleinste letters 16 px; 13 px staat alleen in tabellen en klassenkaarten.',
   'style.space': 'Afstand',
   'style.buttons': 'Knoppen',
   'style.button': 'Meten',

@@ -4,7 +4,7 @@ import { h } from '../dom.js';
 import { t } from '../i18n.js';
 import { verdictMark, VERDICTS } from '../verdict.js';
 
-const COLOURS = ['paper', 'sheet', 'ink', 'soft', 'line', 'edge', 'focus', 'alarm', 'code-text', 'code-parameter', 'good', 'rework', 'reject', 'indeterminate'];
+const COLOURS = ['paper', 'sheet', 'ink', 'soft', 'line', 'edge', 'focus', 'alarm', 'code-text', 'code-parameter', 'screen', 'on-screen', 'document', 'good', 'rework', 'reject', 'indeterminate'];
 const TYPES = [1, 2, 3, 4, 5, 6, 7];
 const SPACES = [1, 2, 3, 4];
 
