@@ -33,19 +33,19 @@ export async function runReport(run, { onMoves, onMove }) {
   ].filter(Boolean);
 }
 
-const NUMBERS = new Set(['programs.nominal', 'programs.measured', 'parts.deviation']);
+/** The columns of what was measured: their names and units. */
+const COLUMNS = [['programs.cycle'], ['field.characteristic'], ['programs.nominal', 'mm'], ['parts.limits', 'mm'], ['programs.measured', 'mm'], ['parts.deviation', 'µm'], ['trend.verdict']];
 const hasLimits = (size) => size.upper_limit_mm !== undefined || size.lower_limit_mm !== undefined;
 
 /** Equally many decimals in a column. */
-const millimetres = (value) => `${number(mmText(Math.round(value * NM_PER_MM)))} mm`;
+const millimetres = (value) => number(mmText(Math.round(value * NM_PER_MM)));
 
 function measured(measurements) {
   const rows = measurements.flatMap(({ cycle, sizes }) => sizes.map((size) => h('tr', h('td', String(cycle)), h('td', size.characteristic),
-    h('td.number', millimetres(size.nominal_mm)), h('td', hasLimits(size) ? limitsText(size) : '–'), h('td.number', millimetres(size.measured_mm)),
-    h('td.number', `${signed(umText(Math.round(size.deviation_um * NM_PER_UM)))} µm`), h('td', size.verdict ? verdictMark(size.verdict) : ''))));
-  const head = ['programs.cycle', 'field.characteristic', 'programs.nominal', 'parts.limits', 'programs.measured', 'parts.deviation', 'trend.verdict'];
-  return h('div.wide', { tabindex: 0, role: 'region', 'aria-label': t('programs.measurements') }, h('table', h('caption', t('programs.measurements')),
-    h('thead', h('tr', head.map((name) => h('th', { scope: 'col', class: NUMBERS.has(name) && 'number' }, t(name))))), h('tbody', rows)));
+    h('td.number', millimetres(size.nominal_mm)), h('td', hasLimits(size) ? limitsText(size).replace(/ mm$/, '') : '–'), h('td.number', millimetres(size.measured_mm)),
+    h('td.number', signed(umText(Math.round(size.deviation_um * NM_PER_UM)))), h('td', size.verdict ? verdictMark(size.verdict) : ''))));
+  return h('div.wide.sizes', { tabindex: 0, role: 'region', 'aria-label': t('programs.measurements') }, h('table', h('caption', t('programs.measurements')),
+    h('thead', h('tr', COLUMNS.map(([name, unit]) => h('th', { scope: 'col', class: unit && name !== 'parts.limits' && 'number' }, unit ? `${t(name)}, ${unit}` : t(name))))), h('tbody', rows)));
 }
 
 async function drawPath(run, place, times, { onMoves, onMove }) {

@@ -36,7 +36,14 @@ describe('the style sheets', () => {
     const looks = await page.$$eval('path.probe', (all) => all.map((path) => [getComputedStyle(path).display, getComputedStyle(path).stroke !== 'none']));
     assert.ok(looks.length >= 3 && looks.every(([display, stroke]) => display !== 'none' && stroke), JSON.stringify(looks));
     // The run says why it is good, and is gone through by block.
-    assert.match(await page.textContent('.report table'), /Limits.*Deviation/);
+    assert.match(await page.textContent('.report .sizes thead'), /Nominal, mmLimits, mmMeasured, mmDeviation, µm/);
+    const lines = await page.$$eval('.report .sizes :is(td.number, td:nth-child(4))', (cells) => cells.map((cell) => {
+      const range = document.createRange();
+      range.selectNodeContents(cell);
+      return new Set([...range.getClientRects()].map(({ top }) => top)).size;
+    }));
+    assert.ok(lines.length >= 4 && lines.every((count) => count === 1), `a figure or its limits in ${lines} lines`);
+    assert.doesNotMatch(await page.textContent('.report .sizes tbody'), /mm|µm/);
     assert.match(await page.textContent('.moves output'), /\S/);
     await page.click('.steps button:first-child');
     await page.click('.steps button:last-child');
