@@ -1,9 +1,9 @@
 /** The values of each machine, tool or operator as a box: quartiles, median, least and greatest, between the limits. */
 
 import { field, h, refill, s } from '../dom.js';
-import { NM_PER_UM } from '../exact.js';
+import { NM_PER_UM, umText } from '../exact.js';
 import { EDGE, Frame, round, WIDTH } from '../figures/frame.js';
-import { t } from '../i18n.js';
+import { signed, t } from '../i18n.js';
 
 export const GROUPS = ['machine', 'tool', 'operator'];
 /** So many groups with the most values. */
@@ -54,14 +54,14 @@ export class Boxes {
       return;
     }
     const { upper, lower } = this.points.at(-1);
-    const limits = [upper, lower].filter(Number.isFinite).map((nm) => nm / NM_PER_UM);
-    const frame = new Frame(groups.map(([name]) => name), [...limits, ...groups.flatMap(([, values]) => [values[0], values.at(-1)])], { decimals: 1 });
+    const limits = [['U', upper, -5], ['L', lower, 16]].filter(([, nm]) => Number.isFinite(nm)).map(([name, nm, below]) => ({ um: nm / NM_PER_UM, name: `${name} ${signed(umText(nm))}`, below }));
+    const frame = new Frame(groups.map(([name]) => name), [...limits.map(({ um }) => um), ...groups.flatMap(([, values]) => [values[0], values.at(-1)])], { decimals: 1 });
     const half = round(Math.min(frame.step / 4, 28));
-    refill(this.place, frame.draw(t('trend.boxes_title'), limits.map((um) => s('path.bound', { d: `M${EDGE.left} ${frame.y(um)}H${WIDTH - EDGE.right}` })), groups.map(([name, values], i) => {
+    refill(this.place, frame.draw(t('trend.boxes_title'), limits.map(({ um }) => s('path.bound', { d: `M${EDGE.left} ${frame.y(um)}H${WIDTH - EDGE.right}` })), groups.map(([name, values], i) => {
       const [least, q1, median, q3, most] = [0, 0.25, 0.5, 0.75, 1].map((share) => frame.y(quantile(values, share)));
       const x = frame.x(i);
       return s('g.group', s('title', `${name}: n = ${values.length}`), s('path.whisker', { d: `M${x} ${least}V${q1}M${x} ${q3}V${most}M${x - half / 2} ${least}h${half}M${x - half / 2} ${most}h${half}` }),
         s('rect.box', { x: x - half, y: q3, width: 2 * half, height: Math.max(round(q1 - q3), 1) }), s('path.median', { d: `M${x - half} ${median}h${2 * half}` }));
-    })), h('p.aside', groups.map(([name, values]) => `${name}: n = ${values.length}`).join(' · ')));
+    }), limits.map(({ um, name, below }) => s('text.limit', { x: EDGE.left + 4, y: frame.y(um) + below }, name))), h('p.aside', groups.map(([name, values]) => `${name}: n = ${values.length}`).join(' · ')));
   }
 }

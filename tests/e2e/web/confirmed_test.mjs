@@ -88,6 +88,7 @@ describe('a confirmed value', () => {
     await page.selectOption('[name="boxes"]', 'tool');
     await page.waitForFunction(() => document.querySelectorAll('.boxes .box').length === 2);
     assert.match(await page.textContent('.boxes .aside'), /T1: n = 7 · T2: n = 6/);
+    assert.deepEqual(await page.$$eval('.boxes .limit', (all) => all.map(({ textContent }) => textContent)), ['U +21', 'L 0']);
     assert.match(hashOf(page), /boxes=tool/);
     assert.deepEqual(await findings(page), []);
     await page.$eval('.boxes', (boxes) => boxes.scrollIntoView());
