@@ -31,6 +31,11 @@ describe('the fit', () => {
     assert.deepEqual(await page.$$eval('.zones .um', (texts) => texts.map((text) => text.textContent)), ['+21', '0', '−7', '−20']);
     assert.deepEqual(await page.$$eval('.fit dd', (values) => values.map((value) => value.textContent)), ['41 µm', '7 µm', '11.7 … 36.3 µm', '28 µm']);
     assert.equal((await page.$$('.zones .measured')).length, 2);
+    const gaps = await page.$$eval('.limits td:last-child', (cells) => cells.map((cell) => {
+      const [mark, copy] = ['.mark-of', '.quiet'].map((name) => cell.querySelector(name).getBoundingClientRect());
+      return copy.top >= mark.bottom || copy.left - mark.right;
+    }));
+    assert.ok(gaps.length === 2 && gaps.every((gap) => gap === true || gap >= 8), `Copy is ${gaps} px from the verdict`);
     await page.click('.preferred button:has-text("H7/s6")');
     await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Interference fit');
     assert.equal(hash(), '#/fit/25H7/s6?hole=25.013&shaft=24,985');

@@ -98,6 +98,16 @@ describe('the style sheets', () => {
     await close(page);
   });
 
+  it('have what corrects a value beside what corrects its part', async () => {
+    const page = await open(browser, daemon, '#/gauge/25H7?part_id=SN-FIX&characteristic=bore-F', { viewport: { width: 1366, height: 768 } });
+    await page.waitForSelector('.echo .figures');
+    await page.keyboard.type('25.010\n');
+    await page.waitForSelector('.recent .fix a');
+    const tops = await page.$$eval('.recent .fix button', (all) => all.map((button) => button.getBoundingClientRect().top));
+    assert.ok(tops.length === 2 && tops[0] === tops[1], tops.join());
+    await close(page);
+  });
+
   it('have every view of the bar in sight at 1024 in Italian, and what is done with a record at 1366', async () => {
     const page = await open(browser, daemon, '#/parts', { viewport: { width: 1024, height: 768 }, locale: 'it-IT' });
     await page.waitForSelector('.records tbody tr');
