@@ -86,10 +86,10 @@ function drawViews(current) {
   if (here) nav.scrollLeft = here.offsetLeft - nav.offsetLeft - (nav.clientWidth - here.offsetWidth) / 2;
 }
 
-/** What a sheet of paper says of itself: of what it is, where it comes from, when it was printed. */
+/** What a sheet of paper says of itself: of what it is, where it comes from, when it was printed. The place in a list (`at`) is none of it. */
 function drawPrinted() {
   const { path, options } = currentRoute();
-  const given = [...path, ...Object.entries(options).map(([name, value]) => `${has(`field.${name}`) ? t(`field.${name}`) : name} ${value}`)];
+  const given = [...path, ...Object.entries(options).filter(([name]) => name !== 'at').map(([name, value]) => `${has(`field.${name}`) ? t(`field.${name}`) : name} ${value}`)];
   printed.replaceChildren(h('strong', t(`view.${shown}`)), h('span', given.join(' · ')),
     h('span', `${location.host} · ${dateTime(connection.now())}`));
 }

@@ -213,6 +213,7 @@ export default {
   'offset.state.unstable': 'nicht stabil',
   'offset.offset': 'Korrektur',
   'offset.next': 'Wieder prüfen',
+  'offset.in_part': 'beim nächsten Teil',
   'offset.in_parts': 'in {count} Teilen',
   'offset.wear': 'Verschleiß je Teil',
   'offset.scatter': 'Streuung {um} µm',

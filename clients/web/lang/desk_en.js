@@ -213,6 +213,7 @@ export default {
   'offset.state.unstable': 'not stable',
   'offset.offset': 'Offset',
   'offset.next': 'Check again',
+  'offset.in_part': 'with the next part',
   'offset.in_parts': 'in {count} parts',
   'offset.wear': 'Wear a part',
   'offset.scatter': 'scatter {um} µm',

@@ -213,6 +213,7 @@ export default {
   'offset.state.unstable': 'non stabile',
   'offset.offset': 'Correzione',
   'offset.next': 'Ricontrolla',
+  'offset.in_part': 'al prossimo pezzo',
   'offset.in_parts': 'fra {count} pezzi',
   'offset.wear': 'Usura per pezzo',
   'offset.scatter': 'dispersione {um} µm',

@@ -213,6 +213,7 @@ export default {
   'offset.state.unstable': 'niet stabiel',
   'offset.offset': 'Correctie',
   'offset.next': 'Opnieuw meten',
+  'offset.in_part': 'bij het volgende onderdeel',
   'offset.in_parts': 'over {count} onderdelen',
   'offset.wear': 'Slijtage per onderdeel',
   'offset.scatter': 'spreiding {um} µm',

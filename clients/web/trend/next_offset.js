@@ -28,7 +28,7 @@ export function offsetTiles(found) {
     h('dl', { class: isProposed ? 'tiles' : 'tiles in-doubt' },
       h('div', h('dt', t('offset.state')), h('dd', { 'data-state': state }, t(`offset.state.${state}`)), h('dd.hint', { lang: 'en' }, found.reason)),
       offset !== null && tile(t('offset.offset'), um(offset), interval && t('trend.interval', { lower: um(interval[0]), upper: um(interval[1]) })),
-      parts !== null && tile(t('offset.next'), t('offset.in_parts', { count: parts })),
+      parts !== null && tile(t('offset.next'), parts === 1 ? t('offset.in_part') : t('offset.in_parts', { count: parts })),
       wear !== null && tile(t('offset.wear'), `${signed(wear.toFixed(2))} µm`, scatter !== null && t('offset.scatter', { um: number(scatter.toFixed(2)) })),
       band !== null && tile(t('offset.band'), `±${number(band.toFixed(1))} µm`)),
     h('p.aside', t('offset.how', { count: found.values }), ' ', h('span', { lang: 'en' }, found.clause)),

@@ -195,6 +195,18 @@ describe('the reach of the page', () => {
     await close(page);
   });
 
+  it('says on paper of which list it is, not at which place of it', async () => {
+    const page = await open(browser, daemon, '#/parts?order=WO-17&at=20', { viewport: { width: 1366, height: 768 } });
+    await page.waitForFunction(() => /at=\d/.test(location.hash) && document.querySelector('.records')?.scrollTop > 0 && !document.querySelector('.records').ariaBusy);
+    const [address, text] = await page.evaluate(() => {
+      dispatchEvent(new Event('beforeprint'));
+      return [location.hash, document.getElementById('printed').textContent];
+    });
+    assert.match(address, /at=\d+/);
+    assert.match(text, /^PartsOrder WO-17127/);
+    await close(page);
+  });
+
   it('prints whole, and says of what, where and when', async () => {
     for (const view of Object.keys(VIEWS)) {
       const page = await openView(view, { viewport: { width: 1366, height: 768 } });

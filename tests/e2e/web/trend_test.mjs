@@ -404,9 +404,13 @@ describe('the trend', () => {
     assert.equal(await page.getAttribute('.offset [data-state]', 'data-state'), found.state);
     const shown = await page.textContent('.offset');
     assert.ok(shown.includes(found.clause) && shown.includes(found.reason), shown);
-    assert.ok(shown.includes(`\u2212${Math.abs(found.offset_um).toFixed(1)} µm`) && shown.includes(`in ${found.next_in_parts} parts`), shown);
+    assert.ok(shown.includes(`\u2212${Math.abs(found.offset_um).toFixed(1)} µm`) && shown.includes(found.next_in_parts === 1 ? 'with the next part' : `in ${found.next_in_parts} parts`), shown);
     assert.deepEqual(await findings(page), []);
     await picture(page, 'trend-offset', { fullPage: true });
+    await page.route('**/v1/measurements/compensation?*', (route) => route.fulfill({ json: { ...found, next_in_parts: 1 } }));
+    await page.uncheck('.rules input[value="4"]'); // computes, and asks anew
+    await page.waitForFunction(() => /with the next part/.test(document.querySelector('.offset')?.textContent));
+    await page.unroute('**/v1/measurements/compensation?*');
     await daemon.send('POST', '/v1/measurements', wear('M-10'));
     await untilPoints(page, 80);
     await page.waitForSelector('.offset', { state: 'hidden' });
