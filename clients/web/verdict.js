@@ -56,4 +56,15 @@ export function limitsText(limits) {
 }
 
 export const toleranceText = (limits) => number(umText(nmFromUm(limits.tolerance_um)));
-export const measuredText = (record) => number(mmText(nmFromMm(record.measured_mm)));
+/** @param places so many decimals at the least, as placesOf gives them for a column */
+export const measuredText = (record, places) => number(mmText(nmFromMm(record.measured_mm), places));
+
+/** The decimals that most values of a column have. */
+export function placesOf(records) {
+  const counts = new Map();
+  for (const { measured_mm: mm } of records) {
+    const { length } = mmText(nmFromMm(mm)).split('.')[1];
+    counts.set(length, (counts.get(length) ?? 0) + 1);
+  }
+  return [...counts].sort(([one, few], [other, many]) => many - few || other - one)[0]?.[0];
+}

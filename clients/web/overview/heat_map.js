@@ -5,7 +5,7 @@ import { dateTime, t } from '../i18n.js';
 import { fragment } from '../route.js';
 import { asideOf } from '../trend/aside.js';
 import { pointOf } from '../trend/series.js';
-import { distanceText, measuredText, verdictMark, verdictShape, VERDICTS } from '../verdict.js';
+import { distanceText, measuredText, placesOf, verdictMark, verdictShape, VERDICTS } from '../verdict.js';
 
 const CELL = { width: 26, widest: 44, height: 30 };
 const HEAD = 58;
@@ -127,11 +127,12 @@ export class HeatMap {
     if (!this.figures.open || !this.parts) return;
     const [summary] = this.figures.children;
     const names = this.standings.map(([name]) => name);
+    const places = names.map((name) => placesOf(this.parts.flatMap(({ values }) => values.get(name) ?? [])));
     this.figures.replaceChildren(summary, h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('heat.table') }, h('table',
       h('thead', h('tr', h('th', { scope: 'col' }, t('field.part_id')), names.map((name) => h('th', { scope: 'col' }, name)))),
-      h('tbody', [...this.parts].reverse().map((part) => h('tr', h('th', { scope: 'row' }, part.name), names.map((name) => {
+      h('tbody', [...this.parts].reverse().map((part) => h('tr', h('th', { scope: 'row' }, part.name), names.map((name, i) => {
         const record = part.values.get(name);
-        return h('td', record ? [verdictMark(record.verdict), ` ${measuredText(record)}`] : '–');
+        return h('td', record ? [verdictMark(record.verdict), ` ${measuredText(record, places[i])}`] : '–');
       })))))));
   }
 }

@@ -4,7 +4,7 @@ import { h } from '../dom.js';
 import { umText } from '../exact.js';
 import { dateTime, signed, t } from '../i18n.js';
 import { fragment } from '../route.js';
-import { distanceText, measuredText, noteText, verdictMark } from '../verdict.js';
+import { distanceText, measuredText, noteText, placesOf, verdictMark } from '../verdict.js';
 import { asideOf } from './aside.js';
 
 const ROWS = 12;
@@ -28,9 +28,11 @@ export function pointDetail({ record, members, deviation }, broken, onAside) {
 
 /** The last values, the newest first. */
 export function lastRows(points) {
+  const rows = points.slice(-ROWS).reverse();
+  const places = placesOf(rows.map(({ record }) => record));
   return h('table', h('caption', t('recent.title')),
     h('thead', h('tr', HEAD.map((name) => h('th', { scope: 'col' }, t(name))))),
-    h('tbody', points.slice(-ROWS).reverse().map(({ record }) => h('tr',
-      h('td', verdictMark(record.verdict)), h('td', `${measuredText(record)} mm`, asideOf(record) && h('span.aside', ` ${t('aside.mark')}`)), h('td', distanceText(record)),
+    h('tbody', rows.map(({ record }) => h('tr',
+      h('td', verdictMark(record.verdict)), h('td', `${measuredText(record, places)} mm`, asideOf(record) && h('span.aside', ` ${t('aside.mark')}`)), h('td', distanceText(record)),
       h('td', record.part_id ?? ''), h('td', dateTime(new Date(record.measured_at)))))));
 }

@@ -12,7 +12,7 @@ import { correct } from '../parts/correction.js';
 import { LongList } from '../parts/long_list.js';
 import { note } from '../parts/note.js';
 import { runRow } from '../parts/run_row.js';
-import { limitsText, measuredText, noteText, verdictMark, VERDICTS } from '../verdict.js';
+import { limitsText, measuredText, noteText, placesOf, verdictMark, VERDICTS } from '../verdict.js';
 
 const FIELDS = ['part_id', 'characteristic', 'cause'];
 /** What the service writes a list as, by its `format`. */
@@ -44,6 +44,8 @@ export function mount(main, route) {
   let at = /^\d+$/.test(route.options.at ?? '') ? Number(route.options.at) : undefined;
   /** Of this list: where another is chosen, the place does not count. */
   let address;
+  /** The decimals of its values, by the first rows that were read. */
+  let places;
 
   main.replaceChildren(h('div.desk.parts', h('h1.unseen', { tabindex: -1 }, t('view.parts')),
     h('form.line', { onsubmit: (event) => { event.preventDefault(); search(); } },
@@ -72,6 +74,7 @@ export function mount(main, route) {
     const { part_id, order } = filter();
     certificate.show({ part_id, order });
     said.textContent = '';
+    places = undefined;
     await list.open(rank);
     if (list.length === 0) said.textContent = t('parts.none');
   }
@@ -81,6 +84,7 @@ export function mount(main, route) {
   /** A record does not say that it was corrected: it is missing among those that count. */
   async function read(asked, signal) {
     const [records, current] = await Promise.all([listed({ ...asked, notes: 'shown' }, signal), corrected.checked && listed({ ...asked, history: '' }, signal)]);
+    places ??= placesOf(records);
     const counting = current && new Set(current.map(({ id }) => id));
     return records.map((record) => ({ record, isReplaced: counting && !counting.has(record.id) }));
   }
@@ -91,7 +95,7 @@ export function mount(main, route) {
   }
 
   function rowOf({ record, isReplaced }) {
-    return row(record, isReplaced, { onCorrect: () => change(record), onNote: () => addNote(record) });
+    return row(record, isReplaced, { places, onCorrect: () => change(record), onNote: () => addNote(record) });
   }
 
   async function change(record) {
@@ -107,7 +111,7 @@ export function mount(main, route) {
   return () => leaving.abort();
 }
 
-function row(record, isReplaced, { onCorrect, onNote }) {
+function row(record, isReplaced, { places, onCorrect, onNote }) {
   const { part_id: part } = record;
   const act = (name, onclick) => h('button.quiet', {
     type: 'button', onclick, 'aria-label': t(`${name}_this`, { mm: measuredText(record), part: part ?? t('part.none') }),
@@ -119,7 +123,7 @@ function row(record, isReplaced, { onCorrect, onNote }) {
       && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.conflict && t('parts.conflict'), record.reason].filter(Boolean).join(' · ')),
     record.confirmed && h('span.aside', t('confirmed.mark')),
     (record.notes ?? []).map((one) => h('span.aside.noted', [noteText(one), one.operator, dateTime(new Date(one.received_at))].filter(Boolean).join(' · ')))),
-    h('td.number', measuredText(record)), h('td.number', record.deviation_um === undefined ? '–' : `${signed(record.deviation_um)} µm`), h('td', limitsText(record)),
+    h('td.number', measuredText(record, places)), h('td.number', record.deviation_um === undefined ? '–' : `${signed(record.deviation_um)} µm`), h('td', limitsText(record)),
     h('td', [record.source === 'simulation' && t('parts.simulated'), record.operator, record.machine, record.tool, record.gauge].filter(Boolean).join(' · ')),
     h('td', date(new Date(record.measured_at)), h('span.aside', time(new Date(record.measured_at)))),
     h('td', !isReplaced && act('parts.correct', onCorrect), act('note.add', onNote)));

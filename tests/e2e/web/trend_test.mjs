@@ -277,6 +277,17 @@ describe('the trend', () => {
     assert.deepEqual((await lettering(page)).filter((text) => text.startsWith('▲')), ['▲ +90', '▲ 79']);
   });
 
+  it('writes the last values, and Parts its rows, with the decimals that most of them have, or more', async () => {
+    await daemon.send('POST', '/v1/measurements', ['25.0101', '25.0112', '25.012', '25.013001'].map((measured_mm) => ({ designation: '25 H7', measured_mm, characteristic: 'decimals' })));
+    const newest = ['25.013001', '25.0120', '25.0112', '25.0101'];
+    page = await openChart(browser, daemon, '#/trend?characteristic=decimals');
+    await untilPoints(page, 4);
+    assert.deepEqual(await page.$$eval('.trend > .scroll tbody td:nth-child(2)', (all) => all.map(({ textContent }) => textContent)), newest.map((text) => `${text} mm`));
+    await page.evaluate(() => { location.hash = '#/parts?characteristic=decimals'; });
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 4);
+    assert.deepEqual(await page.$$eval('.records tbody td:nth-child(4)', (all) => all.map(({ textContent }) => textContent)), newest);
+  });
+
   it('writes the day and the time of a value as they are here, in the form of the language', async () => {
     await daemon.send('POST', '/v1/measurements', ['25.01', '25.011'].map((measured_mm) => ({ designation: '25 H7', measured_mm, characteristic: 'at-night', measured_at: '2026-03-31T22:30:00Z' })));
     page = await openChart(browser, daemon, '#/trend?characteristic=at-night', { locale: 'de-DE', timezoneId: 'Europe/Berlin' });
