@@ -3,6 +3,8 @@
 import { getJson, url } from './api.js';
 import { connection } from './connection.js';
 import { field, h, refill } from './dom.js';
+import { keptPrefixes } from './gauge/prefixes.js';
+import { nameIn } from './gauge/reading.js';
 import { t } from './i18n.js';
 
 const NAMES = ['machine', 'tool', 'order', 'operator'];
@@ -28,11 +30,18 @@ export function periodOf(period, now) {
   return [begun === undefined ? momentOf(now, -1, SHIFTS.at(-1)) : momentOf(now, 0, begun), null];
 }
 
+/** What was typed or scanned into the field of a search: one of those offered stays, another loses what a scanner and the shop write before it. */
+export function searched(input) {
+  const typed = input.value.trim();
+  const isOffered = [...input.list?.options ?? []].some(({ value }) => value === typed);
+  if (!isOffered) input.value = nameIn(typed, input.name, keptPrefixes()) ?? typed;
+}
+
 export class FilterBar {
   /** @param options of the address; @param onChange is told of another choice */
   constructor(options, onChange) {
     this.inputs = Object.fromEntries([
-      ...NAMES.map((name) => [name, h('input', { type: 'text', name, list: `filter-${name}`, autocomplete: 'off', spellcheck: 'false', onchange: onChange })]),
+      ...NAMES.map((name) => [name, h('input', { type: 'text', name, list: `filter-${name}`, autocomplete: 'off', spellcheck: 'false', onchange: ({ target }) => { searched(target); onChange(); } })]),
       ...DAYS.map((name) => [name, h('input', { type: 'date', name, onchange: () => this.#choose('', onChange) })]),
     ]);
     for (const [name, input] of Object.entries(this.inputs)) input.value = options[name] ?? '';

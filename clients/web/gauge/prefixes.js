@@ -7,11 +7,13 @@ import { textField } from './fields.js';
 import { PREFIXES, TEST_CODE } from './reading.js';
 
 const KEPT = 'prefixes';
+/** {field: prefix} as this shop has them. */
+export const keptPrefixes = () => ({ ...PREFIXES, ...readJson(KEPT, {}) });
 
 export class Prefixes {
   constructor() {
     this.inputs = Object.fromEntries(Object.keys(PREFIXES).map((name) => [name, textField(`prefix_${name}`, () => this.#keep(), { maxlength: 10 })]));
-    for (const [name, prefix] of Object.entries({ ...PREFIXES, ...readJson(KEPT, {}) })) {
+    for (const [name, prefix] of Object.entries(keptPrefixes())) {
       if (this.inputs[name]) this.inputs[name].value = prefix;
     }
     this.element = h('fieldset.fields', h('legend.label', t('job.prefixes')),

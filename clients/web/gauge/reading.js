@@ -54,6 +54,22 @@ export function readLine(text, { burst = false, prefixes = PREFIXES, pattern = '
   return { kind: 'nothing', text: line };
 }
 
+/** The name that a line is in the field of one, without what a scanner and a shop write before it; null where it is of something else. */
+export function nameIn(line, field, prefixes = PREFIXES) {
+  const name = line.trim().replace(AIM, '');
+  const read = readLine(name, { prefixes });
+  if (read.kind !== 'field') return read.kind === 'test' ? null : name;
+  return read.name === field ? read.text : null;
+}
+
+/** What a line is in the place of words, a reason say: 'value', 'scan', or '' where it is words. */
+export function notWords(line, { burst = false, prefixes = PREFIXES } = {}) {
+  const { kind } = readLine(line, { burst, prefixes });
+  if (['value', 'error', 'inches'].includes(kind)) return 'value';
+  const isOneWord = !/\s/.test(line.trim());
+  return isOneWord && (AIM.test(line.trim()) || ['field', 'doubt', 'test'].includes(kind) || (burst && kind === 'job')) ? 'scan' : '';
+}
+
 /** Whether a number of a part is as the plan says: `#` is a figure, `?` a character, `*` any text. */
 export function isOfPattern(text, pattern) {
   const each = { '#': '\\d', '?': '.', '*': '.*' };

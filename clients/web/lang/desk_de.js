@@ -12,6 +12,8 @@ export default {
   'heat.middle': 'in der Mitte',
   'heat.lower': 'nahe der unteren Grenze',
   'wall.title': 'Kleine Karten der neuesten Werte',
+  'words.value': '„{typed}“ ist ein Messwert, kein Text. Nichts wird gespeichert.',
+  'words.scan': 'Das ist ein Scan von etwas anderem. Nichts wird gespeichert.',
   'aside.set': 'Beiseitelegen',
   'aside.back': 'Wieder zählen',
   'aside.title': '{mm} mm von {part} beiseitelegen',

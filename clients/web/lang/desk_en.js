@@ -12,6 +12,8 @@ export default {
   'heat.middle': 'in the middle',
   'heat.lower': 'near the lower limit',
   'wall.title': 'Small charts of the newest values',
+  'words.value': '“{typed}” is a value, not words. Nothing is stored.',
+  'words.scan': 'That is a scan of something else. Nothing is stored.',
   'aside.set': 'Set aside',
   'aside.back': 'Count again',
   'aside.title': 'Set aside {mm} mm of {part}',

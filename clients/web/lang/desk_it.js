@@ -12,6 +12,8 @@ export default {
   'heat.middle': 'al centro',
   'heat.lower': 'vicino al limite inferiore',
   'wall.title': 'Piccole carte dei valori più recenti',
+  'words.value': '«{typed}» è un valore misurato, non un testo. Non viene salvato nulla.',
+  'words.scan': 'È la scansione di qualcos’altro. Non viene salvato nulla.',
   'aside.set': 'Mettere da parte',
   'aside.back': 'Contare di nuovo',
   'aside.title': 'Mettere da parte {mm} mm di {part}',

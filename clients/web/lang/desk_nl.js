@@ -12,6 +12,8 @@ export default {
   'heat.middle': 'in het midden',
   'heat.lower': 'bij de ondergrens',
   'wall.title': 'Kleine kaarten van de nieuwste waarden',
+  'words.value': '“{typed}” is een meetwaarde, geen tekst. Er wordt niets opgeslagen.',
+  'words.scan': 'Dat is een scan van iets anders. Er wordt niets opgeslagen.',
   'aside.set': 'Opzijzetten',
   'aside.back': 'Weer meetellen',
   'aside.title': '{mm} mm van {part} opzijzetten',

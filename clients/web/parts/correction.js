@@ -8,6 +8,7 @@ import { isFar } from '../gauge/reading.js';
 import { number, t } from '../i18n.js';
 import { measuredText } from '../verdict.js';
 import { orderOf } from './order.js';
+import { nameOf, refusedWords, wordField } from './words.js';
 
 /** Resolves to whether the record was corrected. */
 export function correct(record) {
@@ -18,7 +19,7 @@ export function correct(record) {
   };
   const value = text(measuredText(record));
   const part = text(record.part_id ?? '');
-  const reason = text('');
+  const reason = wordField();
   const note = h('p.note', { role: 'alert' });
   let asked = '';
 
@@ -28,10 +29,14 @@ export function correct(record) {
     const measured = parseMeasured(value.value.trim());
     const nm = measured === null ? 0 : nmFromMm(measured);
     if (nm <= 0 || nm > LARGEST_NM) return refuse(t('correct.malformed', { typed: value.value.trim() }));
-    const named = part.value.trim();
+    const own = record.part_id ?? '';
+    const { name: named, why } = part.value.trim() === own ? { name: own } : nameOf(part, 'part_id', record);
+    if (why) return refuse(why);
     const same = nm === nmFromMm(String(record.measured_mm));
-    if (same && named === (record.part_id ?? '')) return refuse(t('correct.nothing'));
+    if (same && named === own) return refuse(t('correct.nothing'));
     if (!reason.value.trim()) return refuse(t('correct.why'));
+    const wrong = refusedWords(reason);
+    if (wrong) return refuse(wrong);
     if (!same && isFar(nm, { limits: record }) && asked !== measured) {
       asked = measured;
       return refuse(t('correct.far', { mm: number(measured) }));

@@ -5,6 +5,7 @@ import { field, h } from '../dom.js';
 import { t } from '../i18n.js';
 import { measuredText } from '../verdict.js';
 import { orderOf } from './order.js';
+import { nameOf, refusedWords, wordField } from './words.js';
 
 const PARTS = { cause: 200, measure: 200, text: 2000, operator: 200 };
 
@@ -21,19 +22,17 @@ async function offer(lists) {
 /** Resolves to whether a note was added. */
 export function note(record) {
   const lists = Object.fromEntries(['cause', 'measure'].map((name) => [name, h('datalist', { id: `noted-${name}` })]));
-  const inputs = Object.fromEntries(Object.entries(PARTS).map(([name, maxlength]) => [name, h('input', {
-    type: 'text', name, maxlength, autocomplete: 'off', spellcheck: 'false', list: lists[name]?.id,
-  })]));
+  const inputs = Object.fromEntries(Object.entries(PARTS).map(([name, maxlength]) => [name, wordField({ name, maxlength, list: lists[name]?.id })]));
   const why = h('p.note', { role: 'alert' });
 
   function send(event) {
     event.preventDefault();
-    const said = Object.fromEntries(Object.entries(inputs).map(([name, input]) => [name, input.value.trim()]).filter(([, text]) => text));
-    if (!said.cause && !said.measure && !said.text) {
-      why.textContent = t('note.nothing');
-      return;
-    }
-    order(said);
+    const { operator: of, ...words } = inputs;
+    const { name: operator, why: wrong } = nameOf(of, 'operator', record);
+    const said = Object.fromEntries(Object.entries(words).map(([name, input]) => [name, input.value.trim()]).filter(([, text]) => text));
+    const refused = Object.values(words).map(refusedWords).find(Boolean) ?? wrong ?? (Object.keys(said).length ? '' : t('note.nothing'));
+    if (refused) why.textContent = refused;
+    else order({ ...said, ...(operator && { operator }) });
   }
 
   const dialog = h('dialog', { 'aria-labelledby': 'note-title' },

@@ -4,11 +4,11 @@ import { getJson, url } from '../api.js';
 import { field, h } from '../dom.js';
 import { dateTime, t } from '../i18n.js';
 import { orderOf } from '../parts/order.js';
+import { nameOf, refusedWords, wordField } from '../parts/words.js';
 import { measuredText, placesOf, verdictMark } from '../verdict.js';
 
 const [ASIDE, COUNTED] = ['set aside', 'counted again'];
 const decides = ({ measure }) => measure === ASIDE || measure === COUNTED;
-const LONGEST = 200;
 
 /** The note that sets a record aside, or undefined. */
 export const asideOf = ({ set_aside: isAside, notes }) => (isAside ? notes.findLast(({ measure }) => measure === ASIDE) : undefined);
@@ -22,15 +22,16 @@ export const isNoted = ({ notes = [] }) => notes.some((note) => !decides(note));
 /** Asks for the reason and stores it; resolves to the note, or to null. */
 export function askAside(record) {
   const isBack = asideOf(record) !== undefined;
-  const input = (name) => h('input', { type: 'text', name, maxlength: LONGEST, autocomplete: 'off', spellcheck: 'false' });
-  const [reason, operator] = ['reason', 'operator'].map(input);
+  const [reason, operator] = ['reason', 'operator'].map((name) => wordField({ name }));
   const why = h('p.note', { role: 'alert' });
   let stored = null;
   function send(event) {
     event.preventDefault();
     const cause = reason.value.trim();
-    if (!cause) why.textContent = t('aside.why');
-    else order({ cause, measure: isBack ? COUNTED : ASIDE, ...(operator.value.trim() && { operator: operator.value.trim() }) });
+    const { name, why: wrong } = nameOf(operator, 'operator', record);
+    const refused = cause ? refusedWords(reason) || wrong : t('aside.why');
+    if (refused) why.textContent = refused;
+    else order({ cause, measure: isBack ? COUNTED : ASIDE, ...(name && { operator: name }) });
   }
   const dialog = h('dialog', { 'aria-labelledby': 'aside-title' }, h('form', { novalidate: true, onsubmit: send },
     h('h2', { id: 'aside-title' }, t(isBack ? 'aside.back_title' : 'aside.title', { mm: measuredText(record), part: record.part_id ?? t('part.none') })),

@@ -4,7 +4,7 @@ import { getJson, url } from '../api.js';
 import { designationText } from '../designation.js';
 import { field, h } from '../dom.js';
 import { downloadLink } from '../download.js';
-import { FilterBar } from '../filter_bar.js';
+import { FilterBar, searched } from '../filter_bar.js';
 import { date, dateTime, explain, signed, t, time } from '../i18n.js';
 import { fragment, go } from '../route.js';
 import { CertificateForm } from '../parts/certificate.js';
@@ -23,7 +23,7 @@ const ZONE = Intl.DateTimeFormat().resolvedOptions().timeZone ?? '';
 export function mount(main, route) {
   const leaving = new AbortController();
   const inputs = Object.fromEntries(FIELDS.map((name) => [name,
-    h('input', { type: 'text', name, autocomplete: 'off', spellcheck: 'false', onchange: () => search() })]));
+    h('input', { type: 'text', name, autocomplete: 'off', spellcheck: 'false', onchange: ({ target }) => { searched(target); search(); } })]));
   const bar = new FilterBar(route.options, () => search());
   for (const name of FIELDS) inputs[name].value = route.options[name] ?? '';
   const verdict = h('select', { name: 'verdict', onchange: () => search() }, ['', ...VERDICTS].map((word) =>

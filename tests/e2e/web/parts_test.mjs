@@ -11,6 +11,7 @@ import { afterEach, describe, it } from 'node:test';
 
 import { close, findings, hashOf, open, picture, saved } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
+import { scan } from './support/scanner.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 let page;
@@ -93,6 +94,53 @@ describe('the parts', () => {
     await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 3);
     assert.equal(await page.locator('.records .corrected').getByRole('button', { name: 'Correct' }).count(), 0);
     await picture(page, 'parts-corrected', { fullPage: true });
+  });
+
+  it('take no value and no scan of something else as a reason or a part, and find a part by its scan', async () => {
+    await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', part_id: 'SN-W', order: 'WO-W' });
+    page = await open(browser, daemon, '#/parts');
+    for (const code of ['P:SN-W', ']C1SN-W', ']C1P:SN-W']) {
+      await page.fill('.parts [name="part_id"]', code);
+      await page.press('.parts [name="part_id"]', 'Enter');
+      await page.waitForFunction(() => /^#\/parts\?part_id=SN-W/.test(location.hash) && document.querySelectorAll('.records tbody tr').length === 1);
+      assert.equal(await page.inputValue('.parts [name="part_id"]'), 'SN-W');
+      await page.fill('.parts [name="part_id"]', '');
+      await page.press('.parts [name="part_id"]', 'Enter');
+      await page.waitForFunction(() => !/part_id/.test(location.hash));
+    }
+    await page.fill('.parts [name="order"]', 'O:WO-W');
+    await page.press('.parts [name="order"]', 'Enter');
+    await page.waitForFunction(() => /order=WO-W/.test(location.hash) && document.querySelectorAll('.records tbody tr').length === 1);
+    const refused = async (field, text, why) => {
+      await page.locator('dialog').getByLabel(field).fill(text);
+      await page.$eval('dialog .note', (note) => { note.textContent = ''; });
+      await page.click('dialog .primary');
+      await page.waitForFunction((source) => new RegExp(source).test(document.querySelector('dialog .note').textContent), why);
+    };
+    await page.click('.records tbody .quiet >> text=Correct');
+    await refused('Part', '25.012', '“25\\.012” is a value, not a name');
+    await refused('Part', 'O:WO-W', 'a scan of something else');
+    await page.locator('dialog').getByLabel('Part').fill('P:SN-V');
+    await refused('Reason', '25.012', 'is a value, not words');
+    await refused('Reason', 'P:SN-W', 'a scan of something else');
+    await page.locator('dialog').getByLabel('Reason').fill('scanned twice');
+    await page.click('dialog .primary');
+    await page.waitForFunction(() => /SN-V/.test(document.querySelector('.records tbody').textContent));
+    await page.click('.records tbody .quiet >> text=Note');
+    for (const label of ['Cause', 'Measure', 'Text']) {
+      await refused(label, '01A+00025.012', 'is a value, not words');
+      await page.locator('dialog').getByLabel(label).fill('');
+    }
+    await page.$eval('dialog .note', (note) => { note.textContent = ''; });
+    await page.focus('dialog [name="cause"]');
+    await scan(page, 'SN-17');
+    await page.waitForFunction(() => /a scan of something else/.test(document.querySelector('dialog .note').textContent));
+    await page.fill('dialog [name="cause"]', 'Insert 3 worn');
+    await refused('Operator', `fg_${'0'.repeat(64)}`, 'a scan of something else');
+    await page.fill('dialog [name="operator"]', 'U:Kim');
+    await page.click('dialog .primary');
+    await page.waitForFunction(() => /Insert 3 worn · Kim/.test(document.querySelector('.records tbody').textContent));
+    assert.deepEqual((await daemon.stored('order=WO-W&notes=shown')).map(({ part_id, reason, notes }) => [part_id, reason, notes?.map(({ cause, operator }) => [cause, operator])]), [['SN-V', 'scanned twice', [['Insert 3 worn', 'Kim']]]]);
   });
 
   it('are corrected and noted once, however often it is asked for, and whatever becomes of the answer', async () => {

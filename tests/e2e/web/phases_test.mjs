@@ -33,6 +33,9 @@ describe('a process', () => {
     await page.click('.detail .quiet >> text=Set aside');
     await page.click('dialog .primary');
     await page.waitForFunction(() => /Enter the reason/.test(document.querySelector('dialog .note').textContent));
+    await page.fill('dialog [name="reason"]', '25.012');
+    await page.click('dialog .primary');
+    await page.waitForFunction(() => /is a value, not words/.test(document.querySelector('dialog .note').textContent));
     await page.fill('dialog [name="reason"]', 'Burr at the bore');
     await page.fill('dialog [name="operator"]', 'Kim');
     assert.deepEqual(await findings(page), []);
