@@ -17,7 +17,8 @@ const MOST_OFFERED = 200;
 /** When a day begins here, or the hour of a day so many days later. */
 const momentOf = (date, days = 0, hour = 0) => new Date(date.getFullYear(), date.getMonth(), date.getDate() + days, hour);
 
-function dayOf(text, later = 0) {
+/** When a day that was typed begins here, or the day so many later, as the service takes it; '' without one. */
+export function dayOf(text, later = 0) {
   const [year, month, day] = text.split('-').map(Number);
   return text ? momentOf(new Date(year, month - 1, day), later).toISOString() : '';
 }

@@ -4,6 +4,7 @@ import { getJson, request, url } from '../api.js';
 import { parseDesignation } from '../designation.js';
 import { field, h, refill } from '../dom.js';
 import { Decimal, mmText, nmFromUm } from '../exact.js';
+import { dayOf } from '../filter_bar.js';
 import { limitsOf } from '../gauge/held.js';
 import { gaugeValue } from '../gauge/reading.js';
 import { explain, t } from '../i18n.js';
@@ -34,16 +35,18 @@ export class StudyForm {
     this.kind = h('select', { name: 'kind', onchange: () => this.#typed() }, Object.keys(KINDS).map((kind) => h('option', { value: kind }, t(`study.kind.${kind}`))));
     this.fields = Object.fromEntries(FIELDS.map((name) => [name, field(t(`study.${name}`), this.inputs[name])]));
     this.taken = h('select', { name: 'characteristic', onchange: () => this.#take() }, h('option', { value: '' }, t('study.take')));
+    [this.since, this.until] = ['records-from', 'records-to'].map((name) => h('input', { name, type: 'date' }));
+    this.taking = h('div.study-fields', field(t('field.from'), this.since), field(t('field.to'), this.until), field(t('study.from'), this.taken));
     this.grid = h('div.scroll.study-grid', { tabindex: 0, role: 'region', 'aria-label': t('study.readings') });
     this.note = h('p.note', { role: 'alert' });
+    this.said = h('p.note', { role: 'status' });
     this.result = h('section.study-result', { 'aria-live': 'polite' });
     this.element = h('section.study', h('h2', t('study.title')), h('form.sheet', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#compute(); } },
       h('div.study-fields', field(t('study.kind'), this.kind), FIELDS.filter((name) => !PROCESS.includes(name)).map((name) => this.fields[name])),
-      h('details', h('summary', t('study.process')), h('div.study-fields', PROCESS.map((name) => this.fields[name]))), field(t('study.from'), this.taken), this.grid, this.note,
+      h('details', h('summary', t('study.process')), h('div.study-fields', PROCESS.map((name) => this.fields[name]))), this.taking, this.grid, this.note, this.said,
       h('p.actions', h('button.primary', { type: 'submit' }, t('study.compute')), h('button', { type: 'button', onclick: () => this.#clear() }, t('study.clear')))), this.result);
     this.stored = new StoredStudies({ leaving, orderOf: () => this.#order(), onStudy: (study) => this.#open(study) });
     this.element.append(this.stored.element);
-    this.taking = this.taken.closest('.field');
     this.#show();
     this.#offer();
   }
@@ -109,17 +112,20 @@ export class StudyForm {
     return cell;
   }
 
-  /** Takes the records of a characteristic: their parts, their operators, and as trials the values of both in order. */
+  /** Takes the newest records of a characteristic that count: their parts, their operators, and as trials the values of both in order. */
   async #take() {
     const characteristic = this.taken.value;
     this.taken.value = '';
     if (!characteristic) return;
+    this.said.textContent = '';
     try {
-      const { measurements } = await getJson(url(['measurements'], { characteristic, limit: MOST_RECORDS }), { signal: this.leaving });
-      const records = measurements.filter(({ part_id: part, operator }) => part && operator);
+      const asked = { characteristic, sort: 'newest', set_aside: 'false', from: dayOf(this.since.value), to: dayOf(this.until.value, 1), limit: MOST_RECORDS };
+      const { measurements, next } = await getJson(url(['measurements'], asked), { signal: this.leaving });
+      const records = measurements.reverse().filter(({ part_id: part, operator }) => part && operator);
       if (!records.length) throw Object.assign(new Error(t('study.no_records')));
       const { tolerance_um: um } = records.at(-1);
       this.#fill({ ...gridOf(records.map(({ part_id: part, operator, measured_mm: value }) => ({ part, operator, value }))), tolerance: um === undefined ? '' : mmText(nmFromUm(um), 0) });
+      if (next) this.said.textContent = t('study.cut', { count: MOST_RECORDS });
     } catch (problem) {
       this.note.textContent = explain(problem);
     }
@@ -129,7 +135,7 @@ export class StudyForm {
     Object.assign(this.state, state);
     this.#keep();
     this.drawn = '';
-    this.note.textContent = '';
+    this.note.textContent = this.said.textContent = '';
     this.#show();
   }
 

@@ -231,6 +231,7 @@ export default {
   'study.values': 'Werte, je Zeile einer',
   'study.from': 'An der Station gemessen',
   'study.take': 'Werte eines Merkmals übernehmen …',
+  'study.cut': 'Das sind die neuesten {count} Datensätze; es gibt ältere.',
   'study.no_records': 'Kein Wert davon nennt Teil und Prüfer.',
   'study.readings': 'Messwerte in mm',
   'study.compute': 'Auswerten',

@@ -231,6 +231,7 @@ export default {
   'study.values': 'Values, one a line',
   'study.from': 'Measured at the station',
   'study.take': 'Take the records of a characteristic …',
+  'study.cut': 'These are the newest {count} records; there are older ones.',
   'study.no_records': 'No record of it names a part and an operator.',
   'study.readings': 'Readings in mm',
   'study.compute': 'Evaluate',

@@ -231,6 +231,7 @@ export default {
   'study.values': 'Valori, uno per riga',
   'study.from': 'Misurati alla stazione',
   'study.take': 'Prendi i valori di una caratteristica …',
+  'study.cut': 'Sono le {count} misure più recenti; ce ne sono di più vecchie.',
   'study.no_records': 'Nessun valore nomina pezzo e operatore.',
   'study.readings': 'Letture in mm',
   'study.compute': 'Valuta',

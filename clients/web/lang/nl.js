@@ -231,6 +231,7 @@ export default {
   'study.values': 'Waarden, één per regel',
   'study.from': 'Aan het station gemeten',
   'study.take': 'Waarden van een kenmerk overnemen …',
+  'study.cut': 'Dit zijn de nieuwste {count} metingen; er zijn oudere.',
   'study.no_records': 'Geen waarde ervan noemt onderdeel en controleur.',
   'study.readings': 'Meetwaarden in mm',
   'study.compute': 'Berekenen',

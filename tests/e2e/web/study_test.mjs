@@ -81,6 +81,26 @@ describe('a gauge', () => {
     await close(page);
   });
 
+  it('is studied with the newest records of a time, without those set aside, and says that there are more', async () => {
+    const content = { designation: '25 H7', measured_mm: '25.01', operator: 'Kim', characteristic: 'study-many' };
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 1001 }, (_, i) => (
+      { ...content, part_id: i ? `Q${1 + i % 10}` : 'OLD', measured_at: i < 10 ? '2026-03-01T12:00:00Z' : '2026-03-03T12:00:00Z' })));
+    const { id } = await (await daemon.send('POST', '/v1/measurements', { ...content, part_id: 'ASIDE' })).json();
+    await daemon.send('POST', `/v1/measurements/${id}/notes`, { cause: 'Slipped', measure: 'set aside' });
+    const page = await open(browser, daemon, '#/gauges');
+    await page.waitForSelector('.study option[value="study-many"]', { state: 'attached' });
+    await page.selectOption('.study [name="characteristic"]', 'study-many');
+    await page.waitForFunction(() => /the newest 1000 records; there are older/.test(document.querySelector('.study [role="status"]').textContent));
+    const parts = async () => (await page.inputValue('[name="parts"]')).split(', ').sort();
+    assert.deepEqual(await parts(), ['Q1', 'Q10', 'Q2', 'Q3', 'Q4', 'Q5', 'Q6', 'Q7', 'Q8', 'Q9']);
+    await page.fill('[name="records-to"]', '2026-03-01');
+    await page.selectOption('.study [name="characteristic"]', 'study-many');
+    await page.waitForFunction(() => /^OLD/.test(document.querySelector('[name="parts"]').value));
+    assert.deepEqual(await parts(), ['OLD', 'Q10', 'Q2', 'Q3', 'Q4', 'Q5', 'Q6', 'Q7', 'Q8', 'Q9']);
+    assert.equal(await page.textContent('.study [role="status"]'), '');
+    await close(page);
+  });
+
   it('is dated today as the day is here, and so is a calibration', async () => {
     await daemon.send('PUT', '/v1/gauges-in-use/G-NIGHT', { calibration_due: '2099-03-31' });
     const page = await open(browser, daemon, '#/gauges/G-NIGHT', { at: '2026-03-31T22:30:00Z', timezoneId: 'Europe/Berlin' });
