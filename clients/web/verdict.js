@@ -59,6 +59,9 @@ export const toleranceText = (limits) => number(umText(nmFromUm(limits.tolerance
 /** @param places so many decimals at the least, as placesOf gives them for a column */
 export const measuredText = (record, places) => number(mmText(nmFromMm(record.measured_mm), places));
 
+/** Who it was, of a record or a note: the name that was given, else that of the key, as of a badge. */
+export const operatorOf = ({ operator, caller }) => operator ?? caller;
+
 /** The decimals that most values of a column have. */
 export function placesOf(records) {
   const counts = new Map();

@@ -9,6 +9,7 @@ import { limitsOf } from '../gauge/held.js';
 import { gaugeValue } from '../gauge/reading.js';
 import { explain, t } from '../i18n.js';
 import { readJson, store } from '../stored.js';
+import { operatorOf } from '../verdict.js';
 import { StoredStudies } from './stored_studies.js';
 import { masterResult, variationResult } from './study_result.js';
 
@@ -121,10 +122,10 @@ export class StudyForm {
     try {
       const asked = { characteristic, sort: 'newest', set_aside: 'false', from: dayOf(this.since.value), to: dayOf(this.until.value, 1), limit: MOST_RECORDS };
       const { measurements, next } = await getJson(url(['measurements'], asked), { signal: this.leaving });
-      const records = measurements.reverse().filter(({ part_id: part, operator }) => part && operator);
+      const records = measurements.reverse().filter((record) => record.part_id && operatorOf(record));
       if (!records.length) throw Object.assign(new Error(t('study.no_records')));
       const { tolerance_um: um } = records.at(-1);
-      this.#fill({ ...gridOf(records.map(({ part_id: part, operator, measured_mm: value }) => ({ part, operator, value }))), tolerance: um === undefined ? '' : mmText(nmFromUm(um), 0) });
+      this.#fill({ ...gridOf(records.map((record) => ({ part: record.part_id, operator: operatorOf(record), value: record.measured_mm }))), tolerance: um === undefined ? '' : mmText(nmFromUm(um), 0) });
       if (next) this.said.textContent = t('study.cut', { count: MOST_RECORDS });
     } catch (problem) {
       this.note.textContent = explain(problem);

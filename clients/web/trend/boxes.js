@@ -4,6 +4,7 @@ import { field, h, refill, s } from '../dom.js';
 import { NM_PER_UM, umText } from '../exact.js';
 import { EDGE, Frame, round, WIDTH } from '../figures/frame.js';
 import { signed, t } from '../i18n.js';
+import { operatorOf } from '../verdict.js';
 
 export const GROUPS = ['machine', 'tool', 'operator'];
 /** So many groups with the most values. */
@@ -20,7 +21,8 @@ function quantile(sorted, share) {
 export function grouped(points, by) {
   const groups = new Map();
   for (const { record, deviation } of points.flatMap((point) => point.members ?? point)) {
-    if (record[by]) groups.set(record[by], [...(groups.get(record[by]) ?? []), deviation / NM_PER_UM]);
+    const name = by === 'operator' ? operatorOf(record) : record[by];
+    if (name) groups.set(name, [...(groups.get(name) ?? []), deviation / NM_PER_UM]);
   }
   return [...groups].map(([name, values]) => [name, values.sort((one, other) => one - other)])
     .sort(([, one], [, other]) => other.length - one.length).slice(0, MOST).sort(([one], [other]) => one.localeCompare(other, undefined, { numeric: true }));

@@ -4,7 +4,7 @@ import { h } from '../dom.js';
 import { umText } from '../exact.js';
 import { dateTime, signed, t } from '../i18n.js';
 import { fragment } from '../route.js';
-import { distanceText, measuredText, noteText, placesOf, verdictMark } from '../verdict.js';
+import { distanceText, measuredText, noteText, operatorOf, placesOf, verdictMark } from '../verdict.js';
 import { asideOf } from './aside.js';
 
 const ROWS = 12;
@@ -19,7 +19,7 @@ export function pointDetail({ record, members, deviation }, broken, onAside) {
   }
   return h('div.line', verdictMark(record.verdict), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)),
     record.part_id && h('a', { href: fragment({ view: 'parts', options: { part_id: record.part_id } }) }, record.part_id),
-    h('span.aside', [record.characteristic, record.machine, record.tool, record.operator, record.gauge, dateTime(new Date(record.measured_at))].filter(Boolean).join(' · ')),
+    h('span.aside', [record.characteristic, record.machine, record.tool, operatorOf(record), record.gauge, dateTime(new Date(record.measured_at))].filter(Boolean).join(' · ')),
     record.confirmed && h('span.aside', t('confirmed.mark')),
     record.correction_of !== undefined && h('span.aside', t('trend.corrected')),
     (record.notes ?? []).map((one) => h('span', noteText(one))), marks,

@@ -12,7 +12,7 @@ import { correct } from '../parts/correction.js';
 import { LongList } from '../parts/long_list.js';
 import { note } from '../parts/note.js';
 import { runRow } from '../parts/run_row.js';
-import { limitsText, measuredText, noteText, placesOf, verdictMark, VERDICTS } from '../verdict.js';
+import { limitsText, measuredText, noteText, operatorOf, placesOf, verdictMark, VERDICTS } from '../verdict.js';
 
 const FIELDS = ['part_id', 'characteristic', 'cause'];
 /** What the service writes a list as, by its `format`. */
@@ -122,9 +122,9 @@ function row(record, isReplaced, { places, onCorrect, onNote }) {
     h('td', verdictMark(record.verdict), (isReplaced || record.correction_of)
       && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.conflict && t('parts.conflict'), record.reason].filter(Boolean).join(' · ')),
     record.confirmed && h('span.aside', t('confirmed.mark')),
-    (record.notes ?? []).map((one) => h('span.aside.noted', [noteText(one), one.operator, dateTime(new Date(one.received_at))].filter(Boolean).join(' · ')))),
+    (record.notes ?? []).map((one) => h('span.aside.noted', [noteText(one), operatorOf(one), dateTime(new Date(one.received_at))].filter(Boolean).join(' · ')))),
     h('td.number', measuredText(record, places)), h('td.number', record.deviation_um === undefined ? '–' : `${signed(record.deviation_um)} µm`), h('td', limitsText(record)),
-    h('td', [record.source === 'simulation' && t('parts.simulated'), record.operator, record.machine, record.tool, record.gauge].filter(Boolean).join(' · ')),
+    h('td', [record.source === 'simulation' && t('parts.simulated'), operatorOf(record), record.machine, record.tool, record.gauge].filter(Boolean).join(' · ')),
     h('td', date(new Date(record.measured_at)), h('span.aside', time(new Date(record.measured_at)))),
     h('td', !isReplaced && act('parts.correct', onCorrect), act('note.add', onNote)));
 }

@@ -46,6 +46,35 @@ describe('a badge', () => {
     await close(page);
     await locked.cleanup();
   });
+
+  it('is the operator of what it has measured in Parts, in Trend and in a study', async () => {
+    const locked = await new Daemon('--auth', 'read-open').start();
+    const ada = await locked.key('ada', 'operator');
+    for (const part of ['SN-1', 'SN-2']) {
+      await fetch(`${locked.url}/v1/measurements`, { method: 'POST', headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${ada}` },
+        body: JSON.stringify({ designation: '25 H7', measured_mm: 25.01, part_id: part, characteristic: 'bore' }) });
+    }
+    const page = await open(browser, locked, '#/gauge/25H7');
+    await page.waitForSelector('.echo .figures');
+    await scan(page, ada);
+    await page.waitForFunction(() => /in use/.test(document.querySelector('.badge')?.textContent));
+    const go = (address) => page.evaluate((hash) => { location.hash = hash; }, address);
+    await go('#/parts');
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 2);
+    assert.equal(await page.textContent('.records tbody td:nth-child(7)'), 'ada');
+    await go('#/trend?characteristic=bore&boxes=operator');
+    await page.waitForFunction(() => /ada: n = 2/.test(document.querySelector('.boxes')?.textContent));
+    await page.waitForSelector('.control-chart');
+    await page.focus('.trend figure');
+    await page.keyboard.press('ArrowLeft');
+    await page.waitForFunction(() => /bore · ada/.test(document.querySelector('.detail')?.textContent));
+    await go('#/gauges');
+    await page.waitForSelector('.study option[value="bore"]', { state: 'attached' });
+    await page.selectOption('.study [name="characteristic"]', 'bore');
+    await page.waitForFunction(() => document.querySelector('[name="operators"]').value === 'ada');
+    await close(page);
+    await locked.cleanup();
+  });
 });
 
 describe('a number pad', () => {
