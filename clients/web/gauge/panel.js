@@ -24,12 +24,12 @@ export class Panel {
     this.element = h('section.verdict', { role: 'status', 'aria-live': 'polite', 'aria-atomic': 'true', 'aria-label': t('panel.label') });
   }
 
-  /** Nothing was judged yet of what is gauged now: {limits, part}, of a plan what is next, or that it is finished. */
-  next({ limits, part, step, finished }) {
+  /** Nothing was judged yet of what is gauged now: {limits, part}, of a plan what is next with its picture, or that it is finished. */
+  next({ limits, part, step, finished, picture }) {
     this.of = undefined;
     const what = [part, step].filter(Boolean).join(' · ');
     const text = !limits ? t('panel.no_job') : finished ? t('panel.next_part') : what ? t('panel.measure_part', { part: what }) : t('panel.measure');
-    this.#show('idle', [word(text), limits && limitStrip(limits)]);
+    this.#show('idle', [word(text), limits && limitStrip(limits), picture]);
   }
 
   /** A value was taken: what becomes of it is shown from now on. @param key of its entry in the queue */

@@ -151,6 +151,7 @@ export default {
   'panel.strip': 'Wert zwischen den Grenzmaßen',
   'panel.run': 'Die letzten {count} Werte zwischen den Grenzmaßen',
   'panel.no_job': 'Teil scannen, Maß eingeben',
+  'panel.picture': 'Bild von {name}',
   'panel.measure': 'Messen',
   'panel.measure_part': '{part} messen',
   'panel.size': 'Jetzt {size}',

@@ -151,6 +151,7 @@ export default {
   'panel.strip': 'Value between the limits',
   'panel.run': 'The last {count} values between the limits',
   'panel.no_job': 'Scan a part, type a size',
+  'panel.picture': 'Picture of {name}',
   'panel.measure': 'Measure',
   'panel.measure_part': 'Measure {part}',
   'panel.size': 'Now {size}',

@@ -151,6 +151,7 @@ export default {
   'panel.strip': 'Valore tra i limiti',
   'panel.run': 'Gli ultimi {count} valori tra i limiti',
   'panel.no_job': 'Leggere un pezzo, digitare una quota',
+  'panel.picture': 'Immagine di {name}',
   'panel.measure': 'Misurare',
   'panel.measure_part': 'Misurare {part}',
   'panel.size': 'Ora {size}',

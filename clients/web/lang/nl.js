@@ -151,6 +151,7 @@ export default {
   'panel.strip': 'Waarde tussen de grenzen',
   'panel.run': 'De laatste {count} waarden tussen de grenzen',
   'panel.no_job': 'Scan een onderdeel, typ een maat',
+  'panel.picture': 'Afbeelding van {name}',
   'panel.measure': 'Meten',
   'panel.measure_part': '{part} meten',
   'panel.size': 'Nu {size}',

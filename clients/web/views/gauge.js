@@ -15,6 +15,7 @@ import { Job } from '../gauge/job.js';
 import { ledger } from '../gauge/ledger.js';
 import { NumberPad } from '../gauge/number_pad.js';
 import { Panel } from '../gauge/panel.js';
+import { pictureOf } from '../gauge/picture.js';
 import { ownLimits, Plan } from '../gauge/plan.js';
 import { Reactions } from '../gauge/reaction.js';
 import { Recent } from '../gauge/recent.js';
@@ -98,7 +99,7 @@ export function mount(main, route) {
   const next = () => {
     stepped = false;
     if (plan.result && job.part) return sayPart();
-    return panel.next({ limits: job.limits, part: job.part, step: plan.what, finished: plan.finished });
+    return panel.next({ limits: job.limits, part: job.part, step: plan.what, finished: plan.finished, picture: plan.finished ? null : pictureOf(plan.current) });
   };
 
   /** A scan that changes the size says so: the number of a part may look like one. */

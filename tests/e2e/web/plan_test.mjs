@@ -252,6 +252,41 @@ describe('a plan', () => {
     await close(page);
   });
 
+  it('shows the picture of what is measured next beside it, with a key too', async () => {
+    const png = Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQDwAEhQGAhKmMIQAAAABJRU5ErkJggg==', 'base64');
+    const pictured = { characteristics: [{ name: 'bore', designation: '25 H7', picture: 'pictures/bore.png' }, { name: 'slot', designation: '8 H9' }] };
+    const locked = await new Daemon('--auth', 'read-open').start();
+    const key = await locked.key('setter', 'admin');
+    for (const [to, given] of [[daemon, {}], [locked, { Authorization: `Bearer ${key}` }]]) {
+      const put = (path, type, body) => fetch(`${to.url}/v1/${path}`, { method: 'PUT', headers: { ...given, 'Content-Type': type }, body });
+      assert.ok((await put('files/pictures/bore.png', 'image/png', png)).ok);
+      assert.ok((await put('plans/PIC', 'application/json', JSON.stringify(pictured))).ok);
+    }
+    page = await open(browser, daemon, '#/gauge?plan=PIC&part_id=SN-1');
+    await page.waitForFunction(() => document.querySelector('.verdict[data-verdict="idle"] img.picture:not([hidden])')?.naturalWidth === 1);
+    assert.equal(await page.getAttribute('.verdict .picture', 'alt'), 'Picture of bore');
+    assert.deepEqual(await findings(page), []);
+    await line('25.01');
+    await verdict('good');
+    await progress('2 of 2');
+    assert.equal(await page.$('.verdict .picture'), null);
+    await page.keyboard.type('8');
+    await verdict('idle');
+    assert.equal(await page.$('.verdict .picture'), null, 'none of the slot');
+    await close(page);
+    page = await open(browser, locked, '#/gauge/25H7');
+    await page.waitForSelector('.echo .figures');
+    await line(key);
+    await page.waitForSelector('.plan select:visible');
+    await line('PIC');
+    await page.waitForFunction(() => {
+      const canvas = document.querySelector('.verdict[data-verdict="idle"] canvas.picture:not([hidden])');
+      return canvas?.width === 1 && canvas.getContext('2d').getImageData(0, 0, 1, 1).data[3] > 0;
+    });
+    await close(page);
+    await locked.cleanup();
+  });
+
   it('takes a cause in words of one\'s own where its catalogue is not there', async () => {
     await daemon.send('PUT', '/v1/plans/ODD', { characteristics: [{ name: 'odd', designation: '25 H7', catalogue: 'nowhere' }] });
     page = await open(browser, daemon, '#/gauge?plan=ODD');
