@@ -4,9 +4,24 @@ import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';
 
 import { periodOf } from '../../../clients/web/filter_bar.js';
+import { nameIn, notWords } from '../../../clients/web/gauge/reading.js';
 import { close, hashOf, open, picture } from './support/browser.mjs';
 import { untilPoints } from './support/chart.mjs';
 import { browser, daemon } from './support/stage.mjs';
+
+describe('a line in a field', () => {
+  it('is a name without what a scanner and the shop write before it, or none of this field', () => {
+    for (const [line, field, name] of [['P:SN-1', 'part_id', 'SN-1'], [' ]C1p:SN-1', 'part_id', 'SN-1'], [']Q3SN-1', 'part_id', 'SN-1'], ['SN-1', 'order', 'SN-1'], ['25 H7', 'part_id', '25 H7'],
+      ['O:WO-1', 'part_id', null], ['P:SN-1', 'order', null], ['', 'part_id', '']]) assert.equal(nameIn(line, field), name, line);
+    assert.equal(nameIn('#SN-1', 'part_id', { part_id: '#' }), 'SN-1');
+  });
+
+  it('is words unless a gauge or a scanner has sent it', () => {
+    for (const line of ['25.012', '25,012 mm', '01A+00025.012', '0.98 in', 'ERR 1', '4711']) assert.equal(notWords(line), 'value', line);
+    for (const [line, burst] of [['P:SN-1'], [']C1SN-1'], ['K-17', true], ['25H7', true]]) assert.equal(notWords(line, { burst }), 'scan', line);
+    for (const [line, burst] of [['Insert worn'], ['Insert 3 worn', true], ['M: chatter'], ['K-17'], ['12A'], ['see 25.012']]) assert.equal(notWords(line, { burst }), '', line);
+  });
+});
 
 describe('the filter bar', () => {
   before(async () => {
