@@ -143,6 +143,7 @@ addEventListener('routechange', () => drawViews(viewOf(currentRoute())));
 addEventListener('beforeprint', drawPrinted);
 drawFrame();
 await show();
+globalThis.firstKeys = null;
 connection.watch();
 queue.send();
 keepPage();

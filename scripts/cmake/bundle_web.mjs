@@ -18,8 +18,8 @@ const ENTRY = 'app.js';
 const views = fs.readFileSync(path.join(page, ENTRY), 'utf8').matchAll(/import\('\.\/(views\/\w+\.js)'\)/g);
 const later = ['figures/path_scene.js', ...[...views].map(([, name]) => name)];
 const languages = fs.readdirSync(path.join(page, 'lang')).map((name) => `lang/${name}`).filter((name) => name !== 'lang/en.js');
-/** What runs beside the page has no module in common with it. */
-const workers = ['service_worker.js', 'stream_worker.js'];
+/** What runs beside the page, or before it, has no module in common with it. */
+const workers = ['service_worker.js', 'stream_worker.js', 'first_keys.js'];
 
 const bundle = (names, options) => build({
   absWorkingDir: page, entryPoints: names, outbase: page, outdir: out, nodePaths: [modules], bundle: true, minify: true,

@@ -21,6 +21,7 @@ const FEWEST_KEYS = 3;
 const KEPT = 'typed';
 /** After such a pause another line begins in a field; a scan that stutters within it is whole, and typed. */
 const PAUSE_MS = 500;
+const writes = ({ key, ctrlKey, altKey, metaKey }) => key.length === 1 && !ctrlKey && !altKey && !metaKey;
 
 export class Entry {
   /**
@@ -74,12 +75,24 @@ export class Entry {
   takeKeys(signal) {
     document.addEventListener('keydown', (event) => this.#watchOthers(event), { signal, capture: true });
     document.addEventListener('keydown', (event) => {
-      const writes = event.key.length === 1 && event.key !== ' ' && !event.ctrlKey && !event.altKey && !event.metaKey;
-      if (!writes || event.target.closest?.(FIELDS)) return;
+      if (!writes(event) || event.key === ' ' || event.target.closest?.(FIELDS)) return;
       // The character itself follows the focus, so nothing before it is lost.
       this.focus();
       this.#follow(event);
     }, { signal, capture: true });
+  }
+
+  /** Keys that came before the page stood are typed now. */
+  takeFirst() {
+    const keys = globalThis.firstKeys ?? [];
+    for (const event of keys) {
+      this.#key(event);
+      if (writes(event)) {
+        this.input.setRangeText(event.key, this.input.selectionStart, this.input.selectionEnd, 'end');
+        this.#typed();
+      } else if (event.key === 'Enter' && !event.repeat) this.#enter(event);
+    }
+    if (keys.length) this.focus();
   }
 
   /** A line that came into another field as fast as a scanner types: the field is as it was, and the line comes here. */

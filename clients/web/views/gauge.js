@@ -297,5 +297,6 @@ export function mount(main, route) {
   });
   if (job.designation) entry.focus();
   else job.input.focus();
+  entry.takeFirst();
   return () => leaving.abort();
 }

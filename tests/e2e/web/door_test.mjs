@@ -10,6 +10,7 @@
  * - End a plan with a good value after a reject: *Reject*, with the name of the characteristic
  * - Ctrl+Z, then the next bore: amber, with the old value and its size
  * - A bar with a machine, then a tap on a characteristic: of that machine
+ * - Open the page on a slow line, scan a part at once, then measure: of that part
  * - A program that probes, as a drawing: all are; computed styles of every view are compared
  */
 
@@ -18,7 +19,8 @@ import { before, beforeEach, describe, it } from 'node:test';
 
 import { close, findings, open, picture } from './support/browser.mjs';
 import { sleep } from './support/daemon.mjs';
-import { known, PAIR_MS, scan, typeSlowly } from './support/scanner.mjs';
+import { hold } from './support/hold.mjs';
+import { known, PAIR_MS, scan, scanUnasked, typeSlowly } from './support/scanner.mjs';
 import { begin, browser, daemon, storedSince } from './support/stage.mjs';
 
 describe('the door for keys', () => {
@@ -179,6 +181,34 @@ describe('the door for keys', () => {
     await asks(/2009 mm/);
     await page.keyboard.press('Escape');
     await page.waitForSelector('.verdict[data-verdict="idle"]');
+    await close(page);
+  });
+
+  it('loses nothing that is scanned while the page is on its way', async () => {
+    await station();
+    const onItsWay = async () => {
+      const arrives = await hold(page, '**/app.js');
+      await page.evaluate(() => { setTimeout(() => location.reload()); });
+      await page.waitForSelector('#value', { state: 'detached' });
+      await page.waitForSelector('.bar');
+      return arrives;
+    };
+    const arrives = await onItsWay();
+    await scanUnasked(page, 'SN-31');
+    await arrives();
+    await page.waitForFunction(() => document.querySelector('[name="part_id"]')?.value === 'SN-31');
+    await scan(page, '25.013');
+    await stored(1);
+    assert.deepEqual(await measured(), [['SN-31', 25.013]]);
+    // A line that was not ended is ended later.
+    const again = await onItsWay();
+    for (const key of '25.0') await page.keyboard.press(key);
+    await again();
+    await known(page);
+    await page.waitForSelector('.echo .figures');
+    await page.keyboard.type('14\n');
+    await stored(2);
+    assert.deepEqual(await measured(), [['SN-31', 25.013], ['SN-31', 25.014]]);
     await close(page);
   });
 
