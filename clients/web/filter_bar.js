@@ -5,9 +5,11 @@ import { connection } from './connection.js';
 import { field, h, refill } from './dom.js';
 import { keptPrefixes } from './gauge/prefixes.js';
 import { nameIn } from './gauge/reading.js';
-import { t } from './i18n.js';
+import { date, t } from './i18n.js';
 
 const NAMES = ['machine', 'tool', 'order', 'operator'];
+/** Those in the first row: the others are folded, with their number. */
+const FIRST = ['machine', 'order'];
 const DAYS = ['from', 'to'];
 const PERIODS = ['today', 'yesterday', 'shift'];
 /** Hours at which shifts begin, on the clock of the wall. */
@@ -41,34 +43,41 @@ export function searched(input) {
 export class FilterBar {
   /** @param options of the address; @param onChange is told of another choice */
   constructor(options, onChange) {
+    const changed = () => { this.#press(); onChange(); };
     this.inputs = Object.fromEntries([
-      ...NAMES.map((name) => [name, h('input', { type: 'text', name, list: `filter-${name}`, autocomplete: 'off', spellcheck: 'false', onchange: ({ target }) => { searched(target); onChange(); } })]),
-      ...DAYS.map((name) => [name, h('input', { type: 'date', name, onchange: () => this.#choose('', onChange) })]),
+      ...NAMES.map((name) => [name, h('input', { type: 'text', name, list: `filter-${name}`, autocomplete: 'off', spellcheck: 'false', onchange: ({ target }) => { searched(target); changed(); } })]),
+      ...DAYS.map((name) => [name, h('input', { type: 'date', name, onchange: () => this.#choose('', changed) })]),
     ]);
     for (const [name, input] of Object.entries(this.inputs)) input.value = options[name] ?? '';
     this.period = PERIODS.includes(options.period) ? options.period : '';
     this.lists = NAMES.map((name) => h('datalist', { id: `filter-${name}` }));
-    this.chips = PERIODS.map((period) => h('button', { type: 'button', onclick: () => this.#choose(this.period === period ? '' : period, onChange) }, t(`period.${period}`)));
+    this.chips = PERIODS.map((period) => h('button', { type: 'button', onclick: () => this.#choose(this.period === period ? '' : period, changed) }, t(`period.${period}`)));
     this.isWithout = options.confirmed === 'false';
-    this.without = h('button', { type: 'button', title: t('confirmed.rule'), onclick: () => { this.isWithout = !this.isWithout; this.#press(); onChange(); } }, t('confirmed.without'));
+    this.without = h('button', { type: 'button', title: t('confirmed.rule'), onclick: () => { this.isWithout = !this.isWithout; changed(); } }, t('confirmed.without'));
     this.rule = h('p.hint', t('confirmed.rule'));
-    this.names = h('div.names', NAMES.map((name) => field(t(`field.${name}`), this.inputs[name])));
-    this.time = h('div.period', h('div.chips', this.chips), DAYS.map((name) => field(t(`field.${name}`), this.inputs[name])), h('div.chips', this.without), this.rule);
-    this.element = [this.names, this.time, this.lists];
+    this.folded = Object.keys(this.inputs).filter((name) => !FIRST.includes(name));
+    const fieldsOf = (names) => names.map((name) => field(t(`field.${name}`), this.inputs[name]));
+    this.summary = h('summary');
+    this.more = h('details.of-more', this.summary, h('div.line', fieldsOf(this.folded), h('div.chips', this.without), this.rule));
+    this.element = [fieldsOf(FIRST), h('div.chips', this.chips), this.more, this.lists];
     this.#press();
+    this.more.open = this.isWithout || this.folded.some((name) => options[name]);
   }
 
-  #choose(period, onChange) {
+  #choose(period, changed) {
     this.period = period;
     if (period) for (const name of DAYS) this.inputs[name].value = '';
-    this.#press();
-    onChange();
+    changed();
   }
 
+  /** What is chosen is pressed, and named where it is folded. */
   #press() {
     this.chips.forEach((chip, i) => chip.setAttribute('aria-pressed', PERIODS[i] === this.period));
     this.without.setAttribute('aria-pressed', this.isWithout);
     this.rule.hidden = !this.isWithout;
+    const chosen = this.folded.map((name) => [name, this.inputs[name].value.trim()]).filter(([, value]) => value)
+      .map(([name, value]) => `${t(`field.${name}`)} ${DAYS.includes(name) ? date(new Date(dayOf(value))) : value}`);
+    this.summary.textContent = [t('filter.more'), ...chosen, this.isWithout && t('confirmed.without')].filter(Boolean).join(' · ');
   }
 
   /** Asks which names there are. */

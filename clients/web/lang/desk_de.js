@@ -104,6 +104,7 @@ export default {
   'style.verdicts': 'Urteile',
   'style.table': 'Tabelle',
   'style.states': 'Leer, falsch, wird geladen',
+  'filter.more': 'Weitere Filter',
   'period.today': 'Heute',
   'period.yesterday': 'Gestern',
   'period.shift': 'Diese Schicht',

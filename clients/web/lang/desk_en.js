@@ -104,6 +104,7 @@ export default {
   'style.verdicts': 'Verdicts',
   'style.table': 'Table',
   'style.states': 'Empty, wrong, loading',
+  'filter.more': 'More filters',
   'period.today': 'Today',
   'period.yesterday': 'Yesterday',
   'period.shift': 'This shift',

@@ -104,6 +104,7 @@ export default {
   'style.verdicts': 'Giudizi',
   'style.table': 'Tabella',
   'style.states': 'Vuoto, errato, caricamento',
+  'filter.more': 'Altri filtri',
   'period.today': 'Oggi',
   'period.yesterday': 'Ieri',
   'period.shift': 'Questo turno',

@@ -104,6 +104,7 @@ export default {
   'style.verdicts': 'Oordelen',
   'style.table': 'Tabel',
   'style.states': 'Leeg, fout, wordt geladen',
+  'filter.more': 'Meer filters',
   'period.today': 'Vandaag',
   'period.yesterday': 'Gisteren',
   'period.shift': 'Deze ploeg',

@@ -50,9 +50,8 @@ export function mount(main, route) {
   main.replaceChildren(h('div.desk.parts', h('h1.unseen', { tabindex: -1 }, t('view.parts')),
     h('form.line', { onsubmit: (event) => { event.preventDefault(); search(); } },
       FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict), bar.element,
-      h('label.choice', corrected, h('span', t('parts.history'))),
       h('button.unseen', { type: 'submit', tabindex: -1 }, t('parts.search'))),
-    h('p.actions', Object.values(exported), list.place), certificate.element, said, list.scroller));
+    h('p.actions', Object.values(exported), h('label.choice', corrected, h('span', t('parts.history'))), list.place), certificate.element, said, list.scroller));
 
   /** As the address has it. */
   const options = () => ({ ...filter(), source: '', from: '', to: '', ...bar.options, at });

@@ -68,6 +68,7 @@ describe('a confirmed value', () => {
       { designation: '25 H7', measured_mm: '26', characteristic: 'bore-D', tool: 'T1', confirmed: true }]);
     const page = await open(browser, daemon, '#/trend?characteristic=bore-D', { viewport: { width: 1366, height: 768 } });
     await untilPoints(page, 13);
+    await page.click('.of-more summary');
     await page.click('.chips >> text=Without confirmed values');
     await untilPoints(page, 12);
     assert.match(hashOf(page), /confirmed=false/);

@@ -66,6 +66,26 @@ describe('the filter bar', () => {
     await close(page);
   });
 
+  it('takes one row of a small screen in every language, and names what is folded', async () => {
+    const page = await open(browser, daemon, '#/parts?tool=T1&from=2026-05-04&confirmed=false', { viewport: { width: 1366, height: 768 } });
+    assert.ok(await page.isVisible('[name="tool"]'), 'what is chosen is in sight');
+    assert.equal(await page.textContent('.of-more summary'), 'More filters · Tool T1 · From 4 May 2026 · Without confirmed values');
+    await page.fill('[name="tool"]', '');
+    await page.press('[name="tool"]', 'Tab');
+    assert.equal(await page.textContent('.of-more summary'), 'More filters · From 4 May 2026 · Without confirmed values');
+    for (const view of ['parts', 'trend', 'overview']) {
+      await page.evaluate((hash) => { location.hash = hash; }, `#/${view}`);
+      await page.waitForSelector(`.desk.${view} .of-more:not([open])`);
+      for (const language of ['de', 'nl', 'it', 'en']) {
+        await page.selectOption('#language', language);
+        await page.waitForFunction((wanted) => document.documentElement.lang === wanted && document.title.startsWith(document.querySelector('.bar [aria-current]').textContent), language);
+        const height = await page.$eval('.desk > form', (form) => form.getBoundingClientRect().height);
+        assert.ok(height < 100, `${view} in ${language}: ${height}`);
+      }
+    }
+    await close(page);
+  });
+
   it('asks for no figures of values that are all equal, in the chart either', async () => {
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 3 }, () => ({ designation: '25 H7', measured_mm: '25.01', characteristic: 'equal' })));
     const page = await open(browser, daemon, '#/fit/25H7/g6');
