@@ -251,6 +251,7 @@ export default {
   'programs.cancel': 'Lauf abbrechen',
   'programs.setup': 'Aufspannung',
   'programs.own_setup': 'Wie unten geschrieben',
+  'programs.more': 'Teil, Auftrag und Start',
   'programs.setup_text': 'Aufspannung im Einzelnen',
   'programs.setup_json': 'Maschine, Werkzeuge und Werkstück (JSON)',
   'example.title': 'Beispiele',

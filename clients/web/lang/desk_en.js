@@ -251,6 +251,7 @@ export default {
   'programs.cancel': 'Cancel the run',
   'programs.setup': 'Setup',
   'programs.own_setup': 'As written below',
+  'programs.more': 'Part, order and start',
   'programs.setup_text': 'Setup in full',
   'programs.setup_json': 'Machine, tools and workpiece (JSON)',
   'example.title': 'Examples',

@@ -251,6 +251,7 @@ export default {
   'programs.cancel': 'Interrompi',
   'programs.setup': 'Attrezzaggio',
   'programs.own_setup': 'Come scritto sotto',
+  'programs.more': 'Pezzo, commessa e inizio',
   'programs.setup_text': 'Attrezzaggio per intero',
   'programs.setup_json': 'Macchina, utensili e pezzo (JSON)',
   'example.title': 'Esempi',

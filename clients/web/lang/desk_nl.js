@@ -251,6 +251,7 @@ export default {
   'programs.cancel': 'Afbreken',
   'programs.setup': 'Opspanning',
   'programs.own_setup': 'Zoals hieronder geschreven',
+  'programs.more': 'Onderdeel, order en begin',
   'programs.setup_text': 'Opspanning voluit',
   'programs.setup_json': 'Machine, gereedschappen en werkstuk (JSON)',
   'example.title': 'Voorbeelden',

@@ -41,15 +41,23 @@ export class RunForm {
     this.report = h('div.report');
     this.element = h('section.run', h('h2', t('programs.run_title')),
       h('form', { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.run(); } },
-        h('div.pair', field(t('programs.setup'), this.setup), field(t('programs.parameters'), this.parameters),
-          Object.entries(this.subject).map(([name, input]) => field(t(`field.${name}`), input)), field(t('steps.watch'), this.watch), field(t('steps.start'), this.startBlock)),
+        h('div.pair', field(t('programs.setup'), this.setup), field(t('programs.parameters'), this.parameters)),
         h('p.actions', this.start, this.cancel),
         h('details', { ontoggle: ({ target }) => target.open && this.#showWorkpiece() }, h('summary', t('programs.setup_text')), this.workpiece.element,
           h('details', h('summary', t('programs.setup_whole')), field(t('programs.setup_json'), this.setupText)),
           h('div.line', field(t('programs.setup_name'), this.setupName),
             h('button', { type: 'button', onclick: () => this.#storeSetup() }, t('programs.store_setup')))),
-        this.note),
+        this.#folded(), this.note),
       this.earlier, this.state);
+  }
+
+  /** What few runs need: it is named where it is folded. */
+  #folded() {
+    const inputs = [...Object.values(this.subject), this.watch, this.startBlock];
+    const summary = h('summary', t('programs.more'));
+    const name = () => { summary.textContent = [t('programs.more'), ...inputs.map(({ value }) => value.trim())].filter(Boolean).join(' · '); };
+    return h('details.of-more', { oninput: name }, summary, h('div.line', Object.entries(this.subject).map(([of, input]) => field(t(`field.${of}`), input)),
+      field(t('steps.watch'), this.watch), field(t('steps.start'), this.startBlock)));
   }
 
   /** @param chosen the name of a setup */

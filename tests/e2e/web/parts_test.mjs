@@ -47,6 +47,7 @@ describe('the parts', () => {
     await daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: '25.01', part_id: 'SN-R', characteristic: 'by hand' });
     page = await open(browser, daemon, '#/programs/nc_prog/427.h?setup=plate');
     await page.waitForFunction(() => document.querySelector('.run select')?.value === 'plate');
+    await page.click('.run .of-more summary');
     await page.fill('.run [name="part_id"]', ' SN-R');
     await page.fill('.run [name="order"]', 'WO-R');
     await page.click('.run button[type="submit"]');

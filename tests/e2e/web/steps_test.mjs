@@ -163,6 +163,7 @@ describe('a stored run', () => {
     const page = await open(browser, daemon, '#/programs/nc_prog/LOOP.H', { viewport: { width: 1366, height: 768 }, locale: 'de-DE' });
     await page.waitForSelector('.cm-line');
     await page.selectOption('.run select', 'mill');
+    await page.click('.run .of-more summary');
     await page.fill('[name="start_block"]', 'LBL 1');
     await page.click('.run button[type="submit"]');
     await page.waitForFunction(() => /„LBL 1“ ist kein Satz/.test(document.querySelector('.run .note').textContent));
@@ -175,6 +176,7 @@ describe('a stored run', () => {
     assert.match(await page.textContent('.stepping > p'), /Satz 3 von 3 gelaufenen/);
     const { runs: [{ id }] } = await daemon.json('/v1/runs?limit=1');
     assert.equal((await daemon.json(`/v1/runs/${id}/request`)).start_block, 9);
+    assert.equal(await page.textContent('.run .of-more summary'), 'Teil, Auftrag und Start · 9');
     await close(page);
   });
 
