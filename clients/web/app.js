@@ -3,7 +3,7 @@
 import { onKeyNeeded, waiting } from './api.js';
 import { connection } from './connection.js';
 import { h, refill } from './dom.js';
-import { chooseLanguage, dateTime, has, language, LANGUAGES, loadLanguage, t, textsOf } from './i18n.js';
+import { chooseLanguage, dateTime, has, language, LANGUAGES, loadLanguage, t, textsOf, zoneText } from './i18n.js';
 import { keepPage } from './kept_page.js';
 import { enterKey } from './key_dialog.js';
 import { queue } from './queue.js';
@@ -86,12 +86,12 @@ function drawViews(current) {
   if (here) nav.scrollLeft = here.offsetLeft - nav.offsetLeft - (nav.clientWidth - here.offsetWidth) / 2;
 }
 
-/** What a sheet of paper says of itself: of what it is, where it comes from, when it was printed. The place in a list (`at`) is none of it. */
+/** What a sheet of paper says of itself: of what it is, where it comes from, when it was printed, with the zone of its times. The place in a list (`at`) is none of it. */
 function drawPrinted() {
   const { path, options } = currentRoute();
   const given = [...path, ...Object.entries(options).filter(([name]) => name !== 'at').map(([name, value]) => `${has(`field.${name}`) ? t(`field.${name}`) : name} ${value}`)];
   printed.replaceChildren(h('strong', t(`view.${shown}`)), h('span', given.join(' · ')),
-    h('span', `${location.host} · ${dateTime(connection.now())}`));
+    h('span', `${location.host} · ${dateTime(connection.now())} ${zoneText(connection.now())}`));
 }
 
 function drawLink() {

@@ -81,6 +81,8 @@ export const dayAndMonth = (day) => dateFormat('dayAndMonth', { day: '2-digit', 
 /** The day here, as a field for a date has it: "2026-11-27". */
 export const dayText = (moment) => [moment.getFullYear(), moment.getMonth() + 1, moment.getDate()].map((part) => String(part).padStart(2, '0')).join('-');
 export const dateTime = (moment) => `${date(moment)}, ${time(moment)}`;
+/** The zone of all times that are shown, at a moment: "CET". */
+export const zoneText = (moment) => dateFormat('zone', { timeZoneName: 'short' }).formatToParts(moment).find(({ type }) => type === 'timeZoneName').value;
 
 /** Why a call failed, in the reader's language, with the field it is about. */
 export function explain(problem) {

@@ -209,14 +209,14 @@ describe('the reach of the page', () => {
 
   it('prints whole, and says of what, where and when', async () => {
     for (const view of Object.keys(VIEWS)) {
-      const page = await openView(view, { viewport: { width: 1366, height: 768 } });
+      const page = await openView(view, { viewport: { width: 1366, height: 768 }, timezoneId: 'Europe/Berlin' });
       if (view === 'tables') await page.fill('#find', 'H'); // every size, which no screen holds
       if (view === 'tables') await page.waitForFunction(() => document.querySelectorAll('.grid tbody tr').length > 30);
       await page.setViewportSize({ width: 660, height: 900 }); // the inside of A4 at 96 pixels an inch
       await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
       await page.emulateMedia({ media: 'print' });
       await page.waitForFunction(() => document.querySelector('#printed').checkVisibility());
-      assert.match(await page.textContent('#printed'), /127\.0\.0\.1.*20\d\d/, view);
+      assert.match(await page.textContent('#printed'), /127\.0\.0\.1.*20\d\d, \d\d:\d\d:\d\d CES?T$/, view);
       if (view === 'gauge') assert.match(await page.textContent('#printed'), /Order WO-17.*Operator 42/);
       await drawn(page); // figures too, anew for the width of the paper
       const cut = await page.evaluate(() => [...document.querySelectorAll('main *')]
