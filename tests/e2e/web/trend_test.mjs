@@ -14,7 +14,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { after, afterEach, before, describe, it } from 'node:test';
 
-import { browserName, close, findings, hashOf, open, openIn, picture } from './support/browser.mjs';
+import { browserName, close, findings, hashOf, hasZones, open, openIn, picture } from './support/browser.mjs';
 import { leastLettering, lettering, marksOf, openChart, untilPoints } from './support/chart.mjs';
 import { sleep } from './support/daemon.mjs';
 import { eventually } from './support/eventually.mjs';
@@ -288,7 +288,7 @@ describe('the trend', () => {
     assert.deepEqual(await page.$$eval('.records tbody td:nth-child(4)', (all) => all.map(({ textContent }) => textContent)), newest);
   });
 
-  it('writes the day and the time of a value as they are here, in the form of the language', async () => {
+  it('writes the day and the time of a value as they are here, in the form of the language', { skip: !hasZones }, async () => {
     await daemon.send('POST', '/v1/measurements', ['25.01', '25.011'].map((measured_mm) => ({ designation: '25 H7', measured_mm, characteristic: 'at-night', measured_at: '2026-03-31T22:30:00Z' })));
     page = await openChart(browser, daemon, '#/trend?characteristic=at-night', { locale: 'de-DE', timezoneId: 'Europe/Berlin' });
     await untilPoints(page, 2);

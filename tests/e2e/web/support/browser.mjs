@@ -32,6 +32,8 @@ const BROWSERS = {
   }),
 };
 export const browserName = process.env.WEB_TEST_BROWSER ?? 'chromium';
+/** Whether a page can be in another time zone: the driver of Firefox sets none. */
+export const hasZones = browserName === 'chromium';
 
 let folder;
 /** Where Firefox saves files. */
