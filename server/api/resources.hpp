@@ -90,6 +90,9 @@ void add_documents_routes(Routes& add);
 void add_plans_routes(Routes& add);
 /// GET /v1/parts/{part}: the verdict of a part.
 void add_parts_routes(Routes& add);
+/// Gives what is missing of the plan of a part: nothing if no plan fits. @errors as its answer has.
+void missing_at(const Services& services, std::string_view part,
+                std::function<void(Result<std::vector<std::string>>)> done);
 /// /v1/files: the control's disk.
 void add_files_routes(Routes& add);
 /// /v1/setups: machines and workpieces.

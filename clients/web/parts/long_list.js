@@ -105,7 +105,8 @@ export class LongList {
     else this.length = Math.max(this.length, end + 1);
     held.forEach((row, i) => {
       row.element.setAttribute('aria-rowindex', this.start + i + 2);
-      const { run_id: run } = row.record;
+      const { run_id: run, part_id: part } = row.record;
+      row.element.toggleAttribute('data-same-part', Boolean(part) && held[i - 1]?.record.part_id === part);
       if (!run || held[i - 1]?.record.run_id === run) {
         row.head?.remove();
         row.head = null;

@@ -6,11 +6,13 @@ import { field, h } from '../dom.js';
 import { downloadLink } from '../download.js';
 import { FilterBar, searched } from '../filter_bar.js';
 import { date, dateTime, explain, signed, t, time } from '../i18n.js';
+import { Latest } from '../latest.js';
 import { fragment, go } from '../route.js';
 import { CertificateForm } from '../parts/certificate.js';
 import { correct } from '../parts/correction.js';
 import { LongList } from '../parts/long_list.js';
 import { note } from '../parts/note.js';
+import { partSheet, PartVerdicts } from '../parts/part_verdict.js';
 import { runRow } from '../parts/run_row.js';
 import { limitsText, measuredText, noteText, operatorOf, placesOf, verdictMark, VERDICTS } from '../verdict.js';
 
@@ -37,6 +39,9 @@ export function mount(main, route) {
     onPlace: (rank) => { if (location.hash === address) toAddress(rank, true); },
     onProblem: (problem) => { said.textContent = explain(problem); },
   });
+  const verdicts = new PartVerdicts(list.scroller, leaving.signal);
+  const ofPart = h('div.of-one-part', { role: 'status' });
+  const sheet = new Latest(leaving.signal);
   const exported = Object.fromEntries(Object.entries(FORMS).map(([format, form]) => [format,
     downloadLink({ download: `measurements.${format}` }, t('parts.save', { form }), (reason) => { said.textContent = reason; }, { bounded: format !== 'csv' })]));
   const certificate = new CertificateForm((reason) => { said.textContent = reason; });
@@ -51,7 +56,7 @@ export function mount(main, route) {
     h('form.line', { onsubmit: (event) => { event.preventDefault(); search(); } },
       FIELDS.map((name) => field(t(`field.${name}`), inputs[name])), field(t('trend.verdict'), verdict), bar.element,
       h('button.unseen', { type: 'submit', tabindex: -1 }, t('parts.search'))),
-    h('p.actions', Object.values(exported), h('label.choice', corrected, h('span', t('parts.history'))), list.place), certificate.element, said, list.scroller));
+    h('p.actions', Object.values(exported), h('label.choice', corrected, h('span', t('parts.history'))), list.place), certificate.element, ofPart, said, list.scroller));
 
   /** As the address has it. */
   const options = () => ({ ...filter(), source: '', from: '', to: '', ...bar.options, at });
@@ -74,8 +79,17 @@ export function mount(main, route) {
     certificate.show({ part_id, order });
     said.textContent = '';
     places = undefined;
+    verdicts.forget();
+    showPart(part_id);
     await list.open(rank);
     if (list.length === 0) said.textContent = t('parts.none');
+  }
+
+  /** Of one part the sheet of its verdict. */
+  function showPart(part) {
+    if (part !== ofPart.dataset.part) ofPart.replaceChildren();
+    ofPart.dataset.part = part;
+    sheet.run(async (signal) => (part ? partSheet(part, signal) : null)).then((found) => found !== undefined && ofPart.replaceChildren(...[found].filter(Boolean)), (problem) => { said.textContent = explain(problem); });
   }
 
   const listed = async (asked, signal) => (await getJson(url(['measurements'], { ...filter(), ...asked }), { signal })).measurements;
@@ -94,7 +108,7 @@ export function mount(main, route) {
   }
 
   function rowOf({ record, isReplaced }) {
-    return row(record, isReplaced, { places, onCorrect: () => change(record), onNote: () => addNote(record) });
+    return row(record, isReplaced, { places, verdicts, onCorrect: () => change(record), onNote: () => addNote(record) });
   }
 
   async function change(record) {
@@ -110,13 +124,13 @@ export function mount(main, route) {
   return () => leaving.abort();
 }
 
-function row(record, isReplaced, { places, onCorrect, onNote }) {
+function row(record, isReplaced, { places, verdicts, onCorrect, onNote }) {
   const { part_id: part } = record;
   const act = (name, onclick) => h('button.quiet', {
     type: 'button', onclick, 'aria-label': t(`${name}_this`, { mm: measuredText(record), part: part ?? t('part.none') }),
   }, t(name));
   return h('tr', { class: isReplaced && 'corrected' },
-    h('td', part ? h('a', { href: fragment({ view: 'parts', options: { part_id: part, history: 'all' } }) }, part) : '–'),
+    h('td', part ? h('a', { href: fragment({ view: 'parts', options: { part_id: part, history: 'all' } }) }, part) : '–', part && verdicts.placeOf(part)),
     h('td', record.characteristic ?? '', h('span.aside', record.designation ? designationText(record.designation) : '')),
     h('td', verdictMark(record.verdict), (isReplaced || record.correction_of)
       && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.conflict && t('parts.conflict'), record.reason].filter(Boolean).join(' · ')),

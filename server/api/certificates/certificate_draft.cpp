@@ -248,6 +248,11 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
     write_verdict_counts(json, verdicts_);
     json.member("parts", std::uint64_t{parts_.size()}).member("worst_id", worst_id_);
     if (worst_verdict_ != gauging::Verdict::Unjudged) json.member("verdict", word(worst_verdict_));
+    if (missing_) {
+      json.key("missing").begin_array();
+      for (const std::string& name : *missing_) json.value(name);
+      json.end_array();
+    }
     json.key("gauges").begin_array();
     for (const UsedGauge& gauge : gauges_) {
       json.begin_object().member("name", gauge.name);
@@ -285,6 +290,9 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
       .lines = std::move(lines_),
       .code = fmt::format("{}/v1/measurements/{}/proof", order_.own_origin, first_id_),
       .signatures = {"Inspector", "Quality", "Date"}};
+  const bool lacks = missing_ && !missing_->empty();
+  if (lacks)
+    paper.summary.push_back(fmt::format("Missing of the plan: {}.", fmt::join(*missing_, ", ")));
   if (!order_.company.empty()) paper.facts.push_back(order_.company);
   if (!order_.customer.empty()) paper.facts.push_back("Customer: " + order_.customer);
   for (const auto& [name, value] : order_.of) {
@@ -304,7 +312,10 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
                                     listed(gauge.certificate, gauge.laboratory)));
   }
   paper.statements.insert(paper.statements.end(), calibrations.begin(), calibrations.end());
-  if (worst_verdict_ != gauging::Verdict::Unjudged) paper.worst = std::move(worst_);
+  if (worst_verdict_ != gauging::Verdict::Unjudged &&
+      !(lacks && worst_verdict_ == gauging::Verdict::Good)) {
+    paper.worst = std::move(worst_);
+  }
   std::string made = fmt::format("Made {} UTC by fitgauge {}", time_text(made_at), kVersion);
   for (const auto& [revision, uses] : revisions_) made += ", tables " + revision;
   paper.facts.push_back(made);

@@ -36,6 +36,8 @@ class CertificateDraft {
   const std::string& last_id() const { return last_id_; }  ///< of the measurements
 
   void add(const app::Measurement& measurement);
+  /// @param missing characteristics of the plan of the part without a value
+  void miss(std::vector<std::string> missing) { missing_ = std::move(missing); }
 
   /// @param checkpoint the signed head of the log
   std::string json(Timestamp made_at, const std::string& checkpoint) const;
@@ -50,7 +52,8 @@ class CertificateDraft {
   std::size_t count_ = 0;
   std::size_t bytes_ = 0;
   app::VerdictTally verdicts_{};
-  std::string records_;  ///< JSON, with commas between them
+  std::optional<std::vector<std::string>> missing_;  ///< of a part
+  std::string records_;                              ///< JSON, with commas between them
   std::vector<certificate::Line> lines_;
   /// A gauge, as the records name it.
   struct UsedGauge {

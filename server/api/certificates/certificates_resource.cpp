@@ -91,7 +91,14 @@ void make_certificate(const Services& services, const http::Request& request,
                            "narrow it, by from and to for instance",
                            kMostMeasurements, kMostBytes >> 20)});
         }
-        finish(services, draft, shared);
+        const auto go_on = [&services, draft, shared] { finish(services, draft, shared); };
+        const auto& [name, value] = draft->order().of.back();
+        if (name != "part_id") return go_on();
+        missing_at(services, value, [draft, go_on, shared](const auto& missing) {
+          if (!missing) return shared->fail(missing.error());
+          draft->miss(*missing);
+          go_on();
+        });
       });
 }
 
@@ -117,7 +124,9 @@ void add_certificates_routes(Routes& add) {
        .description =
            "Every value of the order, the part or both, in storage order, with limits, verdict, "
            "rule, uncertainty, gauge, machine, operator and the signed head of the log that has "
-           "them; before them the verdict of all and the worst value. A tagged PDF, or JSON by "
+           "them; before them the verdict of all and the worst value, of a part also what is "
+           "missing of "
+           "its plan. A tagged PDF, or JSON by "
            "Accept; at most 10,000 values, whose records have at most 16 MiB.",
        .parameters = parameters(),
        .response_types = {std::string(kPdf), std::string(kJson)},

@@ -145,34 +145,52 @@ void add_value(const app::Measurement& m, Part& part) {
   part.values.push_back(std::move(value));
 }
 
-void get_part(const Services& services, const http::Request& request, http::Responder responder) {
-  const auto part = std::make_shared<Part>(Part{.part = std::string(*request.text("part"))});
+/// @param plan lives until `done` is called
+void read_part(const Services& services, std::string_view id, std::optional<std::string_view> plan,
+               std::function<void(Result<Part>)> done) {
+  const auto part = std::make_shared<Part>(Part{.part = std::string(id)});
   app::MeasurementQuery query;
   query.texts.at(app::filter_place(1)) = part->part;
   query.newest_first = query.shows_notes = true;
   services.measurements.list(
       query, 0, kMostValues, [part](const app::Measurement& m) { add_value(m, *part); },
-      [&services, &request, part,
-       shared = share(std::move(responder))](const Result<app::ListPage>& page) {
-        if (!page) return shared->fail(page.error());
+      [&services, part, plan, done = std::move(done)](const Result<app::ListPage>& page) {
+        if (!page) return done(page.error());
         if (part->values.empty()) {
-          return shared->fail({ErrorCode::MeasurementUnknown,
-                               fmt::format("no measurement has part_id '{}'", part->part)});
+          return done(Error{ErrorCode::MeasurementUnknown,
+                            fmt::format("no measurement has part_id '{}'", part->part)});
         }
         std::ranges::reverse(part->values);
         services.documents.list(
             app::DocumentKind::Plan,
-            [&request, part, shared](const Result<std::vector<NamedDocument>>& plans) {
-              if (!plans) return shared->fail(plans.error());
-              const auto planned = plan_part(*plans, request.text("plan"), *part);
-              if (!planned) return shared->fail(planned.error());
+            [part, plan, done](const Result<std::vector<NamedDocument>>& plans) {
+              if (!plans) return done(plans.error());
+              const auto planned = plan_part(*plans, plan, *part);
+              if (!planned) return done(planned.error());
               judge(*part);
-              shared->answer({200, "application/json", body_json(*part)});
+              done(std::move(*part));
             });
       });
 }
 
+void get_part(const Services& services, const http::Request& request, http::Responder responder) {
+  read_part(services, *request.text("part"), request.text("plan"),
+            [shared = share(std::move(responder))](const Result<Part>& part) {
+              if (!part) return shared->fail(part.error());
+              shared->answer({200, "application/json", body_json(*part)});
+            });
+}
+
 }  // namespace
+
+void missing_at(const Services& services, std::string_view part,
+                std::function<void(Result<std::vector<std::string>>)> done) {
+  read_part(services, part, {}, [done = std::move(done)](const Result<Part>& found) {
+    if (found) return done(found->missing);
+    if (found.error().code == ErrorCode::MeasurementUnknown) return done(std::vector<std::string>());
+    done(found.error());
+  });
+}
 
 void add_parts_schemas(Schemas& schemas) { schemas.push_back(answer_schema<Part>("Part")); }
 

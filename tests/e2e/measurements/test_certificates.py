@@ -44,6 +44,24 @@ class Certificates(DaemonTest):
     def flat(self, query):
         return re.sub(r"\s+", " ", self.pdf(query)[0])
 
+    def test_a_part_says_what_is_missing_of_its_plan_and_is_not_good_before(self):
+        self.daemon.request("PUT", "/v1/plans/7-A", {"characteristics": [
+            {"name": "a-bore", "designation": "25 H7"}, {"name": "a-seat", "designation": "30 k6"}, {"name": "a-slot", "designation": "8 P9"}]})
+        measure = lambda name, size, mm: self.daemon.measure(
+            {"designation": size, "measured_mm": mm, "part_id": "M-1", "characteristic": name, "order": "WO-M"})
+        sheet = lambda query: self.daemon.get(f"/v1/certificates?{query}", Accept="application/json").json
+        measure("a-bore", "25 H7", "25.01")
+        text = self.flat("part_id=M-1")
+        self.assertIn("Missing of the plan: a-seat, a-slot.", text)
+        self.assertEqual(len(re.findall(r"\bgood\b", text)), 2)  # in the summary and in its line, not as the verdict of the part
+        self.assertEqual(sheet("part_id=M-1")["missing"], ["a-seat", "a-slot"])
+        self.assertNotIn("missing", sheet("order=WO-M"))
+        measure("a-seat", "30 k6", "30.1")
+        self.assertEqual(len(re.findall(r"\brework\b", self.flat("part_id=M-1&order=WO-M"))), 3)
+        measure("a-slot", "8 P9", "7.97")
+        self.assertEqual(sheet("part_id=M-1")["missing"], [])
+        self.assertNotIn("Missing", self.flat("part_id=M-1"))
+
     def test_a_pdf_has_every_value_once_and_whole(self):
         text, info, _ = self.pdf("order=WO-1&company=Muster%20GmbH&customer=%C3%96hler%20%26%20Co")
         head, table = text.split("Measured at", 1)

@@ -30,7 +30,7 @@ describe('the parts', () => {
     await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 50);
     await page.$eval('.records tbody tr:last-child', (row) => row.scrollIntoView()); // goes on where its end comes into sight
     await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 72);
-    assert.match(await page.textContent('.records tbody tr'), /SN-17slot/); // the newest first
+    assert.match(await page.textContent('.records tbody tr'), /SN-17.*slot/); // the newest first
     await page.click('.records a:has-text("SN-17")');
     await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 3);
     assert.equal(hash(), '#/parts?part_id=SN-17&history=all');
@@ -65,6 +65,53 @@ describe('the parts', () => {
     await page.click('.records .run a');
     await page.waitForSelector('.report .headline:has-text("Completed")');
     assert.match(await page.textContent('.title'), /427\.h/);
+  });
+
+  it('say what a part comes to by its plan, of the parts in sight alone, and what is still to be measured', async () => {
+    await daemon.send('PUT', '/v1/plans/4713-A', { characteristics: [{ name: 'v-bore', designation: '25 H7', reaction: 'Stop, tell the setter' }, { name: 'v-slot', designation: '40 H8' }] });
+    const of = (part_id, characteristic, measured_mm) => ({ designation: characteristic === 'v-bore' ? '25 H7' : '40 H8', characteristic, measured_mm, part_id, order: 'WO-V' });
+    await daemon.send('POST', '/v1/measurements', [
+      ...Array.from({ length: 40 }, (_, i) => [of(`V-OLD-${i}`, 'v-bore', '25.010'), of(`V-OLD-${i}`, 'v-slot', '40.010')]).flat(),
+      of('V-GOOD', 'v-bore', '25.010'), of('V-GOOD', 'v-slot', '40.010'), of('V-BAD', 'v-bore', '25.040'), of('V-BAD', 'v-slot', '40.010'), of('V-HALF', 'v-bore', '25.010'),
+    ]);
+    page = await open(browser, daemon, '#/parts');
+    const asked = [];
+    page.on('request', (request) => { const part = /\/v1\/parts\/(.+)/.exec(request.url()); if (part) asked.push(part[1]); });
+    await page.fill('[name="order"]', 'WO-V');
+    await page.press('[name="order"]', 'Enter');
+    const said = (part) => page.waitForFunction((name) => [...document.querySelectorAll('.records tbody tr')].find((row) => row.cells[0].firstChild.textContent === name)?.querySelector('.of-part').textContent, part).then((text) => text.jsonValue());
+    assert.equal(await said('V-HALF'), 'Not complete · 1 missing');
+    assert.equal(await said('V-BAD'), 'Reject · 1 to be done');
+    assert.equal(await said('V-GOOD'), 'Good');
+    // Of the two rows of a part one says it; far rows are not asked for, near ones once.
+    assert.deepEqual(await page.$$eval('.records tbody tr', (rows) => rows.slice(0, 5).map((row) => row.querySelector('.of-part').checkVisibility())), [true, true, false, true, false]);
+    await page.waitForFunction(() => [...document.querySelectorAll('.records .of-part')].every((place) => {
+      const { top, bottom } = place.getBoundingClientRect();
+      const { bottom: end } = document.querySelector('.records').getBoundingClientRect();
+      return !place.checkVisibility() || top > end || place.textContent || bottom < 0;
+    }));
+    assert.equal(new Set(asked).size, asked.length, asked.join());
+    assert.ok(asked.length < 30 && !asked.includes('V-OLD-0'), asked.join());
+    await picture(page, 'parts-verdicts');
+    await page.click('.records a >> text=V-HALF');
+    await page.waitForFunction(() => /V-HALF · Not complete/.test(document.querySelector('.part-verdict')?.textContent));
+    assert.match(await page.textContent('.part-verdict'), /1 measured · held against plan 4713-A.*Not measured yet: v-slot\..*Measure it/);
+    assert.deepEqual(await findings(page), []);
+    await page.fill('[name="part_id"]', 'V-BAD');
+    await page.press('[name="part_id"]', 'Enter');
+    await page.waitForFunction(() => /V-BAD · Reject.*v-bore Stop, tell the setter/.test(document.querySelector('.part-verdict')?.textContent));
+    assert.equal(await page.getAttribute('.part-verdict', 'data-verdict'), 'reject');
+    await picture(page, 'part-verdict');
+    const [{ id }] = await daemon.stored('part_id=V-BAD&characteristic=v-bore');
+    await page.getByRole('button', { name: 'Add a note to 25.040 mm of V-BAD' }).click();
+    await page.fill('dialog [name="cause"]', 'Insert worn');
+    await page.click('dialog .primary');
+    await page.waitForFunction(() => !/Stop/.test(document.querySelector('.part-verdict')?.textContent), id);
+    await page.fill('[name="part_id"]', 'V-HALF');
+    await page.press('[name="part_id"]', 'Enter');
+    await page.click('.part-verdict a');
+    await page.waitForFunction(() => document.querySelector('.tiles-of-plan [aria-current]')?.textContent.includes('v-'));
+    assert.match(decodeURIComponent(hashOf(page)), /^#\/gauge\b(?=.*part_id=V-HALF).*plan=4713-A/);
   });
 
   it('are corrected, value or part, with the reason, and not by mistake', async () => {

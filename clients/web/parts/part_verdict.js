@@ -1,0 +1,100 @@
+/** The verdict of a part: the worst of its plan, what is missing and which reactions are open. Only parts in sight are asked for, each once. */
+
+import { getJson, url } from '../api.js';
+import { h, refill } from '../dom.js';
+import { t } from '../i18n.js';
+import { fragment } from '../route.js';
+import { verdictMark, verdictShape } from '../verdict.js';
+
+/** So many questions at once. */
+const MOST_ASKED = 3;
+
+/** A value without a plan says it all itself. */
+const saysMore = ({ plan, characteristics }) => plan !== undefined || characteristics.length > 1;
+const wordOf = ({ verdict, missing }) => t(verdict ? `verdict.${verdict}` : missing.length ? 'part.incomplete' : 'verdict.unjudged');
+const shapeOf = ({ verdict, missing }) => verdict ?? (missing.length ? 'open' : null);
+
+export class PartVerdicts {
+  #answers = new Map();
+  #asked = new Map();
+  #places = new Map();
+
+  /** @param scroller what of it is in sight counts; @param leaving ends all questions */
+  constructor(scroller, leaving) {
+    this.watch = new IntersectionObserver((seen) => this.#look(seen), { root: scroller });
+    leaving.addEventListener('abort', () => { this.watch.disconnect(); this.forget(); });
+  }
+
+  /** Parts may have changed: each is asked for anew. */
+  forget() {
+    for (const asking of this.#asked.values()) asking.abort();
+    for (const map of [this.#answers, this.#asked, this.#places]) map.clear();
+  }
+
+  /** The place of a part's verdict. */
+  placeOf(part) {
+    const place = h('span.aside.of-part', { 'data-part': part });
+    if (this.#answers.has(part)) this.#draw(place);
+    else this.watch.observe(place);
+    return place;
+  }
+
+  #look(seen) {
+    for (const { target, isIntersecting } of seen) {
+      if (isIntersecting) this.#places.set(target, target.dataset.part);
+      else this.#places.delete(target);
+    }
+    const wanted = new Set(this.#places.values());
+    for (const [part, asking] of this.#asked) if (!wanted.has(part)) asking.abort();
+    this.#ask();
+  }
+
+  #ask() {
+    for (const part of this.#places.values()) {
+      if (this.#asked.size >= MOST_ASKED) return;
+      if (!this.#answers.has(part) && !this.#asked.has(part)) this.#askFor(part);
+    }
+  }
+
+  async #askFor(part) {
+    const asking = new AbortController();
+    this.#asked.set(part, asking);
+    try {
+      this.#answers.set(part, await verdictOf(part, asking.signal));
+    } catch {
+      if (!asking.signal.aborted) this.#answers.set(part, null);
+    }
+    if (this.#asked.get(part) !== asking) return;
+    this.#asked.delete(part);
+    for (const [place, of] of this.#places) if (of === part) this.#draw(place);
+    this.#ask();
+  }
+
+  #draw(place) {
+    const found = this.#answers.get(place.dataset.part);
+    this.watch.unobserve(place);
+    this.#places.delete(place);
+    if (!found || !saysMore(found)) return;
+    const { missing, open_reactions: open } = found;
+    refill(place, shapeOf(found) && verdictShape(shapeOf(found)), wordOf(found), missing.length > 0 && ` · ${t('part.missing_count', { count: missing.length })}`,
+      open.length > 0 && ` · ${t('part.open_count', { count: open.length })}`);
+    place.title = [...missing, ...open.map(({ characteristic }) => characteristic)].join(', ');
+  }
+}
+
+const verdictOf = (part, signal) => getJson(url(['parts', part]), { signal, asks: false });
+
+/** What a part comes to, above its values: verdict, plan, what is missing, which reactions are open. Nothing where no value is of it. */
+export async function partSheet(part, signal) {
+  const found = await verdictOf(part, signal).catch((problem) => { if (problem.status === 404) return null; throw problem; });
+  if (!found) return null;
+  const { plan, missing, open_reactions: open, characteristics } = found;
+  const counted = t('part.measured_count', { count: characteristics.length });
+  const station = plan && h('a', { href: fragment({ view: 'gauge', options: { plan, part_id: part } }) }, t('part.measure'));
+  return h('section.sheet.part-verdict', { 'data-verdict': found.verdict, 'aria-label': t('panel.part', { part }) }, shapeOf(found) ? verdictShape(shapeOf(found)) : null,
+    h('div', h('p.headline', `${part} · ${wordOf(found)}`),
+      h('p', [counted, plan && t('part.by_plan', { plan })].filter(Boolean).join(' · ')),
+      missing.length > 0 && h('p.missing', t('part.missing', { names: missing.join(', ') }), ' ', station),
+      open.length > 0 && h('ul', { 'aria-label': t('part.open') }, open.map(({ characteristic, reaction }) => h('li', h('strong', characteristic), ` ${reaction}`))),
+      h('p.aside', t('part.rule'))));
+}
