@@ -23,11 +23,9 @@ export class PlanForm {
   constructor({ onChange, leaving }) {
     this.onChange = onChange;
     this.lists = Object.fromEntries(Object.keys(OFFERED).map((name) => [name, freshId(`plan-${name}`)]));
-    const offers = Object.entries(this.lists).map(([name, id]) => {
-      const list = h('datalist', { id });
-      OFFERED[name](leaving).then((names) => refill(list, names.map((value) => h('option', { value }))), () => {});
-      return list;
-    });
+    const offers = Object.values(this.lists).map((id) => h('datalist', { id }));
+    this.offer = (name) => OFFERED[name](leaving).then((names) => refill(offers[Object.keys(OFFERED).indexOf(name)], names.map((value) => h('option', { value }))), () => {});
+    for (const name of Object.keys(OFFERED)) this.offer(name);
     const text = (attributes) => h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false', maxlength: 200, oninput: () => this.#changed(), ...attributes });
     this.part = text({ name: 'part', required: true });
     this.name = text({ name: 'name' });

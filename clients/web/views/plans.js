@@ -3,6 +3,7 @@
 import { confirm } from '../confirm.js';
 import { h, refill } from '../dom.js';
 import { dateTime, explain, t } from '../i18n.js';
+import { Catalogues } from '../plans/catalogues.js';
 import { DropZone } from '../plans/drop_zone.js';
 import { csvOf } from '../plans/plan_table.js';
 import { PlanForm } from '../plans/plan_form.js';
@@ -20,6 +21,7 @@ export function mount(main, route) {
   let current = null; // {part, tag} of the plan in the form; its part is '' and its tag null while it is new
   let before = '';
   const form = new PlanForm({ onChange: () => showState(), leaving: signal });
+  const catalogues = new Catalogues({ onStored: () => form.offer('catalogue'), leaving: signal });
   const note = h('p.note', { role: 'alert' });
   const done = h('p.done', { role: 'status' });
   const title = h('span');
@@ -32,7 +34,7 @@ export function mount(main, route) {
   const table = h('div.scroll.records.plans-there', { tabindex: 0, role: 'region', 'aria-label': t('view.plans') }, h('table',
     h('thead', h('tr', ['plans.part', 'plans.name', 'plans.count', 'plans.modified'].map((name) => h('th', { scope: 'col' }, t(name))), h('td'))), rows));
   const none = h('p.empty', { hidden: true }, t('plans.none'));
-  const list = h('section.plan-list', h('p.actions', button('plans.begin', () => attempt(() => begin()), 'button.primary')), none, table);
+  const list = h('section.plan-list', h('p.actions', button('plans.begin', () => attempt(() => begin()), 'button.primary')), none, table, catalogues.element);
   const editor = h('form.sheet.editor', { novalidate: true, onsubmit: (event) => { event.preventDefault(); attempt(store); } },
     h('div.line', h('h2.title', title, state), h('p.actions', storing, dropping, ofStored, button('plans.all', () => attempt(close)))), note, form.element);
   const drop_zone = new DropZone({
@@ -245,8 +247,10 @@ export function mount(main, route) {
     else if (route.options.new) edit();
     else await refresh();
   });
+  catalogues.begin(route.options.catalogue);
   return () => {
     keepDraft();
+    catalogues.keepDraft();
     leaving.abort();
   };
 }
