@@ -40,7 +40,7 @@ export class Frame {
     return h('figure', h('figcaption', title), s('svg.framed', { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: 'img', 'aria-label': title },
       marks.map((value) => [s('path.grid-line', { d: `M${EDGE.left} ${this.y(value)}H${WIDTH - EDGE.right}` }),
         s('text', { x: EDGE.left - 8, y: this.y(value) + 5, 'text-anchor': 'end' }, number(value.toFixed(this.decimals)) + this.unit)]),
-      names.map((name, i) => i % every === 0 && s('text', { x: this.x(i), y: HEIGHT - 10, 'text-anchor': 'middle' }, name.length > 9 ? `${name.slice(0, 8)}…` : name)),
+      names.map((name, i) => name && i % every === 0 && s('text', { x: this.x(i), y: HEIGHT - 10, 'text-anchor': 'middle' }, name.length > 9 ? `${name.slice(0, 8)}…` : name)),
       children));
   }
 

@@ -2,11 +2,9 @@
 
 import { h, s } from '../dom.js';
 import { EDGE, Frame, HEIGHT, MARKS, round, WIDTH } from '../figures/frame.js';
-import { t } from '../i18n.js';
-
+import { number, t } from '../i18n.js';
 /** Of operators, one after the other. */
 const DASHES = ['', '7 4', '2 4', '9 3 2 3', '12 5', '4 2'];
-
 
 const meanOf = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
 
@@ -27,6 +25,34 @@ export function interaction(readings, parts, operators) {
   figure.append(h('ul.legend', operators.map((operator, at) => h('li', { class: `operator-${at % 3}` }, s('svg', { viewBox: '0 0 32 12', 'aria-hidden': 'true' },
     s('path.mean-line', { d: 'M0 6H32', 'stroke-dasharray': DASHES[at % DASHES.length] || undefined }), s('path.mark', { d: MARKS[at % MARKS.length], transform: 'translate(16 6)' })), operator))));
   return figure;
+}
+
+/** How the points of each chart are judged: a mean beyond its limits tells parts apart, a range beyond its limit is no repetition. */
+const SAID = { xbar: (out, all) => t(2 * out < all ? 'study.averages_few' : 'study.averages', { count: out, all }), r: (out) => t(out ? 'study.ranges_out' : 'study.ranges', { count: out }) };
+
+/** AIAG's charts of averages and ranges: the parts of one operator after those of the other, with the control limits. @param charts of the service, a point each part of each operator */
+export function averageAndRange(charts, { parts, operators }) {
+  const count = operators.length * parts.length;
+  return charts.map(({ name, centre, lower_limit: lower, upper_limit: upper, points }) => {
+    const frame = new Frame(Array(count).fill(''), [...points, lower, upper], { decimals: name === 'r' ? 4 : 3 });
+    const across = (value, kind) => s(`path.${kind}`, { d: `M${EDGE.left} ${frame.y(value)}H${WIDTH - EDGE.right}` });
+    const isOut = (value) => value > upper || value < lower;
+    const figure = frame.draw(t(`study.figure.${name}`), across(upper, 'bound'), across(lower, 'bound'), across(centre, 'master'), operators.map((operator, at) => {
+      const [first, last] = [at * parts.length, (at + 1) * parts.length];
+      const edge = round(frame.x(first) - frame.step / 2);
+      const own = points.slice(first, last);
+      return [at > 0 && s('path.grid-line', { d: `M${edge} ${EDGE.top}V${HEIGHT - EDGE.bottom}` }),
+        s('text', { x: round(edge + (last - first) * frame.step / 2), y: HEIGHT - 10, 'text-anchor': 'middle' }, operator.length > 14 ? `${operator.slice(0, 13)}…` : operator),
+        frame.line(own, { d: own.map((value, i) => `${i ? 'L' : 'M'}${frame.x(first + i)} ${frame.y(value)}`).join('') }),
+        own.map((value, i) => {
+          const mark = frame.mark(first + i, value, isOut(value) ? 1 : 0);
+          mark.append(s('title', `${operator} · ${parts[i]}: ${number(value.toFixed(4))} mm`));
+          return mark;
+        })];
+    }));
+    figure.append(h('p.hint', `${SAID[name](points.filter(isOut).length, count)} ${t('study.chart_limits', { lower: number(lower.toFixed(4)), upper: number(upper.toFixed(4)) })}`));
+    return figure;
+  });
 }
 
 /** @param study of the service; @param components and @param shares the names of those that it has */

@@ -147,7 +147,7 @@ export class StudyForm {
     this.#fill({ ...Object.fromEntries(Object.entries(filled).map(([name, value]) => [name, String(value)])), ...(measurements.length && gridOf(measurements)) });
     try {
       if (result.method && !result.tolerance_percent) throw new Error(t('study.other', { method: result.method }));
-      refill(this.result, (await this.#order()).shown(result));
+      refill(this.result, await (await this.#order()).shown(result));
       this.result.scrollIntoView({ block: 'nearest' });
     } catch (problem) {
       this.result.replaceChildren();
@@ -159,7 +159,7 @@ export class StudyForm {
     this.note.textContent = '';
     try {
       const { kind, input, shown } = await this.#order();
-      refill(this.result, shown(await (await request('POST', url(['statistics', kind]), { body: input, signal: this.leaving })).json()));
+      refill(this.result, await shown(await (await request('POST', url(['statistics', kind]), { body: input, signal: this.leaving })).json()));
       this.result.scrollIntoView({ block: 'nearest' });
     } catch (problem) {
       this.result.replaceChildren();
@@ -194,7 +194,15 @@ export class StudyForm {
     if (!read.length) throw new Error(t('study.empty'));
     const measured = (name, names) => names.filter((one) => read.some((reading) => reading[name] === one));
     const input = { ...(tolerance && { tolerance: new Decimal(tolerance) }), measurements: read.map(({ text, ...of }) => ({ ...of, value: new Decimal(text) })), measuring_process: this.#process('grr') };
-    return { kind: 'grr', input, shown: (study) => variationResult(study, { readings: read.map(({ text, ...of }) => ({ ...of, value: Number(text) })), parts: measured('part', parts), operators: measured('operator', operators) }) };
+    const of = { parts: measured('part', parts), operators: measured('operator', operators) };
+    return { kind: 'grr', input, shown: async (study) => variationResult(study, { ...of, readings: read.map(({ text, ...each }) => ({ ...each, value: Number(text) })), charts: await this.#charts(input.measurements, of) }) };
+  }
+
+  /** The charts of averages and ranges, a subgroup each part of each operator; null where a trial is missing or there is one alone. */
+  async #charts(readings, { parts, operators }) {
+    const subgroups = operators.flatMap((operator) => parts.map((part) => readings.filter((one) => one.part === part && one.operator === operator).map(({ value }) => value)));
+    if (subgroups.some(({ length }) => length < 2 || length !== subgroups[0].length)) return null;
+    return (await (await request('POST', url(['statistics', 'chart']), { body: { kind: 'xbar_r', subgroups }, signal: this.leaving })).json()).charts;
   }
 
   async #master() {

@@ -3,7 +3,7 @@
 import { h } from '../dom.js';
 import { number, t } from '../i18n.js';
 import { verdictShape } from '../verdict.js';
-import { byOne, components, interaction, masterRun } from './study_figures.js';
+import { averageAndRange, byOne, components, interaction, masterRun } from './study_figures.js';
 
 /** AIAG, MSA 4: a gauge that takes up to a tenth is suitable, beyond three tenths it is not; five categories are told apart. */
 const GOOD_PERCENT = 10;
@@ -26,8 +26,8 @@ const processTiles = (of) => of && h('dl.tiles', Object.entries(MOST_OF_PROCESS)
 const percent = (value) => (value === null ? '–' : `${number(value.toFixed(1))} %`);
 const head = (verdict, ...said) => h('div.study-verdict', verdictShape(MARKS[verdict]), h('div', h('p.headline', t(`study.verdict.${verdict}`)), said.map((text) => h('p', text))));
 
-/** @param study what the service computed; @param readings [{part, operator, value}] in mm; @param parts and @param operators in order */
-export function variationResult(study, { readings, parts, operators }) {
+/** @param study what the service computed; @param readings [{part, operator, value}] in mm; @param parts and @param operators in order; @param charts of averages and ranges, null where a trial is missing */
+export function variationResult(study, { readings, parts, operators, charts }) {
   const of = study.tolerance_percent.grr === null ? 'study_variation_percent' : 'tolerance_percent';
   const share = study[of].grr;
   const few = study.ndc !== null && study.ndc < FEWEST_CATEGORIES;
@@ -43,7 +43,8 @@ export function variationResult(study, { readings, parts, operators }) {
       h('tbody', there.map((name) => h('tr', { class: name }, h('th', { scope: 'row' }, t(`study.component.${name}`)), h('td.number', micrometres(study[name])), intervals && h('td.number', interval(name)),
         shares.map((each) => h('td.number', percent(study[each][name])))))))),
     processTiles(study.measuring_process),
-    h('div.study-figures', components(study, there.filter((name) => name !== 'tv'), shares), byOne(readings, 'part', parts), byOne(readings, 'operator', operators), interaction(readings, parts, operators)),
+    !charts && h('p.hint', t('study.no_charts')),
+    h('div.study-figures', components(study, there.filter((name) => name !== 'tv'), shares), charts && averageAndRange(charts, { parts, operators }), byOne(readings, 'part', parts), byOne(readings, 'operator', operators), interaction(readings, parts, operators)),
   ];
 }
 

@@ -66,7 +66,21 @@ describe('a gauge', () => {
     assert.match(await page.textContent('.study-verdict'), new RegExp(`takes ${study.tolerance_percent.grr.toFixed(1)} % of the tolerance.*${study.ndc} categories`));
     assert.match(await page.textContent('.study-result tbody'), new RegExp(`Repeatability${(study.ev * 1000).toFixed(2)}`));
     const pictures = await page.$$eval('.study-figures figure', (all) => all.map((figure) => [figure.querySelector('figcaption').textContent, figure.querySelectorAll('.reading').length, figure.querySelectorAll('svg.framed .mark').length]));
-    assert.deepEqual(pictures, [['Components of variation', 0, 0], ['Readings by part, mm', 90, PARTS], ['Readings by operator, mm', 90, 3], ['Means by part and operator, mm', 0, 3 * PARTS]]);
+    assert.deepEqual(pictures, [['Components of variation', 0, 0], ['Averages by operator and part, mm', 0, 3 * PARTS], ['Ranges by operator and part, mm', 0, 3 * PARTS], ['Readings by part, mm', 90, PARTS], ['Readings by operator, mm', 90, 3], ['Means by part and operator, mm', 0, 3 * PARTS]]);
+    // AIAG's limits by hand, for three trials: A2 = 1.023, D4 = 2.574, D3 = 0.
+    const cells = OPERATORS.flatMap((_, operator) => Array.from({ length: PARTS }, (__, part) => [0, 1, 2].map((trial) => Number(readingOf(part, operator, trial)))));
+    const means = cells.map((values) => values.reduce((sum, value) => sum + value) / 3);
+    const ranges = cells.map((values) => Math.max(...values) - Math.min(...values));
+    const [mean, range] = [means, ranges].map((all) => all.reduce((sum, value) => sum + value) / all.length);
+    const said = await page.$$eval('.study-figures figure p.hint', (all) => all.map((one) => one.textContent));
+    const limits = said.map((text) => /Limits ([\d.]+) to ([\d.]+) mm/.exec(text).slice(1).map(Number));
+    const near = (found, wanted) => assert.ok(Math.abs(found - wanted) < 1e-4, `${found}, not ${wanted}`);
+    [mean - 1.023 * range, mean + 1.023 * range, 0, 2.574 * range].forEach((wanted, i) => near(limits.flat()[i], wanted));
+    const out = means.filter((value) => Math.abs(value - mean) > 1.023 * range).length;
+    assert.match(said[0], new RegExp(`^${out} of 30 averages lie beyond`));
+    assert.match(said[1], /^Every range lies within/);
+    assert.deepEqual(await page.$$eval('.study-figures figure:nth-child(2) svg text[text-anchor="middle"]', (all) => all.map((text) => text.textContent)), OPERATORS);
+    assert.match(await page.textContent('.study-figures figure:nth-child(2) .mark title'), new RegExp(`Kim · P1: ${means[0].toFixed(4)} mm`));
     assert.deepEqual(await findings(page), []);
     await page.$eval('.study-verdict', (verdict) => verdict.scrollIntoView());
     await picture(page, 'study');
@@ -124,6 +138,7 @@ describe('a gauge', () => {
     await page.waitForSelector('.study-verdict');
     assert.equal(await page.$$eval('.study-figures figure:nth-child(2) .reading', (all) => all.length), 7);
     assert.equal(await page.$('.study-result .tiles'), null);
+    assert.match(await page.textContent('.study-result'), /need two trials or more, equally many/);
     await page.click('.study details summary');
     for (const [name, value] of [['resolution', '0.0002'], ['u_cal', '0,0001'], ['u_bi', '0.0001'], ['u_evr', '0.0001']]) await page.fill(`[name="${name}"]`, value);
     await page.click('.study .primary');
