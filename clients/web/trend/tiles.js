@@ -2,7 +2,7 @@
 
 import { h } from '../dom.js';
 import { umText } from '../exact.js';
-import { number, signed, t } from '../i18n.js';
+import { has, number, signed, t } from '../i18n.js';
 import { verdictShape, VERDICTS } from '../verdict.js';
 import { FEWEST } from './figures.js';
 import { countVerdicts, statisticsOf } from './series.js';
@@ -29,14 +29,27 @@ export function capabilityTiles(figures, points, chart, drawn = points) {
   if (!figures) return [h('p.aside', t('trend.no_capability'))];
   const doubt = doubtOf(points, chart, drawn);
   const index = (value) => number(value.toFixed(2));
+  const { reason } = figures;
   return [
-    h('dl', { class: doubt ? 'tiles in-doubt' : 'tiles' }, INDICES.filter((name) => figures[name]?.value != null).map((name) => {
-      const { value, lower, upper } = figures[name];
+    h('dl', { class: doubt ? 'tiles in-doubt' : 'tiles' }, INDICES.filter((name) => reason || figures[name]?.value != null).map((name) => {
+      const { value, lower, upper } = figures[name] ?? {};
       const interval = lower != null && upper != null && t('trend.interval', { lower: index(lower), upper: index(upper) });
-      return tile(null, name.replace('c', 'C').replace(/^p/, 'P'), index(value), interval);
+      return tile(null, name.replace('c', 'C').replace(/^p/, 'P'), value == null ? '–' : index(value), interval);
     })),
     h('p', { class: doubt ? 'stability doubt' : 'stability' }, doubt || t('trend.stable', { count: points.length })),
+    ...fitted(figures).map((text) => h('p.aside.fitted', text)),
   ];
+}
+
+/** Of which distribution the indices are, or why there are none; and the process model of ISO 22514-2. */
+function fitted({ distribution, model, reason }) {
+  const { name, p } = distribution ?? {};
+  const meaning = model && (has(`model.${model.name}`) ? t(`model.${model.name}`) : model.meaning);
+  return [
+    reason && t('trend.unfitted'),
+    name && [t('trend.fitted', { name: t(`distribution.${name}`) }), p != null && t('trend.fit', { p: number(p.toFixed(3)) }), name !== 'normal' && t('trend.percentile')].filter(Boolean).join(' · '),
+    model && t('trend.model', { name: model.name, meaning }),
+  ].filter(Boolean);
 }
 
 /** Why the indices say little of what comes: '' where they do. */

@@ -252,6 +252,38 @@ describe('the trend', () => {
     await picture(page, 'trend-control', { fullPage: true });
   });
 
+  it('names the distribution and the model behind an index, and says why there is none', async () => {
+    const spread = (of) => Array.from({ length: 100 }, (_, i) => of((((i * 37) % 100) + 0.5) / 100));
+    const CASES = {
+      'fit-weibull': spread((share) => 5 * (-Math.log(1 - share)) ** (1 / 1.3)), 'fit-none': spread((share) => (share < 0.5 ? 1 : 20)),
+      'fit-few': [3, 4, 5, 4, 3, 5],
+    };
+    for (const [characteristic, all] of Object.entries(CASES)) {
+      await daemon.send('POST', '/v1/measurements', all.map((um) => ({ designation: '25 H7', measured_mm: (25 + um / 1000).toFixed(6), characteristic })));
+    }
+    const said = async (characteristic) => {
+      page = await open(browser, daemon, `#/trend?characteristic=${characteristic}`);
+      await page.waitForSelector('.indices .stability');
+      const found = await page.$$eval('.indices .fitted', (all) => all.map((one) => one.textContent));
+      const tiles = await page.$$eval('.indices dl > div', (all) => all.map((one) => one.textContent));
+      const values = (await daemon.stored(`characteristic=${characteristic}`)).map(({ deviation_um: um }) => um);
+      const { model, distribution } = await (await daemon.send('POST', '/v1/statistics/capability', { values, lower: 0, upper: 21 })).json();
+      return { found, tiles, model, distribution };
+    };
+    const fitted = await said('fit-weibull');
+    assert.deepEqual(fitted.found, [`Distribution: Weibull · fit p = ${fitted.distribution.p.toFixed(3)} · indices by its percentiles`, 'Model A2: location and dispersion constant, not normal (ISO 22514-2)']);
+    assert.equal(fitted.model.name, 'A2');
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'trend-fitted');
+    await close(page);
+    const none = await said('fit-none');
+    assert.equal(none.found[0], 'No distribution of ISO 22514-2 fits the values: no index.');
+    assert.deepEqual(none.tiles, ['Cp–', 'Cpk–', 'Pp–', 'Ppk–']);
+    await close(page);
+    const few = await said('fit-few');
+    assert.deepEqual([few.found, few.tiles.length], [[], 4]);
+  });
+
   it('rings where values begin to break rules, and counts those that fall together among many', async () => {
     const post = (characteristic, count, mmOf) => daemon.send('POST', '/v1/measurements', Array.from({ length: count }, (_, i) => ({ designation: '25 H7', measured_mm: mmOf(i).toFixed(4), characteristic })));
     const rings = async () => (await lettering(page)).filter((text) => /^[1-4](,[1-4])*$|^\d+×$/.test(text));
