@@ -4,20 +4,22 @@ import { nmFromMm, parseMeasured } from './exact.js';
 import { number } from './i18n.js';
 
 const DESIGNATION = /^[Øø⌀∅\s]*([\d.,]+)\s*(?:mm)?\s*\/?\s*([A-Za-z]\w*)$/;
-const FIT = /^[Øø⌀∅\s]*([\d.,]+)\s*(?:mm)?\s*([A-Z]\w*)\s*[/\s-]\s*([a-z]\w*)$/;
+/** The envelope requirement of ISO 14405-1 behind a class. */
+const ENVELOPE = /\s*(?:\(E\)|Ⓔ)$/;
+const FIT = /^[Øø⌀∅\s]*([\d.,]+)\s*(?:mm)?\s*([A-Z]\w*(?:\s*(?:\(E\)|Ⓔ))?)\s*[/\s-]\s*([a-z]\w*(?:\s*(?:\(E\)|Ⓔ))?)$/;
 const THREAD = /^M\s*(\d+(?:[.,]\d+)?)(?:\s*[xX×]\s*(\d+(?:[.,]\d+)?))?\s*[-−–]\s*((?:\d[A-Za-z]){1,2})$/i;
 const GENERAL = /^(?:([RC])|[Øø⌀∅])?\s*(\d+(?:[.,]\d+)?)\s*(?:mm)?\s*ISO\s*2768\s*[-−–]\s*([fmcv])$/i;
 /** A general tolerance of a length does not say whether it is of an outside or an inside dimension. */
 const OPEN = /^ISO 2768-/;
 
-/** {text: "25H7", nominal_nm, tolerance_class}; of another standard also `standard: true`; null where it cannot be one. */
+/** {text: "25H7", nominal_nm, tolerance_class}; with Ⓔ also `envelope: true`, of another standard `standard: true`; null where it cannot be one. */
 export function parseDesignation(typed) {
   const text = typed.trim();
   const other = otherStandard(text);
   if (other) return other;
-  const match = DESIGNATION.exec(text);
+  const match = DESIGNATION.exec(text.replace(ENVELOPE, ''));
   const nominal = match && parseMeasured(match[1]);
-  return nominal && { text: nominal + match[2], nominal_nm: nmFromMm(nominal), tolerance_class: match[2] };
+  return nominal && { text: nominal + match[2], nominal_nm: nmFromMm(nominal), tolerance_class: match[2], ...(ENVELOPE.test(text) && { envelope: true }) };
 }
 
 function otherStandard(typed) {
@@ -39,9 +41,10 @@ export const isThread = (limits) => THREAD.test(limits?.tolerance_class ?? '');
 export const designationText = (designation) => (otherStandard(designation)
   ? number(designation).replaceAll('\u2212', '-') : `Ø ${number(designation)}`);
 
-/** {size: "25", hole: "H7", shaft: "g6"}; null where it cannot be one. */
+/** {size: "25", hole: "H7", shaft: "g6", envelope: {hole, shaft}: whether there is Ⓔ}; null where it cannot be one. */
 export function parseFit(typed) {
   const match = FIT.exec(typed.trim());
   const size = match && parseMeasured(match[1]);
-  return size && { size, hole: match[2], shaft: match[3] };
+  const [hole, shaft] = match?.slice(2).map((one) => one.replace(ENVELOPE, '')) ?? [];
+  return size && { size, hole, shaft, envelope: { hole: hole !== match[2], shaft: shaft !== match[3] } };
 }

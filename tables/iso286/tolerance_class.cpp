@@ -126,7 +126,7 @@ Result<FitDesignation> parse_fit_designation(std::string_view text) {
 Result<FitDesignation> parse_fit_designation(std::string_view hole, std::string_view shaft_class) {
   auto designation = parse_designation(hole);
   if (!designation) return designation.error();
-  take_envelope(shaft_class);
+  const bool has_envelope = take_envelope(shaft_class) && designation->has_envelope;
   if (!is_class_name(shaft_class)) {
     return malformed(ErrorCode::FitMalformed, shaft_class,
                      "is not the tolerance class of a shaft such as g6");
@@ -139,7 +139,7 @@ Result<FitDesignation> parse_fit_designation(std::string_view hole, std::string_
                                               "write a fit as 25 H7/g6"};
   }
   return FitDesignation{designation->nominal_size, std::move(designation->class_name),
-                        std::string(shaft_class)};
+                        std::string(shaft_class), has_envelope};
 }
 
 }  // namespace fitgauge::iso286

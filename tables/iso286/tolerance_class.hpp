@@ -145,6 +145,7 @@ struct FitDesignation {
   NominalSize nominal_size;
   std::string hole_class;
   std::string shaft_class;
+  bool has_envelope = false;  ///< both have Ⓔ
 };
 
 /// Reads `25H7/g6`, with or without blanks around the stroke, each part with or without Ⓔ.

@@ -6,6 +6,7 @@ import { nmFromMm } from '../exact.js';
 import { explain, number, t } from '../i18n.js';
 import { Latest } from '../latest.js';
 import { limitsText, toleranceText } from '../verdict.js';
+import { Envelope } from './envelope.js';
 import { Fields } from './fields.js';
 import { limitsAtHand, limitsOf } from './held.js';
 import { gaugeInUse, gaugeText } from './in_use.js';
@@ -38,6 +39,7 @@ export class Job {
     this.fields = new Fields(options, { onChange: () => this.#changed(), named });
     this.rule = new Rule(options, { onChange: () => this.#changed(), onRule: () => this.#ruleChanged() });
     this.prefixes = new Prefixes();
+    this.envelope = new Envelope(onDone);
     this.side = h('select', { name: 'feature', onchange: () => this.#show(this.read, this.reason) },
       SIDES.map((side) => h('option', { value: side, selected: side === options.feature }, t(`job.side.${side}`))));
     this.sideField = field(t('job.side'), this.side);
@@ -53,7 +55,7 @@ export class Job {
         this.#look();
         onDone();
       },
-    }, h('div.line', this.fields.part, field(t('job.designation'), this.input), this.sideField, this.echo),
+    }, h('div.line', this.fields.part, field(t('job.designation'), this.input), this.sideField, this.envelope.element, this.echo),
     h('div.more-line', this.more, this.given, this.gaugeNote), Object.values(this.fields.lists),
     h('button.unseen', { type: 'submit', tabindex: -1 }, t('entry.judge')));
     this.gauged = this.#gauged();
@@ -108,8 +110,7 @@ export class Job {
 
   /** Gauges a characteristic of a plan from now on. */
   follow(one, limits) {
-    this.own = limits;
-    this.limits = null;
+    Object.assign(this, { own: limits, limits: null, asked: one });
     this.side.value = one.feature ?? SIDES[0];
     this.input.value = designationOf(one);
     this.fields.set('characteristic', one.name);
@@ -156,6 +157,7 @@ export class Job {
     const gauged = this.#gauged();
     const another = gauged !== this.gauged;
     this.gauged = gauged;
+    if (another) this.envelope.say(undefined);
     this.onChange(another);
   }
 
@@ -229,14 +231,18 @@ export class Job {
     this.limits = isOpen(limits) ? { ...limits, feature: this.side.value } : limits;
     this.reason = reason;
     this.echo.classList.toggle('wrong', reason !== '');
-    this.echo.replaceChildren(...(limits ? understood(this.limits) : [reason || (this.designation ? '' : t('job.missing'))]));
+    // What a plan asks holds for its own size.
+    const asked = this.asked && designationOf(this.asked) === this.designation ? this.asked : {};
+    const required = Boolean(limits) && (asked.envelope !== undefined || Boolean(parseDesignation(this.designation)?.envelope));
+    this.envelope.show(required, limits ? asked.size_operator : undefined);
+    this.echo.replaceChildren(...(limits ? understood(this.limits, required) : [reason || (this.designation ? '' : t('job.missing'))]));
     this.#changed();
   }
 }
 
 /** How a designation was understood. */
-const understood = (limits) => [
-  h('strong', limits.designation ? designationText(limits.designation) : number(limits.nominal_mm)),
+const understood = (limits, envelope) => [
+  h('strong', `${limits.designation ? designationText(limits.designation) : number(limits.nominal_mm)}${envelope ? ' (E)' : ''}`),
   h('span', [t(`feature.${limits.feature}`), isThread(limits) && t('job.pitch_diameter')].filter(Boolean).join(', ')),
   h('span.figures', limitsText(limits)),
   limits.tolerance_um !== undefined && h('span.tolerance', t('limits.tolerance', { um: toleranceText(limits) })),

@@ -108,6 +108,10 @@ export default {
   'rule.simple': 'Einfache Annahme',
   'rule.guard_band': 'Schutzabstand',
   'rule.conformance': 'Konformitätswahrscheinlichkeit',
+  'envelope.go': 'Gutlehre',
+  'envelope.passes': 'passt',
+  'envelope.fails': 'passt nicht',
+  'envelope.operator': 'Größenmaß-Operator',
 
   'gauge.due': '{gauge} kalibriert bis {date}',
   'gauge.blocked': '{gauge} ist seit {date} gesperrt.',

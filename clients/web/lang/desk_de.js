@@ -125,6 +125,8 @@ export default {
   'fit.min.interference': 'Mindestübermaß',
   'fit.actual.clearance': 'Spiel dieses Paars',
   'fit.actual.interference': 'Übermaß dieses Paars',
+  'fit.envelope': 'Beide Maße haben (E): Diese Spiele gelten unabhängig von der Form.',
+  'fit.form_counts': 'Ohne (E) an beiden Maßen zählt auch die Form: Unrundheit nimmt Spiel.',
   'fit.preferred': 'Vorzugspassungen',
   'fit.kind.loose': 'Weiter Laufsitz',
   'fit.kind.free': 'Leichter Laufsitz',

@@ -125,6 +125,8 @@ export default {
   'fit.min.interference': 'Interferenza minima',
   'fit.actual.clearance': 'Gioco di questa coppia',
   'fit.actual.interference': 'Interferenza di questa coppia',
+  'fit.envelope': 'Entrambe le dimensioni hanno (E): questi giochi valgono qualunque sia la forma.',
+  'fit.form_counts': 'Senza (E) su entrambe le dimensioni conta anche la forma: i lobi riducono il gioco.',
   'fit.preferred': 'Accoppiamenti preferiti',
   'fit.kind.loose': 'Libero amplissimo',
   'fit.kind.free': 'Libero largo',

@@ -125,6 +125,8 @@ export default {
   'fit.min.interference': 'Kleinste overmaat',
   'fit.actual.clearance': 'Speling van dit paar',
   'fit.actual.interference': 'Overmaat van dit paar',
+  'fit.envelope': 'Beide maten hebben (E): deze spelingen gelden ongeacht de vorm.',
+  'fit.form_counts': 'Zonder (E) op beide maten telt ook de vorm: onrondheid neemt speling.',
   'fit.preferred': 'Voorkeurspassingen',
   'fit.kind.loose': 'Zeer ruim lopend',
   'fit.kind.free': 'Ruim lopend',

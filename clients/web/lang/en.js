@@ -108,6 +108,10 @@ export default {
   'rule.simple': 'Simple acceptance',
   'rule.guard_band': 'Guard band',
   'rule.conformance': 'Probability of conformance',
+  'envelope.go': 'GO gauge',
+  'envelope.passes': 'passes',
+  'envelope.fails': 'does not pass',
+  'envelope.operator': 'Size operator',
 
   'gauge.due': '{gauge} calibrated until {date}',
   'gauge.blocked': '{gauge} has been blocked since {date}.',

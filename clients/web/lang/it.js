@@ -108,6 +108,10 @@ export default {
   'rule.simple': 'Accettazione semplice',
   'rule.guard_band': 'Banda di guardia',
   'rule.conformance': 'Probabilità di conformità',
+  'envelope.go': 'Calibro passa',
+  'envelope.passes': 'passa',
+  'envelope.fails': 'non passa',
+  'envelope.operator': 'Operatore dimensionale',
 
   'gauge.due': '{gauge} tarato fino al {date}',
   'gauge.blocked': '{gauge} è bloccato dal {date}.',

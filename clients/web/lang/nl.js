@@ -108,6 +108,10 @@ export default {
   'rule.simple': 'Eenvoudige aanvaarding',
   'rule.guard_band': 'Veiligheidsband',
   'rule.conformance': 'Kans op conformiteit',
+  'envelope.go': 'Goedkaliber',
+  'envelope.passes': 'past',
+  'envelope.fails': 'past niet',
+  'envelope.operator': 'Maatoperator',
 
   'gauge.due': '{gauge} gekalibreerd tot {date}',
   'gauge.blocked': '{gauge} is geblokkeerd sinds {date}.',

@@ -52,6 +52,7 @@ export default {
   'plans.member.frequency': 'Wie oft',
   'plans.member.subgroup_size': 'Werte einer Stichprobe',
   'plans.member.count': 'Anzahl gleicher',
+  'plans.member.size_operator': 'Größenmaß-Operator (LP, GG …)',
   'plans.member.rule': 'Entscheidungsregel',
   'plans.member.uncertainty_um': 'Standardunsicherheit, µm',
   'plans.member.coverage_factor': 'Erweiterungsfaktor k',

@@ -52,6 +52,7 @@ export default {
   'plans.member.frequency': 'How often',
   'plans.member.subgroup_size': 'Values of a sample',
   'plans.member.count': 'How many alike',
+  'plans.member.size_operator': 'Size operator (LP, GG …)',
   'plans.member.rule': 'Decision rule',
   'plans.member.uncertainty_um': 'Standard uncertainty, µm',
   'plans.member.coverage_factor': 'Coverage factor k',

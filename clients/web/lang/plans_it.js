@@ -52,6 +52,7 @@ export default {
   'plans.member.frequency': 'Ogni quanto',
   'plans.member.subgroup_size': 'Valori di un campione',
   'plans.member.count': 'Quanti uguali',
+  'plans.member.size_operator': 'Operatore dimensionale (LP, GG …)',
   'plans.member.rule': 'Regola di decisione',
   'plans.member.uncertainty_um': 'Incertezza tipo, µm',
   'plans.member.coverage_factor': 'Fattore di copertura k',

@@ -52,6 +52,7 @@ export default {
   'plans.member.frequency': 'Hoe vaak',
   'plans.member.subgroup_size': 'Waarden per steekproef',
   'plans.member.count': 'Aantal gelijke',
+  'plans.member.size_operator': 'Maatoperator (LP, GG …)',
   'plans.member.rule': 'Beslisregel',
   'plans.member.uncertainty_um': 'Standaardonzekerheid, µm',
   'plans.member.coverage_factor': 'Dekkingsfactor k',

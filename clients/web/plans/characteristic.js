@@ -20,7 +20,7 @@ const textOf = (value) => value;
 /** The members below the row: how each is read; `area` takes lines, `list` offers names. */
 const MORE = {
   frequency: { read: textOf, hint: true }, subgroup_size: { read: numberOf }, count: { read: numberOf },
-  rule: { read: textOf, choices: RULES }, uncertainty_um: { read: numberOf }, coverage_factor: { read: numberOf },
+  size_operator: { read: textOf }, rule: { read: textOf, choices: RULES }, uncertainty_um: { read: numberOf }, coverage_factor: { read: numberOf },
   reaction: { read: textOf, area: true }, catalogue: { read: textOf, list: true }, picture: { read: textOf, list: true },
 };
 const OWN = ['name', 'gauge', ...Object.keys(MORE), ...LIMITS, 'feature', 'quantity'];

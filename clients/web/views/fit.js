@@ -71,9 +71,12 @@ export function mount(main, route) {
     refresh();
   }
 
+  /** The class of a side as it is asked for, with its envelope requirement. */
+  const classOf = (feature) => state[feature] + (state.envelope?.[feature] ? '(E)' : '');
+
   function remembered() {
     const options = Object.fromEntries(FEATURES.map((feature) => [feature, measured[feature].value.trim()]));
-    go({ view: 'fit', path: [`${state.size}${state.hole}`, state.shaft], options });
+    go({ view: 'fit', path: [`${state.size}${classOf('hole')}`, classOf('shaft')], options });
   }
 
   function refresh() {
@@ -82,7 +85,7 @@ export function mount(main, route) {
       nothing(t('error.fit.malformed'));
       return;
     }
-    const designation = `${number(state.size)} ${state.hole}/${state.shaft}`;
+    const designation = `${number(state.size)} ${classOf('hole')}/${classOf('shaft')}`;
     typed.value = designation;
     remembered();
     for (const old of [figure, result]) old.setAttribute('aria-busy', true);
@@ -94,7 +97,7 @@ export function mount(main, route) {
   function ask() {
     if (!state.size) return;
     latest.run(async (signal) => {
-      const fit = await getJson(url(['fits', `${state.size}${state.hole}`, state.shaft]), { signal });
+      const fit = await getJson(url(['fits', `${state.size}${classOf('hole')}`, classOf('shaft')]), { signal });
       note.textContent = '';
       await draw(fit, signal);
     }).catch((problem) => nothing(explain(problem)));
@@ -153,7 +156,7 @@ function summary(fit, actual) {
   const um = (nm) => `${number(umText(Math.abs(nm)))} µm`;
   const line = (nm, which) => h('div', h('dt', t(`fit.${which}.${nm < 0 ? 'interference' : 'clearance'}`)), h('dd', um(nm)));
   return [
-    h('p.headline', t(`fit.type.${fit.type}`)),
+    h('p.headline', t(`fit.type.${fit.type}`)), h('p.aside', t(fit.assumes_envelope ? 'fit.form_counts' : 'fit.envelope')),
     h('dl', ...(most <= 0 ? [line(least, 'max'), line(most, 'min')]
       : least < 0 ? [line(most, 'max'), line(least, 'max')] : [line(most, 'max'), line(least, 'min')]),
     h('div', h('dt', t('fit.probable')), h('dd', probable(fit).map((nm) => number(umText(nm))).join(' … '), ' µm')),

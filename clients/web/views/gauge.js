@@ -160,25 +160,28 @@ export function mount(main, route) {
     const { limits } = job;
     return {
       measured, part_id, characteristic, machine, designation: limits?.designation ?? job.designation, at: connection.now(), limits,
-      verdict: limits && judge(nmFromMm(measured), limits, job.rule.guard),
+      verdict: limits && job.envelope.said !== 'fails' ? judge(nmFromMm(measured), limits, job.rule.guard) : null,
     };
   }
 
-  function bodyOf(text, subgroup, confirmed) {
-    const { text: designation, own, feature } = job.current();
+  function bodyOf(measured, subgroup, confirmed) {
+    const { text, own, feature, envelope } = job.current();
+    const designation = envelope ? `${text}(E)` : text;
     const given = FIELDS.map((name) => [name, job.fields.of(name)]).filter(([, value]) => value);
     const exact = (value) => (value === undefined ? undefined : new Decimal(String(value)));
     const limits = own ? {
       nominal_mm: exact(own.nominal_mm), feature: own.feature, ...(own.quantity && { quantity: own.quantity }), upper_um: exact(own.upper_deviation_um), lower_um: exact(own.lower_deviation_um),
     } : { designation, feature };
-    return { ...limits, measured_mm: new Decimal(text), ...Object.fromEntries(given), ...(subgroup && { subgroup }), ...(confirmed && { confirmed }), ...job.rule.body };
+    return { ...limits, measured_mm: new Decimal(measured), ...Object.fromEntries(given), ...(subgroup && { subgroup }), ...(confirmed && { confirmed }), ...job.rule.body, ...job.envelope.take(!envelope) };
   }
 
   function post({ text, correcting, confirmed }) {
     if (correcting) return correct(correcting, text, confirmed && { confirmed });
     const subgroup = plan.sample;
     stepped = Boolean(plan.current);
-    plan.step(send(url(['measurements']), bodyOf(text, subgroup, confirmed), { ...shownOf(text), subgroup, confirmed, ...plan.begun() }));
+    const shown = shownOf(text);
+    const body = bodyOf(text, subgroup, confirmed);
+    plan.step(send(url(['measurements']), body, { ...shown, subgroup, confirmed, ...plan.begun() }));
     if (!connection.up) sayPart();
     return undefined;
   }

@@ -47,14 +47,14 @@ void write_side(JsonWriter& json, std::string_view name, const iso286::LimitsOfS
 void write_fit_members(JsonWriter& json, const iso286::Fit& fit,
                        const iso286::FitDesignation& designation, const ToleranceTables& tables,
                        const WriteStored& stored = {}) {
-  const auto& [size, hole_class, shaft_class] = designation;
+  const auto& [size, hole_class, shaft_class, has_envelope] = designation;
   json.member("designation", designation_text(size.length(), hole_class) + "/" + shaft_class);
   write_side(json, "hole", fit.hole, hole_class, tables);
   write_side(json, "shaft", fit.shaft, shaft_class, tables);
   json.member("type", word(fit.kind()))
       .member_um("max_clearance_um", fit.max_clearance())
       .member_um("min_clearance_um", fit.min_clearance())
-      .member("assumes_envelope", true);
+      .member("assumes_envelope", !has_envelope);
   write_formula(json, "fit");
   write_statistical(json, fit, stored);
 }
@@ -70,7 +70,7 @@ Result<iso286::LimitsOfSize> find_side(iso286::NominalSize size, std::string_vie
 
 Result<iso286::Fit> find_fit(const iso286::FitDesignation& designation,
                              const ToleranceTables& tables) {
-  const auto& [size, hole_class, shaft_class] = designation;
+  const auto& [size, hole_class, shaft_class, has_envelope] = designation;
   const auto hole = find_side(size, hole_class, iso286::Feature::Hole, tables);
   if (!hole) return hole.error();
   const auto shaft = find_side(size, shaft_class, iso286::Feature::Shaft, tables);

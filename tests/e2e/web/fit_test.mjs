@@ -43,6 +43,23 @@ describe('the fit', () => {
     await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Clearance fit');
   });
 
+  it('takes the envelope requirement of both sizes, in the address too, and says what it means', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6');
+    await page.waitForFunction(() => /form counts too/.test(document.querySelector('.fit .result')?.textContent));
+    await page.fill('#fit', '25 H7 Ⓔ/g6(E)');
+    await page.press('#fit', 'Enter');
+    await page.waitForFunction(() => /hold whatever the form/.test(document.querySelector('.fit .result').textContent));
+    assert.equal(await page.inputValue('#fit'), '25 H7(E)/g6(E)');
+    assert.equal(hashOf(page), '#/fit/25H7(E)/g6(E)');
+    await page.reload();
+    await page.waitForFunction(() => /hold whatever the form/.test(document.querySelector('.fit .result')?.textContent));
+    await page.fill('#fit', '25H7(E)/g6'); // one alone is not enough
+    await page.press('#fit', 'Enter');
+    await page.waitForFunction(() => /form counts too/.test(document.querySelector('.fit .result').textContent));
+    const assumed = await Promise.all(['25H7/g6', '25H7(E)/g6', '25H7/g6(E)', '25H7(E)/g6(E)'].map(async (fit) => (await daemon.json(`/v1/fits/${fit}`)).assumes_envelope));
+    assert.deepEqual(assumed, [true, true, true, false]);
+  });
+
   it('is found by the clearance it must have, and copied for a drawing', async () => {
     page = await open(browser, daemon, '#/fit/25H7/k6');
     await page.waitForSelector('.limits');

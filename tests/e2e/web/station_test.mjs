@@ -19,7 +19,7 @@
 import assert from 'node:assert/strict';
 import { afterEach, beforeEach, describe, it } from 'node:test';
 
-import { close, open, openIn, picture } from './support/browser.mjs';
+import { close, findings, open, openIn, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
 import { scan as scanInto, typeSlowly } from './support/scanner.mjs';
 import { begin, browser, daemon, storedSince } from './support/stage.mjs';
@@ -165,6 +165,53 @@ describe('a station with a scanner', () => {
     await daemon.start();
     await settled();
     assert.deepEqual((await storedSince()).map((record) => record.verdict), ['good', 'reject', 'good', 'rework']);
+  });
+
+  it('has a place for what the GO gauge said of a size with Ⓔ, of one part alone, and for the size operator', async () => {
+    assert.ok(await page.isHidden('.envelope'));
+    await scan('25 H7 (E)');
+    await page.waitForFunction(() => /Ø 25 H7 \(E\)/.test(document.querySelector('.echo').textContent));
+    await scan('SN-E1');
+    await page.click('.envelope >> text=does not pass');
+    assert.deepEqual(await findings(page), []);
+    await picture(page, 'station-envelope');
+    await scan('25.010'); // by its size it would be good
+    await verdict('rework');
+    await scan('SN-E2');
+    await page.selectOption('[name="size_operator"]', 'GN');
+    await page.getByRole('button', { name: 'passes', exact: true }).click();
+    await scan('25.011');
+    await verdict('good');
+    await scan('25.012');
+    await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 3);
+    await page.click('.envelope >> text=does not pass');
+    await scan('SN-E3'); // said of the part before
+    await scan('25.013');
+    await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 4);
+    const said = (await storedSince()).map(({ envelope, envelope_result: found, go_gauge: go, size_operator: operator, verdict: word }) => [envelope, found, go, operator, word]);
+    assert.deepEqual(said, [['required', 'failed', 'fails', 'LP', 'rework'], ['required', 'verified', 'passes', 'GN', 'good'], ['required', 'not_verified', undefined, 'GN', 'good'], ['required', 'not_verified', undefined, 'GN', 'good']]);
+    await scan('30 k6');
+    await page.waitForSelector('.envelope', { state: 'hidden' });
+  });
+
+  it('asks by its plan for a size operator and for the envelope of limits of a drawing', async () => {
+    await daemon.send('PUT', '/v1/plans/E-1', { characteristics: [
+      { name: 'e-bore', nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: 0, envelope: 'required', size_operator: 'GX' }, { name: 'e-pin', designation: '25 h7', size_operator: 'GG' }, { name: 'e-free', designation: '30 k6' }] });
+    await page.reload(); // a plan that has come is known then
+    await page.waitForSelector('.plan select:visible');
+    await scan('E-1');
+    await scan('SN-E9');
+    await page.waitForSelector('.envelope:visible');
+    await page.getByRole('button', { name: 'passes', exact: true }).click();
+    await scan('8.01');
+    await page.waitForFunction(() => document.querySelector('[name="size_operator"]').value === 'GG');
+    assert.ok(await page.isHidden('.envelope >> text=does not pass'));
+    await scan('24.99');
+    await page.waitForSelector('.envelope', { state: 'hidden' });
+    await scan('30.01');
+    await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 3);
+    const said = (await storedSince()).map(({ characteristic, envelope, go_gauge: go, size_operator: operator }) => [characteristic, envelope, go, operator]);
+    assert.deepEqual(said, [['e-bore', 'required', 'passes', 'GX'], ['e-pin', undefined, undefined, 'GG'], ['e-free', undefined, undefined, 'LP']]);
   });
 
   it('corrects the part of a record', async () => {

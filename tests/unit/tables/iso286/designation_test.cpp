@@ -65,6 +65,10 @@ TEST_CASE("fits name the hole first") {
     CHECK(fit->shaft_class == "g6");
   }
   CHECK(parse_fit_designation("25H7", "g6")->shaft_class == "g6");
+  CHECK(parse_fit_designation("25 H7 (E)/g6 \xE2\x92\xBA")->has_envelope);
+  for (const char* const text : {"25H7/g6", "25H7(E)/g6", "25H7/g6(E)"}) {
+    CHECK_FALSE(parse_fit_designation(text)->has_envelope);
+  }
   for (const char* text :
        {"25H7/G6", "25g6/H7", "25h7/g6", "25H7", "25H7/", "25H7/25g6", "25H7/g6/h5"}) {
     CAPTURE(std::string(text));
