@@ -35,6 +35,7 @@ export function averageAndRange(charts, { parts, operators }) {
   const count = operators.length * parts.length;
   return charts.map(({ name, centre, lower_limit: lower, upper_limit: upper, points }) => {
     const frame = new Frame(Array(count).fill(''), [...points, lower, upper], { decimals: name === 'r' ? 4 : 3 });
+    if (lower === 0) frame.low = 0;
     const across = (value, kind) => s(`path.${kind}`, { d: `M${EDGE.left} ${frame.y(value)}H${WIDTH - EDGE.right}` });
     const isOut = (value) => value > upper || value < lower;
     const figure = frame.draw(t(`study.figure.${name}`), across(upper, 'bound'), across(lower, 'bound'), across(centre, 'master'), operators.map((operator, at) => {
