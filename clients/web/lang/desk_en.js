@@ -125,7 +125,7 @@ export default {
   'fit.min.interference': 'Least interference',
   'fit.actual.clearance': 'Clearance of this pair',
   'fit.actual.interference': 'Interference of this pair',
-  'fit.envelope': 'Both sizes have (E): these clearances hold whatever the form.',
+  'fit.envelope': 'Both sizes have (E): these clearances hold for every form.',
   'fit.form_counts': 'Without (E) on both sizes form counts too: lobes take clearance.',
   'fit.preferred': 'Preferred fits',
   'fit.kind.loose': 'Loose running',

@@ -1,4 +1,4 @@
-/** Catalogues of causes and measures, which the station offers after a value that is not good: each as two lists in their order. */
+/** Catalogues of causes and actions, which the station offers after a value that is not good: each as two lists in their order. */
 
 import { getJson, url } from '../api.js';
 import { confirm } from '../confirm.js';

@@ -48,11 +48,11 @@ describe('the fit', () => {
     await page.waitForFunction(() => /form counts too/.test(document.querySelector('.fit .result')?.textContent));
     await page.fill('#fit', '25 H7 Ⓔ/g6(E)');
     await page.press('#fit', 'Enter');
-    await page.waitForFunction(() => /hold whatever the form/.test(document.querySelector('.fit .result').textContent));
+    await page.waitForFunction(() => /hold for every form/.test(document.querySelector('.fit .result').textContent));
     assert.equal(await page.inputValue('#fit'), '25 H7(E)/g6(E)');
     assert.equal(hashOf(page), '#/fit/25H7(E)/g6(E)');
     await page.reload();
-    await page.waitForFunction(() => /hold whatever the form/.test(document.querySelector('.fit .result')?.textContent));
+    await page.waitForFunction(() => /hold for every form/.test(document.querySelector('.fit .result')?.textContent));
     await page.fill('#fit', '25H7(E)/g6'); // one alone is not enough
     await page.press('#fit', 'Enter');
     await page.waitForFunction(() => /form counts too/.test(document.querySelector('.fit .result').textContent));

@@ -352,7 +352,7 @@ describe('a drawing', () => {
   });
 });
 
-describe('catalogues of causes and measures', () => {
+describe('catalogues of causes and actions', () => {
   const catalogue = (name) => daemon.json(`/v1/catalogues/${name}`);
   const entries = (list) => page.$$eval(`.catalogues [aria-label="${list}"] input`, (all) => all.map(({ value }) => value));
   const entry = (list, number) => page.locator(`.catalogues [aria-label="${list}"] > li:nth-child(${number})`);
@@ -368,23 +368,23 @@ describe('catalogues of causes and measures', () => {
     await entry('Causes', 1).locator('input').fill('Insert worn');
     await entry('Causes', 1).locator('input').press('Enter');
     await page.keyboard.insertText('Wrong offset');
-    await page.getByRole('button', { name: 'Add a measure' }).click();
-    await entry('Measures', 1).locator('input').fill('Insert changed');
-    await entry('Measures', 2).locator('input').evaluate((input) => {
+    await page.getByRole('button', { name: 'Add an action' }).click();
+    await entry('Actions', 1).locator('input').fill('Insert changed');
+    await entry('Actions', 2).locator('input').evaluate((input) => {
       const clipboardData = new DataTransfer();
       clipboardData.setData('text', 'Offset corrected\r\nPart scrapped\n');
       input.dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true, cancelable: true }));
     });
-    assert.deepEqual(await entries('Measures'), ['Insert changed', 'Offset corrected', 'Part scrapped']);
+    assert.deepEqual(await entries('Actions'), ['Insert changed', 'Offset corrected', 'Part scrapped']);
     await entry('Causes', 2).locator('.grip').focus();
     await page.keyboard.press('ArrowUp');
     assert.deepEqual(await findings(page), []);
     await storeIt();
-    await tell('Catalogue c-turning is stored: 2 causes, 3 measures.');
+    await tell('Catalogue c-turning is stored: 2 causes, 3 actions.');
     assert.deepEqual(await catalogue('c-turning'), { causes: ['Wrong offset', 'Insert worn'], measures: ['Insert changed', 'Offset corrected', 'Part scrapped'] });
     await picture(page, 'plans-catalogue', { fullPage: true });
     assert.deepEqual(await page.$$eval('datalist[id^="plan-catalogue"] option', (all) => all.map(({ value }) => value)), ['c-turning']); // a plan offers it at once
-    await entry('Measures', 3).locator('.remove').click();
+    await entry('Actions', 3).locator('.remove').click();
     await entry('Causes', 2).locator('input').fill('Wrong offset');
     await storeIt();
     await page.waitForSelector('.catalogues [aria-invalid]'); // twice the same is no choice
@@ -392,7 +392,7 @@ describe('catalogues of causes and measures', () => {
     await entry('Causes', 2).locator('input').fill('Insert broken');
     await page.fill('[name="catalogue-name"]', 'c-milling');
     await storeIt();
-    await tell('Catalogue c-milling is stored: 2 causes, 2 measures.');
+    await tell('Catalogue c-milling is stored: 2 causes, 2 actions.');
     assert.deepEqual((await daemon.json('/v1/catalogues')).catalogues.map(({ name }) => name).filter((name) => name.startsWith('c-')), ['c-milling']);
     await daemon.send('PUT', '/v1/plans/C-1', { characteristics: [{ name: 'c-bore', designation: '25 H7', catalogue: 'c-milling' }] });
     await page.getByRole('button', { name: 'Delete', exact: true }).last().click();
