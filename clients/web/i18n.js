@@ -16,8 +16,9 @@ const TEXTS = {
 const LATER = {
   plans: { en: () => import('./lang/plans_en.js'), de: () => import('./lang/plans_de.js'), nl: () => import('./lang/plans_nl.js'), it: () => import('./lang/plans_it.js') },
   desk: { en: () => import('./lang/desk_en.js'), de: () => import('./lang/desk_de.js'), nl: () => import('./lang/desk_nl.js'), it: () => import('./lang/desk_it.js') },
+  figures: { en: () => import('./lang/figures_en.js'), de: () => import('./lang/figures_de.js'), nl: () => import('./lang/figures_nl.js'), it: () => import('./lang/figures_it.js') },
 };
-const TEXTS_OF = { plans: ['desk', 'plans'] };
+const TEXTS_OF = { plans: ['desk', 'plans'], trend: ['desk', 'figures'], gauges: ['desk', 'figures'] };
 const opened = new Set();
 
 let words = en;

@@ -28,7 +28,7 @@ class Words(unittest.TestCase):
                     self.assertEqual(found(path.read_text(encoding="utf-8")), [])
 
     def test_messages_and_the_page(self):
-        for name in ("server/base/error_codes.inc", *(f"clients/web/lang/{part}.js" for part in ("en", "desk_en", "plans_en"))):
+        for name in ("server/base/error_codes.inc", *(f"clients/web/lang/{part}.js" for part in ("en", "desk_en", "plans_en", "figures_en"))):
             self.assertEqual(found((ROOT / name).read_text(encoding="utf-8")), [], name)
 
     def test_help(self):

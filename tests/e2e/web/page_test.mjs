@@ -227,7 +227,7 @@ describe('the page', () => {
   it('has every text in every language, with the same places', async () => {
     const texts = {};
     for (const code of ['en', 'de', 'nl', 'it']) {
-      const own = await Promise.all([code, `plans_${code}`, `desk_${code}`].map((name) => import(path.resolve(FOLDER, `lang/${name}.js`))));
+      const own = await Promise.all([code, `plans_${code}`, `desk_${code}`, `figures_${code}`].map((name) => import(path.resolve(FOLDER, `lang/${name}.js`))));
       texts[code] = Object.assign({}, ...own.map((each) => each.default));
     }
     const places = (text) => (text.match(/\{\w+\}/g) ?? []).sort();

@@ -52,7 +52,7 @@ describe('the words', () => {
   /** A page whose German is ⟦marked⟧, so that whatever is not marked did not come from the tables of texts. */
   async function openMarked(fragment) {
     const page = await open(browser, daemon, '', { locale: 'en-GB' });
-    for (const file of ['de', 'de_codes', 'plans_de', 'desk_de']) {
+    for (const file of ['de', 'de_codes', 'plans_de', 'desk_de', 'figures_de']) {
       const marked = Object.fromEntries(Object.entries(await textsOf(file)).map(([name, text]) => [name, `⟦${text}⟧`]));
       await page.route(`**/lang/${file}.js`, (route) => route.fulfill({ contentType: 'text/javascript', body: `export default ${JSON.stringify(marked)}` }));
     }
