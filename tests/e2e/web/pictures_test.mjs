@@ -1,6 +1,6 @@
 /**
  * The pictures of docs/guide/gauging-station.md show the page as it is: scan, measure, reject with its cause, outage,
- * sample, certificate. PICTURES=write tests/e2e/web/run tests/e2e/web/pictures_test.mjs takes them anew.
+ * sample, certificate; and every view at four sizes, light and dark, on a sheet. PICTURES=write tests/e2e/web/run tests/e2e/web/pictures_test.mjs takes them anew.
  */
 
 import assert from 'node:assert/strict';
@@ -8,7 +8,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, describe, it } from 'node:test';
 
-import { close, launch, open } from './support/browser.mjs';
+import { close, drawn, launch, open } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
 import { scan } from './support/scanner.mjs';
 
@@ -123,4 +123,64 @@ describe('pictures of the guide', () => {
   it('are told apart', async () => {
     assert.ok(await difference(blank, taken.get('reject'), taken.get('measure')) > 0.05);
   });
+});
+
+describe('sheets of every view', () => {
+  const NOW = '2026-03-10T09:00:00Z';
+  const SIZES = [[390, 844], [1024, 768], [1366, 768], [3840, 2160]];
+  const ROW_PX = 216;
+  /** The address of each, and what stands there when it is drawn. */
+  const VIEWS = {
+    gauge: ['gauge?plan=4711-A&part_id=SN-00017', '.verdict .word'], fit: ['fit/25H7/g6', '.fit .headline'], trend: ['trend?characteristic=bore-A', '.indices .stability'], overview: ['overview', '.scroll[data-settled]'],
+    parts: ['parts?part_id=SN-00017', '.part-verdict'], plans: ['plans/4711-A', '.editor:not([hidden]) .characteristic'], programs: ['programs/nc_prog/probe.h', '.cm-line'], tables: ['tables', '.grid tbody tr'],
+    gauges: ['gauges', '.listed tbody tr'], connections: ['connections', '.connections form'],
+  };
+  const committed = (view) => path.join(FOLDER, `view-${view}.png`);
+  let browser;
+  let daemon;
+  let blank;
+  before(async () => {
+    browser = await launch();
+    daemon = await new Daemon().start();
+    blank = await browser.newPage();
+    await daemon.send('PUT', '/v1/catalogues/turning', CATALOGUE);
+    await daemon.send('PUT', '/v1/plans/4711-A', PLAN);
+    await daemon.send('PUT', '/v1/uncertainties/bore', { contributions: [{ name: 'ring', standard_uncertainty: 0.3 }] });
+    await daemon.send('PUT', '/v1/gauges-in-use/G-07', { uncertainty: 'bore', calibration_due: '2099-03-31' });
+    await daemon.send('PUT', '/v1/files/nc_prog/probe.h', 'BEGIN PGM PROBE MM\nTOOL CALL 30 Z\nL Z+50 R0 FMAX\nTCH PROBE 427 MEASURE COORDINATE ~\n  Q263=+50 ~\n  Q264=+40\nEND PGM PROBE MM\n', 'text/plain');
+    const of = (i, characteristic, size) => ({ part_id: `SN-${String(i).padStart(5, '0')}`, characteristic, ...size, machine: `M${1 + i % 2}`, measured_at: new Date(Date.parse(NOW) - (61 - i) * 600_000).toISOString() });
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 60 }, (_, i) => [
+      of(i, 'bore-A', { designation: '25 H7', measured_mm: (25.0105 + 0.004 * Math.sin(i * 2.4)).toFixed(4) }),
+      ...(i === 17 ? [] : [of(i, 'slot', { nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: 0, measured_mm: (8.018 + 0.012 * Math.sin(i * 1.7)).toFixed(4) })])]).flat());
+  });
+  after(() => daemon.cleanup());
+
+  /** A picture of a view at each size, light above dark. */
+  async function sheetOf([address, mark]) {
+    const rows = [];
+    for (const colorScheme of ['light', 'dark']) {
+      const page = await open(browser, daemon, `#/${address}`, { at: NOW, timezoneId: 'Europe/Berlin', colorScheme });
+      await page.waitForSelector(mark);
+      const row = [];
+      for (const [width, height] of SIZES) {
+        await page.setViewportSize({ width, height });
+        await drawn(page);
+        row.push(`<img height="${ROW_PX}" src="data:image/png;base64,${(await page.screenshot()).toString('base64')}">`);
+      }
+      rows.push(`<p>${row.join('')}</p>`);
+      await close(page);
+    }
+    await blank.setContent(`<style>body { margin: 0 } p { display: flex; gap: 6px; margin: 0 0 6px }</style><main style="width: max-content">${rows.join('')}</main>`);
+    await blank.evaluate(() => Promise.all([...document.images].map((image) => image.decode())));
+    return blank.locator('main').screenshot();
+  }
+
+  for (const [view, how] of Object.entries(VIEWS)) {
+    it(`${view} is of this page`, async () => {
+      const sheet = await sheetOf(how);
+      if (process.env.PICTURES === 'write') fs.writeFileSync(committed(view), sheet);
+      const share = await difference(blank, sheet, fs.readFileSync(committed(view)));
+      assert.ok(share < 0.02, `${(share * 100).toFixed(1)} % of ${committed(view)} is different; PICTURES=write takes it anew`);
+    });
+  }
 });
