@@ -367,13 +367,13 @@ describe('catalogues of causes and actions', () => {
     await page.fill('[name="catalogue-name"]', 'c-turning');
     await entry('Causes', 1).locator('input').fill('Insert worn');
     await entry('Causes', 1).locator('input').press('Enter');
-    await page.keyboard.insertText('Wrong offset');
+    await entry('Causes', 2).locator('input').fill('Wrong offset');
     await page.getByRole('button', { name: 'Add an action' }).click();
     await entry('Actions', 1).locator('input').fill('Insert changed');
     await entry('Actions', 2).locator('input').evaluate((input) => {
-      const clipboardData = new DataTransfer();
-      clipboardData.setData('text', 'Offset corrected\r\nPart scrapped\n');
-      input.dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true, cancelable: true }));
+      const paste = new Event('paste', { bubbles: true, cancelable: true });
+      Object.defineProperty(paste, 'clipboardData', { value: { getData: () => 'Offset corrected\r\nPart scrapped\n' } });
+      input.dispatchEvent(paste);
     });
     assert.deepEqual(await entries('Actions'), ['Insert changed', 'Offset corrected', 'Part scrapped']);
     await entry('Causes', 2).locator('.grip').focus();
