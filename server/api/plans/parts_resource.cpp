@@ -39,6 +39,7 @@ struct Reaction {
   std::string characteristic{};
   std::string reaction{};
   std::string measurement{};
+  bool is_at_each_part = true;  ///< no frequency says otherwise
 };
 void members(auto& v, const Reaction& open) {
   v.member("characteristic", open.characteristic);
@@ -58,7 +59,8 @@ void members(auto& v, const Part& part) {
   v.member("part_id", part.part);
   v.optional("plan", part.plan, "The plan it is held against");
   v.member("verdict", part.verdict, "Worst verdict; null if a value is missing or none has limits");
-  v.member("missing", part.missing, "Characteristics of the plan without a value, in its order");
+  v.member("missing", part.missing,
+           "Characteristics of the plan without a value, in its order; not those with a frequency");
   v.member("characteristics", part.values,
            "Characteristics in the order of the plan, then the others");
   v.member("open_reactions", part.reactions,
@@ -72,7 +74,9 @@ Result<std::vector<Reaction>> characteristics_of(const NamedDocument& plan) {
   std::vector<Reaction> found;
   for (const JsonValue& each : json->find("characteristics")->items) {
     const JsonValue* reaction = each.find("reaction");
-    found.push_back({each.find("name")->text, reaction == nullptr ? "" : reaction->text});
+    const JsonValue* frequency = each.find("frequency");
+    found.push_back({each.find("name")->text, reaction == nullptr ? "" : reaction->text, "",
+                     frequency == nullptr || frequency->text.empty()});
   }
   return found;
 }
@@ -88,7 +92,7 @@ void hold_against(const std::vector<Reaction>& plan, Part& part) {
     const auto value =
         std::ranges::find(part.values, each.characteristic, &PartValue::characteristic);
     if (value == part.values.end()) {
-      part.missing.push_back(each.characteristic);
+      if (each.is_at_each_part) part.missing.push_back(each.characteristic);
     } else if (value->verdict.value_or("good") != "good" && !value->has_note &&
                !each.reaction.empty()) {
       part.reactions.push_back({each.characteristic, each.reaction, value->measurement});
@@ -187,7 +191,8 @@ void missing_at(const Services& services, std::string_view part,
                 std::function<void(Result<std::vector<std::string>>)> done) {
   read_part(services, part, {}, [done = std::move(done)](const Result<Part>& found) {
     if (found) return done(found->missing);
-    if (found.error().code == ErrorCode::MeasurementUnknown) return done(std::vector<std::string>());
+    if (found.error().code == ErrorCode::MeasurementUnknown)
+      return done(std::vector<std::string>());
     done(found.error());
   });
 }

@@ -59,6 +59,8 @@ class Plans(DaemonTest):
                           for c in part()["characteristics"]], [("bore-A", good, "good", 25.01), ("slot", slot, "good", 8.01)])
         self.daemon.post(f"/v1/measurements/{slot}/corrections", {"measured_mm": "8.05", "reason": "misread"})
         self.assertEqual(part()["verdict"], "reject")
+        self.put("9-B", BORE, SLOT, {**BORE, "name": "pin", "frequency": "every 5th part"}, {**BORE, "name": "seat", "frequency": ""})
+        self.assertEqual(part("?plan=9-B")["missing"], ["seat"])  # nobody knows whether the pin is due at this part
         self.put("9-C", BORE, SLOT)
         self.assertNotIn("plan", part(), "two plans fit")
         self.assert_problem(self.daemon.get("/v1/parts/P/1?plan=none"), 400, "query.invalid")
