@@ -3,14 +3,13 @@
 import { getJson, request, url } from '../api.js';
 import { connection } from '../connection.js';
 import { field, h, refill } from '../dom.js';
-import { gaugeInUse } from '../gauge/in_use.js';
-import { date, dayText, explain, number, t } from '../i18n.js';
+import { dayShown, gaugeInUse } from '../gauge/in_use.js';
+import { dayText, explain, number, t } from '../i18n.js';
 
 const CALIBRATION = ['from', 'due', 'certificate', 'laboratory', 'status', 'uncertainty', 'comment'];
 const COLUMNS = ['from', 'due', 'status', 'certificate', 'laboratory', 'uncertainty', 'comment'];
 const STATES = ['in_use', 'blocked'];
 
-const day = (text) => date(new Date(text));
 const control = (name, attributes = {}) => h('input', { type: name, autocomplete: 'off', spellcheck: 'false', maxlength: 200, ...attributes });
 const valuesOf = (inputs) => Object.fromEntries(Object.entries(inputs).map(([name, { value }]) => [name, value.trim()]).filter(([, value]) => value));
 
@@ -53,7 +52,7 @@ export class Calibrations {
     this.table.hidden = !gauges.length;
     refill(this.rows, all.filter(Boolean).map((one) => h('tr', h('th', { scope: 'row' },
       h('button.quiet', { type: 'button', 'aria-current': one.name === this.gauge && 'true', onclick: () => this.#choose(one.name) }, one.name)),
-    h('td', one.blocked ? '–' : date(one.due)), h('td', { class: one.overdue && 'overdue' }, t(`calibration.${one.blocked ? 'blocked' : one.overdue ? 'overdue' : 'in_use'}`)),
+    h('td', one.blocked ? '–' : one.day), h('td', { class: one.overdue && 'overdue' }, t(`calibration.${one.blocked ? 'blocked' : one.overdue ? 'overdue' : 'in_use'}`)),
     h('td', one.uncertainty_um ? `u = ${number(one.uncertainty_um)} µm` : '–'))));
     if (this.gauge) await this.#open();
     else this.ofOne.replaceChildren();
@@ -68,7 +67,7 @@ export class Calibrations {
   async #open() {
     const { gauge } = this;
     const { calibrations } = await getJson(url(['gauges-in-use', gauge, 'calibrations']), { signal: this.leaving });
-    const cell = { from: day, due: day, status: (state) => t(`calibration.${state}`) };
+    const cell = { from: dayShown, due: dayShown, status: (state) => t(`calibration.${state}`) };
     this.inputs.from.value ||= dayText(connection.now());
     refill(this.ofOne, h('h2', t('calibration.title', { gauge })), calibrations.length ? h('div.scroll.listed', { tabindex: 0, role: 'region', 'aria-label': t('calibration.title', { gauge }) },
       h('table', h('thead', h('tr', COLUMNS.map((name) => h('th', { scope: 'col' }, t(`calibration.${name}`))))), h('tbody', [...calibrations].reverse().map((one) => h('tr', COLUMNS.map((name) =>

@@ -120,7 +120,13 @@ describe('a gauge', () => {
     const page = await open(browser, daemon, '#/gauges/G-NIGHT', { at: '2026-03-31T22:30:00Z', timezoneId: 'Europe/Berlin' });
     await page.waitForSelector('.of-gauge [name="from"]');
     assert.deepEqual([await page.inputValue('[name="study-at"]'), await page.inputValue('.of-gauge [name="from"]')], ['2026-04-01', '2026-04-01']);
+    assert.match(await page.textContent('.gauges-in-use .listed tbody'), /G-NIGHT31 Mar 2099/); // due on that day, east and west
+    await daemon.send('POST', '/v1/gauges-in-use/G-NIGHT/calibrations', { from: '2026-01-31', due: '2099-05-31' });
     await close(page);
+    const west = await open(browser, daemon, '#/gauges/G-NIGHT', { at: '2026-03-31T22:30:00Z', timezoneId: 'America/New_York' });
+    await west.waitForSelector('.of-gauge tbody tr');
+    assert.match(await west.textContent('.of-gauge tbody'), /31 Jan 202631 May 2099/);
+    await close(west);
   });
 
   it('is studied in a grid that Enter goes down, which says what is missing or no value', async () => {
