@@ -77,7 +77,8 @@ std::shared_ptr<CollectedLog> collected(const MeasuringLog& read, const Origin& 
   const bool judges = std::any_of(read.values.begin(), read.values.end(),
                                   [](const LogValue& value) { return value.upper.has_value(); });
   for (const LogValue& value : read.values) {
-    if (judges && !value.upper) continue;
+    const auto quantity = probing::quantity_of(read.cycle, value.role == Role::Position);
+    if (judges && !value.upper && !gauging::has_feature(quantity)) continue;
     if (is_length(value)) {
       log->measurements.push_back(measurement_of(*log, read, value, origin));
     } else {

@@ -87,8 +87,8 @@ struct Origin {
 };
 
 /// Reads the logs of touch-probe cycles, or else by the first pattern that finds a result. Of
-/// a log that judges something every length it judges is stored; of one that judges nothing the
-/// first length, indeterminate. Angles and figures of axes stay in the file.
+/// a log that judges something every size is stored, and every other length it judges; of one that
+/// judges nothing every length, unjudged. Angles and figures of axes stay in the file.
 Collected collect(const Origin& origin, const std::string& bytes);
 
 /// Results of a file.

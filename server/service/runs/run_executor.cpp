@@ -253,7 +253,7 @@ std::vector<Measurement> measurements_of(const RunReport& report,
     const auto is_judged = [](const MeasuredSize& size) { return size.limits.has_value(); };
     const bool judges = std::ranges::any_of(sizes, is_judged);
     for (const MeasuredSize& size : sizes) {
-      if (judges && !is_judged(size)) continue;
+      if (judges && !is_judged(size) && size.is_position) continue;
       records.push_back(record_of(report, measured, size, caller));
       if (!judges) break;
     }

@@ -171,6 +171,28 @@ class Quantity(DaemonTest):
         problem = self.daemon.get(f"/v1/measurements/capability?run_id={run['id']}")
         self.assert_problem(problem, 422, "limits.none")
 
+    def test_a_cycle_with_limits_of_the_centre_alone_keeps_its_diameter(self):
+        program = FREE.replace("Q279=+0", "Q279=+0.05").replace("Q280=+0", "Q280=+0.05")
+        run, stored = self.run_program(program)
+        self.assertEqual(run["verdict"], "good")
+        self.assertEqual([(each["quantity"], each["basis"], each.get("verdict"), "upper_limit_mm" in each) for each in stored],
+                         [("diameter", "none", None, False), ("position", "explicit", "good", True),
+                          ("position", "explicit", "good", True)])
+        self.assertEqual((stored[0]["measured_mm"], stored[0]["feature"], stored[0]["points"]), (25.01, "hole", 4))
+        of_run = f"run_id={run['id']}"
+        groups = {each["characteristic"]: (each["count"], each["verdicts"].get("unjudged"), each["verdicts"]["good"])
+                  for each in self.daemon.get(f"/v1/measurements/summary?{of_run}").json["groups"]}
+        self.assertEqual(groups, {"Diameter": (1, 1, 0), "Centre, main axis": (1, None, 1),
+                                  "Centre, secondary axis": (1, None, 1)})
+        for name, code in (("Diameter", "limits.none"), ("Centre, main axis", "statistics.too_few")):
+            path = f"/v1/measurements/capability?{of_run}&characteristic={name.replace(' ', '%20')}"
+            self.assert_problem(self.daemon.get(path), 422, code)
+        self.assertEqual(self.daemon.get(f"/v1/measurements?{of_run}&verdict=unjudged").json["measurements"], stored[:1])
+        moved = {"workpiece": {"features": [SETUP["workpiece"]["features"][0],
+                                            {**SETUP["workpiece"]["features"][1], "center_mm": [0.08, 0]}]}}
+        run, stored = self.run_program(program, **moved)
+        self.assertEqual((run["verdict"], [each.get("verdict") for each in stored]), ("reject", [None, "reject", "good"]))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -153,6 +153,19 @@ class Collecting(unittest.TestCase):
         state = wait_for(lambda: (now := shop.states()["m0"])["files"] and now)
         self.assertEqual((state["measurements"], len(all_measurements(shop.collector))), (0, 9))
 
+    def test_a_diameter_without_limits_is_stored_beside_judged_centres(self):
+        shop = self.shop(1, "TNC:\\nc_prog\\TCHPR*.TXT")
+        shop.collector.start()
+        free = re.sub("M..imum dimension for hole.*\n", "", log(1))
+        self.put(shop.controls[0], "nc_prog/TCHPR421.TXT", free)
+        *centres, diameter = wait_for(lambda: len(rows := all_measurements(shop.collector)) == 3 and rows)
+        self.assertEqual([each["verdict"] for each in centres], ["good", "good"])
+        self.assertEqual({name: diameter[name] for name in ("basis", "characteristic", "quantity", "size_operator", "nominal_mm", "measured_mm")},
+                         {"basis": "none", "characteristic": "Diameter", "quantity": "diameter", "size_operator": "GG",
+                          "nominal_mm": 12, "measured_mm": 12.0259})
+        self.assertFalse({"upper_limit_mm", "lower_limit_mm", "rule", "verdict", "excess_um", "uncertainty_um"} & diameter.keys())
+        self.assertEqual(self.settle(shop)["values_kept"], 0)
+
     def test_files_of_fn_16_are_read_by_a_pattern(self):
         shop = self.shop(1, "TNC:\\logs\\*.txt", patterns=["bore.pattern"])
         (shop.folder / "bore.pattern").write_text(PATTERN)
