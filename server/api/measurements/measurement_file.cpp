@@ -215,6 +215,7 @@ Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& m) {
   if (m.has_upper_limit()) value.upper = m.upper_limit();
   if (m.has_lower_limit()) value.lower = m.lower_limit();
   value.class_name = m.class_name.value_or("");
+  value.is_iso286 = m.basis == app::LimitsBasis::Iso286;
   value.quantity = m.quantity.value_or(gauging::Quantity::Diameter);
   if (m.has_feature()) value.feature = word(m.feature);
   value.size_operator = m.size_operator.value_or("");

@@ -72,6 +72,7 @@ struct OutgoingValue {
   std::optional<Length> upper{};  ///< limits of size
   std::optional<Length> lower{};
   std::string_view class_name{};  ///< empty: the limits are those of a drawing
+  bool is_iso286 = false;         ///< it is a class of ISO 286
   gauging::Quantity quantity = gauging::Quantity::Diameter;
   std::string_view feature{};        ///< `hole` or `shaft`; empty: it is none
   std::string_view size_operator{};  ///< of ISO 14405-1; empty: none
@@ -108,6 +109,7 @@ class QifWriter {
 
   std::string qpid_{};
   std::uint32_t last_id_ = 1;  ///< 1 is the standard
+  bool is_iso286_ = true;      ///< all limits are
   std::size_t measurements_ = 0;
   Status worst_ = Status::Pass;
   std::map<std::string, std::uint32_t, std::less<>> items_{};  ///< by their definition and name

@@ -147,6 +147,7 @@ Result<void> QifWriter::add(const OutgoingValue& value) {
       characteristic_of(value.quantity), ++last_id_, attributes(fields), word(value.status), item,
       format_rfc3339(value.measured_at), part, uncertainty, format_mm(value.measured));
   worst_ = std::max(worst_, value.status);
+  is_iso286_ = is_iso286_ && value.is_iso286;
   ++measurements_;
   return {};
 }
@@ -156,11 +157,14 @@ std::string QifWriter::element() const {
       "<QIFDocument xmlns=\"http://qifstandards.org/xsd/qif3\" versionQIF=\"3.0.0\" idMax=\"{}\">\n"
       "<QPId>{}</QPId>\n",
       last_id_ + 1, qpid_);
-  out +=
+  // ISO 8015 holds for every specification of ISO.
+  out += fmt::format(
       "<StandardsDefinitions n=\"1\"><Standard "
       "id=\"1\"><Organization><StandardsOrganizationEnum>ISO"
-      "</StandardsOrganizationEnum></Organization><Designator>286-1</Designator></Standard>"
-      "</StandardsDefinitions>\n"
+      "</StandardsOrganizationEnum></Organization><Designator>{}</Designator></Standard>"
+      "</StandardsDefinitions>\n",
+      is_iso286_ ? "286-1" : "8015");
+  out +=
       "<FileUnits><PrimaryUnits><LinearUnit><SIUnitName>meter</SIUnitName><UnitName>mm</UnitName>"
       "<UnitConversion><Factor>0.001</Factor></UnitConversion></LinearUnit></PrimaryUnits>"
       "</FileUnits>\n<Characteristics><FormalStandardId>1</FormalStandardId>\n";

@@ -87,7 +87,18 @@ class Quantity(DaemonTest):
         self.record(designation="8 N9", quantity="width", measured_mm=7.99, part_id="Q")
         self.record(quantity="diameter", measured_mm=7.99, part_id="Q")
         space = "{http://qifstandards.org/xsd/qif3}"
-        document = ElementTree.fromstring(self.daemon.get("/v1/measurements?part_id=Q&format=qif").body)
+
+        def document_of(query):
+            return ElementTree.fromstring(self.daemon.get(f"/v1/measurements?{query}&format=qif").body)
+
+        def standard(query):
+            return document_of(query).find(f".//{space}StandardsDefinitions//{space}Designator").text
+
+        # One standard holds for all definitions of a file: ISO 286-1 only if each has limits of it.
+        self.record(designation="8 N9", measured_mm=7.99, part_id="ISO 286")
+        self.assertEqual([standard(query) for query in ("part_id=ISO%20286", "part_id=Q", "part_id=Q&designation=8%20N9",
+                                                        "part_id=Q&verdict=unjudged")], ["286-1", "8015", "286-1", "8015"])
+        document = document_of("part_id=Q")
         measured = document.find(f".//{space}CharacteristicMeasurements")
         self.assertEqual([each.tag.removeprefix(space).removesuffix("CharacteristicMeasurement") for each in measured],
                          ["LinearCoordinate", "Length", "Radius", "Width", "Diameter"])
