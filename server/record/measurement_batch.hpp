@@ -18,7 +18,7 @@
 
 namespace fitgauge::api {
 
-/// Facts of a gauge in use for its measurements, from a calibration to the next.
+/// Facts of a gauge in use for its measurements, from a change or calibration to the next.
 struct GaugePeriod {
   Timestamp from{std::numeric_limits<std::int64_t>::min()};
   std::string budget{};  ///< its name; empty: none
@@ -36,7 +36,8 @@ struct GaugePeriod {
 };
 
 struct GaugeInUse {
-  /// By time. The first is what the gauge itself says; it has no beginning.
+  /// By time: what the gauge itself says, each from a change on, and then its calibrations. The
+  /// first has no beginning.
   std::vector<GaugePeriod> periods{1};
 
   /// The period that a time lies in.

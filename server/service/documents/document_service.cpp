@@ -107,6 +107,21 @@ Result<std::vector<NamedDocument>> all_of(const store::Stores& stores, DocumentK
   return documents;
 }
 
+/// The texts of gauges in use that were replaced, the oldest first.
+std::vector<NamedDocument> past_gauges(const store::Stores& stores) {
+  std::vector<NamedDocument> past;
+  store::ChangesStore::Page page;
+  do {
+    const std::int64_t after = page.changes.empty() ? 0 : page.changes.back().id;
+    page = stores.changes.list({.kind = "gauge"}, after, 1000);
+    for (store::Change& change : page.changes) {
+      if (!change.before) continue;
+      past.push_back({std::move(change.name), *std::move(change.before), {change.at_ns}});
+    }
+  } while (page.has_more);
+  return past;
+}
+
 }  // namespace
 
 void add_users(std::vector<std::string>& users, const store::Stores& stores, DocumentKind kind,
@@ -216,6 +231,7 @@ void DocumentService::list_each(std::vector<DocumentKind> kinds,
           const store::Stores& stores) -> Result<std::vector<std::vector<NamedDocument>>> {
         std::vector<std::vector<NamedDocument>> lists;
         for (const DocumentKind kind : kinds) lists.push_back(all_of(stores, kind).value());
+        lists.push_back(past_gauges(stores));
         return lists;
       },
       std::move(done));

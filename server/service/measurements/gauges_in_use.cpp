@@ -1,6 +1,7 @@
 #include "service/measurements/gauges_in_use.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/json/json_value.hpp"
 #include "record/fields.hpp"
@@ -34,26 +35,46 @@ void set_budget(GaugePeriod& period, std::string name,
   if (found == combined.end()) return;
   period.standard_uncertainty = rounded_up(found->second.combined);
   const double degrees = found->second.degrees_of_freedom * 1e6;
+  period.degrees_of_freedom.reset();
   if (degrees <= static_cast<double>(app::kDegreesOfFreedom.most)) {
     period.degrees_of_freedom = static_cast<std::int64_t>(degrees);
   }
 }
 
-GaugeBook book_of(const Documents& gauges, const Documents& calibrations,
-                  const Documents& budgets) {
+/// Takes the due date of a gauge, and its budget if it has one. @returns whether it has a date
+bool take_gauge(GaugePeriod& period, const std::string& text,
+                const std::map<std::string, metrology::CombinedUncertainty>& combined) {
+  const auto body = parse_json(text);
+  if (!body) return false;
+  period.calibration_due = due_in_utc(body->text_of("calibration_due")).value_or("");
+  period.due = parse_due(period.calibration_due);
+  const std::string budget(body->text_of("uncertainty"));
+  if (combined.contains(budget)) set_budget(period, budget, combined);
+  return period.due.has_value();
+}
+
+GaugeBook book_of(const Documents& gauges, const Documents& calibrations, const Documents& budgets,
+                  const Documents& past) {
   const auto combined = combined_of(budgets);
   GaugeBook book;
   for (const app::NamedDocument& document : gauges) {
-    const auto body = parse_json(document.text);
-    if (!body) continue;
     GaugeInUse gauge;
-    GaugePeriod& own = gauge.periods.front();
-    own.calibration_due = due_in_utc(body->text_of("calibration_due")).value_or("");
-    own.due = parse_due(own.calibration_due);
-    if (!own.due) continue;
-    set_budget(own, std::string(body->text_of("uncertainty")), combined);
-    book.emplace(document.name, std::move(gauge));
+    if (take_gauge(gauge.periods.front(), document.text, combined)) {
+      book.emplace(document.name, std::move(gauge));
+    }
   }
+  // What a gauge is now counts from its last change on.
+  for (const app::NamedDocument& document : past) {
+    const auto gauge = book.find(document.name);
+    if (gauge == book.end()) continue;
+    GaugePeriod& now = gauge->second.periods.back();
+    GaugePeriod before = now;
+    now.from = document.modified_at;
+    if (take_gauge(before, document.text, combined)) {
+      gauge->second.periods.insert(gauge->second.periods.end() - 1, std::move(before));
+    }
+  }
+  std::map<std::string_view, std::vector<GaugePeriod>> calibrated;
   for (const app::NamedDocument& document : calibrations) {
     const auto gauge = book.find(app::gauge_of_calibration(document.name));
     const auto body = parse_json(document.text);
@@ -66,12 +87,14 @@ GaugeBook book_of(const Documents& gauges, const Documents& calibrations,
     if (body->find("certificate") != nullptr) period.certificate = body->text_of("certificate");
     if (body->find("laboratory") != nullptr) period.laboratory = body->text_of("laboratory");
     const std::string budget = std::string(body->text_of("uncertainty"));
-    set_budget(period, budget.empty() ? gauge->second.periods.front().budget : budget, combined);
-    gauge->second.periods.push_back(std::move(period));
+    set_budget(period, budget.empty() ? gauge->second.periods.back().budget : budget, combined);
+    calibrated[gauge->first].push_back(std::move(period));
   }
-  for (auto& [name, gauge] : book) {
-    std::sort(gauge.periods.begin(), gauge.periods.end(),
-              [](const GaugePeriod& a, const GaugePeriod& b) { return a.from < b.from; });
+  for (auto& [name, periods] : calibrated) {
+    std::ranges::sort(periods, {}, &GaugePeriod::from);
+    std::vector<GaugePeriod>& all = book.find(name)->second.periods;
+    std::erase_if(all, [&](const GaugePeriod& own) { return periods.front().from <= own.from; });
+    std::ranges::move(periods, std::back_inserter(all));
   }
   return book;
 }
@@ -90,7 +113,7 @@ void GaugesInUse::reload(std::function<void(Result<void>)> done) {
       {DocumentKind::GaugeInUse, DocumentKind::Calibration, DocumentKind::Uncertainty},
       [this, number, shared](const Result<std::vector<Documents>>& lists) {
         if (!lists) return (*shared)(lists.error());
-        show(number, book_of((*lists)[0], (*lists)[1], (*lists)[2]));
+        show(number, book_of((*lists)[0], (*lists)[1], (*lists)[2], (*lists)[3]));
         (*shared)({});
       });
 }

@@ -287,6 +287,41 @@ class Kept(DaemonTest):
         self.assert_problem(self.daemon.post("/v1/gauges-in-use/none/calibrations", calibration), 404, "gauge.unknown")
         self.assert_problem(self.daemon.get("/v1/gauges-in-use/none/calibrations"), 404, "gauge.unknown")
 
+    def test_a_changed_due_date_counts_from_its_change_on(self):
+        """What is measured before the change is judged as the gauge was then, whenever it arrives."""
+        for name, u in (("plain", 0.5), ("wide", 2)):
+            self.put(f"/v1/uncertainties/{name}", {"contributions": [{"name": "all", "standard_uncertainty": u}]})
+
+        def put(due, budget):
+            self.assertIn(self.put("/v1/gauges-in-use/G-40", {"calibration_due": due, **budget}).status, (200, 201))
+
+        def measure(**at):
+            answer = self.daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "gauge": "G-40", "rule": "guard_band", **at})
+            self.assertEqual(answer.status, 201, answer)
+            self.assertEqual("calibration_due" in answer.json, "calibration_overdue" in answer.json)
+            return answer.json["uncertainty_um"], answer.json.get("calibration_due")
+
+        june = {"measured_at": "2026-06-01T08:00:00Z"}
+        put("2026-01-01", {"uncertainty": "plain"})
+        self.assertEqual((measure(**june), measure()), ((0.5, "2026-01-01"),) * 2)
+        put("2199-07-01", {"uncertainty": "wide"})
+        self.assertEqual((measure(**june), measure()), ((0.5, "2026-01-01"), (2, None)))
+        put("2020-03-01", {})
+        self.assertEqual(self.daemon.get("/v1/gauges-in-use/G-40").json, {"calibration_due": "2020-03-01"})
+        self.assertEqual(measure(uncertainty_um=1), (1, "2020-03-01"))
+        self.daemon.request("DELETE", "/v1/gauges-in-use/G-40")
+        put("2199-08-01", {"uncertainty": "wide"})
+        self.assertEqual((measure(**june), measure()), ((0.5, "2026-01-01"), (2, None)))
+        self.daemon.stop()
+        self.daemon.start()
+        self.assertEqual((measure(**june), measure()), ((0.5, "2026-01-01"), (2, None)))
+        # A calibration counts from its own beginning on, and is how a wrong date is mended.
+        answer = self.daemon.post("/v1/gauges-in-use/G-40/calibrations", {"from": "2026-05-01", "due": "2199-12-31"})
+        self.assertEqual(answer.status, 201, answer)
+        self.assertEqual((measure(**june), measure(measured_at="2026-04-30T08:00:00Z"), measure()),
+                         ((2, None), (0.5, "2026-01-01"), (2, None)))
+        self.assertEqual(self.daemon.command("verify").returncode, 0)
+
     def test_a_plan_may_leave_the_uncertainty_to_the_gauge(self):
         self.put("/v1/uncertainties/plan", self.BUDGET)
         plan = {"characteristics": [{"name": "bore", "designation": "25 H7", "gauge": "G-20", "rule": "guard_band"}]}
