@@ -121,6 +121,7 @@ void take_percentiles(Capability& capability) {
   };
   capability.pp = capability.cm = index(from.pp);
   capability.ppk = capability.cmk = index(from.ppk);
+  if (!capability.percentile) capability.cpm.reset();
   if (!capability.model || capability.model->model != ProcessModel::A2) return;
   capability.cp = capability.pp;
   capability.cpk = capability.ppk;

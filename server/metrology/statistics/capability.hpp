@@ -86,7 +86,7 @@ struct PercentileCapability {
 };
 /// Indices that a missing limit leaves without meaning are none. Of values that are not normal,
 /// `pp` and `ppk` are those of the percentile method, `cp`, `cpl`, `cpu` and `cpk` too if location
-/// and dispersion are constant; none if no distribution fits.
+/// and dispersion are constant; none, and no `cpm`, if no distribution fits.
 struct Capability {
   std::size_t count = 0;
   long double mean = 0;

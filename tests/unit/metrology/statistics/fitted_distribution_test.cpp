@@ -122,6 +122,7 @@ TEST_CASE("without a distribution that fits there is no index, and the reason is
   CHECK_FALSE(c.percentile);
   CHECK_FALSE(c.ppk);
   CHECK_FALSE(c.cpk);
+  CHECK_FALSE(c.cpm);
   CHECK(c.reason());
 }
 
