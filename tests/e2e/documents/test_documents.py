@@ -114,6 +114,13 @@ class Commands(unittest.TestCase):
         for names in [*settings, *((f"fitgauge {command.strip()}",) for command in commands)]:
             self.assertRegex(guides, rf"({'|'.join(map(re.escape, names))})(?![\w-])", f"{names[0]} is in no guide")
 
+    def test_the_page_on_decisions_has_every_warning(self):
+        sources = (ROOT / "server/record/verdict_codec.cpp", ROOT / "server/api/measurements/measurement_posting.cpp")
+        codes = {code for path in sources for code in re.findall(r'\{"([a-z_]+\.[a-z_]+)"', path.read_text(encoding="utf-8"))}
+        page = (ROOT / "docs/explanation/decision-rules.md").read_text(encoding="utf-8").split("## Warnings")[1].split("\n## ")[0]
+        self.assertEqual(set(re.findall(r"^\| `(\S+)` \|", page, re.MULTILINE)), codes)
+        self.assertGreater(len(codes), 4)
+
     def test_what_is_shown_is_compared(self):
         self.assertTrue(agrees('{"a":1,…\n "c":3}\n', '{"a":1,"b":2,"c":3}'))
         self.assertFalse(agrees('{"a":1,…"c":3}', '{"a":1,"b":2,"c":4}'))
