@@ -79,7 +79,10 @@ Result<void> ValueSelection::add(const app::MeasuredRun& run) {
   if (Allowance::of_thread().is_spent()) {
     return Error{ErrorCode::FiguresLimit, "the selection takes more time or memory than it may"};
   }
-  const Limits limits{run.lower_limit, run.upper_limit};
+  Limits limits{run.lower_limit, run.upper_limit};
+  // Early versions stored the longest length for a limit that was absent.
+  if (limits.lower == -kLongest) limits.lower.reset();
+  if (limits.upper == kLongest) limits.upper.reset();
   if (!limits.lower && !limits.upper) {
     return Error{ErrorCode::LimitsNone,
                  fmt::format("{} has no limits: select judged values, by verdict or characteristic",

@@ -55,6 +55,16 @@ class Releases(unittest.TestCase):
                 self.assertEqual(verified.returncode, 0, verified.stdout)
                 self.assertIn(" 0 findings", verified.stdout)
 
+    def test_a_value_that_was_stored_with_invented_limits_has_no_capability(self):
+        """Its record stays as it was stored and proved; nothing is computed of limits of ±10⁹ mm."""
+        daemon, _ = self.daemon_on("0.1.0-without-quantity")
+        daemon.start()
+        old = [record for record in daemon.stored() if record.get("upper_limit_mm") == 1_000_000_000]
+        self.assertEqual([record["lower_limit_mm"] for record in old], [-1_000_000_000])
+        for figure in ("capability?", "chart?kind=i_mr&"):
+            answer = daemon.get(f"/v1/measurements/{figure}source=all&run_id={old[0]['run_id']}&characteristic=Diameter")
+            self.assertEqual((answer.status, answer.json["code"]), (422, "limits.none"))
+
     def test_a_record_that_is_another_than_then_is_noticed(self):
         daemon, then = self.daemon_on(releases.names()[0])
         daemon.start()
