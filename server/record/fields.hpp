@@ -60,6 +60,7 @@ struct MeasurementFields {
   std::optional<std::string_view> calibration_due{};          ///< of the gauge, if overdue
   std::optional<std::string_view> calibration_certificate{};  ///< of the gauge, if in date
   std::optional<std::string_view> calibration_laboratory{};   ///< the same
+  std::optional<std::int64_t> gauge_blocked{};      ///< 1: the gauge was blocked when it measured
   std::optional<std::int64_t> added_uncertainty{};  ///< by the correction to 20 °C, in pm
 };
 
@@ -101,6 +102,7 @@ inline constexpr Accepted kSizeOperator{.longest = 8, .counts_characters = true}
 inline constexpr Accepted kEnvelopeWord{.longest = 16};
 inline constexpr Accepted kTruth{.most = 1, .is_truth = true};
 inline constexpr Accepted kNotGiven{};
+inline constexpr Accepted kTruthNotGiven{.is_truth = true};
 
 /// One of MeasurementFields, wherever it is read, written, stored and described.
 struct MeasurementField {
@@ -213,6 +215,7 @@ inline constexpr MeasurementField kMeasurementFields[] = {
      kNotGiven},
     {"calibration_laboratory", &Of::calibration_laboratory, "calibration_laboratory", 68,
      kNotGiven},
+    {"gauge_blocked", &Of::gauge_blocked, 0, "gauge_blocked", 69, kTruthNotGiven},
     {"added_uncertainty_um", &Of::added_uncertainty, 6, "added_uncertainty", 53, kNotGiven},
 };
 

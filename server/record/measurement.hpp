@@ -102,7 +102,6 @@ struct Measurement : MeasurementFields {
   std::optional<std::int64_t> corrected_by;      ///< known where one measurement was asked for
   std::string_view corrected_by_origin{};        ///< empty: that of this one
   bool has_unknown_gauge = false;  ///< while it is judged: others are registered, this one is not
-  bool has_blocked_gauge = false;  ///< while it is judged: it was when this was measured
   /// Another correction of the same record was made apart from this one. Known as corrected_by, and
   /// in lists.
   bool conflict = false;

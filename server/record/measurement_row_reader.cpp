@@ -251,7 +251,7 @@ const GaugeInUse* MeasurementRowReader::find_gauge(std::string_view name) {
 }
 
 /// Facts of a gauge in use at that time: its uncertainty if the rule needs one that was not
-/// given, and that its calibration was overdue. @pre measured_at stands
+/// given, and that it was overdue or blocked. @pre measured_at stands
 void MeasurementRowReader::apply_gauge() {
   app::Measurement& m = draft_.measurement;
   const bool needs = draft_.rule.kind != gauging::DecisionRule::Kind::Simple;
@@ -259,6 +259,7 @@ void MeasurementRowReader::apply_gauge() {
     m.calibration_due = other->calibration_due;
     m.calibration_certificate = other->calibration_certificate;
     m.calibration_laboratory = other->calibration_laboratory;
+    m.gauge_blocked = other->gauge_blocked;
     if (needs && !m.standard_uncertainty) {
       m.standard_uncertainty = other->standard_uncertainty;
       m.degrees_of_freedom = other->degrees_of_freedom;
@@ -270,13 +271,13 @@ void MeasurementRowReader::apply_gauge() {
   m.has_unknown_gauge = gauge == nullptr && !context_.gauges->empty();
   if (gauge == nullptr) return;
   const GaugePeriod& period = gauge->at(m.measured_at);
-  m.has_blocked_gauge = period.is_blocked;
   if (draft_.gauge_of == nullptr && period.is_overdue(m.measured_at)) {
     m.calibration_due = period.calibration_due;
   } else if (draft_.gauge_of == nullptr && !period.is_blocked) {
     m.calibration_certificate = period.certificate;
     m.calibration_laboratory = period.laboratory;
   }
+  if (draft_.gauge_of == nullptr && period.is_blocked) m.gauge_blocked = 1;
   if (needs && !m.standard_uncertainty && !given(RowField::Uncertainty) &&
       period.standard_uncertainty) {
     m.standard_uncertainty = period.standard_uncertainty;

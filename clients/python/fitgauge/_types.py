@@ -290,6 +290,7 @@ class Measurement(_Measurement, total=False):
     calibration_certificate: str
     calibration_laboratory: str
     calibration_overdue: bool
+    gauge_blocked: bool
     quantity: Literal["diameter", "width", "pitch_diameter", "position", "distance", "radius", "chamfer", "deviation"]
     envelope_result: Literal["verified", "not_verified", "failed"]
     points: int

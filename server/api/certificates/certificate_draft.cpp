@@ -181,15 +181,18 @@ void CertificateDraft::add(const app::Measurement& m) {
   ++verdicts_.at(static_cast<std::size_t>(m.result.verdict));
   last_id_ = app::measurement_id_text(m.id, m.origin);
   if (first_id_.empty()) first_id_ = last_id_;
-  const std::string gauge(m.gauge.value_or(""));
+  std::string gauge(m.gauge.value_or(""));
   const std::string due(m.calibration_due.value_or(""));
   if (m.part_id) parts_.emplace(*m.part_id);
   if (m.gauge) {
     const std::string budget(m.uncertainty_budget.value_or(""));
     gauges_.insert({gauge, budget, budget.empty() ? std::nullopt : m.standard_uncertainty, due,
                     std::string(m.calibration_certificate.value_or("")),
-                    std::string(m.calibration_laboratory.value_or(""))});
+                    std::string(m.calibration_laboratory.value_or("")),
+                    m.gauge_blocked.has_value()});
   }
+  if (!due.empty()) gauge += "; OVERDUE when measured: " + due;
+  if (m.gauge_blocked) gauge += "; BLOCKED when measured";
   if (!m.table_revision.empty()) ++revisions_[std::string(m.table_revision)];
   const auto verdict = static_cast<std::size_t>(m.result.verdict);
   const std::optional<double> place = place_of(m);
@@ -226,8 +229,7 @@ void CertificateDraft::add(const app::Measurement& m) {
        .verdict = std::string(word(m.result.verdict)),
        .rule = rule,
        .uncertainty = uncertainty_text(m),
-       .gauge = listed(due.empty() ? gauge : gauge + "; OVERDUE when measured: " + due,
-                       m.machine.value_or(""), m.operator_id.value_or("")),
+       .gauge = listed(gauge, m.machine.value_or(""), m.operator_id.value_or("")),
        .measured_at = time_text(m.measured_at),
        .place = place ? std::optional(static_cast<float>(*place)) : std::nullopt,
        .weight = kWeights.at(verdict)});
@@ -259,6 +261,7 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
       if (!gauge.overdue_since.empty()) json.member("calibration_due", gauge.overdue_since);
       if (!gauge.certificate.empty()) json.member("calibration_certificate", gauge.certificate);
       if (!gauge.laboratory.empty()) json.member("calibration_laboratory", gauge.laboratory);
+      if (gauge.is_blocked) json.member("gauge_blocked", true);
       if (!gauge.budget.empty()) json.member("uncertainty", gauge.budget);
       if (gauge.standard_uncertainty) json.member_um("uncertainty_um", *gauge.standard_uncertainty);
       json.end_object();

@@ -63,6 +63,7 @@ class CertificateDraft {
     std::string overdue_since{};
     std::string certificate{};  ///< of its calibration in date
     std::string laboratory{};
+    bool is_blocked = false;  ///< when it measured
 
     friend auto operator<=>(const UsedGauge&, const UsedGauge&) = default;
   };

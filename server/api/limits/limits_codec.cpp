@@ -125,7 +125,8 @@ schema::Fields verdict_fields() {
 schema::Fields warnings_field() {
   const std::string warning =
       schema::object({{"code", schema::text(),
-                       "rule.no_acceptance, uncertainty.large, gauge.unknown, query.unused"},
+                       "rule.no_acceptance, uncertainty.large, gauge.unknown, gauge.overdue, "
+                       "gauge.blocked, query.unused"},
                       {"detail", schema::text(), "Cause, and what to do"}});
   return {{"warnings", schema::array(warning), "Warnings of this response; not part of a record",
            false}};

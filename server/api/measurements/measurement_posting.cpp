@@ -156,7 +156,7 @@ std::vector<Warning> warnings_of(const app::Measurement& m) {
                                       "correct its name",
                                       m.gauge.value_or(""))});
   }
-  if (m.has_blocked_gauge) {
+  if (m.gauge_blocked) {
     warnings.push_back(
         {"gauge.blocked", fmt::format("gauge '{}' was blocked at the time of measuring: measure "
                                       "again with another gauge, or record its calibration",

@@ -77,6 +77,8 @@ schema::Fields record_fields() {
        "Of a gauge in use: the number of the calibration certificate in date when it measured"},
       {"calibration_laboratory", schema::text(), "Of a gauge in use: who calibrated it"},
       {"calibration_overdue", schema::boolean(), "true; absent if not"},
+      {"gauge_blocked", schema::boolean(),
+       "true if the gauge in use was blocked when it measured; absent if not"},
       {"quantity", quantity_words(), "Quantity; absent in records of older versions"},
       {"envelope_result", schema::words({"verified", "not_verified", "failed"}),
        "Result of the GO gauge, if the envelope is required"},
@@ -206,6 +208,7 @@ void add_measurement_schemas(Schemas& schemas) {
        {"calibration_due", schema::text(), "Due date of an overdue calibration", false},
        {"calibration_certificate", schema::text(), "Of the one in date: its number", false},
        {"calibration_laboratory", schema::text(), "The same: who calibrated it", false},
+       {"gauge_blocked", schema::boolean(), "true if it was blocked when it measured", false},
        {"uncertainty", schema::text(), "The name of its budget", false},
        {"uncertainty_um", schema::number(), "Uncertainty of the budget", false}});
   schemas.push_back(

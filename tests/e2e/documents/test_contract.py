@@ -198,6 +198,8 @@ class Answers(ContractTest):
         self.expect("recordCalibration", 201, {"from": "2026-03-31", "due": "2099-03-31", "certificate": "K-1", "laboratory": "x"},
                     name="late")
         self.expect("postMeasurements", 201, late)
+        self.expect("recordCalibration", 201, {"from": "2026-06-01", "status": "blocked"}, name="late")
+        self.expect("postMeasurements", 201, late)
         enveloped = {"designation": "25 H7(E)", "measured_mm": 25.01, "go_gauge": "passes", "gauge": "another",
                      "rule": "guard_band", "uncertainty_um": 1, "degrees_of_freedom": 9}
         self.expect("postMeasurements", 201, enveloped)

@@ -200,6 +200,17 @@ class Certificates(DaemonTest):
         self.assertNotIn("K-9999", text)
         self.assertEqual(self.daemon.command("verify").returncode, 0)
 
+    def test_a_gauge_that_was_blocked_is_named(self):
+        self.daemon.request("PUT", "/v1/gauges-in-use/G-22", {"calibration_due": "2026-12-31"})
+        self.daemon.post("/v1/gauges-in-use/G-22/calibrations", {"from": "2026-06-01", "status": "blocked"})
+        for day in ("2026-05-31", "2026-06-01"):
+            self.daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "order": "WO-B", "gauge": "G-22",
+                                 "measured_at": f"{day}T08:00:00Z"})
+        gauges = self.daemon.get("/v1/certificates?order=WO-B", Accept="application/json").json["gauges"]
+        self.assertEqual(gauges, [{"name": "G-22"}, {"name": "G-22", "gauge_blocked": True}])
+        text = re.sub(r"\s+", " ", self.pdf("order=WO-B")[0])
+        self.assertEqual(text.count("BLOCKED"), 1)
+
     def test_designations_of_other_standards_stand_as_they_are_written(self):
         for designation, size in (("M10x1.25-6g", "9.1"), ("R5 ISO 2768-m", "5.2"), ("12 ISO 2768-f", "12.05")):
             self.daemon.measure({"designation": designation, "measured_mm": size, "order": "WO-S", "part_id": "S"})

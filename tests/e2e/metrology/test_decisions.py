@@ -322,6 +322,27 @@ class Kept(DaemonTest):
                          ((2, None), (0.5, "2026-01-01"), (2, None)))
         self.assertEqual(self.daemon.command("verify").returncode, 0)
 
+    def test_a_record_says_that_its_gauge_was_blocked(self):
+        self.put("/v1/gauges-in-use/G-50", {"calibration_due": "2026-12-31"})
+        path = "/v1/gauges-in-use/G-50/calibrations"
+        self.daemon.post(path, {"from": "2026-03-01", "status": "blocked"})
+        given = {"designation": "25 H7", "measured_mm": "25.01", "gauge": "G-50", "measured_at": "2026-04-01T08:00:00Z"}
+        record = self.daemon.measure(given).json
+        self.assertEqual([each["code"] for each in record.pop("warnings")], ["gauge.blocked"])
+        self.assertTrue(record["gauge_blocked"])
+        # Neither its calibration later nor a correction changes that; another time of measuring does.
+        self.daemon.post(path, {"from": "2026-03-01", "due": "2027-03-01"})
+        self.assertEqual(self.daemon.get(f"/v1/measurements/{record['id']}").json, record)
+        self.assertEqual(self.daemon.get("/v1/measurements?gauge=G-50").json["measurements"], [record])
+        lines = self.daemon.get("/v1/measurements?gauge=G-50", Accept="text/csv").text.splitlines()
+        self.assertEqual(dict(zip(lines[0].split(","), lines[1].split(",")))["gauge_blocked"], "true")
+        for more, blocked, codes in (({}, True, ["gauge.blocked"]), ({"measured_at": "2026-02-01T08:00:00Z"}, None, [])):
+            record = self.daemon.post(f"/v1/measurements/{record['id']}/corrections",
+                                      {"measured_mm": "25.011", "reason": "misread", **more}).json
+            self.assertEqual((record.get("gauge_blocked"), [each["code"] for each in record.get("warnings", [])]), (blocked, codes))
+        self.assertNotIn("gauge_blocked", self.daemon.measure(given).json)
+        self.assertEqual(self.daemon.command("verify").returncode, 0)
+
     def test_a_plan_may_leave_the_uncertainty_to_the_gauge(self):
         self.put("/v1/uncertainties/plan", self.BUDGET)
         plan = {"characteristics": [{"name": "bore", "designation": "25 H7", "gauge": "G-20", "rule": "guard_band"}]}

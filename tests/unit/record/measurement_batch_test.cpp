@@ -328,7 +328,9 @@ TEST_CASE("a wrong row is named when rows before it were taken already, and so a
   CHECK(pieces.decoded.error().details[1].where == "/1001/x");
 }
 
-TEST_CASE("a gauge in use says its uncertainty where the rule needs one, and that it is overdue") {
+TEST_CASE(
+    "a gauge in use says its uncertainty where the rule needs one, and that it is overdue or "
+    "blocked") {
   const Timestamp due = parse_rfc3339("2026-03-31T23:59:59.999999999Z").value();
   const GaugeBook book = {{"G-07",
                            {{{.budget = "ring",
@@ -336,7 +338,8 @@ TEST_CASE("a gauge in use says its uncertainty where the rule needs one, and tha
                               .calibration_due = "2026-03-31",
                               .due = due,
                               .certificate = "K-1"}}}},
-                          {"G-08", {{{.calibration_due = "2026-03-31", .due = due}}}}};
+                          {"G-08", {{{.calibration_due = "2026-03-31", .due = due}}}},
+                          {"G-10", {{{.certificate = "K-1", .is_blocked = true}}}}};
   const auto judged = [&](const std::string& fields, std::string_view type = "application/json") {
     const std::string body = R"({"designation":"25 H7","measured_mm":25.0005)" + fields + "}";
     const std::string padded = body + std::string(64, '\0');
@@ -374,6 +377,10 @@ TEST_CASE("a gauge in use says its uncertainty where the rule needs one, and tha
     CHECK_FALSE(has(simple, "\"uncertainty"));
     CHECK(has(simple, "calibration_overdue"));
     CHECK_FALSE(has(judged(R"(,"gauge":"G-09")", type), "calibration"));
+    CHECK_FALSE(has(simple, "blocked"));
+    const std::string blocked = judged(R"(,"gauge":"G-10")", type);
+    CHECK(has(blocked, R"("gauge":"G-10","gauge_blocked":true,)"));
+    CHECK_FALSE(has(blocked, "calibration"));
   }
   for (const char* gauge : {"G-08", "G-09"}) {
     const std::string body = std::string(R"({"designation":"25 H7","measured_mm":25,"gauge":")") +
