@@ -43,6 +43,7 @@ struct MeasurementFields {
 
   std::optional<std::int64_t> offset{};              ///< a correction made before this part, in nm
   std::optional<std::int64_t> confirmed{};           ///< 1: a person confirmed a far value
+  std::optional<std::int64_t> inside_corner{};       ///< 1: of a radius or chamfer
   std::optional<std::int64_t> degrees_of_freedom{};  ///< of the uncertainty, in millionths
   std::optional<std::string_view> size_operator{};   ///< of ISO 14405-1: LP, GG
   std::optional<std::string_view> envelope{};        ///< `required`
@@ -202,6 +203,8 @@ inline constexpr MeasurementField kMeasurementFields[] = {
      "passes or fails: result of the GO gauge, which verifies the envelope"},
     {"confirmed", &Of::confirmed, 0, "confirmed", 66, kTruth,
      "true: a person confirmed a value far outside the limits"},
+    {"inside_corner", &Of::inside_corner, 0, "inside_corner", 70, kTruth,
+     "true: the radius or chamfer is that of an inside corner, where one too large is rework"},
 
     {"caller", &Of::caller, "caller", 32, kNotGiven, {}, 10},
     {"cycle", &Of::cycle, 0, "cycle", 34, kNotGiven},

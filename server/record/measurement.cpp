@@ -145,7 +145,8 @@ void judge(Measurement& measurement) {
     return;
   }
   const gauging::Beyond beyond = measurement.quantity
-                                     ? gauging::Beyond(*measurement.quantity, measurement.feature)
+                                     ? gauging::Beyond(*measurement.quantity, measurement.feature,
+                                                       measurement.inside_corner.has_value())
                                      : gauging::Beyond(measurement.feature);
   measurement.result = gauging::gauge(beyond, measurement.upper_limit(), measurement.lower_limit(),
                                       measurement.decisive(), measurement.rule);

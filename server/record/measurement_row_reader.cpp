@@ -334,7 +334,7 @@ void MeasurementRowReader::refuse_rule_without_limits() {
   }
 }
 
-/// Fields of ISO 14405-1, which are for sizes only.
+/// Fields of ISO 14405-1, which are for sizes only, and the one of edges.
 void MeasurementRowReader::apply_size() {
   app::Measurement& m = draft_.measurement;
   const bool is_size = m.quantity && gauging::has_feature(*m.quantity);
@@ -345,6 +345,10 @@ void MeasurementRowReader::apply_size() {
       report(ErrorCode::FieldConflict, name,
              fmt::format("{} is for sizes, not for a {}", name, word(*m.quantity)));
     }
+  }
+  if (m.inside_corner && m.quantity && (is_size || gauging::is_signed(*m.quantity))) {
+    report(ErrorCode::FieldConflict, "inside_corner",
+           "inside_corner is for radii and chamfers only");
   }
   if (m.size_operator && m.size_operator->empty()) {
     report(ErrorCode::FieldInvalid, "size_operator", "size_operator must not be empty");

@@ -88,6 +88,7 @@ class Correction(_Correction, total=False):
     envelope: str
     go_gauge: str
     confirmed: bool
+    inside_corner: bool
 
 
 class _FieldError(TypedDict):
@@ -281,6 +282,7 @@ class Measurement(_Measurement, total=False):
     envelope: str
     go_gauge: str
     confirmed: bool
+    inside_corner: bool
     corrected_mm: Decimal
     added_uncertainty_um: Decimal
     conformance_probability: Decimal
@@ -353,6 +355,7 @@ class NewMeasurement(_NewMeasurement, total=False):
     envelope: str
     go_gauge: str
     confirmed: bool
+    inside_corner: bool
 
 
 class _PartCharacteristics(TypedDict):

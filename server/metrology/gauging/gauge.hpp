@@ -25,8 +25,7 @@ inline constexpr std::size_t kVerdicts = 5;
 std::string_view word(Verdict verdict);
 std::optional<Verdict> verdict_from_word(std::string_view text);
 
-/// The kind of a measured value. A radius and a chamfer are those of an outside edge (ISO 2768-1,
-/// table 2); a deviation is that of a surface from its nominal form.
+/// The kind of a measured value. A deviation is that of a surface from its nominal form.
 enum class Quantity : std::uint8_t {
   Diameter,
   Width,
@@ -67,10 +66,12 @@ struct Beyond {
   constexpr Beyond(iso286::Feature feature)  // NOLINT(google-explicit-constructor)
       : above(feature == iso286::Feature::Hole ? Verdict::Reject : Verdict::Rework),
         below(feature == iso286::Feature::Hole ? Verdict::Rework : Verdict::Reject) {}
-  /// An edge that is broken too little can be broken further, as a hole can be widened.
-  constexpr Beyond(Quantity quantity, iso286::Feature feature)
+  /// An outside edge that is broken too little can be broken further, as a hole can be widened; the
+  /// radius of an inside corner can be made smaller.
+  constexpr Beyond(Quantity quantity, iso286::Feature feature, bool is_inside_corner = false)
       : Beyond(has_feature(quantity) ? Beyond(feature)
                : is_signed(quantity) ? Beyond()
+               : is_inside_corner    ? Beyond(iso286::Feature::Shaft)
                                      : Beyond(iso286::Feature::Hole)) {}
 };
 

@@ -200,6 +200,7 @@ class Answers(ContractTest):
         self.expect("postMeasurements", 201, late)
         self.expect("recordCalibration", 201, {"from": "2026-06-01", "status": "blocked"}, name="late")
         self.expect("postMeasurements", 201, late)
+        self.expect("postMeasurements", 201, {"designation": "R5 ISO 2768-m", "measured_mm": 5, "inside_corner": True})
         enveloped = {"designation": "25 H7(E)", "measured_mm": 25.01, "go_gauge": "passes", "gauge": "another",
                      "rule": "guard_band", "uncertainty_um": 1, "degrees_of_freedom": 9}
         self.expect("postMeasurements", 201, enveloped)

@@ -26,6 +26,7 @@ RELEASED = {
     "sqlite/0010_calibration.sql": "12642700e4202480a0f4c8922f6db6eb522c850008498649b932c50eecbc1b7c",
     "sqlite/0011_summed_lengths.sql": "34dbf2c1620369a1fb897641cfaf67618849a9ea94d7fb73f4445b28ebc56d41",
     "sqlite/0012_blocked_gauge.sql": "d05da8bf41e3c0c666d13dd5902d5db2fc36092cabc7bb59a72bcd19d8c1aee2",
+    "sqlite/0013_inside_corner.sql": "0700664ef93f1996a86e7b71731730a647a3d239887c27d6a90459502725dc61",
     "postgres/0001_service.sql": "de5c6334c873daf3a74b0b66b9e0609eb3d27306e148cc6b8eff9054b876000f",
     "postgres/0002_additions.sql": "77dc1cf3340f58269966eca28b48130f81dc4efdd28ac271e95085f9fe48e0c2",
     "postgres/0003_offset.sql": "5c9f899bfdf04b42ba56f275030a56562e2496a16084646abe17895a5a970d68",
@@ -38,6 +39,7 @@ RELEASED = {
     "postgres/0010_calibration.sql": "d934467e514a844f6c171f99b0548bc1f90537c5854fee237af0b021e7298ca2",
     "postgres/0011_summed_lengths.sql": "400e8b20d1d9290e4edcbefa218e4d0b7481b2dd4acd7554243f33db0e7e7430",
     "postgres/0012_blocked_gauge.sql": "555f1653af99e9ef90870b8108723facbae6b91554a52b7a9502381b37f8b07c",
+    "postgres/0013_inside_corner.sql": "5bd8d4ad70e07cb86d98c74d45a168a73b09409efe7d327827dd0a811361313d",
 }
 ONLY_SQLITE = {"storage_probe"}  # whether the file takes a write again
 ONLY_POSTGRES = {"head"}  # of several daemons: who writes next

@@ -83,6 +83,20 @@ TEST_CASE("a designation says its quantity, and what lies beyond its limits") {
     CHECK(has(found, std::string(R"("quantity":")") + one.quantity + '"'));
     CHECK(has(found, std::string(R"("verdict":")") + one.verdict + '"'));
   }
+  // What is too large in an inside corner can still be cut.
+  for (const char* one :
+       {R"("R5 ISO 2768-m","measured_mm":9)", R"("C2 ISO 2768-m","measured_mm":9)"}) {
+    const std::string corner =
+        judged(std::string(R"({"inside_corner":true,"designation":)") + one + "}");
+    CHECK(has(corner, R"("inside_corner":true,)"));
+    CHECK(has(corner, R"("verdict":"rework")"));
+  }
+  CHECK(has(judged(R"({"inside_corner":true,"designation":"R5 ISO 2768-m","measured_mm":1})"),
+            R"("verdict":"reject")"));
+  CHECK(judged(R"({"inside_corner":true,"designation":"25 H7","measured_mm":25})") ==
+        "/inside_corner field.conflict");
+  CHECK(judged(R"({"inside_corner":true,"quantity":"position","measured_mm":25})") ==
+        "/inside_corner field.conflict");
   CHECK(has(judged(R"({"designation":"25 ISO 2768-m","feature":"hole","measured_mm":24})"),
             R"("quantity":"diameter")"));
   CHECK(has(judged(R"({"designation":"8 N9","quantity":"width","measured_mm":7.99})"),
