@@ -55,6 +55,19 @@ class Releases(unittest.TestCase):
                 self.assertEqual(verified.returncode, 0, verified.stdout)
                 self.assertIn(" 0 findings", verified.stdout)
 
+    def test_the_newest_folder_has_gauges_and_sizes_of_each_kind(self):
+        _, then = self.daemon_on(releases.names()[-1])
+        records = [json.loads(line) for line in (then / "records.ndjson").read_text().splitlines()]
+        said = {(name, record[name]) for record in records for name in ("envelope_result", "size_operator", "calibration_overdue") if name in record}
+        self.assertLessEqual({("envelope_result", "verified"), ("envelope_result", "failed"), ("size_operator", "LP"), ("size_operator", "GX"),
+                              ("size_operator", "GG"), ("calibration_overdue", True)}, said)
+        self.assertTrue({"uncertainty", "calibration_certificate", "degrees_of_freedom"} <= set().union(*records))
+        answers = json.loads((then / "answers.json").read_text())
+        self.assertEqual([each["status"] for each in json.loads(answers["/v1/gauges-in-use/G-07/calibrations"])["calibrations"]],
+                         ["in_use", "blocked"])
+        self.assertEqual(len(json.loads(answers["/v1/changes?kind=gauge"])["changes"]), 2)
+        self.assertIn("cg", json.loads(answers["/v1/studies/G-07-March"])["result"])
+
     def test_a_value_that_was_stored_with_invented_limits_has_no_capability(self):
         """Its record stays as it was stored and proved; nothing is computed of limits of ±10⁹ mm."""
         daemon, _ = self.daemon_on("0.1.0-without-quantity")

@@ -41,7 +41,8 @@ Q365=+0 ;TYPE OF TRAVERSE
 SETUP = {"workpiece": {"features": [{"type": "block", "min_mm": [-50, -50, -40], "max_mm": [50, 50, 0]},
                                     {"type": "bore", "center_mm": [0, 0], "diameter_mm": 25.01}]}}
 PATHS = ["/v1/setups/m3", "/v1/plans/4711", "/v1/tables/hole?classes=H7,X9", "/v1/files/nc_prog/hole.h",
-         "/v1/measurements/summary?source=all"]
+         "/v1/measurements/summary?source=all", "/v1/uncertainties/bore-gauge", "/v1/gauges-in-use/G-07",
+         "/v1/gauges-in-use/G-07/calibrations", "/v1/studies", "/v1/studies/G-07-March", "/v1/changes?kind=gauge"]
 
 
 def put(daemon, path, body):
@@ -57,6 +58,24 @@ def post(daemon, path, body, **headers):
     return answer.json
 
 
+def gauged(daemon, part):
+    """A gauge with its budget, calibrations and study, and values of each of its periods and of sizes by their operator."""
+    put(daemon, "/v1/uncertainties/bore-gauge", {"contributions": [
+        {"name": "ring", "standard_uncertainty": 0.3}, {"name": "temperature", "half_width": 1.5, "distribution": "rectangular"}]})
+    for due in ("2025-12-31", "2026-03-31"):
+        put(daemon, "/v1/gauges-in-use/G-07", {"uncertainty": "bore-gauge", "calibration_due": due})
+    for calibration in ({"from": "2026-05-01", "due": "2027-04-30", "certificate": "K-1234", "laboratory": "Lab"},
+                        {"from": "2026-06-01", "status": "blocked"}):
+        post(daemon, "/v1/gauges-in-use/G-07/calibrations", calibration)
+    put(daemon, "/v1/studies/G-07-March", {"gauge": "G-07", "at": "2026-03-31", "kind": "type1", "input": {
+        "reference": 25.0104, "tolerance": 0.021, "values": [25.0104, 25.0106, 25.0102, 25.0104, 25.0106, 25.0102]}})
+    part = {**part, "measured_mm": "25.0105"}
+    return [*({**part, "gauge": "G-07", "rule": "guard_band", "measured_at": f"{day}T08:00:00Z"}
+              for day in ("2025-06-01", "2026-02-01", "2026-05-15", "2026-06-15")),
+            {**part, "designation": "25 H7(E)", "go_gauge": "passes"}, {**part, "designation": "25 H7(E)", "go_gauge": "fails"},
+            {**part, "size_operator": "GX"}, {**part, "rule": "guard_band", "uncertainty_um": 1, "degrees_of_freedom": 4}]
+
+
 def fill(daemon):
     """Something of everything that is kept."""
     put(daemon, "/v1/tables/hole/classes/X9",
@@ -70,6 +89,7 @@ def fill(daemon):
                {**part, "measured_mm": "25.0205", "rule": "guard_band", "uncertainty_um": "1"},
                {**part, "measured_mm": "25.0205", "rule": "conformance", "uncertainty_um": "0.3"}]
     post(daemon, "/v1/measurements", values)
+    post(daemon, "/v1/measurements", gauged(daemon, part))
     wrong = post(daemon, "/v1/measurements", {**part, "measured_mm": "25.3"}, Idempotency_Key="once")
     post(daemon, f"/v1/measurements/{wrong['id']}/corrections", {"measured_mm": "25.003", "reason": "misread"})
     post(daemon, f"/v1/measurements/{wrong['id']}/notes", {"cause": "worn insert", "measure": "changed"})
