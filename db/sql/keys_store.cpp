@@ -175,6 +175,11 @@ struct KeysStore::Statements {
       c,
       "UPDATE api_keys SET revoked_at = ?2 WHERE name = ?1 AND revoked_at IS NULL "
       "RETURNING id"};
+  sql::Statement forget_replaced{
+      // its successor was made as it was revoked
+      c,
+      "DELETE FROM api_keys WHERE token_hash = ?1 AND name = ?2 AND role = ?3 AND revoked_at IN "
+      "(SELECT created_at FROM api_keys WHERE name = ?2)"};
   Seal seal{c, kApiKeys};
 };
 
@@ -200,6 +205,7 @@ Result<ApiKey> KeysStore::create(std::string_view name, Role role, std::string_v
   if (key.is_expired(now_ns)) {
     return Error{ErrorCode::FieldInvalid, "expires must be a time in the future", "expires"};
   }
+  statements_->forget_replaced.run(key.token_hash, name, role);
   if (Rows clash = statements_->clash.query(name, key.token_hash); clash.next()) {
     if (clash.get<bool>(0)) {
       return Error{

@@ -128,7 +128,8 @@ class KeysStore {
   ~KeysStore();
 
   /// Stores the hash of `token` (new_token, or an administrator's own of at least 16 characters).
-  /// @errors FieldConflict when a valid key has the name or the token; FieldInvalid.
+  /// A token that another of that name and role has replaced is valid again.
+  /// @errors FieldConflict when a valid key has the name, or a key the token; FieldInvalid.
   Result<ApiKey> create(std::string_view name, Role role, std::string_view token,
                         std::int64_t now_ns, std::optional<std::int64_t> expires_at_ns = {});
 

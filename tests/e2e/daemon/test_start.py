@@ -106,8 +106,16 @@ class AdminKeyFile(unittest.TestCase):
         self.assertEqual(self.daemon.stop(), 0)
         self.assertIn("admin_key_replaced", self.daemon.log)
 
-        self.start_with(FIRST)  # a key that was revoked stays so; the service starts all the same
-        self.assertEqual((self.status(FIRST), self.status(SECOND)), (401, 200))
+        for key, old in ((FIRST, SECOND), (SECOND, FIRST), (FIRST, SECOND)):
+            self.start_with(key)
+            self.assertEqual((self.status(key), self.status(old)), (200, 401))
+            self.assertEqual(self.daemon.stop(), 0)
+            self.assertNotIn("admin_key_refused", self.daemon.log)
+        self.assertEqual(self.daemon.command("verify").returncode, 0)
+
+        self.assertEqual(self.daemon.command("key", "revoke", "--name", "admin").returncode, 0)
+        self.start_with(FIRST)  # a key that was revoked by hand stays so; the service starts all the same
+        self.assertEqual((self.status(FIRST), self.status(SECOND)), (401, 401))
         self.assertEqual(self.daemon.stop(), 0)
         self.assertIn("admin_key_refused", self.daemon.log)
 
