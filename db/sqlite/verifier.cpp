@@ -100,9 +100,11 @@ void Verifier::check_schema() {
       !history) {
     note(history.error().message);
   }
-  sqlite::Connection fresh(":memory:", sqlite::Mode::Create);
-  sqlite::migrate(fresh, sqlite::migrations(), 0);
-  const std::vector<std::string> expected = schema_of(fresh);
+  static const std::vector<std::string> expected = [] {
+    sqlite::Connection fresh(":memory:", sqlite::Mode::Create);
+    sqlite::migrate(fresh, sqlite::migrations(), 0);
+    return schema_of(fresh);
+  }();
   const std::vector<std::string> found = schema_of(session_.connection);
   const auto note_difference = [this](const auto& a, const auto& b, std::string_view what) {
     std::vector<std::string> difference;

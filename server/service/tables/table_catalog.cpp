@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "base/json/json_writer.hpp"
 #include "db/store/database.hpp"
@@ -19,14 +20,22 @@ namespace {
 
 constexpr std::string_view kStandardSource = "ISO 286-1:2010 and ISO 286-2:2010, tables/data";
 constexpr std::string_view kChangedEvent = "table.changed";
+constexpr std::size_t kMostKept = 8;
 
 TableState failed(const store::TableRevision& revision, std::vector<Error> findings) {
   return {.tables = nullptr, .number = revision.number, .findings = std::move(findings)};
 }
 
 /// Everything that must hold before one limit is read from stored tables: the content is that of
-/// the stored digest, it obeys the rules, and the standard's cells are the compiled-in ones.
+/// the stored digest, it obeys the rules, and the standard's cells are the compiled-in ones. Tables
+/// of the same digests are the same: some are kept.
 TableState audit(const store::LoadedTables& loaded) {
+  static std::mutex mutex;
+  static std::map<std::tuple<std::string, Digest, Digest>, TableCatalog::Tables> sound;
+  const std::lock_guard lock(mutex);
+  if (sound.size() == kMostKept) sound.clear();
+  auto& kept = sound[{loaded.revision.id, loaded.revision.digest, loaded.computed}];
+  if (kept) return {.tables = kept, .number = loaded.revision.number, .findings = {}};
   const auto data = from_store(loaded.content);
   if (!data) return failed(loaded.revision, {data.error()});
   std::vector<Error> findings = iso286::compare_with_compiled_in(*data);
@@ -41,9 +50,8 @@ TableState audit(const store::LoadedTables& loaded) {
     findings.insert(findings.end(), broken.begin(), broken.end());
   }
   if (!findings.empty()) return failed(loaded.revision, std::move(findings));
-  return {.tables = std::make_shared<const iso286::ToleranceTables>(*std::move(tables)),
-          .number = loaded.revision.number,
-          .findings = {}};
+  kept = std::make_shared<const iso286::ToleranceTables>(*std::move(tables));
+  return {.tables = kept, .number = loaded.revision.number, .findings = {}};
 }
 
 Error inconsistent(const std::vector<Error>& findings) {
