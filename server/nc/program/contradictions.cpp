@@ -11,6 +11,7 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
+#include "nc/program/followed_values.hpp"
 #include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {
@@ -149,7 +150,7 @@ class Contradictions {
     set(assignment.target);
     const auto* number = std::get_if<double>(&assignment.value);
     if (number != nullptr && !block_->skip)
-      constants_[key(assignment.target)] = {*number, block_->written, block_};
+      constants_.set(assignment.target, {*number, block_->written, block_});
   }
   void visit(const klartext::ConditionalJump& jump) { read(jump.condition), constants_.clear(); }
   void visit(const klartext::SetUndefined& statement) { set(statement.target); }
@@ -160,7 +161,7 @@ class Contradictions {
 
   void set(klartext::QRef parameter, unsigned behind = 0) {
     const std::size_t number = parameter.number + behind;
-    constants_.erase({parameter.space, number});
+    constants_.forget(parameter.space, number);
     if (parameter.space == klartext::QSpace::Q && number < kEndOfResults) set_.set(number);
   }
   void read(const klartext::Expr& value) {
@@ -311,34 +312,20 @@ class Contradictions {
                : std::string_view();
   }
 
-  /// A number, and where it is written.
-  struct Constant {
-    double value = 0;
-    klartext::Slice<char> place{};
-    const Block* block = nullptr;
-  };
-  static std::pair<klartext::QSpace, std::size_t> key(klartext::QRef parameter) {
-    return {parameter.space, parameter.number};
-  }
   /// At that of two numbers that is written last, but not in the cycle if the other is not.
-  void contradicts(const Constant& a, const Constant& b, std::string message) {
-    const Constant& at = b.block != block_ && (a.block == block_ || b.block > a.block) ? b : a;
+  void contradicts(const FollowedValue& a, const FollowedValue& b, std::string message) {
+    const FollowedValue& at = b.block != block_ && (a.block == block_ || b.block > a.block) ? b : a;
     const auto is_same = [&](const auto& found) { return found.message == message; };
     if (is_called_ && (at.block == block_ || std::ranges::any_of(diagnostics_, is_same))) return;
+    const std::size_t before = diagnostics_.size();
     warn(DiagnosticCode::OrderContradicts, at.place, std::move(message), at.block);
+    const SourceRange other = program_.range((&at == &a ? b : a).place);
+    if (before < diagnostics_.size() && other.begin.line != diagnostics_.back().range.begin.line)
+      diagnostics_.back().notes.push_back({"the other number", other});
   }
 
   void check_order(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {
-    std::map<int, Constant> values;
-    for (const auto& written : program_.view(cycle.parameters)) {
-      if (written.kind != klartext::CycleValue::Expression) continue;
-      const auto* parameter = std::get_if<klartext::QRef>(&written.value);
-      const auto known = parameter == nullptr ? constants_.end() : constants_.find(key(*parameter));
-      if (const auto* number = std::get_if<double>(&written.value))
-        values[written.parameter.number] = {*number, written.written, block_};
-      else if (known != constants_.end())
-        values[written.parameter.number] = known->second;
-    }
+    auto values = constants_.known(program_, cycle, block_);
     const auto value = [&](int number) { return values[number].value; };
     const bool is_probing = descriptor.family == probing::CycleFamily::TchProbe;
     for (const int height : {261, 294}) {
@@ -413,8 +400,7 @@ class Contradictions {
   std::size_t entered_ = 0;
   const CycleDescriptor* last_measured_ = nullptr;
   std::bitset<kEndOfResults> set_;
-  /// Parameters that are this number on every way to the block.
-  std::map<std::pair<klartext::QSpace, std::size_t>, Constant> constants_;
+  FollowedValues constants_;
   std::map<std::size_t, const Block*> reads_;  ///< results by the first block that reads them
 };
 

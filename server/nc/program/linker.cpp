@@ -264,29 +264,19 @@ class Linker {
          diagnose(program_, block, Severity::Warning, DiagnosticCode::FileMissing, {})});
   }
 
+  std::string_view path_of(const Expr& path) const {
+    const auto* text = std::get_if<Text>(&path);
+    return text == nullptr ? std::string_view() : program_.text(*text);
+  }
+
   /// Which table is open at a block is certain if the program opens one alone and writes none.
   void collect_cells() {
-    const Expr* opened = nullptr;
-    std::vector<std::pair<const Block*, const klartext::TableRead*>> reads;
-    const auto path_of = [&](const Expr& path) {
-      const auto* text = std::get_if<Text>(&path);
-      return text == nullptr ? std::string_view() : program_.text(*text);
-    };
-    for (const Block& block : program_.blocks()) {
-      if (std::holds_alternative<klartext::TableWrite>(block.statement)) return;
-      if (const auto* open = std::get_if<klartext::TableOpen>(&block.statement)) {
-        if (opened != nullptr && path_of(*opened) != path_of(open->path)) return;
-        opened = &open->path;
-      } else if (const auto* read = std::get_if<klartext::TableRead>(&block.statement)) {
-        reads.emplace_back(&block, read);
-      }
-    }
-    if (opened == nullptr || path_of(*opened).empty()) return;
-    for (const auto& [block, read] : reads) {
+    if (opened_ == nullptr || !is_one_table_ || path_of(*opened_).empty()) return;
+    for (const auto& [block, read] : reads_) {
       const auto cell = program_.operands(std::get<klartext::NodeIndex>(read->cell));
       const std::size_t before = file_.references.size();
       if (path_of(cell[1]).empty()) continue;
-      add_reference(FileReference::Kind::Table, *opened, *block);
+      add_reference(FileReference::Kind::Table, *opened_, *block);
       if (file_.references.size() == before) return;
       file_.references.back().columns = path_of(cell[1]);
       if (const auto* row = std::get_if<double>(&cell[0])) {
@@ -307,6 +297,12 @@ class Linker {
       add(Kind::Program, select->path);
     } else if (const auto* open = std::get_if<klartext::TableOpen>(&statement)) {
       add(Kind::Table, open->path);
+      is_one_table_ &= opened_ == nullptr || path_of(*opened_) == path_of(open->path);
+      opened_ = &open->path;
+    } else if (const auto* read = std::get_if<klartext::TableRead>(&statement)) {
+      reads_.emplace_back(&block, read);
+    } else if (std::holds_alternative<klartext::TableWrite>(statement)) {
+      is_one_table_ = false;
     } else if (const auto* table = std::get_if<klartext::SelectTable>(&statement)) {
       add(Kind::Table, table->path);
     } else if (const auto* print = std::get_if<klartext::FormattedPrint>(&statement)) {
@@ -323,6 +319,9 @@ class Linker {
   CodeWriter writer_;
   LinkedParts parts_;
   std::vector<Jump> jumps_;
+  const Expr* opened_ = nullptr;
+  bool is_one_table_ = true;  ///< the same by each FN 26, and not written
+  std::vector<std::pair<const Block*, const klartext::TableRead*>> reads_;
 };
 
 template <class T>
