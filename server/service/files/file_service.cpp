@@ -33,7 +33,8 @@ DiskFile disk_file(store::FileEntry entry) {
 }  // namespace
 
 Result<interpreter::ControlPath> parse_file_path(std::string_view text) {
-  if (ascii_iequals(trim(text).substr(0, kDrive.size()), kDrive) || text.empty()) {
+  constexpr std::string_view kLetters = kDrive.substr(0, kDrive.size() - 1);  // \ or / behind them
+  if (ascii_iequals(trim(text).substr(0, kLetters.size()), kLetters) || text.empty()) {
     return interpreter::ControlPath::parse(text);
   }
   if (text.starts_with(kFiles)) text.remove_prefix(kFiles.size());

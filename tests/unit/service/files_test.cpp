@@ -123,5 +123,16 @@ TEST_CASE("a named setup is kept as it was written") {
   CHECK(documents.wait_for(kSetup, "mill").error().code == ErrorCode::SetupUnknown);
 }
 
+TEST_CASE("a path is given with or without its drive, and with either separator") {
+  for (const char* text :
+       {"TNC:\\b\\out.txt", "TNC:/b/out.txt", "tnc:\\b/out.txt", "b/out.txt", "/b/out.txt"}) {
+    CAPTURE(text);
+    const auto parsed = parse_file_path(text);
+    REQUIRE(parsed.has_value());
+    CHECK(parsed->text() == "TNC:\\b\\out.txt");
+  }
+  CHECK(parse_file_path("PLC:/b/out.txt").has_error());
+}
+
 }  // namespace
 }  // namespace fitgauge::app
