@@ -48,7 +48,8 @@ struct LocalRun {
 };
 
 /// @param is_run else the program is only checked
-Outcome<LocalRun> check_and_run(RunOptions options, bool is_run) {
+/// @param follows every block, so that an error of FN 14 says which jump led to it
+Outcome<LocalRun> check_and_run(RunOptions options, bool is_run, bool follows) {
   const std::string file = std::exchange(options.program, std::string(base_name(options.program)));
   if (options.setup_file.empty()) options.setup_file = std::exchange(options.setup, {});
   const auto text = run_order(options);
@@ -63,6 +64,7 @@ Outcome<LocalRun> check_and_run(RunOptions options, bool is_run) {
     auto made = order_of(*text, disk);
     if (!made) return made.error();
     order = *std::move(made);
+    if (follows) order->watch = {{klartext::QSpace::Q, 0}};
     local.builder = order->options.builder;
   }
   interpreter::ProgramCache programs;
@@ -80,6 +82,12 @@ Outcome<LocalRun> check_and_run(RunOptions options, bool is_run) {
   local.report.finished_at = clock.now();
   for (klartext::Diagnostic& each : interpreter::findings_of(local.report.result)) {
     each.program = disk.name_here(each.program);
+    std::erase_if(local.found, [&](const klartext::Diagnostic& checked) {
+      return checked.message == each.message && checked.program == each.program &&
+             checked.range.begin.line == each.range.begin.line;
+    });
+    for (auto& note : each.notes)
+      if (!note.program.empty()) note.program = disk.name_here(note.program);
     local.found.push_back(std::move(each));
   }
   for (auto& message : local.report.result.messages)
@@ -91,7 +99,7 @@ Outcome<LocalRun> check_and_run(RunOptions options, bool is_run) {
 }  // namespace
 
 Outcome<std::vector<klartext::Diagnostic>> found_here(const RunOptions& options) {
-  auto local = check_and_run(options, !options.setup_file.empty());
+  auto local = check_and_run(options, !options.setup_file.empty(), true);
   if (!local) return local.error();
   const auto drop = [&](const std::string& hint) {
     std::erase_if(local->found, [&](const auto& each) { return each.message == hint; });
@@ -110,7 +118,7 @@ Outcome<std::string> run_here(const Context& context, RunOptions options) {
         ExitCode::Usage,
         "--part-id and --order need --from-control: the service stores them with its records"};
   }
-  auto local = check_and_run(options, true);
+  auto local = check_and_run(options, true, false);
   if (!local) return local.error();
   if (local->document.empty()) {
     for (const klartext::Diagnostic& each : local->found)

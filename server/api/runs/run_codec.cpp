@@ -120,6 +120,8 @@ void members(auto& v, const interpreter::Measurement& measurement) {
 
 void members(auto& v, const klartext::DiagnosticNote& note) {
   v.member("message", note.message);
+  v.optional("program", note.program.empty() ? nullptr : &note.program,
+             "The file it is in; absent: that of the finding");
   v.member("line", note.range.begin.line, "Number, from 1");
   v.member("column", note.range.begin.column, "Number, from 1");
 }

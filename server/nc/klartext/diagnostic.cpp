@@ -63,8 +63,9 @@ std::string render(const Diagnostic& diagnostic) {
                   diagnostic.range.begin.column, word(diagnostic.severity), diagnostic.message,
                   id(diagnostic.code), diagnostic.source, caret_line(diagnostic));
   for (const DiagnosticNote& note : diagnostic.notes) {
-    text += fmt::format("\n{}:{}:{}: note: {}", diagnostic.program, note.range.begin.line,
-                        note.range.begin.column, note.message);
+    text += fmt::format("\n{}:{}:{}: note: {}",
+                        note.program.empty() ? diagnostic.program : note.program,
+                        note.range.begin.line, note.range.begin.column, note.message);
   }
   return text;
 }

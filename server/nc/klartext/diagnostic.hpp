@@ -31,10 +31,13 @@ enum class DiagnosticCode : std::uint8_t {
 /// The stable text of a code: `label.unknown`.
 std::string_view id(DiagnosticCode code);
 
-/// Another place of a finding in the same text.
+/// Another place of a finding.
 struct DiagnosticNote {
   std::string message{};
   SourceRange range{};
+  std::string program{};  ///< the file's name; empty: the one of the finding
+
+  friend bool operator==(const DiagnosticNote&, const DiagnosticNote&) = default;
 };
 
 /// One finding about a program or mask.

@@ -47,6 +47,13 @@ Diagnostic diagnose(const klartext::Program& program, const klartext::Block& blo
           std::string(program.line(range.begin.line))};
 }
 
+klartext::DiagnosticNote inch_note(const klartext::Program& program) {
+  const auto begin = std::ranges::find_if(program.blocks(), [](const klartext::Block& block) {
+    return std::holds_alternative<klartext::BeginProgram>(block.statement);
+  });
+  return {"the lengths are in INCH", program.range(begin->written), {}};
+}
+
 std::string m_function_hint(int number) {
   if (const MFunction* known = m_function(number))
     return fmt::format("M{} is not available: {}", number, known->text);

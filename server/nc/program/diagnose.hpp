@@ -23,6 +23,9 @@ klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::
                               klartext::Slice<char> place, klartext::Severity severity,
                               klartext::DiagnosticCode code, std::string message);
 
+/// The unit of a program in INCH as the cause of a finding.
+klartext::DiagnosticNote inch_note(const klartext::Program& program);
+
 /// The member of the setup that makes an M function or a cycle of the machine builder known, as a
 /// hint in the messages of checks and runs.
 std::string m_function_hint(int number);

@@ -161,6 +161,10 @@ class BlockCheck {
       if (auto value = literal(program_, written, *parameter)) {
         const bool stands = report_failure(probing::check(*parameter, *value), written.written);
         if (stands) known.set(parameter->id, *std::move(value));
+        const auto* number = std::get_if<double>(&written.value);
+        if (!stands && number != nullptr && program_.unit() == klartext::Unit::Inch &&
+            probing::check(*parameter, *number) && diagnostics_.size() < kMostFindings)
+          diagnostics_.back().notes.push_back(inch_note(program_));
       }
     }
     for (const auto& parameter : descriptor.parameters) {

@@ -11,6 +11,21 @@ CallStack::CallStack(std::shared_ptr<const LinkedProgram> main, const RunLimits&
   programs_.push_back({std::move(main), {}, 0});
 }
 
+std::vector<Place> CallStack::behind_calls() const {
+  std::vector<Place> all;
+  const auto add = [&](const LinkedProgram& program, std::uint32_t instruction) {
+    // A cycle that runs a subprogram has no such instruction.
+    if (instruction < program.code().size())
+      all.push_back({&program, program.block_of(instruction)});
+  };
+  std::size_t label = label_returns_.size();
+  for (std::size_t i = programs_.size(); i-- > 0;) {
+    while (label > programs_[i].first_label) add(*programs_[i].program, label_returns_[--label]);
+    if (i > 0) add(*programs_[i - 1].program, programs_[i].caller.return_to);
+  }
+  return all;
+}
+
 NcResult<void> CallStack::call_label(std::uint32_t return_to) {
   if (label_returns_.size() >= label_depth_) {
     return nc_error(1025, fmt::format("more than {} subprograms call each other", label_depth_));

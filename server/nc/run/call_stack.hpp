@@ -8,6 +8,7 @@
 #include "nc/program/linked_program.hpp"
 #include "nc/run/nc_error.hpp"
 #include "nc/run/run_budget.hpp"
+#include "nc/run/run_observer.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -25,6 +26,9 @@ class CallStack {
   const LinkedProgram* caller() const {
     return is_in_main() ? nullptr : programs_[programs_.size() - 2].program.get();
   }
+
+  /// The blocks behind the calls of what is being run, the innermost first.
+  std::vector<Place> behind_calls() const;
 
   /// @errors 1025 too deep.
   NcResult<void> call_label(std::uint32_t return_to);

@@ -20,6 +20,16 @@ Channel::Channel(std::shared_ptr<const LinkedProgram> main, const RunEnvironment
       printer(files, output),
       tables(files, parameters, allowance) {}
 
+std::vector<Place> Channel::chain() const {
+  std::vector<Place> all = calls.behind_calls();
+  const Place before{&linked(), std::min(block, block_before)};
+  const bool is_jumped_to =
+      std::holds_alternative<klartext::ErrorStop>(place().source().statement) &&
+      std::holds_alternative<klartext::ConditionalJump>(before.source().statement);
+  all.insert(all.begin(), is_jumped_to ? before : place());
+  return all;
+}
+
 NcResult<void> Channel::programmed_stop(std::string reason) {
   machine().stop(reason);
   if (options.on_stop == OnStop::End) return NcError{NcErrorKind::Stop, 0, std::move(reason)};

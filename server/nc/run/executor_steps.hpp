@@ -33,6 +33,7 @@ class ExecutorSteps {
 
   void announce(const Instruction* pc) {
     if (pc->blocks == 0) return;
+    channel_.block_before = channel_.block;
     enter(pc);
     channel_.environment.observer.entered(channel_.place());
   }

@@ -2,6 +2,7 @@
 
 #include "nc/run/channel.hpp"
 #include "nc/run/executor.hpp"
+#include "nc/run/origins.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -63,7 +64,10 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   result.blocks_executed = ending.blocks_executed;
   if (ending.error) {
     result.status = status_of(ending.error->kind);
-    channel.log.finish(*ending.error, last);
+    const bool is_error = ending.error->kind == NcErrorKind::Error;
+    channel.log.finish(*ending.error, last,
+                       is_error ? origins_of(channel.chain(), *ending.error)
+                                : std::vector<klartext::DiagnosticNote>());
   }
   environment.observer.ends();
   // The reported QL are those of the main program, also when the run ended in another.

@@ -27,7 +27,10 @@ std::vector<klartext::Diagnostic> findings_of(const RunResult& result) {
     if (found.size() >= kMostFindings) return;
     found.push_back(
         {severity, code, std::move(text), at.program, {{at.line, 1}, {at.line, 1}}, at.block});
-    if constexpr (requires { at.source; }) found.back().source = at.source;
+    if constexpr (requires { at.source; }) {
+      found.back().source = at.source;
+      found.back().notes = at.origins;
+    }
   };
   for (const RunMessage& message : result.messages) {
     if (message.kind != MessageKind::Error && message.kind != MessageKind::Limit) continue;
@@ -78,7 +81,8 @@ NcResult<void> RunLog::note(std::string text, const Place& place) {
   return report(MessageKind::Note, 0, std::move(text), place);
 }
 
-void RunLog::finish(const NcError& error, const Place& place) {
+void RunLog::finish(const NcError& error, const Place& place,
+                    std::vector<klartext::DiagnosticNote> origins) {
   const auto kind = [&] {
     switch (error.kind) {
       case NcErrorKind::Stop: return MessageKind::Stop;
@@ -89,6 +93,7 @@ void RunLog::finish(const NcError& error, const Place& place) {
     return MessageKind::Error;
   }();
   add(kind, error.number, error.text, place);
+  messages_.back().origins = std::move(origins);
 }
 
 void RunLog::add(MessageKind kind, int number, std::string text, const Place& place) {

@@ -37,7 +37,8 @@ class RunLog {
   /// Something the simulation leaves out: reported the first time only. @errors limit.
   NcResult<void> note(std::string text, const Place& place);
   /// The message of the error that ends the run; not charged, so that it is always there.
-  void finish(const NcError& error, const Place& place);
+  void finish(const NcError& error, const Place& place,
+              std::vector<klartext::DiagnosticNote> origins);
   NcResult<void> record(probing::MeasuringRecord record, const Place& place);
 
   void take(RunResult& result);

@@ -41,6 +41,7 @@ struct RunMessage {
   std::optional<std::uint32_t> block;  ///< its number, as written or counted
   std::uint32_t column = 0;            ///< from 1, of the block in that line; 0: no line is meant
   std::string source{};                ///< the physical line, cut where it is long
+  std::vector<klartext::DiagnosticNote> origins{};  ///< of an error that ended the run
 
   friend bool operator==(const RunMessage&, const RunMessage&) = default;
 };

@@ -89,7 +89,7 @@ END PGM HOLE MM
         on_it = ("--setup", "part.json")
         self.assertEqual(check(1, 50), [("cycle.unknown", 3, "hole.h")])
         self.assertEqual(check(0, 50, *on_it), [])
-        self.assertEqual(check(2, 50, *on_it, cycle=393)[-1], ("run.failed", 3, "hole.h"))
+        self.assertEqual(check(2, 50, *on_it, cycle=393), [("run.failed", 3, "hole.h")])
         self.assertEqual(check(1, 51, *on_it), [("run.setup_contradicts", 4, "hole.h")])
         self.assertEqual(check(0, 51, *on_it, "--level", "run.setup_contradicts=off"), [])
         self.assertEqual(check(2, 50, *on_it, tool=5), [("run.failed", 2, "hole.h")])

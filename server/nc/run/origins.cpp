@@ -1,0 +1,166 @@
+#include "nc/run/origins.hpp"
+
+#include <algorithm>
+
+#include "nc/program/cycles.hpp"
+#include "nc/program/diagnose.hpp"
+#include "nc/program/parameter.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using klartext::Block;
+using klartext::Letter;
+using klartext::Program;
+using klartext::QRef;
+using klartext::Word;
+
+template <class T>
+const T* as(const Block& block) {
+  return std::get_if<T>(&block.statement);
+}
+
+std::span<const Word> words_of(const Program& program, const Block& block) {
+  const auto words = [](const auto& statement) -> klartext::Slice<Word> {
+    if constexpr (requires { statement.words; }) return statement.words;
+    return {};
+  };
+  return program.view(std::visit(words, block.statement));
+}
+
+void read(const Program& program, const klartext::Expr& value, std::vector<QRef>& all) {
+  if (const auto* parameter = std::get_if<QRef>(&value)) {
+    if (std::ranges::find(all, *parameter) == all.end()) all.push_back(*parameter);
+  } else if (const auto* node = std::get_if<klartext::NodeIndex>(&value)) {
+    for (const klartext::Expr& operand : program.operands(*node)) read(program, operand, all);
+  }
+}
+
+/// The parameters that a block reads; of a cycle those alone whose values the error names, if any.
+std::vector<QRef> read_by(const Program& program, const Block& block, const std::string& error) {
+  std::vector<QRef> all;
+  std::vector<QRef> named;
+  for (const Word& word : words_of(program, block)) read(program, word.value, all);
+  if (const auto* set = as<klartext::Assignment>(block)) read(program, set->value, all);
+  if (const auto* jump = as<klartext::ConditionalJump>(block)) read(program, jump->condition, all);
+  if (const auto* cycle = as<klartext::Cycle>(block)) {
+    for (const auto& each : program.view(cycle->parameters))
+      read(program, each.value, error.find(name(each.parameter) + " ") == error.npos ? all : named);
+  }
+  return named.empty() ? all : named;
+}
+
+const probing::CycleDescriptor* descriptor_of(const Program& program, const Block& block) {
+  const auto* cycle = as<klartext::Cycle>(block);
+  return cycle == nullptr ? nullptr : bind_cycle(program, *cycle).descriptor();
+}
+
+bool sets(const Program& program, const Block& block, QRef parameter) {
+  if (const auto* set = as<klartext::Assignment>(block)) return set->target == parameter;
+  if (const auto* table = as<klartext::TableRead>(block)) return table->first == parameter;
+  const auto* known = descriptor_of(program, block);
+  return known != nullptr && std::ranges::any_of(known->results, [&](const auto& each) {
+           return parameter == QRef{klartext::QSpace::Q, each.q};
+         });
+}
+
+/// Another datum or rotation, or other data of the probe and the axes.
+bool sets_datum(const Program& program, const Block& block) {
+  if (as<klartext::Trans>(block) != nullptr || as<klartext::Plane>(block) != nullptr) return true;
+  if (const auto* part = as<klartext::CyclePart>(block))
+    return part->part > 0 && part->family == klartext::CycleFamily::CyclDef &&
+           is_dotted_cycle(part->number) && part->number != 9 && part->number != 32;
+  using enum probing::CycleKind;
+  const auto* known = descriptor_of(program, block);
+  return known != nullptr &&
+         (known->number >= 1400 || (known->kind >= Preset && known->kind <= Kinematics));
+}
+
+/// Whether another part of the program ends there: at M2, M30 and LBL 0, and at the label that
+/// the call before `behind` calls.
+bool begins_part(const Program& program, const Block& block, const Place* behind) {
+  const auto* label = as<klartext::LabelDefinition>(block);
+  if (label == nullptr)
+    return std::ranges::any_of(words_of(program, block), [](const Word& word) {
+      return word.letter == Letter::M &&
+             (word.value == klartext::Expr(2.0) || word.value == klartext::Expr(30.0));
+    });
+  if (label->label == klartext::Label(0U)) return true;
+  const klartext::LabelCall* call = nullptr;
+  if (behind != nullptr && &behind->program->program() == &program)
+    for (std::uint32_t i = behind->index; i-- > 0 && call == nullptr;)
+      call = as<klartext::LabelCall>(program.blocks()[i]);
+  return call != nullptr && call->label == label->label;
+}
+
+class Origins {
+ public:
+  explicit Origins(std::span<const Place> chain) : chain_(chain) {}
+
+  /// Notes the nearest block before that sets something. @returns it, or null
+  const Block* find(const std::string& what, const auto& sets) {
+    for (std::size_t at = 0; at < chain_.size(); ++at) {
+      const Program& program = chain_[at].program->program();
+      for (std::uint32_t i = chain_[at].index; i-- > 0;) {
+        const Block& block = program.blocks()[i];
+        if (sets(program, block)) return note(what, {chain_[at].program, i}), &block;
+        if (begins_part(program, block, at + 1 < chain_.size() ? &chain_[at + 1] : nullptr)) break;
+      }
+    }
+    return nullptr;
+  }
+  void note(const std::string& what, const Place& place) {
+    const std::uint32_t line = place.line();
+    const std::string program(place.program == chain_.front().program ? "" : place.path());
+    for (auto& each : notes)
+      if (each.range.begin.line == line && each.program == program)
+        return void(each.message.insert(0, what + ", "));
+    notes.push_back({what + " set here", {{line, 1}, {line, 1}}, program});
+  }
+
+  std::vector<klartext::DiagnosticNote> notes;
+
+ private:
+  std::span<const Place> chain_;
+};
+
+}  // namespace
+
+std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
+                                                 const NcError& error) {
+  Origins origins(chain);
+  const Program& program = chain.front().program->program();
+  const Block& block = chain.front().source();
+  // Tool axis is missing, tool not defined, no touch probe.
+  if (error.number == 1001 || error.number == 1092 || error.number == 1093) {
+    origins.find("tool", [](const auto&, const Block& each) {
+      return as<klartext::ToolCall>(each) != nullptr;
+    });
+    return std::move(origins.notes);
+  }
+  bool is_moved = as<klartext::ConditionalJump>(block) == nullptr;
+  if (!is_moved) origins.note("condition", chain.front());
+  for (const QRef parameter : read_by(program, block, error.text)) {
+    const Block* setter = origins.find(name(parameter), [=](const auto& in, const Block& each) {
+      return sets(in, each, parameter);
+    });
+    // FN 18 of a position
+    const auto* formula = setter == nullptr ? nullptr : as<klartext::Assignment>(*setter);
+    is_moved |= formula != nullptr && std::holds_alternative<klartext::NodeIndex>(formula->value);
+  }
+  if (error.number == 1004 || !is_moved) return std::move(origins.notes);
+  for (const Letter axis : {Letter::X, Letter::Y, Letter::Z}) {
+    const auto moves = [=](const Program& in, const Block& each) {
+      return (as<klartext::Motion>(each) != nullptr || as<klartext::CycleCall>(each) != nullptr) &&
+             std::ranges::any_of(words_of(in, each), [=](const Word& word) {
+               return word.letter == axis && !word.argument;
+             });
+    };
+    if (!moves(program, block)) origins.find(std::string(spelling(axis)), moves);
+  }
+  origins.find("datum", sets_datum);
+  if (chain.front().program->is_inch()) origins.notes.push_back(inch_note(program));
+  return std::move(origins.notes);
+}
+
+}  // namespace fitgauge::interpreter

@@ -1,0 +1,99 @@
+#include "run_fixture.hpp"
+
+namespace fitgauge::interpreter {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// Follows every block, as a check on a setup does.
+class EveryBlock final : public RunObserver {
+ public:
+  bool follows_every_block() const override { return true; }
+};
+
+const std::string kFace =
+    "TCH PROBE 427 MEASURE COORDINATE ~\n Q263=+QL1 ~\n Q264=+40 ~\n Q261=+0 ~\n Q320=+0 ~\n "
+    "Q272=+QL3 ~\n Q267=-1 ~\n Q260=+20 ~\n Q281=+0 ~\n Q288=+1 ~\n Q289=-1 ~\n Q309=+0 ~\n "
+    "Q330=+0\n";
+
+/// The line of the error, then each place that it names: `5`, `2: QL3 set here`.
+Lines origins(std::string_view body, bool is_inch = false) {
+  Control control;
+  control.setup.features.push_back(machine::Block{{0, 0, -40}, {100, 80, 0}});
+  control.program("L X+Q9 FMAX", "other.h");
+  control.program(body, "main.h", is_inch);
+  EveryBlock observer;
+  const auto file = control.programs.get(*control.disk.find(Control::main_path()));
+  REQUIRE(file->program != nullptr);
+  machine::SimulatedMachine machine(control.setup);
+  const auto result =
+      run(file->program, {machine, control.disk, control.programs, control.clock, observer}, {});
+  const auto found = findings_of(result);
+  if (found.empty()) return {};
+  Lines all{std::to_string(found[0].range.begin.line)};
+  for (const auto& note : found[0].notes)
+    all.push_back(note.program + std::to_string(note.range.begin.line) + ": " + note.message);
+  return all;
+}
+
+TEST_CASE("an error names the blocks that it comes from") {
+  struct Case {
+    std::string body;
+    Lines found;
+    bool is_inch = false;
+  };
+  const std::string call = "CALL LBL 1\nM30\nLBL 1\n" + kFace + "LBL 0";
+  const Case cases[] = {
+      // A value of a parameter: the one that the error names, from the call.
+      {"QL1 = 50\nQL3 = -3\nTOOL CALL 30 Z\n" + call, {"8", "3: QL3 set here"}},
+      {"QL3 = 3\nQL1 = -300\nTOOL CALL 30 Z\n" + call, {"8", "3: QL1 set here", "2: QL3 set here"}},
+      // A subprogram that the program has passed through before: what the call has set.
+      {"TOOL CALL 30 Z\nQL1 = 50\nQL3 = 3\nLBL 1\n" + kFace + "LBL 0\nQL3 = -3\nCALL LBL 1",
+       {"6", "20: QL3 set here"}},
+      // The tool.
+      {"QL1 = 50\nQL3 = 3\nTOOL CALL 0 Z\n" + kFace, {"5", "4: tool set here"}},
+      {"QL1 = 50\nQL3 = 3\n" + kFace, {"4"}},
+      // The axes that a block leaves alone; of the others where they have come from.
+      {"TOOL CALL 30 Z\nL Z+50 FMAX\nL X+50 Y+40 FMAX\nL Z-5 FMAX", {"5", "4: Y, X set here"}},
+      {"TOOL CALL 30 Z\nL X-20 Y+40 FMAX\nL Z-5 FMAX\nTRANS DATUM AXIS X+5\nL X+50 FMAX",
+       {"6", "3: Y set here", "4: Z set here", "5: datum set here"}},
+      // The unit, where lengths are too long.
+      {"TOOL CALL 30 Z\nL Z+100 FMAX", {"3", "1: the lengths are in INCH"}, true},
+      // A test by the program itself: the jump, what it reads, and the position read there.
+      {"TOOL CALL 30 Z\nL X+20 Y+30 FMAX\nFN 18: SYSREAD Q1 = ID270 NR1 IDX1\n"
+       "FN 9: IF +Q1 EQU +20 GOTO LBL 9\nM30\nLBL 9\nFN 14: ERROR = 1000",
+       {"8", "5: condition set here", "4: Q1 set here", "3: Y, X set here"}},
+      // Another program.
+      {"TOOL CALL 30 Z\nQ9 = 900\nCALL PGM OTHER", {"2", "TNC:\\nc_prog\\main.h3: Q9 set here"}},
+  };
+  for (const Case& each : cases) {
+    CAPTURE(each.body);
+    CHECK(origins(each.body, each.is_inch) == each.found);
+  }
+}
+
+TEST_CASE("a finding of the check names what it contradicts") {
+  Control control;
+  control.program(
+      "Q1 = +30\nQ2 = +20\nTCH PROBE 427 MEASURE COORDINATE ~\n Q263=+0 ~\n Q264=+0 ~\n "
+      "Q261=+Q1 ~\n Q272=+3 ~\n Q267=-1 ~\n Q260=+Q2\n");
+  auto found = control.diagnostics();
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].range.begin.line == 3);
+  REQUIRE(found[0].notes.size() == 1);
+  CHECK(found[0].notes[0].range.begin.line == 2);
+  const std::string ring = "TCH PROBE 462 CALIBRATION OF A TS IN A RING ~\n Q407=";
+  control.program(ring + "+50 ~\n Q320=+0 ~\n Q423=+8 ~\n Q380=+0\n", "main.h", true);
+  found = control.diagnostics();
+  REQUIRE(found.size() == 1);
+  REQUIRE(found[0].notes.size() == 1);
+  CHECK(found[0].notes[0].message == "the lengths are in INCH");
+  CHECK(found[0].notes[0].range.begin.line == 1);
+  control.program(ring + "+500 ~\n Q320=+0 ~\n Q423=+8 ~\n Q380=+0\n", "main.h", true);
+  found = control.diagnostics();
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].notes.empty());
+}
+
+}  // namespace
+}  // namespace fitgauge::interpreter
