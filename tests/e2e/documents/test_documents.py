@@ -12,7 +12,7 @@ from support.documents import Reader, agrees, blocks
 DOCUMENTS = [ROOT / "README.md", ROOT / "clients/python/README.md", *sorted((ROOT / "docs").glob("tutorial/*.md")),
              *sorted((ROOT / "docs").glob("guide/*.md")), *sorted((ROOT / "docs").glob("explanation/*.md"))]
 # Their readers have built the programs and installed nothing.
-BUILT_ONLY = {ROOT / "README.md", ROOT / "docs/tutorial/first-hour.md"}
+BUILT_ONLY = {ROOT / "README.md", *(ROOT / "docs/tutorial").glob("*.md")}
 LANGUAGES = {"sh", "console", "python", "json", "ini", "toml", "nginx", "mermaid", ""}
 
 
@@ -70,6 +70,16 @@ class Commands(unittest.TestCase):
             for block in blocks(path):
                 if not block.language:
                     self.assertNotRegex(block.text, r"(?m)^(\$ )?(fitgauged?|curl|scripts/\w+) ", f"{path.name}:{block.line}")
+
+    def test_guides_open_with_their_reader_and_end_with_faults(self):
+        for path in [*(ROOT / "docs/tutorial").glob("*.md"), *(ROOT / "docs/guide").glob("*.md")]:
+            text = path.read_text(encoding="utf-8")
+            faults = text.count("\n## If something goes wrong\n")
+            if path.name == "troubleshooting.md":  # it is nothing else
+                continue
+            with self.subTest(path.name):
+                self.assertRegex(text, r"\A# [^\n]+\n\nFor [^.]+\.\s(?s:.{0,200}?)At\sthe\send\s", "its reader and result")
+                self.assertEqual(faults, 1)
 
     def test_links_lead_to_files(self):
         for path in [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "clients").glob("*/README.md")]:
