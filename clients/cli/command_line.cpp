@@ -34,14 +34,16 @@ struct CommonOptions {
 void add_common(CLI::App& app, CommonOptions& common) {
   app.add_option(
       "--server", common.server,
-      "Address of the service, else FITGAUGE_SERVER, else " + std::string(kDefaultServer));
-  app.add_option("--key-file", common.key_file, "File with the API key, else FITGAUGE_KEY");
-  app.add_option("--ca", common.authority_file, "Authorities to trust (PEM)");
+      fmt::format("Address of the service (default: FITGAUGE_SERVER, else {})", kDefaultServer));
+  app.add_option("--key-file", common.key_file,
+                 "File with the API key (default: the key in FITGAUGE_KEY)");
+  app.add_option("--ca", common.authority_file, "CA certificates to trust (PEM)");
   app.add_option("--cert", common.certificate_file, "Certificate of this client (PEM)");
   app.add_option("--cert-key", common.certificate_key_file, "Private key of --cert (PEM)");
-  app.add_flag("--json", common.json, "Print the documents of the service");
-  app.add_option("--retry", common.retry_seconds,
-                 "Seconds that a write waits for the service (default: import 60, others 0)")
+  app.add_flag("--json", common.json, "Print the JSON responses of the service unchanged");
+  app.add_option(
+         "--retry", common.retry_seconds,
+         "Seconds that a write waits for the service (default: 60 for import, 0 for others)")
       ->check(CLI::Range(0, 86'400));
 }
 
@@ -135,8 +137,8 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
 
 int run_command_line(int argc, char** argv) {
   CLI::App app(
-      "fitgauge is the client of the fitgauge service: ISO 286 limits, fits, verdicts, "
-      "measurements, NC programs.",
+      "Command line of the fitgauge service: look up limits and fits, judge and store "
+      "measurements, run NC programs.",
       "fitgauge");
   CommonOptions common;
   Action action;

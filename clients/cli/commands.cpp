@@ -20,16 +20,34 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) { return app.get_s
 
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
-/// Whether what is typed there is a file of this machine.
-bool takes_file(const CLI::Option& option) {
-  constexpr std::array<std::string_view, 10> kFiles{
-      "file",         "--contacts", "paths", "--state", "--output",
-      "--setup-file", "--key-file", "--ca",  "--cert",  "--cert-key"};
-  const std::string name = option.get_name();
-  return std::any_of(kFiles.begin(), kFiles.end(), [&name](std::string_view file) {
-    return name == file || name.starts_with(std::string(file) + ",");
-  });
+/// Kinds of values, and the last words of the options that have them; others have any text.
+constexpr std::pair<std::string_view, std::string_view> kValueKinds[] = {
+    {"FILE", " file files paths programs target contacts state output ca cert key "},
+    {"FOLDER", " files-to "},
+    {"NUMBER",
+     " um mm c nominal measured factor freedom expansion uncertainty probability confidence lower "
+     "upper reference tolerance retry limit chunk baud count "},
+    {"TIME", " from to at "},
+    {"URL", " server "},
+    {"HOST:PORT", " address "}};
+
+std::string_view kind_of(const CLI::Option& option) {
+  const std::string name = ' ' + option.get_single_name() + ' ';
+  const std::string word = ' ' + name.substr(name.find_last_of(" -", name.size() - 2) + 1);
+  for (const auto& [kind, words] : kValueKinds) {
+    if (words.find(name) != words.npos || words.find(word) != words.npos) return kind;
+  }
+  return "TEXT";
 }
+
+void name_values(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (!is_flag(*option)) option->type_name(std::string(kind_of(*option)));
+  }
+  for (CLI::App* command : app.get_subcommands({})) name_values(*command);
+}
+
+bool takes_file(const CLI::Option& option) { return kind_of(option) == "FILE"; }
 
 /// Text between single quotes of a shell.
 std::string shell_text(std::string_view text) {
@@ -139,7 +157,7 @@ std::string zsh_completion(const CLI::App& app) {
 void add_stored(CLI::App& app, Action& chosen, const StoredKind& kind) {
   CLI::App* stored = app.add_subcommand(std::string(kind.command), std::string(kind.help));
   stored->require_subcommand(1);
-  add_words(*stored, "ls", "List their names", chosen, {}, 0,
+  add_words(*stored, "ls", "List the stored names", chosen, {}, 0,
             [&kind](const Context& context, const Words&) { return run_stored_ls(context, kind); });
   add_words(*stored, "put", fmt::format("Store {}: {} put m3 m3.json", kind.what, kind.command),
             chosen, {"name", "file"}, 2, [&kind](const Context& context, const Words& words) {
@@ -156,19 +174,21 @@ void add_stored(CLI::App& app, Action& chosen, const StoredKind& kind) {
 }
 
 void add_tables(CLI::App& app, Action& chosen) {
-  CLI::App* tables = app.add_subcommand("tables", "The tolerance tables");
+  CLI::App* tables = app.add_subcommand("tables", "Tolerance tables and custom tolerance classes");
   tables->require_subcommand(1);
   const auto options = std::make_shared<TableOptions>();
-  CLI::App* out = add_command(*tables, "export", "Write a table: tables export hole", chosen,
-                              options, run_tables_export);
-  out->add_option("feature", options->feature, "hole or shaft")
+  CLI::App* out = add_command(*tables, "export", "Write a tolerance table: tables export hole",
+                              chosen, options, run_tables_export);
+  out->add_option("feature", options->feature, "Table: hole or shaft")
       ->required()
       ->check(CLI::IsMember({"hole", "shaft"}));
-  out->add_option("--format", options->format, "csv, json, or tab for the control")
+  out->add_option("--format", options->format,
+                  "Format: csv, json, or tab for the control (default: csv)")
       ->check(CLI::IsMember({"csv", "json", "tab"}));
-  out->add_option("--classes", options->classes, "Only these classes: H7,JS7");
-  out->add_option("--revision", options->revision, "As the tables were");
-  out->add_option("--output,-o", options->output, "File, else standard output");
+  out->add_option("--classes", options->classes, "Only these tolerance classes, such as H7,JS7");
+  out->add_option("--revision", options->revision,
+                  "Table revision to export (default: the current one)");
+  out->add_option("--output,-o", options->output, "File to write (default: standard output)");
   const auto classes = [](const std::string& feature) {
     return StoredKind{
         "", "", "", feature == "hole" ? "/v1/tables/hole/classes" : "/v1/tables/shaft/classes", ""};
@@ -192,11 +212,12 @@ void add_tables(CLI::App& app, Action& chosen) {
 
 void add_watch(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<WatchOptions>();
-  CLI::App* watch =
-      add_command(app, "watch", "Print events as they happen", chosen, options, run_watch);
-  watch->add_option("--source", options->source, "gauge, simulation or all (default: gauge)")
+  CLI::App* watch = add_command(app, "watch", "Print measurements and ends of runs as they happen",
+                                chosen, options, run_watch);
+  watch
+      ->add_option("--source", options->source, "Source: gauge, simulation or all (default: gauge)")
       ->check(CLI::IsMember({"gauge", "simulation", "all"}));
-  watch->add_option("--after", options->after, "Begin after the event with this id");
+  watch->add_option("--after", options->after, "Start after the event with this id");
   watch->add_option("--count", options->count, "Stop after this number of events");
 }
 
@@ -205,8 +226,8 @@ void add_about(CLI::App& app, Action& chosen) {
     chosen = run_version;
   });
   const auto shell = std::make_shared<std::string>();
-  CLI::App* completion = app.add_subcommand("completion", "Print the completion script");
-  completion->add_option("shell", *shell, "bash, fish or zsh")
+  CLI::App* completion = app.add_subcommand("completion", "Print the completion script of a shell");
+  completion->add_option("shell", *shell, "Shell: bash, fish or zsh")
       ->required()
       ->check(CLI::IsMember({"bash", "fish", "zsh"}));
   completion->callback([&app, &chosen, shell] {
@@ -237,6 +258,7 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_tables(app, chosen);
   add_watch(app, chosen);
   add_about(app, chosen);
+  name_values(app);
 }
 
 }  // namespace fitgauge::cli

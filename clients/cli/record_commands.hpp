@@ -21,12 +21,12 @@ struct RecordFilter {
 };
 inline constexpr auto kRecordFilters = [] {
   std::array<RecordFilter, app::kTextFilters.size() + 6> filters = {{
-      {"designation", "Size and class, such as 25H7"},
-      {"verdict", "good, rework, reject or indeterminate"},
-      {"source", "gauge, simulation or all (default: gauge)"},
-      {"from", "Earliest time of measuring (RFC 3339)"},
+      {"designation", "Size and tolerance class, such as 25H7"},
+      {"verdict", "Verdict: good, rework, reject or indeterminate"},
+      {"source", "Source: gauge, simulation or all (default: gauge)"},
+      {"from", "Measured at this time or later"},
       {"to", "Measured before this time"},
-      {"history", "all: corrected records too"},
+      {"history", "all: also corrected measurements"},
   }};
   std::ranges::transform(app::kTextFilters, filters.begin() + 6,
                          [](std::string_view name) { return RecordFilter{name}; });

@@ -10,11 +10,11 @@ namespace {
 void add_nc_files(CLI::App& nc, Action& chosen) {
   const auto prefix = std::make_shared<std::string>();
   add_command<std::string>(nc, "ls", "List the control's files", chosen, prefix, run_nc_ls)
-      ->add_option("prefix", *prefix, "Only paths that begin with this");
+      ->add_option("prefix", *prefix, "Only paths that begin with this text");
 
   const auto paths = std::make_shared<std::vector<std::string>>();
   CLI::App* put = nc.add_subcommand("put", "Store files: nc put 8255.h nc_prog/8255/");
-  put->add_option("paths", *paths, "Files, then their path or folder/ on the control")
+  put->add_option("paths", *paths, "Files, then the path or folder/ on the control")
       ->required()
       ->expected(2, CLI::detail::expected_max_vector_size);
   put->callback([&chosen, paths] {
@@ -40,7 +40,7 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   };
   const auto levels = std::make_shared<std::vector<std::string>>();
   add_levels(
-      *add_command(nc, "lsp", "Serve an editor: a language server on standard input and output",
+      *add_command(nc, "lsp", "Run a language server for an editor on standard input and output",
                    chosen, levels, run_nc_lsp),
       *levels);
   const auto checked = std::make_shared<CheckOptions>();
@@ -51,15 +51,18 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   check->add_option("--format", checked->format, "Format of the findings: text, json, sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
   add_levels(*check, checked->levels);
-  check->add_option("--setup", checked->run.setup_file, "JSON file: also run on this setup");
-  check->add_option("--set", checked->run.parameters, "Parameter before block 0 of the run: Q1=25")
+  check->add_option("--setup", checked->run.setup_file,
+                    "JSON file with a setup; the check also runs the programs on it");
+  check
+      ->add_option("--set", checked->run.parameters,
+                   "Parameter that is set before block 0 of this run: Q1=25")
       ->expected(1)
       ->take_all();
 
   const auto formatted = std::make_shared<FormatOptions>();
   CLI::App* format = add_command(nc, "format", "Format programs as a control does", chosen,
                                  formatted, run_nc_format);
-  format->add_option("files", formatted->files, "Files here")->required();
+  format->add_option("files", formatted->files, "Local files, or paths on the control")->required();
   format->add_flag("--in-place", formatted->in_place, "Write to the files (default: print)");
   format->add_flag("--from-control", formatted->from_control, "Use files of the service");
 
@@ -84,14 +87,15 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   const auto setup = run->add_option("--setup", options->setup,
                                      "JSON file; with --from-control the name of a stored setup");
   run->add_option("--setup-file", options->setup_file, "JSON file with a setup")->excludes(setup);
-  run->add_option("--set", options->parameters, "Parameter before block 0: Q1=25, QS1=H7")
+  run->add_option("--set", options->parameters,
+                  "Parameter that is set before block 0: Q1=25, QS1=H7")
       ->expected(1)
       ->take_all();
-  run->add_option("--on-stop", options->on_stop, "At STOP: continue or end");
+  run->add_option("--on-stop", options->on_stop, "At a STOP: continue or end (default: continue)");
   run->add_option("--language", options->language,
-                  "Language of masks: english, german, dutch, italian, polish");
-  run->add_option("--part-id", options->part_id, "Part number for the records");
-  run->add_option("--order", options->order, "Its order");
+                  "Language of FN 16 masks: english, german, dutch, italian or polish");
+  run->add_option("--part-id", options->part_id, "Part id that is stored with the measurements");
+  run->add_option("--order", options->order, "Work order that is stored with the measurements");
   run->add_flag("--block-skip", options->block_skip, "Skip blocks that begin with /");
 }
 
@@ -101,12 +105,15 @@ void add_runs(CLI::App& app, Action& chosen) {
   const auto query = std::make_shared<RunsQuery>();
   CLI::App* list =
       add_command(*runs, "ls", "List the runs, the newest first", chosen, query, run_runs_ls);
-  list->add_option("--status", query->status, "queued, running, completed, stopped, failed, …");
-  list->add_option("--program", query->program, "Only this program");
-  list->add_option("--limit", query->limit, "Most runs, else 100")->check(CLI::Range(1, 1000));
-  list->add_option("--after", query->after, "Begin after this cursor of an earlier page");
+  list->add_option(
+      "--status", query->status,
+      "Status: queued, running, completed, stopped, failed, cancelled or limit_exceeded");
+  list->add_option("--program", query->program, "Only runs of this program");
+  list->add_option("--limit", query->limit, "Maximum number of runs (default: 100)")
+      ->check(CLI::Range(1, 1000));
+  list->add_option("--after", query->after, "Cursor that the previous page printed");
   add_words(
-      *runs, "show", "Screen, messages and files of a run", chosen, {"id"}, 1,
+      *runs, "show", "Print screen, messages and files of a run", chosen, {"id"}, 1,
       [](const Context& context, const Words& words) { return run_runs_show(context, words[0]); });
   add_words(*runs, "get", "Print a file that a run wrote", chosen, {"id", "name", "file"}, 2,
             [](const Context& context, const Words& words) {
@@ -135,7 +142,7 @@ void add_control(CLI::App& app, Action& chosen) {
   const auto put = std::make_shared<ControlPutOptions>();
   CLI::App* send = add_command(*control, "put", "Send files: control put tnc part.h TNC:/nc_prog/",
                                chosen, put, run_control_put);
-  send->add_option("paths", put->words, "Control, files, then their path or folder/ on the control")
+  send->add_option("paths", put->words, "Control, files, then the path or folder/ on the control")
       ->required()
       ->expected(3, CLI::detail::expected_max_vector_size);
   send->add_flag("--force", put->force, "Replace an existing file on the control");
@@ -143,20 +150,22 @@ void add_control(CLI::App& app, Action& chosen) {
             2, [](const Context& context, const Words& words) {
               return run_control_run(context, words[0], words[1]);
             });
-  add_words(*control, "state", "Mode, program, axes and errors of a control", chosen, {"address"},
-            1, [](const Context& context, const Words& words) {
+  add_words(*control, "state", "Print mode, program, axes and errors of a control", chosen,
+            {"address"}, 1, [](const Context& context, const Words& words) {
               return run_control_state(context, words[0]);
             });
 }
 
 void add_replay(CLI::App& app, Action& chosen) {
   const auto options = std::make_shared<ReplayOptions>();
-  CLI::App* replay =
-      add_command(app, "replay", "Replay the contacts of a machine's log and compare the results",
-                  chosen, options, run_replay);
+  CLI::App* replay = add_command(
+      app, "replay", "Run a program with the contacts of a real run and compare the probing logs",
+      chosen, options, run_replay);
   replay->add_option("program", options->run.program, "Path on the control")->required();
-  replay->add_option("file", options->log, "Measuring log of the machine")->required();
-  replay->add_option("--contacts", options->contacts, "JSON file: [[X, Y, Z], null, …]")
+  replay->add_option("file", options->log, "Probing log of the machine")->required();
+  replay
+      ->add_option("--contacts", options->contacts,
+                   "JSON file with a contact for each probing move: [[X, Y, Z], null, …]")
       ->required();
   const auto setup = replay->add_option("--setup", options->run.setup, "Name of a stored setup");
   replay->add_option("--setup-file", options->run.setup_file, "JSON file with a setup")

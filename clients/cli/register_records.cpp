@@ -10,13 +10,14 @@ namespace {
 void add_filters(CLI::App& command, const std::shared_ptr<RecordQuery>& query) {
   for (std::size_t i = 0; i < kRecordFilters.size(); ++i) {
     const auto& [name, help] = kRecordFilters.at(i);
-    command.add_option(option_name(name), query->filters.at(i),
-                       help.empty() ? fmt::format("Exactly this {}", name) : std::string(help));
+    command.add_option(
+        option_name(name), query->filters.at(i),
+        help.empty() ? fmt::format("Only measurements with this {}", name) : std::string(help));
   }
 }
 
 void add_figures(CLI::App& app, Action& chosen) {
-  const std::string help = "use, or ignore for single values";
+  const std::string help = "use: by subgroup; ignore: single values (default: use)";
   const auto indices = std::make_shared<CapabilityQuery>();
   CLI::App* capability = add_command(app, "capability", "Capability of stored measurements", chosen,
                                      indices, run_capability);
@@ -36,7 +37,8 @@ void add_figures(CLI::App& app, Action& chosen) {
       ->add_option("--kind", query->kind,
                    "Kind of chart (default: xbar_r with subgroups, else i_mr)")
       ->check(CLI::IsMember({"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}));
-  chart->add_option("--rules", query->rules, "Of Western Electric: 1,2,3,4");
+  chart->add_option("--rules", query->rules,
+                    "Western Electric rules to check, such as 1,2,3,4 (default: none)");
   chart->add_option("--subgroups", query->subgroups, help)->check(CLI::IsMember({"use", "ignore"}));
 }
 
@@ -44,43 +46,46 @@ void add_listed(CLI::App& app, Action& chosen) {
   auto query = std::make_shared<RecordQuery>();
   CLI::App* list = add_command(app, "list", "Print stored measurements", chosen, query, run_list);
   add_filters(*list, query);
-  list->add_option("--limit", query->limit, "Most records, else 100")->check(CLI::Range(1, 1000));
-  list->add_option("--after", query->after, "Begin after this cursor of an earlier page");
+  list->add_option("--limit", query->limit, "Maximum number of measurements (default: 100)")
+      ->check(CLI::Range(1, 1000));
+  list->add_option("--after", query->after, "Cursor that the previous page printed");
 
   query = std::make_shared<RecordQuery>();
-  CLI::App* out = add_command(app, "export", "Write all stored measurements that match", chosen,
-                              query, run_export);
+  CLI::App* out =
+      add_command(app, "export", "Write stored measurements to a file", chosen, query, run_export);
   add_filters(*out, query);
-  out->add_option("--format", query->format, "csv, ndjson, dfq of Q-DAS, qif or xlsx")
+  out->add_option("--format", query->format,
+                  "Format: csv, ndjson, dfq (Q-DAS), qif or xlsx (default: csv)")
       ->check(CLI::IsMember({"csv", "ndjson", "dfq", "qif", "xlsx"}));
   out->add_option("--time-zone", query->time_zone,
                   "Time zone of times in dfq and xlsx, such as Europe/Berlin (default: UTC)");
-  out->add_option("--output,-o", query->output, "File, else standard output");
+  out->add_option("--output,-o", query->output, "File to write (default: standard output)");
 
   query = std::make_shared<RecordQuery>();
-  CLI::App* summary = add_command(app, "summary", "Count, mean and scatter of each group", chosen,
-                                  query, run_summary);
+  CLI::App* summary =
+      add_command(app, "summary", "Count, mean and standard deviation of each group", chosen, query,
+                  run_summary);
   add_filters(*summary, query);
   summary->add_option("--group-by", query->group_by,
-                      "Field of the groups (default: characteristic)");
+                      "Field that forms the groups (default: characteristic)");
 
   const auto options = std::make_shared<CorrectOptions>();
-  CLI::App* correct = add_command(app, "correct", "Correct a record: fitgauge correct m17 25.0131",
-                                  chosen, options, run_correct);
-  correct->add_option("id", options->id, "The record")->required();
-  correct->add_option("measured", options->measured, "Right value in mm")->required();
-  correct->add_option("--reason", options->reason, "Why it is corrected")->required();
+  CLI::App* correct =
+      add_command(app, "correct", "Correct a measurement: fitgauge correct m17 25.0131", chosen,
+                  options, run_correct);
+  correct->add_option("id", options->id, "Id of the measurement")->required();
+  correct->add_option("measured", options->measured, "Correct value in mm")->required();
+  correct->add_option("--reason", options->reason, "Reason for the correction")->required();
 
   const auto said = std::make_shared<NoteOptions>();
-  CLI::App* note = add_command(
-      app, "note", "Add a cause or an action to a measurement; without one, show its notes", chosen,
-      said, run_note);
-  note->add_option("id", said->id, "The record")->required();
+  CLI::App* note = add_command(app, "note", "Add a note to a measurement, or show its notes",
+                               chosen, said, run_note);
+  note->add_option("id", said->id, "Id of the measurement")->required();
   note->add_option("--cause", said->cause, "Cause of the value");
   note->add_option("--action", said->measure, "Action that was taken");
   note->add_option("--measure", said->measure, "Another name of --action");
-  note->add_option("--text", said->text, "Whatever else");
-  note->add_option("--operator", said->operator_name, "Who says so");
+  note->add_option("--text", said->text, "Free text");
+  note->add_option("--operator", said->operator_name, "Author of the note");
 }
 
 void add_plans(CLI::App& app, Action& chosen) {

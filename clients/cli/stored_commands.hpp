@@ -20,12 +20,12 @@ struct StoredKind {
   std::string_view member;  ///< of the list's answer
 };
 inline constexpr std::array<StoredKind, 4> kStoredKinds = {{
-    {"setups", "a setup", "Machines with the workpieces on their tables", "/v1/setups", "setups"},
+    {"setups", "a setup", "Setups of runs: machine, tools and workpiece", "/v1/setups", "setups"},
     {"budgets", "an uncertainty budget", "Uncertainty budgets", "/v1/uncertainties",
      "uncertainties"},
-    {"gauges", "a gauge in use", "Gauges in use: their uncertainty and calibration",
-     "/v1/gauges-in-use", "gauges"},
-    {"studies", "a study of a gauge", "Gauge studies with their results", "/v1/studies", "studies"},
+    {"gauges", "a gauge in use", "Gauges in use: uncertainty and calibration", "/v1/gauges-in-use",
+     "gauges"},
+    {"studies", "a gauge study", "Gauge studies and their results", "/v1/studies", "studies"},
 }};
 
 /// `setups ls`

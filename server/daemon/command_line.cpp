@@ -113,20 +113,22 @@ std::string spelling_hint(const CLI::App& app) {
 
 void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--config", arguments.config_file, "TOML file with these settings")
+      ->type_name("FILE")
       ->envname("FITGAUGE_CONFIG");
   for (const Setting& setting : settings()) {
     auto& values = arguments.settings[setting.name];
     if (setting.flag != nullptr) {
       app.add_flag_callback(
-          "--" + std::string(setting.name), [&values] { values = {"true"}; },
-          std::string(setting.help));
+          "--" + std::string(setting.name), [&values] { values = {"true"}; }, help_text(setting));
       continue;
     }
-    auto* option =
-        app.add_option("--" + std::string(setting.name), values, std::string(setting.help));
+    auto* option = app.add_option("--" + std::string(setting.name), values, help_text(setting))
+                       ->type_name(std::string(setting.kind));
     if (setting.texts == nullptr) option->expected(1);
   }
-  app.add_option("--port-file", arguments.port_file, "Receives the port once the socket listens");
+  app.add_option("--port-file", arguments.port_file,
+                 "File that receives the port when the service listens")
+      ->type_name("FILE");
   app.add_flag("--check-config", arguments.check_config, "Check the configuration and exit");
   app.add_flag("--print-config", arguments.print_config, "Print the configuration and exit");
   app.add_flag("--healthcheck", arguments.healthcheck,
@@ -157,14 +159,19 @@ struct Commands {
     app.require_subcommand(0, 1);
     // The settings stand before or after the command: `fitgauged verify --data DIR`.
     app.fallthrough();
-    backup = app.add_subcommand("backup", "Write a consistent copy of the live database");
-    backup->add_option("file", file, "File of the copy; must not exist")->required();
-    verify = app.add_subcommand("verify", "Check database, tables, log and every stored verdict");
-    verify->add_option("--checkpoint", checkpoints,
-                       "Checkpoint from a safe place: the log must begin with it");
+    backup = app.add_subcommand("backup",
+                                "Write a consistent copy of the database; the service may run");
+    backup->add_option("file", file, "New file for the copy")->type_name("FILE")->required();
+    verify = app.add_subcommand("verify",
+                                "Check the database, the tables, the log and every stored verdict");
+    verify
+        ->add_option("--checkpoint", checkpoints,
+                     "File with a checkpoint from a safe place; the log must contain it")
+        ->type_name("FILE");
     qualify =
         app.add_subcommand("qualify", "Compare the results of this program with published figures");
     qualify->add_option("--out", folder, "Folder for qualification.json and qualification.pdf")
+        ->type_name("FOLDER")
         ->required();
     log_key =
         app.add_subcommand("log-key", "Create a new key that signs the log from the next start");
@@ -172,13 +179,17 @@ struct Commands {
     forward->add_flag("--all", all, "Forward the whole log, then exit")->required();
     key = app.add_subcommand("key", "Create, list and revoke API keys");
     key->require_subcommand(1);
-    create = key->add_subcommand("create", "Create a key and show it once");
+    create = key->add_subcommand("create", "Create a key and print it once");
     create->add_option("--name", name, "Name of the person or machine that uses the key")
+        ->type_name("NAME")
         ->required();
-    create->add_option("--role", role, "Role: viewer, operator, admin or station")->required();
-    create->add_option("--expires", expires, "Time of expiry, such as 2027-01-01T00:00:00Z");
+    create->add_option("--role", role, "Role: viewer, operator, admin or station")
+        ->type_name("WORD")
+        ->required();
+    create->add_option("--expires", expires, "Time of expiry, such as 2027-01-01T00:00:00Z")
+        ->type_name("TIME");
     revoke = key->add_subcommand("revoke", "Revoke a key");
-    revoke->add_option("--name", name, "The key's name")->required();
+    revoke->add_option("--name", name, "Name of the key")->type_name("NAME")->required();
     list = key->add_subcommand("list", "List the keys");
   }
 
@@ -247,8 +258,8 @@ int dispatch(const CLI::App& app, const Arguments& arguments, const Commands& co
 
 int run_command_line(int argc, char** argv) {
   CLI::App app(
-      "fitgauged serves ISO 286 limits, verdicts on measured diameters and Klartext probe programs "
-      "over HTTP.",
+      "Service for ISO 286 limits, verdicts on measured diameters and Klartext probe programs over "
+      "HTTP.",
       "fitgauged");
   Arguments arguments;
   add_options(app, arguments);

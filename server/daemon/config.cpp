@@ -109,35 +109,40 @@ std::string toml_string(std::string_view text) {
 
 const std::vector<Setting>& settings() {
   static const std::vector<Setting> kSettings = {
-      {"listen", "Addresses to listen on, as host:port; port 0 chooses a free port",
+      {"listen", "HOST:PORT", "Addresses to listen on, as host:port; port 0 chooses a free port",
        &Config::listen},
-      {"data", "Folder of the database", &Config::data},
-      {"database",
-       "PostgreSQL that several services share, as postgresql://host/name; empty: a file in data",
+      {"data", "FOLDER", "Folder of the database", &Config::data},
+      {"database", "URL",
+       "PostgreSQL database that services share, as postgresql://host/name; empty: a file in data",
        &Config::database},
-      {"origin-name", "Name of the log of a new data folder, such as plant-3/press-7",
+      {"origin-name", "NAME",
+       "Name of the measurement log of a new data folder, such as plant-3/press-7",
        &Config::origin_name},
       {"auth",
+       "WORD",
        "Requests that need a key; default: open on loopback addresses, else read-open",
        &Config::auth,
        {"default", "open", "read-open", "keys"}},
-      {"allow-origin",
-       "Origins whose pages may use the service, as https://mes.example; writes need a key",
+      {"allow-origin", "URL",
+       "Web origins that may use the service, such as https://mes.example; their writes need a key",
        &Config::allow_origin},
-      {"admin-key-file", "File with the first administrator's key", &Config::admin_key_file},
-      {"admin-key-out",
-       "File for the first administrator's key; empty: admin.key in the data folder",
+      {"admin-key-file", "FILE", "File to read the first administrator's key from",
+       &Config::admin_key_file},
+      {"admin-key-out", "FILE",
+       "File to write the first administrator's key to; empty: admin.key in the data folder",
        &Config::admin_key_out},
-      {"tls-cert", "Certificate chain (PEM)", &Config::tls_cert},
-      {"tls-key", "Private key of the certificate (PEM)", &Config::tls_key},
-      {"tls-client-ca",
-       "Authorities of client certificates (PEM); a client must have such a certificate",
+      {"tls-cert", "FILE", "Certificate chain (PEM)", &Config::tls_cert},
+      {"tls-key", "FILE", "Private key of the certificate (PEM)", &Config::tls_key},
+      {"tls-client-ca", "FILE",
+       "CA certificates of the clients (PEM); each client then needs a certificate",
        &Config::tls_client_ca},
       {"log-level",
+       "WORD",
        "Lowest level of log lines",
        &Config::log_level,
        {"debug", "info", "warning", "error", "off"}},
       {"durability",
+       "WORD",
        "group: one commit for all waiting requests; each: one commit a request; off: no fsync, for "
        "tests",
        &Config::durability,
@@ -147,8 +152,8 @@ const std::vector<Setting>& settings() {
       {"run-workers", "NC programs that run at the same time", &Config::run_workers, 1, 64},
       {"max-connections", "Connections served at the same time", &Config::max_connections, 1,
        100'000},
-      {"write-queue", "Writes that wait for the disk; more requests get 503", &Config::write_queue,
-       1, 1'000'000},
+      {"write-queue", "Writes that may wait for the disk; further writes get 503",
+       &Config::write_queue, 1, 1'000'000},
       {"idempotency-days", "Days that an idempotency key is kept", &Config::idempotency_days, 1,
        3650},
       {"run-retention-days",
@@ -156,53 +161,49 @@ const std::vector<Setting>& settings() {
        &Config::run_retention_days, 0, 36500},
       {"event-retention", "Events kept for readers that reconnect", &Config::event_retention, 100,
        10'000'000},
-      {"control-listen",
-       "Address of a virtual control that speaks LSV-2, as host:port; empty for none",
-       &Config::control_listen},
-      {"control-model", "Which control it is", &Config::control_model, model_names()},
-      {"control-setup",
-       "Setup of the machine of the virtual control; empty for the default machine",
+      {"control-listen", "HOST:PORT",
+       "Address of a virtual control (LSV-2), as host:port; empty: none", &Config::control_listen},
+      {"control-model", "NAME", "Model of the virtual control", &Config::control_model,
+       model_names()},
+      {"control-setup", "NAME", "Stored setup of the virtual control; empty: the default machine",
        &Config::control_setup},
-      {"control-write", "Clients of the virtual control may change files and start programs",
+      {"control-write", "Allow clients of the virtual control to change files and start programs",
        &Config::control_write},
-      {"shdr-listen",
-       "Address of the SHDR lines for MTConnect agents, as host:port; empty for none",
+      {"shdr-listen", "HOST:PORT",
+       "Address of the SHDR lines for MTConnect agents, as host:port; empty: none",
        &Config::shdr_listen},
-      {"connections",
-       "File with connections to controls, folders and receivers (TOML); empty for none",
+      {"connections", "FILE",
+       "TOML file with connections to controls, folders and receivers; empty: none",
        &Config::connections},
-      {"connection-folders",
-       "Folders in which connections made over HTTP may read and write; empty for none",
-       &Config::connection_folders},
+      {"connection-folders", "FOLDER",
+       "Folders that connections made over HTTP may use; empty: none", &Config::connection_folders},
       {"allow-private-addresses",
-       "Webhooks may use addresses of this machine and of private networks",
+       "Allow webhooks to addresses of this machine and of private networks",
        &Config::allow_private_addresses},
-      {"certificate-logo", "PNG file that inspection reports begin with; empty for none",
+      {"certificate-logo", "FILE", "PNG file with the logo of inspection reports; empty: none",
        &Config::certificate_logo},
-      {"certificate-address", "Who makes out inspection reports: lines with ; between them",
+      {"certificate-address", "TEXT", "Address on inspection reports; a semicolon ends a line",
        &Config::certificate_address},
-      {"forward-to", "Centre that gets a copy of the log, as https://host:port; empty for none",
+      {"forward-to", "URL",
+       "Centre that receives a copy of the measurement log, as https://host:port; empty: none",
        &Config::forward_to},
-      {"forward-key-file", "File with the key of this station at the centre",
+      {"forward-key-file", "FILE", "File with the API key of this station at the centre",
        &Config::forward_key_file},
-      {"forward-ca", "Authorities of the centre's certificate (PEM); empty for the system's",
+      {"forward-ca", "FILE", "CA certificates for the centre (PEM); empty: those of the system",
        &Config::forward_ca},
-      {"forward-insecure", "The centre may be reached by http:// beyond this machine",
+      {"forward-insecure", "Allow http:// to a centre on another machine",
        &Config::forward_insecure},
   };
   return kSettings;
 }
 
-namespace {
-
-/// ` (1 to 64)`, or ` (group, each, off)`; empty where everything goes.
-std::string range_text(const Setting& setting) {
-  if (setting.integer != nullptr) return fmt::format(" ({} to {})", setting.least, setting.most);
-  if (setting.words.empty()) return {};
-  return fmt::format(" ({})", fmt::join(setting.words, ", "));
+std::string help_text(const Setting& setting) {
+  if (setting.integer != nullptr) {
+    return fmt::format("{} ({} to {})", setting.help, setting.least, setting.most);
+  }
+  if (setting.words.empty()) return std::string(setting.help);
+  return fmt::format("{} ({})", setting.help, fmt::join(setting.words, ", "));
 }
-
-}  // namespace
 
 std::string toml_key(const Setting& setting) {
   std::string key(setting.name);
@@ -293,7 +294,7 @@ Result<void> check_database(const Config& config) {
   if (config.database.empty()) return {};
   if (!config.database.starts_with("postgresql://") &&
       !config.database.starts_with("postgres://")) {
-    return invalid("database takes an address as postgresql://user@host:5432/name");
+    return invalid("database must be an address such as postgresql://user@host:5432/name");
   }
   if (!config.forward_to.empty()) {
     return invalid(
@@ -346,7 +347,7 @@ Result<void> check(const Config& config) {
 std::string to_toml(const Config& config) {
   std::string out;
   for (const Setting& setting : settings()) {
-    out += fmt::format("# {}{}\n{} = ", setting.help, range_text(setting), toml_key(setting));
+    out += fmt::format("# {}\n{} = ", help_text(setting), toml_key(setting));
     if (setting.integer != nullptr) {
       out += std::to_string(config.*setting.integer);
     } else if (setting.flag != nullptr) {

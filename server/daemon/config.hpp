@@ -52,11 +52,12 @@ struct Config {
 
 /// One setting: its place in Config, its names and its documentation.
 struct Setting {
-  Setting(std::string_view called, std::string_view meaning, std::vector<std::string> Config::*to)
-      : name(called), help(meaning), texts(to) {}
-  Setting(std::string_view called, std::string_view meaning, std::string Config::*to,
-          std::vector<std::string_view> only = {})
-      : name(called), help(meaning), text(to), words(std::move(only)) {}
+  Setting(std::string_view called, std::string_view kind_, std::string_view meaning,
+          std::vector<std::string> Config::*to)
+      : name(called), help(meaning), texts(to), kind(kind_) {}
+  Setting(std::string_view called, std::string_view kind_, std::string_view meaning,
+          std::string Config::*to, std::vector<std::string_view> only = {})
+      : name(called), help(meaning), text(to), kind(kind_), words(std::move(only)) {}
   Setting(std::string_view called, std::string_view meaning, bool Config::*to)
       : name(called), help(meaning), flag(to) {}
   Setting(std::string_view called, std::string_view meaning, std::int64_t Config::*to,
@@ -68,13 +69,17 @@ struct Setting {
   std::vector<std::string> Config::*texts = nullptr;
   std::string Config::*text = nullptr;
   std::int64_t Config::*integer = nullptr;
-  bool Config::*flag = nullptr;  ///< on the command line without a value
+  bool Config::*flag = nullptr;      ///< on the command line without a value
+  std::string_view kind = "NUMBER";  ///< of its values, in the help: FILE, HOST:PORT, …
   std::int64_t least = 0;
   std::int64_t most = 0;
   std::vector<std::string_view> words{};  ///< the values a text may have, if they are few
 };
 
 const std::vector<Setting>& settings();
+
+/// The help of a setting with its range or words: `… (1 to 64)`, `… (group, each, off)`.
+std::string help_text(const Setting& setting);
 
 /// `io-threads` as a TOML key: `io_threads`.
 std::string toml_key(const Setting& setting);

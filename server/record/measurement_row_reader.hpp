@@ -54,28 +54,28 @@ inline constexpr std::array<RowField, RowField::Count> kRowFields = [] {
        "Measured value, above 0 to 100000000; a position, distance or deviation from -100000000; "
        "rounded to 1 nm"},
       {"nominal_mm", RowField::Kind::Length, 0, "Nominal size"},
-      {"tolerance_class", RowField::Kind::Text, 64, "H7, g6 or a custom tolerance class"},
+      {"tolerance_class", RowField::Kind::Text, 64,
+       "Tolerance class such as H7 or g6, or a custom one"},
       {"designation", RowField::Kind::Text, 64,
-       "25 H7, 25 H7(E), M10-6H or 25 ISO 2768-m; a comma may mark decimals"},
+       "Size and class: 25 H7, 25 H7(E), M10-6H or 25 ISO 2768-m; a comma may mark decimals"},
       {"feature", RowField::Kind::Feature, 16,
        "Feature; required with explicit limits of a diameter, width or pitch diameter"},
-      {"upper_um", RowField::Kind::Length, 0, "Upper deviation of a drawing's own limits"},
-      {"lower_um", RowField::Kind::Length, 0, "Lower deviation of a drawing's own limits"},
+      {"upper_um", RowField::Kind::Length, 0, "Upper deviation of explicit limits"},
+      {"lower_um", RowField::Kind::Length, 0, "Lower deviation of explicit limits"},
       {"quantity", RowField::Kind::Quantity, 16,
-       "Quantity; from the designation, else diameter. With it the limits are optional"},
+       "Quantity (default: from the designation, else diameter); limits are then optional"},
   }};
   fields[RowField::MeasuredAt] = {
       "measured_at", RowField::Kind::Time, 64,
-      "Time with an offset or Z, stored in UTC; time of receipt when absent"};
+      "Time with an offset or Z, stored in UTC (default: time of receipt)"};
   fields[RowField::Uncertainty] = {"uncertainty_um", RowField::Kind::Length, 0,
-                                   "Standard uncertainty u, from 0"};
+                                   "Standard uncertainty u, 0 or more"};
   fields[RowField::Coverage] = {
       "coverage_factor", RowField::Kind::Decimal, 0,
-      "k, above 0 to 100; t(0.9545, degrees_of_freedom) when absent, 2 without them"};
-  fields[RowField::Rule] = {"rule", RowField::Kind::Rule, 16, "Decision rule; simple when absent"};
-  fields[RowField::Probability] = {
-      "probability", RowField::Kind::Decimal, 0,
-      "Probability of conformance, from 0.5 to below 1; 0.95 when absent"};
+      "Coverage factor k, above 0 to 100 (default: t(0.9545, degrees_of_freedom), else 2)"};
+  fields[RowField::Rule] = {"rule", RowField::Kind::Rule, 16, "Decision rule (default: simple)"};
+  fields[RowField::Probability] = {"probability", RowField::Kind::Decimal, 0,
+                                   "Probability of conformance, 0.5 to below 1 (default: 0.95)"};
   std::size_t at = RowField::Labels;
   for (const app::MeasurementField& field : app::kGivenFields) {
     if (at == RowField::MeasuredAt) at = RowField::Thermal;

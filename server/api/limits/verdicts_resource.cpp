@@ -43,8 +43,8 @@ std::vector<Unused> unused_of(const http::Request& request, Kind rule) {
   without(rule == Kind::GuardBand, "without rule=guard_band", {"coverage_factor"});
   without(rule == Kind::Conformance, "without rule=conformance", {"probability"});
   without(request.has("uncertainty_um"), "without uncertainty_um", {"degrees_of_freedom"});
-  without(of_iso286, "here: it is of the tables of ISO 286", {"revision"});
-  without(!of_iso286, "here: the class of ISO 286 says it", {"feature"});
+  without(of_iso286, "here: it belongs to the tables of ISO 286", {"revision"});
+  without(!of_iso286, "here: the class of ISO 286 gives it", {"feature"});
   return unused;
 }
 
@@ -212,8 +212,8 @@ void add_verdicts_routes(Routes& add) {
        .parameters = {path_parameter("designation", "25H7, M10-6H, 25 ISO 2768-m"),
                       {.name = "feature",
                        .type = http::Words{{"hole", "shaft"}},
-                       .description = "Of a general tolerance, which does not say it: a distance, "
-                                      "whose rejects are on both sides, when absent"},
+                       .description = "Feature of a general tolerance (default: a distance, with "
+                                      "rejects on both sides)"},
                       {.name = "measured_mm",
                        .type = http::LengthIn{.round_to_nearest = true},
                        .required = true,

@@ -27,11 +27,11 @@ Error refusal(const app::LogIntake::Answer& answer, std::string_view origin) {
   if (answer.outcome == app::LogIntake::Outcome::Forked) {
     return {ErrorCode::LogForked,
             fmt::format("the origin {} has two histories: its folder was copied and started twice, "
-                        "or an older copy was put back. Give one of them a folder of its own",
+                        "or an older copy was restored. Start one of them with an empty folder",
                         origin)};
   }
   return {ErrorCode::LogPosition,
-          fmt::format("{} rows of the origin {} are here: go on behind them", answer.head.size,
+          fmt::format("{} rows of the origin {} are stored: continue after them", answer.head.size,
                       origin)};
 }
 
@@ -116,16 +116,14 @@ void add_revisions_routes(Routes& add) {
   add("GET /v1/log/revisions getRevisions station", get_revisions,
       {.summary = "Revisions that a centre sends to its stations",
        .description =
-           "Tables with own columns, keys of viewers and operators (by their hashes), setups, "
-           "plans, catalogues, and corrections of the station's records that were made here: of "
-           "each the last revision, in the order of their numbers. A station asks every few "
-           "seconds with the position it was last answered; one that this service has not given "
-           "out is "
-           "answered with all there is.",
+           "Tables with custom tolerance classes, keys of viewers and operators (as hashes), "
+           "setups, plans, catalogues, and corrections of the station's records that were made "
+           "here: the last revision of each, sorted by number. A station asks every few seconds "
+           "with its last `position`; an unknown position returns everything.",
        .parameters = {{.name = "station",
                        .description =
                            "Ending of the station's ids; its corrections are in the response"},
-                      {.name = "after", .description = "The `position` of the last answer"}},
+                      {.name = "after", .description = "`position` of the last response"}},
        .outcomes = {{.meaning = "Changed documents", .schema = "Revisions"}},
        .refusals = {403}});
 }

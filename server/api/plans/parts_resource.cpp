@@ -203,11 +203,9 @@ void add_parts_routes(Routes& add) {
   add("GET /v1/parts/{part*} getPart viewer", get_part,
       {.summary = "A part: its verdict, what is missing, its values and open reactions",
        .description =
-           "The newest value of each characteristic, corrections applied; the verdict is "
-           "the worst of them. "
-           "Without `plan` the part is held against the plan of its own name, or the "
-           "only one that has every "
-           "characteristic measured at it; if there is none, nothing is missing.",
+           "The newest value of each characteristic, with corrections; the verdict is the worst of "
+           "them. Without `plan` the plan with the name of the part is used, or the only plan that "
+           "has every measured characteristic; without a plan nothing is missing.",
        .parameters = {path_parameter("part", "part_id of its measurements"),
                       {.name = "plan",
                        .description = "Part number of the plan to hold it against"}},

@@ -192,7 +192,7 @@ void add_plan_schemas(Schemas& schemas) {
       {"characteristics",
        schema::array(schema::object(characteristic_fields(), Others::Refused), 1,
                      kMostCharacteristics),
-       "In the order of measuring, 1 to 500, each with a name and limits of its own"}};
+       "1 to 500 in the order of measuring, with different names"}};
   schemas.push_back({"PlanOrder", schema::object(Fields{{"part", schema::text(200),
                                                          "Name, as in the path", false}} +
                                                      name + characteristics,

@@ -365,11 +365,11 @@ constexpr MachiningCycle kCycles[] = {
     in_q(253, "SLOT MILLING", Shape::Slot, k253, kPocketText, kNoClearing),
     in_q(254, "CIRCULAR SLOT", Shape::CircularSlot, k254, kPocketText, kNoClearing),
     in_q(256, "RECTANGULAR STUD", Shape::RectangularStud, k256, kStudText,
-         "Q437: every stud is approached 2 mm to the right of the blank. Finishing as a step of "
-         "its own (Q338, Q385)."),
+         "Q437: every stud is approached 2 mm to the right of the blank. Finishing as a separate "
+         "step (Q338, Q385)."),
     in_q(257, "CIRCULAR STUD", Shape::CircularStud, k257, kStudText,
-         "Finishing as a step of its own (Q338, Q385). The tool comes from 2 mm beside the blank "
-         "at Q376."),
+         "Finishing as a separate step (Q338, Q385). The tool comes from 2 mm beside the blank at "
+         "Q376."),
     in_q(262, "THREAD MILLING", Shape::ThreadMilling, k262, kThreadText),
     in_q(263, "THREAD MLLNG/CNTSNKG", Shape::ThreadMilling, k263, kThreadText),
     in_q(264, "THREAD DRILLNG/MLLNG", Shape::ThreadMilling, k264, kThreadText),

@@ -65,6 +65,22 @@ class Manual(unittest.TestCase):
         offered = set().union(*(options(FITGAUGED, *command) for command in commands))
         self.assertEqual(self.documented("fitgauged.8"), offered)
 
+    def test_help_and_manual_name_kinds_and_ranges_of_values(self):
+        done = subprocess.run([FITGAUGED, "--help"], capture_output=True, text=True, check=True).stdout
+        for name, least, most in (("io-threads", 1, 64), ("write-queue", 1, 1000000), ("event-retention", 100, 10000000)):
+            self.assertRegex(done, rf"--{name} NUMBER\s+[^\n]*\({least} to {most}\)")
+        ranges = re.findall(r"^  --([a-z-]+) NUMBER\s+[^\n]*\((\d+ to \d+)\)", done, re.MULTILINE)
+        self.assertEqual(len(ranges), 8)
+        for name, span in ranges:
+            self.assertRegex(self.page("fitgauged.8"), rf"Fl -{name} Ar number\n[^\n]*\b{span}\b")
+        for name, kind in (("tls-cert", "FILE"), ("listen", "HOST:PORT"), ("data", "FOLDER"), ("database", "URL")):
+            self.assertIn(f"--{name} {kind} ", done)
+        client = subprocess.run([FITGAUGE, "gauge", "--help"], capture_output=True, text=True, check=True).stdout
+        for option in ("--uncertainty-um NUMBER", "--measured-at TIME", "--baud NUMBER", "measured NUMBER"):
+            self.assertIn(option, client)
+        self.assertRegex(subprocess.run([FITGAUGE, "list", "--help"], capture_output=True, text=True, check=True).stdout,
+                         r"--limit NUMBER.*1.*1000")
+
     def test_every_exit_code_is_in_the_manual(self):
         source = (ROOT / "clients/cli/outcome.hpp").read_text(encoding="utf-8")
         codes = re.findall(r"^  \w+ = (\d+),", source, re.MULTILINE)
