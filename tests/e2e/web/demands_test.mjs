@@ -192,7 +192,7 @@ describe('what a value demands', () => {
     await page.waitForFunction(() => /SN-9 was measured at \d\d:\d\d/.test(document.querySelector('.of-plan')?.textContent));
     await hasMarks('good', 'good', 'good');
     await line('25.012');
-    assert.match(await page.textContent('#entry-note'), /All of SN-9 is measured.*Nothing is stored/);
+    assert.match(await page.textContent('#entry-note'), /Not stored.*All of SN-9 is measured/);
     await page.click('.of-plan button'); // after rework it is measured anew
     await hasMarks(undefined, undefined, undefined);
     await page.keyboard.press('Escape');

@@ -139,7 +139,7 @@ describe('a gauge on a serial port', () => {
     await rows(2);
     for (const line of ['25.013in', '01A-0025.013', '25.013 25.014', 'ERR 91']) {
         await feed(`${line}\r\n`);
-      await note(line.startsWith('01A-') ? 'neither a value' : 'does not fit the pattern');
+      await note(line.startsWith('01A-') ? 'is not a value' : 'does not match the pattern');
     }
     const unfold = () => page.$eval('.more', (more) => { more.open = true; });
     await unfold();

@@ -53,7 +53,7 @@ describe('the door for keys', () => {
       await stored(i + 1);
     }
     assert.deepEqual(await measured(), [25.015, 25.014, 25.013, 25.012, 25.011].map((mm) => ['SN-1', mm]));
-    for (const [line, why] of [['ERR3', /error of the gauge.*Nothing is stored/], ['0.98476in', /inches.*Nothing is stored/], ['01A-00025.015', /Nothing is stored/]]) {
+    for (const [line, why] of [['ERR3', /Not stored.*error of the gauge/], ['0.98476in', /Not stored.*inches/], ['01A-00025.015', /Not stored/]]) {
       await page.focus('[name="part_id"]');
       await scan(page, line);
       await notes(why);
@@ -73,10 +73,10 @@ describe('the door for keys', () => {
     assert.equal(await part(), 'SN-6003');
     await page.focus('.reactions input');
     await scan(page, '25.012');
-    await notes(/cause and the measure.*Nothing is stored/);
+    await notes(/Not stored.*cause and action/);
     await page.focus('.reactions input');
     await typeSlowly(page, '25.012'); // a gauge with slow keys, while the next size is 40 H8
-    await notes(/cause and the measure.*Nothing is stored/);
+    await notes(/Not stored.*cause and action/);
     assert.equal(await page.inputValue('#value'), '25.012');
     assert.match(await page.textContent('.reactions .label'), /cause/);
     await page.focus('.reactions input');
@@ -137,7 +137,7 @@ describe('the door for keys', () => {
     await stored(1);
     const corrects = () => page.getByRole('button', { name: 'Correct the part SN-20' }).click();
     await corrects();
-    for (const [line, why] of [['01A+00025.015', /is a value/], ['O:WO-17', /Nothing is stored/]]) {
+    for (const [line, why] of [['01A+00025.015', /is a value/], ['O:WO-17', /Not stored/]]) {
       await scan(page, line);
       await notes(why);
     }

@@ -61,7 +61,7 @@ describe('the filter bar', () => {
     await page.click('.chips >> text=Yesterday');
     await untilPoints(page, 42);
     await page.evaluate(() => { location.hash = '#/parts?period=yesterday'; });
-    await page.waitForFunction(() => /Nothing was measured/.test(document.querySelector('.parts .note')?.textContent));
+    await page.waitForFunction(() => /No measurements match/.test(document.querySelector('.parts .note')?.textContent));
     assert.equal(await page.getAttribute('.chips >> text=Yesterday', 'aria-pressed'), 'true');
     await close(page);
   });

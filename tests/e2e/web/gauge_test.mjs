@@ -174,7 +174,7 @@ describe('the gauging station', () => {
     await page.keyboard.press('Enter'); // the safe answer
     await verdict('idle');
     assert.equal(await page.inputValue('#value'), '');
-    assert.match(await page.textContent('.recent li'), /12\.4.*dropped at the question/);
+    assert.match(await page.textContent('.recent li'), /12\.4.*discarded when asked/);
     await typeValue('12.4');
     await page.getByRole('button', { name: 'Store 12.4 mm' }).click();
     await verdict('rework');

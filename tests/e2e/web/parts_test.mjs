@@ -138,7 +138,7 @@ describe('the parts', () => {
     const [old, , corrected] = await daemon.stored('order=WO-C&history=all');
     assert.deepEqual([corrected.part_id, corrected.measured_mm, corrected.correction_of, corrected.reason], ['SN-D', 25.01, old.id, 'scanned twice']);
     assert.equal((await page.$$('.records tbody tr')).length, 2);
-    await page.getByLabel('With what was corrected').check();
+    await page.getByLabel('Also corrected values').check();
     await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 3);
     assert.equal(await page.locator('.records .corrected').getByRole('button', { name: 'Correct' }).count(), 0);
     await picture(page, 'parts-corrected', { fullPage: true });
@@ -281,7 +281,7 @@ describe('what is saved as a file', () => {
     await daemon.send('POST', '/v1/measurements', ['SAVED-1', 'SAVED-2'].map((part_id) => ({ designation: '25 H7', measured_mm: '25.0131', part_id, order: 'WO-S', characteristic: 'bore' })));
     page = await open(browser, daemon, '#/parts?part_id=SAVED-1', { timezoneId: 'Europe/Berlin' });
     await page.waitForSelector('.records tbody tr');
-    const save = (form) => saved(page, () => page.getByText(`All of it as ${form}`).click({ noWaitAfter: true }));
+    const save = (form) => saved(page, () => page.getByText(`Save all as ${form}`).click({ noWaitAfter: true }));
     const isSaved = async (form, name, first) => {
       const [file, bytes] = await save(form);
       assert.equal(file, name);
@@ -293,7 +293,7 @@ describe('what is saved as a file', () => {
     await isSaved('QIF', 'measurements.qif', '<?xml');
     await page.route('**/v1/measurements?*format=xlsx*', (route) => route.fulfill({
       status: 400, contentType: 'application/problem+json', body: '{"code":"export.too_many","detail":"a file has at most 100,000 measurements"}' }));
-    await page.getByText('All of it as Excel').click();
+    await page.getByText('Save all as Excel').click();
     await page.waitForFunction(() => /100,000/.test(document.querySelector('.parts .note')?.textContent));
     await isSaved('CSV', 'measurements.csv', 'id,'); // a link alone, after which the driver of Firefox waits for a page
   });
@@ -307,7 +307,7 @@ describe('what is saved as a file', () => {
     await page.fill('dialog input', key);
     await page.press('dialog input', 'Enter');
     await page.waitForSelector('.records tbody tr');
-    for (const [view, link, what] of [['parts', 'a:has-text("All of it as CSV")', /SN-1/], ['tables', '#whole-table', /H7/]]) {
+    for (const [view, link, what] of [['parts', 'a:has-text("Save all as CSV")', /SN-1/], ['tables', '#whole-table', /H7/]]) {
       await page.click(`#views a[href^="#/${view}"]`);
       await page.waitForSelector('.records tbody tr, .grid td');
       const [, bytes] = await saved(page, () => page.click(link, { noWaitAfter: true }));

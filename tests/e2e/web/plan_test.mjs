@@ -53,7 +53,7 @@ describe('a plan', () => {
     await page.keyboard.type('8'); // the next value begins: the verdict of the one before is taken back
     await verdict('idle');
     await line('.02'); // and is not taken before the plan's reaction is done
-    assert.match(await page.textContent('#entry-note'), /Stop and tell the setter.*Nothing is stored/);
+    assert.match(await page.textContent('#entry-note'), /Not stored.*Stop and tell the setter/);
     assert.equal((await daemon.stored()).length, 1);
     await page.click('.reactions button');
     assert.ok(await page.isHidden('.reactions'));
@@ -213,7 +213,7 @@ describe('a plan', () => {
     await picture(page, 'gauge-cause');
     assert.deepEqual(await findings(page), []);
     await line('25.01');
-    assert.match(await page.textContent('#entry-note'), /cause and the measure.*Nothing is stored/);
+    assert.match(await page.textContent('#entry-note'), /Not stored.*cause and action/);
     await page.click('text=Insert worn');
     assert.deepEqual(await buttons(), [['Insert changed', true], ['Scrapped', true]]);
     await page.reload(); // and what was said already stands
@@ -243,7 +243,7 @@ describe('a plan', () => {
     assert.match(await page.textContent('.records tbody tr'), /Insert worn → Scrapped · Kim/);
     await page.click('.records tbody tr:last-child >> text=Note');
     await page.click('dialog button.primary');
-    assert.match(await page.textContent('dialog .note'), /a cause, a measure or a text/);
+    assert.match(await page.textContent('dialog .note'), /a cause, an action or a text/);
     await page.fill('dialog [name="text"]', 'the whole batch was looked through');
     assert.deepEqual(await findings(page), []);
     await page.click('dialog button.primary');

@@ -76,7 +76,7 @@ describe('the form of a plan', () => {
     await row(2).locator('.icon.more').click();
     await storePlan();
     await page.waitForFunction(() => document.querySelectorAll('.characteristics [aria-invalid]').length === 4);
-    assert.match(await noteOf(1, 'size'), /no class of ISO 286|no such tolerance class/);
+    assert.match(await noteOf(1, 'size'), /no class of ISO 286|tolerance class does not exist/);
     assert.match(await noteOf(2, 'name'), /another characteristic/);
     assert.match(await noteOf(2, 'kind'), /feature/);
     assert.match(await noteOf(2, 'subgroup_size'), /1 to 25/);
@@ -152,16 +152,16 @@ describe('the form of a plan', () => {
     await field(1, 'gauge').fill('G-1');
     await daemon.send('PUT', '/v1/plans/TWO', { characteristics: [{ name: 'a', designation: '25 H8' }] });
     await storePlan();
-    await page.waitForFunction(() => /Somebody else has changed plan TWO/.test(document.querySelector('.editor > .note').textContent));
+    await page.waitForFunction(() => /Somebody has changed plan TWO/.test(document.querySelector('.editor > .note').textContent));
     assert.equal((await plan('TWO')).characteristics[0].designation, '25 H8');
     await picture(page, 'plans-changed');
-    await page.click('.editor > .note >> text=Store mine all the same');
+    await page.click('.editor > .note >> text=Store my plan anyway');
     await stored('TWO');
     assert.deepEqual((await plan('TWO')).characteristics, [{ name: 'a', designation: '25 H7', gauge: 'G-1' }]);
     // A number that is given away already is another plan.
     await page.fill('[name="part"]', 'K');
     await storePlan();
-    await page.waitForFunction(() => /There is a plan K already/.test(document.querySelector('.editor > .note').textContent));
+    await page.waitForFunction(() => /Plan K already exists/.test(document.querySelector('.editor > .note').textContent));
     assert.equal((await plan('K')).characteristics.length, 2);
   });
 
@@ -289,7 +289,7 @@ describe('a drawing', () => {
     await page.fill('[name="drawing-part"]', 'HAND');
     await page.click('[aria-label="Type dimensional size (#191) yourself"]');
     assert.ok(await page.isDisabled('.review button[type="submit"]'));
-    await page.click('text=Go on in the form');
+    await page.click('text=Continue in the form');
     await page.waitForSelector('.editor:not([hidden]) .characteristic');
     assert.deepEqual([(await names()).at(-1), await page.evaluate(() => document.activeElement.closest('.of-size') !== null)], ['dimensional size', true]);
     await field(6, 'size').fill('25 H7');

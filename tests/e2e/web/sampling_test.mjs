@@ -100,14 +100,14 @@ describe('every third part', () => {
     await progress(other, '1 of 1');
     await tile(other, 'third', 'every 3rd part · in 2 parts');
     await measure(other, daemon, '25.003');
-    await progress(other, '1 measured, no more is due');
+    await progress(other, '1 measured, nothing else is due');
     assert.deepEqual(await findings(other), []);
     await scan(page, 'SN-3');
     await tile(page, 'third', 'every 3rd part · at the next part');
     await measure(page, daemon, '25.004');
-    await progress(page, '1 measured, no more is due');
+    await progress(page, '1 measured, nothing else is due');
     await scan(page, '25.005'); // the scan of the next part was forgotten
-    await note(page, /All of SN-3 is measured.*Nothing is stored/);
+    await note(page, /Not stored.*All of SN-3 is measured/);
     await page.keyboard.press('Escape');
     await scan(page, 'SN-4');
     await progress(page, '1 of 2');
@@ -160,7 +160,7 @@ describe('so many of each hour', () => {
     for (const each of [page, other]) {
       await each.waitForFunction(() => /^2 of each hour · from \d\d:00$/.test(document.querySelector('.when')?.textContent));
       await scan(each, '25.003');
-      await note(each, /Nothing is due.*Nothing is stored/);
+      await note(each, /Not stored.*Nothing is due/);
     }
     await tile(elsewhere, 'bore', '2 of each hour · due');
     await page.keyboard.press('Escape');
@@ -238,7 +238,7 @@ describe('a sample', () => {
     await tile(again, 'sampled', 'every 5th part · value 3 of 3');
     await measured('SN-4', '25.006', '25.007');
     await measured('SN-5', '25.008');
-    await progress(page, '1 measured, no more is due');
+    await progress(page, '1 measured, nothing else is due');
     await measured('SN-6', '25.009');
     await progress(page, '2 of 2 · value 1 of 3');
     await measure(page, daemon, '25.010');

@@ -216,7 +216,7 @@ describe('an answer that comes late', () => {
     await known(page);
     await slow('25.001');
     await slow('25.002'); // the scan of the next part was forgotten
-    await notes(/All of SN-1 is measured.*Nothing is stored/);
+    await notes(/Not stored.*All of SN-1 is measured/);
     await page.keyboard.press('Escape');
     await scanUnasked(page, 'LATE-8');
     await scanUnasked(page, 'SN-2');
@@ -362,7 +362,7 @@ describe('a plan left in the middle', () => {
     await slow('25.002');
     await progress('All 3 measured');
     await slow('25.004'); // the scan of the next part was forgotten
-    await notes(/All of SN-1 is measured.*Nothing is stored/);
+    await notes(/Not stored.*All of SN-1 is measured/);
     await tile(2);
     await progress('2 of 3');
     await page.focus('#value');
@@ -429,7 +429,7 @@ describe('an outage', () => {
     await slow('25.03');
     await page.waitForSelector('.verdict[data-verdict="reject"][data-provisional="away"]');
     await scan('30k6'); // never asked for
-    await notes(/Nothing is stored/);
+    await notes(/Not stored/);
     await sleep(3000);
     assert.equal(await page.getAttribute('#link', 'data-state'), 'away');
     assert.ok(changes <= 2, `it went and came ${changes} times`);
@@ -445,7 +445,7 @@ describe('an outage', () => {
     await page.evaluate(() => { Storage.prototype.setItem = () => { throw new DOMException('full', 'QuotaExceededError'); }; });
     await page.route(/\/(v1|livez)/, (route) => route.abort());
     await slow('25.01');
-    await page.waitForFunction(() => /no room to keep what waits/.test(document.querySelector('.unkept')?.textContent));
+    await page.waitForFunction(() => /no space for the waiting values/.test(document.querySelector('.unkept')?.textContent));
     await page.unroute(/\/(v1|livez)/);
     await page.waitForFunction(() => document.querySelector('.unkept')?.textContent === '');
     assert.equal((await stored('W-FULL')).length, 1);

@@ -41,7 +41,7 @@ describe('other standards at the station', () => {
     await scan('M12-3A'); // no class of this standard: the number of a part
     assert.equal(await page.inputValue('[name="part_id"]'), 'M12-3A');
     await typeSlowly(page, 'M10-9H'); // typed, it is nothing
-    await page.waitForFunction(() => /Nothing is stored/.test(document.querySelector('#entry-note')?.textContent));
+    await page.waitForFunction(() => /Not stored/.test(document.querySelector('#entry-note')?.textContent));
   });
 
   it('say whether a general tolerance is of an outside or an inside dimension', async () => {

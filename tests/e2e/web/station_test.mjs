@@ -50,7 +50,7 @@ describe('a station with a scanner', () => {
       await slow(text);
       await page.waitForFunction((typed) => {
         const note = document.getElementById('entry-note').textContent;
-        return note.includes(typed) && note.includes('Nothing is stored');
+        return note.includes(typed) && note.includes('Not stored');
       }, text);
       assert.equal(await page.inputValue('#value'), text);
       assert.deepEqual(await stored(), []);

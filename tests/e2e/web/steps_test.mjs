@@ -107,7 +107,7 @@ describe('a stored run', () => {
     assert.equal(await page.inputValue('[name="breaks"]'), 'Q1 >= 30, INNER.H:2, 5');
     await page.fill('[name="breaks"]', 'somewhere');
     await page.click('.breaks >> text=On to a breakpoint');
-    await page.waitForFunction(() => /“somewhere” is no breakpoint/.test(document.querySelector('.stepping .note').textContent));
+    await page.waitForFunction(() => /“somewhere” is not a breakpoint/.test(document.querySelector('.stepping .note').textContent));
     // The times of both tools are all the machining time.
     const { runs: [{ id }] } = await daemon.json('/v1/runs?limit=1');
     const run = await daemon.json(`/v1/runs/${id}`);

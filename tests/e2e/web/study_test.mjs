@@ -63,7 +63,7 @@ describe('a gauge', () => {
     await page.waitForSelector('.study-verdict');
     const study = await (await daemon.send('POST', '/v1/statistics/grr', { tolerance: 0.021, measurements: ROUNDS.flatMap(([operator, trial]) => Array.from({ length: PARTS }, (_, part) => (
       { part: `P${part + 1}`, operator: OPERATORS[operator], trial, value: readingOf(part, operator, trial) }))) })).json();
-    assert.match(await page.textContent('.study-verdict'), new RegExp(`takes ${study.tolerance_percent.grr.toFixed(1)} % of the tolerance.*${study.ndc} categories`));
+    assert.match(await page.textContent('.study-verdict'), new RegExp(`uses ${study.tolerance_percent.grr.toFixed(1)} % of the tolerance.*${study.ndc} categories`));
     assert.match(await page.textContent('.study-result tbody'), new RegExp(`Repeatability${(study.ev * 1000).toFixed(2)}`));
     const pictures = await page.$$eval('.study-figures figure', (all) => all.map((figure) => [figure.querySelector('figcaption').textContent, figure.querySelectorAll('.reading').length, figure.querySelectorAll('svg.framed .mark').length]));
     assert.deepEqual(pictures, [['Components of variation', 0, 0], ['Averages by operator and part, mm', 0, 3 * PARTS], ['Ranges by operator and part, mm', 0, 3 * PARTS], ['Readings by part, mm', 90, PARTS], ['Readings by operator, mm', 90, 3], ['Means by part and operator, mm', 0, 3 * PARTS]]);
