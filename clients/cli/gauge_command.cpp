@@ -101,7 +101,7 @@ Outcome<SerialPort> SerialPort::open(const std::string& path, unsigned baud) {
   if (descriptor < 0) return failed(path, "cannot be opened");
   SerialPort port(path, descriptor);
   termios settings{};
-  if (tcgetattr(descriptor, &settings) != 0) return failed(path, "is no serial port");
+  if (tcgetattr(descriptor, &settings) != 0) return failed(path, "is not a serial port");
   cfmakeraw(&settings);
   settings.c_cflag |= CLOCAL | CREAD;
   settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);

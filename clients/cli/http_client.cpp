@@ -30,7 +30,7 @@ struct Reading {
 std::string_view advice_for(CURLcode code) {
   switch (code) {
     case CURLE_PEER_FAILED_VERIFICATION:
-      return "give the authority of its certificate with --ca, or its correct name with --server";
+      return "give its CA certificate with --ca, or the name in its certificate with --server";
     case CURLE_SSL_CACERT_BADFILE: return "--ca must be a PEM file with certificates";
     case CURLE_SSL_CERTPROBLEM:
       return "--cert and --cert-key must be PEM files with the certificate and the key of this "

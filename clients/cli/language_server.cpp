@@ -145,7 +145,7 @@ Reply at_place(Server& server, const JsonValue& params, const Answer& answer) {
 }
 
 Reply initialize(Server& server, const JsonValue& params) {
-  if (server.is_initialized) return Refusal{kInvalidRequest, "initialize comes once"};
+  if (server.is_initialized) return Refusal{kInvalidRequest, "initialize must be sent once"};
   server.is_initialized = true;
   const JsonValue& client = params.member("capabilities").member("textDocument");
   server.has_snippets =
@@ -236,7 +236,8 @@ Reply rename(Server& server, const JsonValue& params) {
   return at_place(server, params, [&](const OpenProgram& program, Place place) -> Reply {
     const auto written = parameter_at(program.text, place);
     if (!written)
-      return Refusal{kRequestFailed, "only a Q, QL, QR or QS can be renamed: there is none here"};
+      return Refusal{kRequestFailed,
+                     "only Q, QL, QR and QS parameters can be renamed: put the cursor on one"};
     const auto changes = server.programs.rename(program, *written, params.text_of("newName"));
     if (!changes) return Refusal{kRequestFailed, changes.error().message};
     return json_of(*changes);
@@ -290,9 +291,9 @@ constexpr Method kMethods[] = {
     {"textDocument/formatting", format},  {"textDocument/codeAction", act}};
 
 Reply reply_to(Server& server, std::string_view method, const JsonValue& params) {
-  if (server.is_shut_down) return Refusal{kInvalidRequest, "only exit may follow behind shutdown"};
+  if (server.is_shut_down) return Refusal{kInvalidRequest, "only exit is accepted after shutdown"};
   if (!server.is_initialized && method != "initialize")
-    return Refusal{kNotInitialized, "the first request is initialize"};
+    return Refusal{kNotInitialized, "the first request must be initialize"};
   const auto* found = std::ranges::find(kMethods, method, &Method::name);
   if (found != std::end(kMethods)) return found->handle(server, params);
   return Refusal{kMethodNotFound, fmt::format("unknown method {}", method)};
@@ -307,9 +308,10 @@ void handle(Server& server, const std::string& text) {
   const bool is_text = id.is(JsonValue::Kind::String);
   if (!method.is(JsonValue::Kind::String) ||
       !(is_notice || is_text || id.is(JsonValue::Kind::Number)))
-    return respond("null",
-                   Refusal{kInvalidRequest,
-                           "a message must have a method, and a request a number or text as id"});
+    return respond(
+        "null",
+        Refusal{kInvalidRequest,
+                "a message must have a method; the id of a request must be a number or a text"});
   server.is_over = is_notice && method.text == "exit";
   if (server.is_over) return;
   const Reply reply = reply_to(server, method.text, message->member("params"));
@@ -341,7 +343,8 @@ std::optional<Reply> next_message(bool& is_lost) {
     const bool passes = is_lost || line.empty() || line.starts_with("Content-Type:");
     if (at == line.npos && passes) continue;
     if (at == line.npos || (at != 0 && !is_lost))
-      return lose(fmt::format("'{}' is no header", first_characters(line, 40)));
+      return lose(
+          fmt::format("a header must be NAME: VALUE; got '{}'", first_characters(line, 40)));
     is_lost = false;
     const JsonValue value{
         JsonValue::Kind::Number, {}, std::string(trim(line.substr(at + kLength.size())))};

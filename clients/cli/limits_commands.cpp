@@ -115,7 +115,7 @@ Outcome<std::string> table_target(const TableOptions& options, const std::string
   if (format == "tab") {
     if (options.classes.empty() && options.revision.empty()) return table + ".tab";
     return Failure{ExitCode::Usage,
-                   "--classes and --revision are for the formats csv and json: the control's table "
+                   "--classes and --revision need --format csv or json: the table for the control "
                    "has every class"};
   }
   std::string target = table + "?format=" + format;

@@ -71,7 +71,7 @@ Outcome<InputFile> open_to_read_again(const std::string& path) {
   if (!input || input->size()) return input;
   std::string folder = std::filesystem::temp_directory_path().string();
   InputFile kept(input->name_, ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
-  if (kept.descriptor_ < 0) return failed(folder, "keep the input in it");
+  if (kept.descriptor_ < 0) return failed(folder, "store the input there");
   std::string piece(kReadSize, '\0');
   for (;;) {
     const auto count = input->read(piece);
@@ -79,7 +79,7 @@ Outcome<InputFile> open_to_read_again(const std::string& path) {
     if (*count == 0) break;
     for (std::string_view rest(piece.data(), *count); !rest.empty();) {
       const ssize_t written = ::write(kept.descriptor_, rest.data(), rest.size());
-      if (written < 0 && errno != EINTR) return failed(folder, "keep the input in it");
+      if (written < 0 && errno != EINTR) return failed(folder, "store the input there");
       rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
     }
   }

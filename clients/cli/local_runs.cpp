@@ -30,7 +30,7 @@ Outcome<app::RunOrder> order_of(const std::string& text, const FolderDisk& disk)
   auto order = api::decode_run_order(
       *body,
       [](const std::string& name) -> Result<app::NamedDocument> {
-        return Error{ErrorCode::SetupUnknown, "there is no setup " + name};
+        return Error{ErrorCode::SetupUnknown, "setup not found: " + name};
       },
       *tables);
   if (!order) return refused(order.error());

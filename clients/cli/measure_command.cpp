@@ -90,8 +90,8 @@ class Upload {
     const bool is_ndjson = sheet::is_ndjson(options_.input);
     if (is_ndjson && is_converted(options_)) {
       return Failure{ExitCode::Usage,
-                     "--map, --set, --encoding, --time-zone and --leave-out-others are for tables, "
-                     "not for NDJSON"};
+                     "--map, --set, --encoding, --time-zone and --leave-out-others are for tables: "
+                     "remove them for NDJSON"};
     }
     auto opened = RowInput::open(context_, options_);
     if (!opened) return opened.error();
@@ -158,11 +158,10 @@ class Upload {
   }
 
   Failure row_has_grown(std::uint64_t line) const {
-    return {
-        ExitCode::LocalFile,
-        fmt::format("{}: line {} was stored before its end was written: correct its record, put "
-                    "the line back as it was, and write the next row on a line of its own",
-                    name_, line)};
+    return {ExitCode::LocalFile,
+            fmt::format("{}: line {} was continued after it was stored: restore the line, correct "
+                        "its measurement, and write new rows on new lines",
+                        name_, line)};
   }
 
   Failure changed(std::uint64_t lines) const {
@@ -222,12 +221,12 @@ class Upload {
     const bool explained = problem->fields.empty() && !problem->where.empty();
     return Failure{
         failure.exit_code,
-        fmt::format("{}{}; lines {} to {} are not stored, {} rows before them are: correct the "
-                    "lines and run it again{}",
+        fmt::format("{}{}; lines {} to {} are not stored, and {} rows before them are: correct the "
+                    "lines and run the command again{}",
                     problem->title, explained ? "" : ": " + problem->detail, first_line(chunk),
                     last_line(chunk), grouped(state_.counts.sum()),
                     may_be_table()
-                        ? ", or with --encoding auto if a gauge or a spreadsheet wrote it"
+                        ? ", or use --encoding auto for a table of a gauge or a spreadsheet"
                         : "")};
   }
 

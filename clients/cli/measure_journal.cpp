@@ -149,7 +149,7 @@ Outcome<void> MeasureJournal::read_last_line() {
   if (!text) return text.error();
   const std::size_t end = text->rfind('\n') + 1;  // 0 when there is no whole line
   if (end < text->size() && ftruncate(descriptor_, static_cast<off_t>(end)) != 0) {
-    return state_failure(path_, "mend the state");
+    return state_failure(path_, "repair the state");
   }
   if (end == 0) return {};
   const std::size_t before = end >= 2 ? text->rfind('\n', end - 2) : std::string::npos;

@@ -154,7 +154,8 @@ Outcome<ExitCode> run_one(const Context& context, const RunOptions& options) {
   if (!body) return body.error();
   const auto run = parse_document(*body);
   if (!run)
-    return Failure{ExitCode::NoAnswer, context.client.url() + " answers with something else"};
+    return Failure{ExitCode::NoAnswer,
+                   context.client.url() + " did not return a run: check that fitgauged runs there"};
   if (context.json) {
     context.print_document(*body);
   } else {

@@ -84,7 +84,7 @@ std::string obstacle(QRef from, QRef to, std::string_view line, const WrittenPar
     const bool is_in_row = is_row && each.space == written.parameter.space &&
                            each.number >= written.parameter.number &&
                            each.number < written.parameter.number + kLongestRow;
-    if (is_in_row) return "may be one of several in a row there";
+    if (is_in_row) return "may belong to a row of parameters there";
   }
   if (written.parameter == to) return "is used already";
   return written.parameter == from && written.is_cycles ? "is a parameter of a cycle" : "";
@@ -288,7 +288,7 @@ Result<Changes> OpenPrograms::rename(const OpenProgram& program, const WrittenPa
   const QRef old = from.parameter;
   const auto name = interpreter::parse_parameter_name(to);
   if (!name) return name.error();
-  if (name->space != old.space) return refuse(old, "must stay of its kind: Q, QL, QR or QS");
+  if (name->space != old.space) return refuse(old, "must keep its kind: Q, QL, QR or QS");
   for (const QRef each : {old, *name}) {
     if (each.space == klartext::QSpace::Q && each.number >= 100 && each.number < 200)
       return refuse(each, "is set by the control: Q100 to Q199 keep their names");

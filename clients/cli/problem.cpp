@@ -55,8 +55,9 @@ Failure failure_of(const Answer& answer, const std::string& url) {
   const auto problem = problem_of(answer);
   if (!problem) {
     return {exit_code_of(answer),
-            fmt::format("{} answers with status {} and no problem document: is it fitgauged?", url,
-                        answer.status)};
+            fmt::format(
+                "{} returns status {} without a problem document: check that fitgauged runs there",
+                url, answer.status)};
   }
   std::string text = sentence(*problem);
   if (answer.status == kUnauthorized) text += "; set FITGAUGE_KEY, or give a file with --key-file";
@@ -91,7 +92,7 @@ Outcome<JsonValue> read_document(const Answer& answer, const std::string& url) {
   auto document = parse_document(answer.body);
   if (document) return *std::move(document);
   return Failure{ExitCode::NoAnswer,
-                 fmt::format("{} does not answer with JSON: is it fitgauged?", url)};
+                 fmt::format("{} does not return JSON: check that fitgauged runs there", url)};
 }
 
 }  // namespace fitgauge::cli

@@ -160,7 +160,7 @@ Result<VerifyReport> SharedDatabase::verify(const MeasurementCheck& check) const
     for (const TableRevision& revision : session.stores().tables.list()) {
       const auto loaded = session.stores().tables.load(revision.number);
       if (!loaded || loaded->computed != loaded->revision.digest) {
-        note("table revision " + revision.id + " is not what was imported");
+        note("table revision " + revision.id + " differs from its digest");
       }
     }
     MeasurementFilter all;
@@ -205,8 +205,8 @@ Result<void> check_server(const std::string& address) {
                        "SELECT has_database_privilege(current_database(), 'CREATE')::int::int8");
     if (may.returning<std::int64_t>() == 1) return {};
     return Error{ErrorCode::StorageUnavailable,
-                 "the database has no schema fitgauge, and this user may not make it: GRANT CREATE "
-                 "ON DATABASE, or let one who may start a daemon once"};
+                 "the database has no schema fitgauge, and this user may not create it: GRANT "
+                 "CREATE ON DATABASE, or start fitgauged once as a user who may"};
   } catch (const StorageFailure& failure) {
     return failure.error();
   }

@@ -134,7 +134,7 @@ void Prepared::bind_integer(int index, std::int64_t value) {
 
 void Prepared::bind_text(int index, std::string_view value) {
   if (value.find('\0') != std::string_view::npos) {
-    throw std::logic_error("PostgreSQL stores no text with a character of code 0");
+    throw std::logic_error("PostgreSQL does not store a text with a NUL character");
   }
   bind(index, {.type = kText, .is_null = false, .bytes = value});
 }

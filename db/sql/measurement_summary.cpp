@@ -47,8 +47,9 @@ Result<std::vector<SummaryGroup>> MeasurementSummary::run(const MeasurementFilte
     add_rows({.first = 1, .last = kLastId});
   }
   if (!fits_) {
-    return Error{ErrorCode::QueryInvalid,
-                 fmt::format("the answer has more than {} groups: narrow the filter", max_groups)};
+    return Error{
+        ErrorCode::QueryInvalid,
+        fmt::format("the response has more than {} groups: narrow the filter", max_groups)};
   }
   std::vector<SummaryGroup> summary;
   summary.reserve(groups_.size());

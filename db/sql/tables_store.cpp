@@ -39,11 +39,10 @@ const Cell* first_invalid(const std::vector<Cell>& cells) {
 
 template <class Cell>
 Error invalid(const Cell& cell) {
-  return {
-      ErrorCode::TableRowsInvalid,
-      "a size range is a repetition, is empty, or has a lower deviation above its upper deviation",
-      fmt::format("{} {} over {} nm up to {} nm", cell.table, cell.column, cell.over_nm,
-                  cell.up_to_nm)};
+  return {ErrorCode::TableRowsInvalid,
+          "a size range is repeated or empty, or its lower deviation is above its upper deviation",
+          fmt::format("{} {} over {} nm up to {} nm", cell.table, cell.column, cell.over_nm,
+                      cell.up_to_nm)};
 }
 
 constexpr std::size_t kShownDigits = 8;

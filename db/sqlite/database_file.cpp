@@ -23,7 +23,7 @@ Result<void> check_history(Connection& connection, std::span<const Migration> kn
   if (!steps && steps.error().code != ErrorCode::DatabaseNewer) return steps.error();
   if (!steps || *steps != version) {
     return Error{ErrorCode::DatabaseForeign,
-                 fmt::format("the database claims schema {} but lists {} migrations", version,
+                 fmt::format("the database has schema {}, but {} migrations", version,
                              steps ? fmt::format("{}", *steps) : "more")};
   }
   return {};

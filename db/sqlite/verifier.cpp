@@ -113,8 +113,8 @@ void Verifier::check_schema() {
       note(fmt::format("the schema {} {}", what, object.substr(0, object.find(':'))));
     }
   };
-  note_difference(expected, found, "lacks, or has altered,");
-  note_difference(found, expected, "has, unlike this build,");
+  note_difference(expected, found, "lacks or has changed");
+  note_difference(found, expected, "has, but this build lacks,");
 }
 
 void Verifier::check_tables() {
@@ -150,7 +150,7 @@ void Verifier::check_files() {
                        "revision FROM file_revisions GROUP BY path_key) newest USING (path_key) "
                        "WHERE files.revision IS NOT newest.revision");
   for (sql::Rows rows = files.query(); rows.next();) {
-    note(fmt::format("the file {} has not its newest revision", rows.get<std::string>(0)));
+    note(fmt::format("the newest revision of the file {} is missing", rows.get<std::string>(0)));
   }
 }
 

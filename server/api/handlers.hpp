@@ -38,7 +38,7 @@ inline Result<http::Response> json_response(Result<std::string> body) {
 /// A GET whose If-Match names another state than the current one.
 inline Error other_state() {
   return {ErrorCode::PreconditionFailed,
-          "the current state has another tag than those of If-Match: read it again without"};
+          "the current state does not match If-Match: read it again without If-Match"};
 }
 
 /// Bytes that came from outside, so that a browser does not run them.

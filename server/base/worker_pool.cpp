@@ -47,8 +47,8 @@ Error JobPool::beyond_bound(Allowance::Spent spent) {
   if (spent == Allowance::Spent::Stop) return ended();
   const std::string_view what = spent == Allowance::Spent::Time ? "time" : "memory";
   return {ErrorCode::FiguresLimit,
-          "the figure takes more " + std::string(what) +
-              " than the service gives to one: order it of fewer values, or with fewer trials"};
+          "the figure needs more " + std::string(what) +
+              " than one request may use: use fewer values or fewer trials"};
 }
 
 }  // namespace fitgauge

@@ -121,10 +121,10 @@ Result<int> run_qualify(const Config& config, const std::string& folder, bool si
     auto read = app::read_log_keys(config.data);
     if (!read) return read.error();
     if (read->empty()) {
-      return Error{ErrorCode::ConfigInvalid,
-                   config.data +
-                       " has no key of a log: start the service on it once, or "
-                       "leave out --data"};
+      return Error{
+          ErrorCode::ConfigInvalid,
+          config.data +
+              " has no log key: start the service with this folder once, or remove --data"};
     }
     keys = *std::move(read);
   }

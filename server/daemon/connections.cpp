@@ -238,13 +238,12 @@ Result<void> check_forwarding(const Config& config) {
   const bool is_plain = url.starts_with("http://");
   if (authority.empty() || !(is_plain || url.starts_with("https://"))) {
     return invalid_forwarding(fmt::format(
-        "forward-to takes the address of a centre, as https://host or https://host:port, not '{}'",
-        url));
+        "forward-to must be https://host or https://host:port of a centre; got '{}'", url));
   }
   if (is_plain && !config.forward_insecure && !is_this_machine(authority)) {
     return invalid_forwarding(
-        fmt::format("forward-to {} would send the key and the records readable by all: "
-                    "give https://, or forward-insecure",
+        fmt::format("forward-to {} would send the key and the measurements without encryption: use "
+                    "https://, or set forward-insecure",
                     url));
   }
   for (const std::string& file : {config.forward_key_file, config.forward_ca}) {

@@ -252,9 +252,8 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
     }
   }
   if (most_clients < config.max_connections) {
-    log_warning("connections_limited",
-                fmt::format("{} of {}: the hard limit of open files allows no more", most_clients,
-                            config.max_connections));
+    log_warning("connections_limited", fmt::format("{} of {}: raise the hard limit of open files",
+                                                   most_clients, config.max_connections));
   }
   log_info("log_head", app.log().head_text());
   for (const std::uint16_t port : server.ports())

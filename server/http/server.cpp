@@ -146,10 +146,9 @@ void Server::Impl::turn_away(Socket socket, const Peer& peer) {
   IoThread& thread = *threads_.front();
   RequestHead nothing_read;
   Exchange exchange(shared_.routes, shared_.hooks, shared_.options.allowed_origins, peer);
-  Response response = exchange.refuse(nothing_read, thread.next_request_id(),
-                                      {503, ErrorCode::Overloaded,
-                                       "As many connections are open as the service takes; close "
-                                       "one, or try again soon."});
+  Response response = exchange.refuse(
+      nothing_read, thread.next_request_id(),
+      {503, ErrorCode::Overloaded, "too many connections are open: close one, or try again soon"});
   std::string text;
   OutputQueue out(text);
   append_answer(out, response, exchange.form(false), thread.date());
@@ -233,11 +232,10 @@ std::string ListenAddress::own_address() const {
 }
 
 Result<ListenAddress> parse_listen_address(std::string_view text) {
-  const Error malformed{
-      ErrorCode::ConfigInvalid,
-      fmt::format("{} is not an address to listen on: give a numeric address and a port, as in "
-                  "127.0.0.1:8286 or [::1]:8286.",
-                  text)};
+  const Error malformed{ErrorCode::ConfigInvalid,
+                        fmt::format("{} is not an address to listen on: give a numeric address and "
+                                    "a port, such as 127.0.0.1:8286 or [::1]:8286",
+                                    text)};
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos) return malformed;
   std::string_view host = text.substr(0, colon);

@@ -124,7 +124,7 @@ Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> 
       all->plant_.tell("connection_not_started", fmt::format("{}: {}", document.name, why));
     };
     if (all->find(document.name)) {
-      not_started("the configuration file has a connection of that name");
+      not_started("the configuration file has a connection of that name: choose another name");
       continue;
     }
     const auto body = parse_stored_json(document.text, "a connection");

@@ -198,8 +198,7 @@ Result<void> move_back(Progress& progress, const ReplayOrder& order, const Plant
   }
   if (position.value_or(0) > progress.position || event.value_or(0) > progress.event.value_or(0)) {
     return invalid_from(
-        "from must have gone out before: what follows the connection's position "
-        "goes out anyway");
+        "from must be before the connection's position: later measurements are sent anyway");
   }
   if (position) progress.position = *position;
   if (event) progress.event = *event;

@@ -15,7 +15,7 @@ constexpr std::string_view kDash = "\xE2\x80\x94 ";  // an em dash and a blank
 constexpr std::size_t kIdBytes = 4;
 
 Error bad_note(std::string_view what) {
-  return {ErrorCode::NoteMalformed, fmt::format("This is no signed note: {}", what)};
+  return {ErrorCode::NoteMalformed, fmt::format("not a signed note: {}", what)};
 }
 
 bool has_control_character(std::string_view text) {
@@ -30,12 +30,12 @@ struct SignatureLine {
 };
 
 Result<SignatureLine> read_signature(std::string_view line) {
-  if (!line.starts_with(kDash)) return bad_note("a signature line begins with an em dash");
+  if (!line.starts_with(kDash)) return bad_note("a signature line must begin with an em dash");
   line.remove_prefix(kDash.size());
   const std::size_t blank = line.find(' ');
-  if (blank == line.npos) return bad_note("a signature line has a name and a signature");
+  if (blank == line.npos) return bad_note("a signature line must have a name and a signature");
   SignatureLine read{.name = line.substr(0, blank)};
-  if (!is_key_name(read.name)) return bad_note("a signature line names no key");
+  if (!is_key_name(read.name)) return bad_note("a signature line must name a key");
   const auto bytes = from_base64(line.substr(blank + 1));
   if (!bytes || bytes->size() <= kIdBytes) return bad_note("a signature is not base64");
   for (std::size_t i = 0; i < kIdBytes; ++i) read.id = read.id << 8U | (*bytes)[i];
@@ -51,7 +51,7 @@ bool is_signed(std::string_view text, const SignatureLine& line, const VerifierK
 }
 
 Error bad_checkpoint(std::string_view what) {
-  return {ErrorCode::NoteMalformed, fmt::format("This is no checkpoint: {}", what)};
+  return {ErrorCode::NoteMalformed, fmt::format("not a checkpoint: {}", what)};
 }
 
 /// The next line of `text` without its newline, taken off its front.
@@ -83,7 +83,7 @@ Result<Note> open_note(std::string_view note, std::span<const VerifierKey> keys)
   if (note.size() > kLongestNote) return bad_note("it is longer than a megabyte");
   if (!is_utf8(note) || has_control_character(note)) return bad_note("it is not plain UTF-8");
   const std::size_t split = note.rfind("\n\n");
-  if (split == note.npos) return bad_note("no blank line stands before its signatures");
+  if (split == note.npos) return bad_note("a blank line is missing before its signatures");
   Note read{.text = std::string(note.substr(0, split + 1)), .signers = {}};
   std::string_view rest = note.substr(split + 2);
   if (rest.empty() || !rest.ends_with('\n')) return bad_note("its last line is cut");
@@ -102,12 +102,12 @@ Result<Note> open_note(std::string_view note, std::span<const VerifierKey> keys)
     }
     if (!is_signed(read.text, *line, *key)) {
       return Error{ErrorCode::NoteUnverified,
-                   fmt::format("The signature of {} does not belong to the note", key->name())};
+                   fmt::format("the signature of {} does not belong to the note", key->name())};
     }
     read.signers.push_back(&*key);
   }
   if (read.signers.empty()) {
-    return Error{ErrorCode::NoteUnverified, "None of the known keys signed the note"};
+    return Error{ErrorCode::NoteUnverified, "no known key signed the note"};
   }
   return read;
 }
@@ -143,7 +143,7 @@ Result<Checkpoint> open_checkpoint(std::string_view note, std::span<const Verifi
                   [&](const VerifierKey* key) { return key->name() == checkpoint->origin; });
   if (!own) {
     return Error{ErrorCode::NoteUnverified,
-                 fmt::format("No key of {} signed the checkpoint", checkpoint->origin)};
+                 fmt::format("no key of {} signed the checkpoint", checkpoint->origin)};
   }
   return checkpoint;
 }

@@ -25,7 +25,7 @@ Error too_many_rows() {
 }
 
 Error no_rows(std::string_view what) {
-  return {ErrorCode::RequestInvalid, fmt::format("{} holds no measurement", what)};
+  return {ErrorCode::RequestInvalid, fmt::format("{} must have at least one measurement", what)};
 }
 
 /// The members of a parsed object as one row.

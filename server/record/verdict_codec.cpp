@@ -32,12 +32,9 @@ Result<std::optional<gauging::ThermalBody>> read_body(const BodyWords& words) {
                  field};
   }
   if (!expands) {
-    return Error{
-        ErrorCode::FieldMissing,
-        fmt::format(
-            "an uncertainty of the {} needs {} or {}: it belongs to the correction to 20 degrees",
-            words.name, number, field),
-        number};
+    return Error{ErrorCode::FieldMissing,
+                 fmt::format("an uncertainty of the {} needs {} or {}", words.name, number, field),
+                 number};
   }
   gauging::ThermalBody body;
   if (words.material) {
@@ -99,7 +96,7 @@ void warn_of_no_acceptance(const gauging::DecisionRule& rule, Length tolerance,
                            std::vector<Warning>& warnings) {
   if (!gauging::has_no_acceptance(rule, tolerance)) return;
   warnings.push_back(
-      {"rule.no_acceptance", fmt::format("no value can be good: the guard bands of {} um times {} "
+      {"rule.no_acceptance", fmt::format("no value can be good: two guard bands of {} um times {} "
                                          "are larger than the tolerance of {} um",
                                          format_um(rule.standard_uncertainty()),
                                          format(rule.coverage_factor()), format_um(tolerance))});

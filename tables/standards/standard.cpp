@@ -198,7 +198,7 @@ Result<Table> read_table(std::string_view name, std::string_view csv) {
       return broken(name, line, fmt::format("has '{}' for {}", cells[i], columns[i]));
     }
     if (!follows(row, table.rows.empty() ? nullptr : &table.rows.back())) {
-      return broken(name, line, "does not follow the one before, or has its limits wrong");
+      return broken(name, line, "does not follow the previous row, or its limits are wrong");
     }
     table.rows.push_back(std::move(row));
   }

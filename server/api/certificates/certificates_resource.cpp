@@ -27,8 +27,7 @@ Result<CertificateOrder> order_of(const http::Request& request) {
     if (const auto value = request.text(name)) order.of.emplace_back(name, *value);
   }
   if (order.of.empty()) {
-    return Error{ErrorCode::QueryMissing,
-                 "a certificate is of an order or of a part: give order, part_id or both", "order"};
+    return Error{ErrorCode::QueryMissing, "give order, part_id or both", "order"};
   }
   order.title = request.text("title").value_or("Inspection report");
   order.company = request.text("company").value_or("");
@@ -82,14 +81,14 @@ void make_certificate(const Services& services, const http::Request& request,
         if (!page) return shared->fail(page.error());
         if (draft->count() == 0) {
           return shared->fail(
-              {ErrorCode::MeasurementUnknown, "no measurement is of this order or part"});
+              {ErrorCode::MeasurementUnknown,
+               "no measurement has this order and part_id: check them in GET /v1/measurements"});
         }
         if (page->next || draft->bytes() > kMostBytes) {
-          return shared->fail(
-              {ErrorCode::StatisticsTooMany,
-               fmt::format("a certificate has at most {} measurements with {} MiB of records: "
-                           "narrow it, by from and to for instance",
-                           kMostMeasurements, kMostBytes >> 20)});
+          return shared->fail({ErrorCode::StatisticsTooMany,
+                               fmt::format("a report must have at most {} measurements with {} MiB "
+                                           "of records: select fewer, for example by from and to",
+                                           kMostMeasurements, kMostBytes >> 20)});
         }
         const auto go_on = [&services, draft, shared] { finish(services, draft, shared); };
         const auto& [name, value] = draft->order().of.back();

@@ -61,8 +61,8 @@ Result<app::MeasurementQuery> side_query(const Services& services, const http::R
   if (!query.starts_with(prefix) && query.find('&' + prefix) == std::string_view::npos) {
     const std::string wanted = prefix + "characteristic";
     return Error{ErrorCode::QueryInvalid,
-                 fmt::format("a clearance of stored values is of holes and shafts: choose the {0}s "
-                             "too, by {0}_characteristic or {0}_designation for instance",
+                 fmt::format("a clearance needs stored holes and shafts: select the {0}s too, for "
+                             "example by {0}_characteristic or {0}_designation",
                              side),
                  wanted};
   }

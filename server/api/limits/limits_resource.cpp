@@ -106,8 +106,9 @@ Result<http::Response> gauge(const http::Request& request, const iso286::Toleran
 
 // The forms of sizes, moduli and roughness.
 constexpr double kLargest = 1e9;
-constexpr Number kAboveZero{0, kLargest, Number::Ends::OpenBelow, "is above 0 and at most 1e9"};
-constexpr Number kFromZero{0, kLargest, Number::Ends::Closed, "is at least 0 and at most 1e9"};
+constexpr Number kAboveZero{0, kLargest, Number::Ends::OpenBelow,
+                            "must be above 0 and at most 1e9"};
+constexpr Number kFromZero{0, kLargest, Number::Ends::Closed, "must be 0 to 1e9"};
 
 void material_members(auto& v, metrology::PressedPart& part) {
   v.optional("youngs_modulus_mpa", part.youngs_modulus_mpa, kAboveZero);

@@ -178,7 +178,7 @@ Result<std::unique_ptr<MeasurementFile>> make_xlsx_file(std::optional<sheet::Tim
 
 Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
   if (m.source != app::Source::Gauge) {
-    return Error{ErrorCode::FieldInvalid, "it is of a simulation, which a DFQ cannot say"};
+    return Error{ErrorCode::FieldInvalid, "it is simulated, which a DFQ cannot express"};
   }
   const std::string rule = rule_of(m);
   aqdef::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
@@ -207,7 +207,7 @@ Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
 
 Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& m) {
   if (m.source != app::Source::Gauge) {
-    return Error{ErrorCode::FieldInvalid, "it is of a simulation, and no result of an inspection"};
+    return Error{ErrorCode::FieldInvalid, "it is simulated, not the result of an inspection"};
   }
   qif::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
   value.measured = m.measured;

@@ -94,7 +94,7 @@ struct Entries {
       }
       NoteText{}.check(errors, at, item.text);
       if (!texts.insert(item.text).second) {
-        errors.add(ErrorCode::FieldConflict, at, "this entry is a repetition");
+        errors.add(ErrorCode::FieldConflict, at, "this entry is repeated");
       }
     }
     return true;

@@ -21,7 +21,7 @@ Result<CheckedDocument> check_plan(const Services& services, const std::string& 
                                    std::string_view text) {
   if (text.size() > kLongestJson) {
     return Error{ErrorCode::BodyTooLarge,
-                 "A plan as JSON may have 1048576 bytes; a drawing is model/step"};
+                 "a plan in JSON must have at most 1048576 bytes; send a drawing as model/step"};
   }
   const auto body = parse_json(text);
   if (!body) return body.error();

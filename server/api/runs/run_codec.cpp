@@ -266,7 +266,7 @@ Result<app::RunOrder> stored_order(const std::string& request, const app::Contro
   return decode_run_order(
       *std::move(body),
       [](const std::string& name) -> Result<app::NamedDocument> {
-        return Error{ErrorCode::SetupUnknown, "there is no setup " + name};
+        return Error{ErrorCode::SetupUnknown, "setup not found: " + name};
       },
       tables);
 }

@@ -87,7 +87,7 @@ void read_separator(const JsonValue& setup, const std::string& pointer,
     options.decimal_comma = separator->text == "comma";
   } else {
     errors.add(ErrorCode::FieldInvalid, pointer_to(pointer, "decimal_separator"),
-               "takes \"comma\" or \"point\"");
+               "must be \"comma\" or \"point\"");
   }
 }
 

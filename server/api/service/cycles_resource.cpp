@@ -86,7 +86,7 @@ Result<http::Response> find_cycle(const http::Request& request) {
   const CycleDescriptor* cycle = find_descriptor(number);
   if (cycle == nullptr) {
     return Error{ErrorCode::CycleUnknown,
-                 "there is no cycle " + std::to_string(number) + "; /v1/cycles lists all"};
+                 "cycle not found: " + std::to_string(number) + "; /v1/cycles lists all"};
   }
   return http::Response(200, "application/json", body_json(*cycle));
 }

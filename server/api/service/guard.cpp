@@ -81,9 +81,9 @@ void Guard::warn_of_proxy(const http::Request& request) const {
   if (may_be_rebound(request)) return;  // writes by that name need a key
   if (warned_->exchange(true)) return;
   proxy_seen_(
-      "a request came as a proxy sends it (HTTP/1.0, Connection: close) and says nothing of "
-      "its client: whoever reaches that proxy may write. Start with --auth read-open, or "
-      "let the proxy set X-Forwarded-For");
+      "a request seems to come from a proxy (HTTP/1.0, Connection: close) and does not name its "
+      "client: everybody who reaches that proxy may write. Start with --auth read-open, or set "
+      "X-Forwarded-For in the proxy");
 }
 
 Result<std::optional<http::Response>> Guard::operator()(http::Request& request,

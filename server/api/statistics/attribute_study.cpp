@@ -34,12 +34,13 @@ void row_members(auto& v, RatingsOrder& study) {
     if (trial &&
         !study.seen.emplace(ratings.part.back(), ratings.operators.back(), *trial).second) {
       row.report(ErrorCode::FieldConflict, "trial",
-                 "this trial of the part by this operator stands before");
+                 "this trial of the part by this operator is repeated");
     }
     if (!reference) return;
     const std::size_t category = study.categories.number(*reference);
     if (study.references.try_emplace(ratings.part.back(), category).first->second != category) {
-      row.report(ErrorCode::FieldConflict, "reference", "another row has another one of this part");
+      row.report(ErrorCode::FieldConflict, "reference",
+                 "another row has another reference of this part");
     }
   });
 }
@@ -55,7 +56,7 @@ void members(auto& v, RatingsOrder& study) {
       fields.report(ErrorCode::FieldMissing, "measurements",
                     "give the reference of every part, or of none");
     } else if (study.good && known == 0) {
-      fields.report(ErrorCode::FieldConflict, "good", "good takes parts with a reference");
+      fields.report(ErrorCode::FieldConflict, "good", "good needs parts with a reference");
     }
   });
 }

@@ -81,7 +81,7 @@ void row_members(auto& v, VariationOrder& study) {
     if (!part || (with_operators && !by)) return;
     if (trial && !study.seen.emplace(*part, by.value_or(""), *trial).second) {
       row.report(ErrorCode::FieldConflict, "trial",
-                 "this trial of the part by this operator stands before");
+                 "this trial of the part by this operator is repeated");
     }
     study.readings.part.push_back(study.parts.number(*part));
     if (with_operators) study.readings.operators.push_back(study.operators.number(*by));
@@ -351,8 +351,8 @@ Result<std::string> gauge_study(const JsonValue& body) {
   if (method == "attribute") return attribute_study(body);
   if (metrology::study_method_from_word(method)) return components(body);
   return at_member("method", {ErrorCode::FieldInvalid,
-                              "method is anova, average_range, type3, nested, linearity, "
-                              "stability or attribute"});
+                              "method must be one of: anova, average_range, type3, nested, "
+                              "linearity, stability, attribute"});
 }
 
 void add_gauge_study_schemas(Schemas& schemas) {

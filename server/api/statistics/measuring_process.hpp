@@ -23,7 +23,8 @@ template <bool is_process>
 void members(auto& v, MeasuringOrder<is_process>& order) {
   using metrology::Component;
   using metrology::ComponentOf;
-  static constexpr Number kStandard{.least = 0, .must = "is a standard uncertainty, at least 0"};
+  static constexpr Number kStandard{.least = 0,
+                                    .must = "must be a standard uncertainty, 0 or more"};
   v.member("resolution", order.resolution, kPositive, "Step of the display");
   for (std::size_t i = 0; i < metrology::kComponents.size(); ++i) {
     const auto& [name, of, meaning] = metrology::kComponents.at(i);

@@ -38,7 +38,7 @@ struct StudyLabel {
     } else {
       fields.report(
           ErrorCode::FieldType, name,
-          fmt::format("{} takes a string or a number, not {}", name, name_of(value->kind)));
+          fmt::format("{} must be a string or a number; got {}", name, name_of(value->kind)));
     }
     return fits;
   }

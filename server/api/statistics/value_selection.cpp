@@ -77,7 +77,8 @@ Result<std::string> ValueSelection::read(app::MeasurementService& measurements,
 
 Result<void> ValueSelection::add(const app::MeasuredRun& run) {
   if (Allowance::of_thread().is_spent()) {
-    return Error{ErrorCode::FiguresLimit, "the selection takes more time or memory than it may"};
+    return Error{ErrorCode::FiguresLimit,
+                 "the selection needs more time or memory than one request may use"};
   }
   Limits limits{run.lower_limit, run.upper_limit};
   // Early versions stored the longest length for a limit that was absent.

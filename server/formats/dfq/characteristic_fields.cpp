@@ -50,7 +50,7 @@ std::string MeasurementCsv::reason_against(const Characteristic& characteristic)
     return fmt::format("it is of type {} (K2004), not measured", type);
   const std::string_view unit = description.text(characteristic, k::kUnit);
   if (!unit.empty() && !length_unit(unit)) {
-    return fmt::format("its unit {} is no length", first_characters(unit, 40));
+    return fmt::format("its unit {} is not a length", first_characters(unit, 40));
   }
   const std::string_view nominal = description.text(characteristic, k::kNominal);
   if (nominal.empty()) return "it has no nominal value (K2101)";
@@ -87,9 +87,8 @@ Result<void> MeasurementCsv::prepare_size(const Characteristic& characteristic,
   const auto quantity = gauging::quantity_from_word(made.fields[kQuantity]);
   if (made.fields[kFeature].empty() && (!quantity || gauging::has_feature(*quantity))) {
     return at_line(characteristic.line,
-                   fmt::format("describes characteristic {} by limits, and a DFQ does not say "
-                               "whether it is a hole or a shaft: set feature, or write its class "
-                               "into K2103 and K2104",
+                   fmt::format("has limits of characteristic {} without hole or shaft: set "
+                               "feature, or write its class into K2103 and K2104",
                                characteristic.index));
   }
   return {};
@@ -101,11 +100,10 @@ Result<MeasurementCsv::Prepared> MeasurementCsv::prepare(
   Prepared made{.fields = std::vector<std::string>(kNames.size())};
   if (const std::string reason = reason_against(characteristic); !reason.empty()) {
     if (!options_.leaves_out_others) {
-      return at_line(
-          characteristic.line,
-          fmt::format("describes characteristic {}, which no measurement can hold, as {}: "
-                      "with leave_out the others are taken",
-                      characteristic.index, reason));
+      return at_line(characteristic.line,
+                     fmt::format("describes characteristic {}, which is not a measurement: {}; "
+                                 "leave_out stores the other characteristics",
+                                 characteristic.index, reason));
     }
     made.is_left_out = true;
     return made;

@@ -31,7 +31,7 @@ Result<void> FieldList::add(const FieldLine& field, std::uint32_t line, std::str
   if (there == nullptr) {
     fields_.push_back({.number = field.number, .line = line, .text = std::move(text)});
   } else if (there->text != text) {
-    return wrong(fmt::format("says '{}' and line {} '{}': leave one K{:04} out",
+    return wrong(fmt::format("has '{}', but line {} has '{}': remove one K{:04}",
                              first_characters(text, 40), there->line,
                              first_characters(there->text, 40), field.number));
   }
@@ -47,17 +47,18 @@ Result<std::string> Description::decoded(std::string_view bytes) const {
 Result<void> Description::add(const FieldLine& field, std::uint32_t line) {
   bytes_ += field.text.size() + sizeof(Described);
   if (bytes_ > kMostBytes) {
-    return wrong(fmt::format("is behind {} MiB of description: cut the file into several",
-                             kMostBytes >> 20));
+    return wrong(
+        fmt::format("comes after {} MiB of description: split the file", kMostBytes >> 20));
   }
   if (field.number == k::kCount) {
     const std::uint32_t count = read_number<std::uint32_t>(field.text).value_or(0);
     if (count == 0 || count > kMostCharacteristics) {
-      return wrong(fmt::format("should say in K0100 how many characteristics there are, 1 to {}",
+      return wrong(fmt::format("must have the number of characteristics in K0100, 1 to {}",
                                kMostCharacteristics));
     }
     if (stated_count_ && *stated_count_ != count) {
-      return wrong(fmt::format("says K0100 {} and a line before it {}", count, *stated_count_));
+      return wrong(
+          fmt::format("has {} in K0100, but an earlier line has {}", count, *stated_count_));
     }
     stated_count_ = count;
     characteristics_.resize(count);
@@ -84,7 +85,7 @@ Result<void> Description::add_to_characteristics(const FieldLine& field, std::ui
                                                  std::string text) {
   if (field.index == 0) return all_characteristics_.add(field, line, std::move(text));
   if (field.index > *stated_count_) {
-    return wrong(fmt::format("is of characteristic {}, and K0100 says that there are {}",
+    return wrong(fmt::format("is for characteristic {}, but K0100 gives {} characteristics",
                              field.index, *stated_count_));
   }
   Characteristic& characteristic = characteristics_[field.index - 1];
@@ -96,7 +97,7 @@ Result<void> Description::add_to_characteristics(const FieldLine& field, std::ui
   }
   if (characteristic.has_values) {
     return wrong(fmt::format(
-        "describes characteristic {} below its values: write K2xxx before them", field.index));
+        "describes characteristic {} after its values: write K2xxx before them", field.index));
   }
   return characteristic.fields.add(field, line, std::move(text));
 }
@@ -107,8 +108,8 @@ Result<void> Description::check() const {
   }
   if (count_ != *stated_count_) {
     return wrong(
-        fmt::format("K0100 says {} characteristics, and the file describes {}: it is cut, "
-                    "or K0100 is wrong",
+        fmt::format("K0100 gives {} characteristics, but the file describes {}: send the whole "
+                    "file, or correct K0100",
                     *stated_count_, count_));
   }
   return {};

@@ -78,7 +78,7 @@ Result<std::optional<Length>> ToleranceReader::length(int number) const {
   const auto value = parse_length(field->text, read_.unit);
   if (!value) {
     return wrong(field,
-                 fmt::format("says '{}' in K{:04}, the {}, which is no number",
+                 fmt::format("has '{}' in K{:04}, the {}, which must be a number",
                              first_characters(field->text, 40), number, tolerance_name(number)));
   }
   return std::optional(*value);
@@ -88,8 +88,10 @@ Result<std::optional<Length>> ToleranceReader::limit(int limit_number, int allow
                                                      int type_number) const {
   const Described* const type = find(type_number);
   if (type != nullptr && type->text != "0" && type->text != "1" && type->text != "2") {
-    return wrong(type, fmt::format("says '{}' in K{:04}: 0 is no limit, 1 a limit, 2 a natural one",
-                                   first_characters(type->text, 40), type_number));
+    return wrong(
+        type, fmt::format(
+                  "has '{}' in K{:04}, which must be 0 (no limit), 1 (limit) or 2 (natural limit)",
+                  first_characters(type->text, 40), type_number));
   }
   auto limit = length(limit_number);
   if (!limit) return limit;
@@ -101,7 +103,7 @@ Result<std::optional<Length>> ToleranceReader::limit(int limit_number, int allow
   if (*limit && **limit != by_allowance) {
     return wrong(
         find(limit_number),
-        fmt::format("says {} mm in K{:04}, and K{:04} makes it {} mm: correct one",
+        fmt::format("has {} mm in K{:04}, but K{:04} gives {} mm: correct one of them",
                     format_mm(**limit), limit_number, allowance_number, format_mm(by_allowance)));
   }
   return std::optional(by_allowance);
@@ -111,19 +113,18 @@ Result<void> ToleranceReader::check_class(const LimitsOfClass& limits_of) const 
   if (!limits_of) return {};
   const auto limits = limits_of(read_.nominal, read_.class_name);
   if (!limits) {
-    return wrong(find(k::kToleranceClass), fmt::format("says {} in K2103 and K2104: {}",
+    return wrong(find(k::kToleranceClass), fmt::format("has {} in K2103 and K2104: {}",
                                                        read_.class_name, limits.error().message));
   }
   const auto agree = [&](const std::optional<Length>& said, const std::optional<Length>& by_class,
                          int number) -> Result<void> {
     if (!said || said == by_class) return {};
     const Described* const field = find(number);
-    return wrong(
-        field != nullptr ? field : find(k::kToleranceClass),
-        fmt::format("says {} mm in K{:04}, and {} of {} mm is {} mm: correct one, or leave "
-                    "K2103 and K2104 out",
-                    format_mm(*said), number, read_.class_name, format_mm(read_.nominal),
-                    by_class ? format_mm(*by_class) : "none"));
+    return wrong(field != nullptr ? field : find(k::kToleranceClass),
+                 fmt::format("has {} mm in K{:04}, but {} of {} mm gives {} mm: correct one of "
+                             "them, or remove K2103 and K2104",
+                             format_mm(*said), number, read_.class_name, format_mm(read_.nominal),
+                             by_class ? format_mm(*by_class) : "none"));
   };
   if (const auto lower = agree(read_.limits.lower, limits->lower, k::kLowerLimit); !lower) {
     return lower;
@@ -140,9 +141,9 @@ Result<Toleranced> ToleranceReader::read(std::optional<LengthUnit> fallback,
                ? wrong(nullptr, fmt::format("describes characteristic {}, which has no unit: write "
                                             "K2142, or set length_unit",
                                             characteristic_.index))
-               : wrong(unit, fmt::format("has the unit '{}', and a measurement is a length in mm, "
-                                         "\xC2\xB5m, cm, m or inch",
-                                         first_characters(unit->text, 40)));
+               : wrong(unit,
+                       fmt::format("has the unit '{}', which must be mm, \xC2\xB5m, cm, m or inch",
+                                   first_characters(unit->text, 40)));
   }
   read_.unit = *known;
   const auto nominal = length(k::kNominal);
@@ -165,7 +166,7 @@ Result<Toleranced> ToleranceReader::read(std::optional<LengthUnit> fallback,
   const Described* const grade = find(k::kToleranceGrade);
   if ((letter == nullptr) != (grade == nullptr)) {
     return wrong(letter == nullptr ? grade : letter,
-                 "has one of K2103 and K2104: a class is both, such as H and 7");
+                 "has only one of K2103 and K2104: write both, such as H and 7");
   }
   read_.class_name = letter == nullptr
                          ? std::string(user_text(description_, characteristic_, "class"))

@@ -105,12 +105,12 @@ Result<FieldLine> parse_field_line(std::string_view line) {
     }
     if (!is_right || !(line.empty() || line[0] == ' ')) {
       return Error{kMalformed,
-                   fmt::format("has an index behind K{:04} that is no number: write K{:04}/1",
+                   fmt::format("has an index after K{:04} that is not a number: write K{:04}/1",
                                field.number, field.number)};
     }
     field.index = *index;
   } else if (!line.empty() && line[0] != ' ') {
-    return Error{kMalformed, fmt::format("has no blank behind K{:04}", field.number)};
+    return Error{kMalformed, fmt::format("has no blank after K{:04}", field.number)};
   }
   field.text = trim(line);
   return field;
@@ -157,7 +157,7 @@ bool Lines::next(Line& line) {
     line.text = {from, size};
     line.number = number_;
     if (has_nul_ && std::memchr(from, '\0', size) != nullptr) {
-      return fail("has a byte that is 0: the file is damaged or no DFQ");
+      return fail("has a byte 0: the file is damaged, or not a DFQ");
     }
     if (!trim(line.text).empty()) return true;
   }
@@ -180,10 +180,9 @@ bool Lines::fill() {
   }
   if (size_ == kRoom) {
     ++number_;
-    return fail(
-        fmt::format("is in a value of more than {} KiB: the file is no DFQ, or its line ends "
-                    "are lost",
-                    kRoom >> 10));
+    return fail(fmt::format(
+        "is in a value of more than {} KiB: the file is not a DFQ, or its line ends are lost",
+        kRoom >> 10));
   }
   if (size_ == room_.size()) {
     room_.resize(std::min(2 * size_, kRoom));

@@ -77,8 +77,9 @@ Result<std::string_view> MeasurementCsv::time_of(std::string_view text) {
   auto instant = sheet::instant_text(text, options_.zone);
   if (!instant) return Error{kMalformed, instant.error().message};
   if (*instant == text && !parse_rfc3339(text)) {
-    return Error{kMalformed, fmt::format("has the time '{}': write 20.11.2026/08:00:00",
-                                         first_characters(text, 40))};
+    return Error{kMalformed,
+                 fmt::format("has the time '{}', which must be such as 20.11.2026/08:00:00",
+                             first_characters(text, 40))};
   }
   last_instant_ = *std::move(instant);
   last_time_ = text;
@@ -90,17 +91,19 @@ Result<bool> MeasurementCsv::is_measured(const ValueSet& set, const Value& value
   if (attribute == "255" || attribute == "256") return false;
   if (!attribute.empty() && attribute != "0") {
     if (options_.leaves_out_others) return false;
-    return at_line(value.line, fmt::format("has a value of attribute {}, which is not one that was "
-                                           "measured: with leave_out the others are taken",
-                                           first_characters(attribute, 20)));
+    return at_line(
+        value.line,
+        fmt::format(
+            "has attribute {}, so its value was not measured: leave_out stores the other values",
+            first_characters(attribute, 20)));
   }
   if (!trim(set.cell(value, 0)).empty()) return true;
   for (std::size_t place = 1; place < value.cells; ++place) {
     if (trim(set.cell(value, place)).empty()) continue;
-    return at_line(value.line,
-                   fmt::format("has no value of characteristic {}, and its attribute is "
-                               "not 255 or 256",
-                               value.characteristic));
+    return at_line(
+        value.line,
+        fmt::format("has no value of characteristic {}: write it, or the attribute 255 or 256",
+                    value.characteristic));
   }
   return false;
 }
@@ -185,7 +188,7 @@ Result<void> MeasurementCsv::append_value(const ValueSet& set_of, const Value& v
   const std::string_view text = trim(set_of.cell(value, 0));
   const auto measured = parse_length(text, prepared.unit);
   if (!measured) {
-    return at_line(value.line, fmt::format("has the value '{}', which is no length",
+    return at_line(value.line, fmt::format("has the value '{}', which is not a length",
                                            first_characters(text, 40)));
   }
   row_[kMeasured] = texts_.emplace_back(format_mm(*measured));

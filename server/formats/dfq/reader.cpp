@@ -94,7 +94,7 @@ Result<bool> Reader::read_set(const Lines::Line& first, ValueSet& set) {
     if (field->number != k::kValue && field->number != k::kSubgroupSize) {
       return at_line(
           first.number,
-          fmt::format("has K{:04} before any value: write it below its value", field->number));
+          fmt::format("has K{:04} before any value: write it after its value", field->number));
     }
     const auto added = add_field(*field, first, set);
     if (!added) return added;
@@ -174,8 +174,8 @@ Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, 
                    [&](const Value& value) { return value.characteristic == field.index; });
   if (is_value) {
     if (field.index == 0) {
-      return at_line(line.number, fmt::format("has K{:04} for all characteristics: name the one it "
-                                              "is of, K{:04}/1",
+      return at_line(line.number, fmt::format("has K{:04} for all characteristics: write the "
+                                              "number of its characteristic, such as K{:04}/1",
                                               field.number, field.number));
     }
     if (of_field != set.values.end()) return false;
@@ -199,7 +199,7 @@ Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, 
         field.index == 0 || field.index >= counts_.size() ? 1 : counts_[field.index] + 1;
     if (field.index == 0 || field.value_index != last) {
       return at_line(line.number,
-                     fmt::format("is of value {}: write it below its value, without that number",
+                     fmt::format("is for value {}: write it after this value, without the number",
                                  field.value_index));
     }
   }

@@ -182,7 +182,7 @@ void HtmlReader::take_point_row(const std::string& label, const std::string& dig
   const bool is_lower = label.starts_with("lower") || label.starts_with("unter");
   if (!is_actual && !is_upper && !is_lower) return;
   const auto length = read_length(digits, log_.inch);
-  if (!length) return spoil(at, fmt::format("'{}' is no length", digits));
+  if (!length) return spoil(at, fmt::format("'{}' is not a length", digits));
   if (is_actual) {
     value.measured = *length;
     value.printed = digits;
@@ -229,7 +229,7 @@ Reading HtmlReader::read() && {
     if (head_.cycle == 0 && element.name != "h1") break;
   }
   if (head_.cycle == 0) {
-    reading_.unread.push_back({1, "this page is no log of a touch-probe cycle"});
+    reading_.unread.push_back({1, "this page is not a log of a touch-probe cycle"});
     return std::move(reading_);
   }
   // A section that is being written has no end tag yet.

@@ -28,8 +28,8 @@ Error invalid(std::size_t line, std::string_view what) {
 
 Result<void> Pattern::check_field(const std::string& name, std::size_t number) const {
   if (std::find(kFields.begin(), kFields.end(), name) == kFields.end()) {
-    return invalid(number, fmt::format("there is no field '{}'; there are {}", name,
-                                       fmt::join(kFields, ", ")));
+    return invalid(
+        number, fmt::format("unknown field '{}'; use one of: {}", name, fmt::join(kFields, ", ")));
   }
   bool is_there = constants_.contains(name);
   for (const Line& line : lines_) {
@@ -38,14 +38,14 @@ Result<void> Pattern::check_field(const std::string& name, std::size_t number) c
       is_there = is_there || (field != nullptr && field->name == name);
     }
   }
-  if (is_there) return invalid(number, fmt::format("the field '{}' comes twice", name));
+  if (is_there) return invalid(number, fmt::format("the field '{}' is used twice", name));
   return {};
 }
 
 Result<void> Pattern::take_constant(std::string_view line, std::size_t number) {
   const std::size_t equals = line.find('=');
   if (equals == std::string_view::npos) {
-    return invalid(number, "above --- a line is: field = value");
+    return invalid(number, "a line above --- must be: field = value");
   }
   const std::string name(trim(line.substr(0, equals)));
   if (auto known = check_field(name, number); !known) return known;
@@ -68,7 +68,7 @@ Result<void> Pattern::take_line(std::string_view text, std::size_t number) {
     if (rest.empty()) break;
     const std::size_t close = rest.find('}');
     if (close == std::string_view::npos) return invalid(number, "a { has no }");
-    if (after_field) return invalid(number, "two fields need something printed between them");
+    if (after_field) return invalid(number, "two fields need a text between them");
     Field field{std::string(trim(rest.substr(1, close - 1)))};
     if (!field.name.empty()) {
       if (auto known = check_field(field.name, number); !known) return known;
@@ -94,7 +94,7 @@ Result<Pattern> Pattern::parse(std::string_view text) {
         below ? pattern.take_line(line, number) : pattern.take_constant(line, number);
     if (!taken) return taken.error();
   }
-  if (pattern.lines_.empty()) return invalid(1, "no lines of a result stand below ---");
+  if (pattern.lines_.empty()) return invalid(1, "lines of a result must follow ---");
   const auto measured = pattern.check_field("measured_mm", 1);
   if (measured || pattern.constants_.contains("measured_mm")) {
     return invalid(1, "no line below --- has {measured_mm}");

@@ -96,7 +96,8 @@ void TextReader::take(std::string_view raw, std::size_t number, bool is_whole) {
   if (cycle_of_title(lower) || is_rule(line)) return;
   if (!is_inside_) {
     // The first line of what is none tells of all of it.
-    if (!has_stray_) reading_.unread.push_back({number, "this is no log of a touch-probe cycle"});
+    if (!has_stray_)
+      reading_.unread.push_back({number, "this is not a log of a touch-probe cycle"});
     has_stray_ = true;
     return;
   }
@@ -141,28 +142,29 @@ void TextReader::take_line(std::string_view line, std::string_view lower, std::s
     }
   }
   if (section_ == Section::Head) return take_head(key, value, number);
-  if (of(section_).size() == kMostEntries) return spoil(number, "a log has no so many values");
+  if (of(section_).size() == kMostEntries) return spoil(number, "the log has too many values");
   Entry entry{std::string(key), std::string(label), std::string(value), number};
   if (value.empty()) {
     waiting_ = std::move(entry);
   } else if (is_number(value)) {
     of(section_).push_back(std::move(entry));
   } else if (section_ != Section::Further) {
-    spoil(number, fmt::format("'{}' is no number", value));
+    spoil(number, fmt::format("'{}' is not a number", value));
   }
 }
 
 void TextReader::take_head(std::string_view label, std::string_view value, std::size_t number) {
   if (label == "date" || label == "datum") {
     date_ = value;
-    if (!read_clock(date_, "0:00:00")) spoil(number, fmt::format("'{}' is no date", value));
+    if (!read_clock(date_, "0:00:00")) spoil(number, fmt::format("'{}' is not a date", value));
   } else if (label == "time" || label == "uhrzeit" || label == "zeit") {
     time_ = value;
-    if (!read_clock("1.1.2000", time_)) spoil(number, fmt::format("'{}' is no time of day", value));
+    if (!read_clock("1.1.2000", time_))
+      spoil(number, fmt::format("'{}' is not a time of day", value));
   } else if (label.find("program") != std::string_view::npos) {
     log_.program = value;
   } else if (label.find("inch") != std::string_view::npos) {
-    if (value != "0" && value != "1") spoil(number, fmt::format("'{}' is no unit", value));
+    if (value != "0" && value != "1") spoil(number, fmt::format("'{}' is not a unit", value));
     log_.inch = value == "1";
   }
 }
@@ -180,7 +182,8 @@ void TextReader::match_limits() {
     for (const Entry& entry : of(Section::Nominal)) {
       if (!same(entry)) continue;
       value.nominal = read_length(entry.digits, log_.inch);
-      if (!value.nominal) return spoil(entry.line, fmt::format("'{}' is no length", entry.digits));
+      if (!value.nominal)
+        return spoil(entry.line, fmt::format("'{}' is not a length", entry.digits));
       value.name = name_of(quantity, log_.cycle);
       value.role = role_of(quantity, log_.cycle);
     }
@@ -189,14 +192,14 @@ void TextReader::match_limits() {
       const auto bound = bound_of(entry.label);
       const auto length = read_length(entry.digits, log_.inch);
       if (!bound || !length) {
-        return spoil(entry.line, fmt::format("'{}' is no limit that is known", entry.written));
+        return spoil(entry.line, fmt::format("'{}' is an unknown limit", entry.written));
       }
       (*bound == Bound::Upper ? value.upper : value.lower) = length;
     }
     if (value.upper.has_value() != value.lower.has_value() ||
         (value.upper && (!value.nominal || *value.upper < *value.lower))) {
       return spoil(of(Section::Actual)[i].line,
-                   fmt::format("'{}' has limits that belong to nothing", value.name));
+                   fmt::format("'{}' has limits without a value", value.name));
     }
   }
 }
@@ -208,7 +211,7 @@ void TextReader::end() {
     value.is_length = !is_angle(entry.label);
     if (value.is_length) {
       const auto length = read_length(entry.digits, log_.inch);
-      if (!length) spoil(entry.line, fmt::format("'{}' is no length", entry.digits));
+      if (!length) spoil(entry.line, fmt::format("'{}' is not a length", entry.digits));
       value.measured = length.value_or(Length());
     }
     log_.values.push_back(std::move(value));

@@ -73,15 +73,14 @@ class QifRows::Converter {
 Result<Length> QifRows::Converter::length(std::string_view what, const std::string& text,
                                           std::uint32_t line) const {
   if (!definitions_.unit()) {
-    return aqdef::at_line(line,
-                          fmt::format("has lengths, and FileUnits names no unit that is known "
-                                      "('{}'): name it (length_unit)",
-                                      first_characters(definitions_.unit_name(), 40)));
+    return aqdef::at_line(
+        line, fmt::format("has lengths without a known unit in FileUnits ('{}'): set length_unit",
+                          first_characters(definitions_.unit_name(), 40)));
   }
   const auto read = aqdef::parse_length(text, *definitions_.unit());
   if (read) return *read;
-  return aqdef::at_line(
-      line, fmt::format("has the {} '{}', which is no length", what, first_characters(text, 40)));
+  return aqdef::at_line(line, fmt::format("has the {} '{}', which is not a length", what,
+                                          first_characters(text, 40)));
 }
 
 Result<std::optional<Length>> QifRows::Converter::limit(const std::string& text, Length from,
@@ -111,12 +110,12 @@ Result<void> QifRows::Converter::read_tolerance(const Definitions::Item& item, s
     fields_[aqdef::kClass] = definition->class_name;
     if (!options_.limits_of) return {};
     const auto limits = options_.limits_of(*target, definition->class_name);
-    if (!limits) return aqdef::at_line(line, "is of a class, and " + limits.error().message);
+    if (!limits) return aqdef::at_line(line, "has a tolerance class: " + limits.error().message);
     for (const auto& [said, of_class, what] : {std::tuple(*upper, limits->upper, "MaxValue"),
                                                std::tuple(*lower, limits->lower, "MinValue")}) {
       if (!said || !of_class || *said == *of_class) continue;
       return aqdef::at_line(
-          line, fmt::format("is of {} {}, whose {} is {} mm, and the document says {} mm",
+          line, fmt::format("has {} {}, whose {} is {} mm, but the document has {} mm",
                             format_mm(*target), definition->class_name, what, format_mm(*of_class),
                             format_mm(*said)));
     }
@@ -134,8 +133,9 @@ Result<void> QifRows::Converter::read_value(const Element& element, std::uint32_
   const auto values = element.find("Value");
   const std::string unit = values.front().attribute("linearUnit");
   if (!unit.empty() && unit != definitions_.unit_name()) {
-    return aqdef::at_line(line, fmt::format("has a value in '{}', and the document is in '{}'",
-                                            first_characters(unit, 40), definitions_.unit_name()));
+    return aqdef::at_line(line,
+                          fmt::format("has a value in '{}', but the unit of the document is '{}'",
+                                      first_characters(unit, 40), definitions_.unit_name()));
   }
   const auto measured = length("value", values.front().own_text(), line);
   if (!measured) return measured.error();
@@ -160,7 +160,7 @@ std::string QifRows::Converter::reason_against(const Element& element,
   std::string kind = element.name();
   if (kind.ends_with(kEnding)) kind.resize(kind.size() - kEnding.size());
   if (std::find(kSizes.begin(), kSizes.end(), kind) == kSizes.end()) {
-    return fmt::format("has a {}, which is no size that a measurement can hold",
+    return fmt::format("has a {}, which is not a measurement",
                        first_characters(element.name(), 60));
   }
   if (!element.has("Value")) return fmt::format("has a {} without a Value", kind);
@@ -177,11 +177,11 @@ std::string QifRows::Converter::reason_against(const Element& element,
 Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t line) {
   const auto* const item = definitions_.item(element.text("CharacteristicItemId"));
   if (item == nullptr) {
-    return aqdef::at_line(line, "measures a characteristic whose item the document lacks");
+    return aqdef::at_line(line, "measures a characteristic without an item in the document");
   }
   if (const std::string reason = reason_against(element, *item); !reason.empty()) {
     if (options_.leaves_out_others) return false;
-    return aqdef::at_line(line, reason + ": with leave_out the others are taken");
+    return aqdef::at_line(line, reason + ": leave_out stores the other measurements");
   }
   fields_ = {};
   for (const auto& [name, text] : item->attributes) set_field(fields_, name, text);
@@ -227,8 +227,7 @@ Result<bool> QifRows::Converter::append(std::string& out, std::vector<std::uint3
     if (!read) return read.error();
     if (!*read) continue;
     if (++rows_ > options_.most_rows) {
-      return aqdef::at_line(line, fmt::format("is beyond {} measured values: cut the document into "
-                                              "several",
+      return aqdef::at_line(line, fmt::format("comes after {} measured values: split the document",
                                               options_.most_rows));
     }
     const auto before = static_cast<std::ptrdiff_t>(out.size());

@@ -122,7 +122,7 @@ Result<Definitions> Definitions::read(Read document, std::optional<aqdef::Length
     if (reader.depth() == 0 &&
         (reader.name() != "QIFDocument" || reader.name_space() != kNamespace)) {
       return aqdef::at_line(reader.line(),
-                            fmt::format("is the begin of {}, and no QIFDocument of QIF 3 ({})",
+                            fmt::format("begins {}, but must begin a QIFDocument of QIF 3 ({})",
                                         reader.name(), kNamespace));
     }
     const auto list = std::find(kLists.begin(), kLists.end(), reader.parent());
@@ -131,16 +131,15 @@ Result<Definitions> Definitions::read(Read document, std::optional<aqdef::Length
     if (++count > kMostDefinitions) {
       return aqdef::at_line(
           reader.line(),
-          fmt::format("is beyond {} definitions: cut the document into several", kMostDefinitions));
+          fmt::format("comes after {} definitions: split the document", kMostDefinitions));
     }
     const auto element = reader.take();
     if (!element) return element.error();
     bytes += element->own_text().size();
     if (bytes > kMostBytes) {
-      return aqdef::at_line(reader.line(),
-                            fmt::format("is behind {} MiB of definitions: cut the document into "
-                                        "several",
-                                        kMostBytes >> 20));
+      return aqdef::at_line(
+          reader.line(),
+          fmt::format("comes after {} MiB of definitions: split the document", kMostBytes >> 20));
     }
     read.take(*list, *element);
   }

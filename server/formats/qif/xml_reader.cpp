@@ -167,8 +167,7 @@ XmlReader::State::State(Read document)
   XML_SetStartDoctypeDeclHandler(
       parser, [](void* state, const char*, const char*, const char*, int) {
         static_cast<State*>(state)->fail(
-            "has a document type or an entity of its own (DOCTYPE), which is refused: write the "
-            "texts themselves");
+            "has a DOCTYPE, which is refused: replace its entities by their texts");
       });
 }
 

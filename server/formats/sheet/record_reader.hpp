@@ -155,7 +155,7 @@ std::string_view field_of_export(std::string_view member, bool has_drawn_limits)
 
 /// Why a record of a simulation is none of a gauge.
 inline constexpr std::string_view kOfSimulation =
-    "is of a simulation, and would come in as measured: export with source=gauge";
+    "is simulated, and cannot be imported: export with source=gauge";
 
 /// Appends a line of NDJSON as /v1/measurements takes it: a record of a list with the fields it was
 /// recorded with, any other line as it is. @param line without its end

@@ -192,8 +192,7 @@ Result<std::string> ShopRows::Converter::read_header() {
     records_.pass_line(first);
   }
   if (records_.is_at_end()) {
-    return at_table_line(ErrorCode::CsvMalformed, records_.line(),
-                         "should have the names of the columns");
+    return at_table_line(ErrorCode::CsvMalformed, records_.line(), "must have the column names");
   }
   records_.set_separator(separator.value_or(separator_of(first)));
   if (const auto read = records_.next(record_); !read) return read.error();

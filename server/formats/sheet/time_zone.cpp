@@ -179,8 +179,8 @@ Result<TimeZone> TimeZone::load(std::string_view name) {
   std::error_code failure;
   if (!is_name || !std::filesystem::is_regular_file(path, failure)) {
     return no_zone(
-        fmt::format("there is no time zone '{}': write one as Europe/Berlin; the names are those "
-                    "below /usr/share/zoneinfo (package tzdata)",
+        fmt::format("unknown time zone '{}': use a name such as Europe/Berlin, from "
+                    "/usr/share/zoneinfo (package tzdata)",
                     first_characters(name, 100)));
   }
   std::ifstream file(path, std::ios::binary);
@@ -189,7 +189,7 @@ Result<TimeZone> TimeZone::load(std::string_view name) {
 }
 
 Result<TimeZone> TimeZone::parse(std::string_view all) {
-  const Error broken = no_zone("this is no file of a time zone (TZif, version 2 or later)");
+  const Error broken = no_zone("the file is not a time zone (TZif, version 2 or later)");
   if (!all.starts_with("TZif") || all.size() > kLargestFile || all.size() < 44 || all[4] < '2') {
     return broken;
   }
@@ -305,7 +305,7 @@ Result<Timestamp> TimeZone::instant(const WallTime& time) const {
     }
   }
   return Error{ErrorCode::TimeMalformed,
-               "the clock of the time zone has skipped this time, as it went forward"};
+               "this time does not exist in the time zone, because its clock went forward"};
 }
 
 Result<std::string> instant_text(std::string_view text, const std::optional<TimeZone>& zone) {

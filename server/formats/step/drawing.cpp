@@ -196,7 +196,7 @@ class Walker {
     for (const std::uint32_t to : references_in(file_, all[relation.to])) {
       links(relation.group).emplace_back(is_shell ? to : all[relation.from].id, to);
       if (++link_count_ > kMostLinks)
-        return file_.fail(id, "more relations than are read: export fewer parts");
+        return file_.fail(id, "too many relations: export fewer parts");
     }
   }
 
@@ -269,12 +269,11 @@ class Walker {
     }
     if (!found.nominal && lower) {
       found.nominal = lower;
-      size.remarks.emplace_back(
-          "the file has limits and no nominal size: it is the lower limit here");
+      size.remarks.emplace_back("the file has limits but no nominal size: the lower limit is used");
     }
     if (!found.nominal)
       return found.is_angle ? "an angle is not gauged here"
-                            : "the file has no value of it: take it from the drawing";
+                            : "the file has no value: read it from the drawing";
     if (upper && lower && *upper < *lower) {
       size.remarks.push_back(
           fmt::format("upper limit {} mm, lower limit {} mm in the file: the order is wrong there",
@@ -336,7 +335,7 @@ class Walker {
       const Length lower = std::min(*low, *high);
       const bool contradicts =
           (found.upper && *found.upper != upper) || (found.lower && *found.lower != lower);
-      if (contradicts) return both + ": its limits say otherwise";
+      if (contradicts) return both + ": its limits differ";
       found.upper = upper;
       found.lower = lower;
     }

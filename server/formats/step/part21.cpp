@@ -202,8 +202,8 @@ class Part21Scanner {
       return lexer_.fail("an instance is #number=NAME(…);");
     }
     if (file_.instances_.size() == most_) {
-      return lexer_.fail(fmt::format(
-          "more than {} instances stand here: the command line reads larger files", most_));
+      return lexer_.fail(
+          fmt::format("more than {} instances: use fitgauge plan from for larger files", most_));
     }
     const std::size_t at = lexer_.at();
     file_.instances_.push_back({name.id, static_cast<std::uint32_t>(at)});
@@ -211,8 +211,7 @@ class Part21Scanner {
     const bool is_complex = lexer_.take('(');
     do {
       std::string_view entity;
-      if (!record(entity) || ++records_ > 4 * most_)
-        return lexer_.fail("more records than are read");
+      if (!record(entity) || ++records_ > 4 * most_) return lexer_.fail("too many records");
       if (const auto place = places_.find(entity); place != places_.end()) {
         file_.by_name_[place->second].push_back(name.id);
       }
@@ -246,7 +245,7 @@ Result<Part21> Part21::read(const FileText& text, std::span<const std::string_vi
       all.begin(), all.end(), [](const Instance& a, const Instance& b) { return a.id == b.id; });
   if (twice != all.end()) {
     return error_at(text, std::next(twice)->at,
-                    fmt::format("#{} stands twice: export the file again", twice->id));
+                    fmt::format("#{} occurs twice: export the file again", twice->id));
   }
   return file;
 }
@@ -266,7 +265,7 @@ void Part21::fail(std::uint32_t id, std::string message) const {
 bool Part21::walk(std::string_view text) const {
   walked_ += text.size();
   if (walked_ > kMostWalked || Allowance::of_thread().is_spent()) {
-    fail(0, "the sizes refer to more than is read in one drawing: export fewer parts");
+    fail(0, "the sizes refer to too many entities: export fewer parts");
   }
   return !error_;
 }

@@ -69,7 +69,7 @@ class Lexer {
 
 template <class Each>
 bool Lexer::list(int deep, const Each& each) {
-  if (deep == 0) return fail("lists stand more than 32 deep");
+  if (deep == 0) return fail("lists are nested more than 32 levels deep");
   if (!take('(')) return fail("( expected");
   if (take(')')) return true;
   for (;;) {

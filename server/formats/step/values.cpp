@@ -74,8 +74,8 @@ double Values::millimetres(std::uint32_t id, std::uint32_t from, int deep) {
     }
   }
   if (!(factor > 0) || !std::isfinite(factor)) {
-    file_.fail(from, fmt::format("#{} has the unit #{}, which is no length: export the file with "
-                                 "lengths in mm or inch",
+    file_.fail(from, fmt::format("#{} has the unit #{}, which is not a length: export the file "
+                                 "with lengths in mm or inch",
                                  from, id));
   }
   units_[id] = factor;

@@ -51,8 +51,10 @@ constexpr double kEpochDay = 25'569;
 constexpr double kFirstDay = 61;
 
 Error cannot_write(std::string_view why) {
-  return {ErrorCode::StorageUnavailable,
-          fmt::format("the workbook cannot be written: {}; look at TMPDIR, else /tmp", why)};
+  return {
+      ErrorCode::StorageUnavailable,
+      fmt::format(
+          "the workbook cannot be written: {}; check the free space of TMPDIR, else of /tmp", why)};
 }
 
 }  // namespace

@@ -262,10 +262,11 @@ std::optional<std::string> fault_of_url(const std::string& url) {
     return copy;
   };
   if (curl_url_set(parsed.get(), CURLUPART_URL, url.c_str(), 0) != CURLUE_OK) {
-    return "this is no address: write https://host/path";
+    return "the address must be such as https://host/path";
   }
   const std::string scheme = part(CURLUPART_SCHEME);
-  if (scheme != "https" && scheme != "http") return "an address begins with https:// or http://";
+  if (scheme != "https" && scheme != "http")
+    return "the address must begin with https:// or http://";
   if (!part(CURLUPART_USER).empty() || !part(CURLUPART_PASSWORD).empty()) {
     return "the address must not contain a name or password: the signature identifies the sender";
   }

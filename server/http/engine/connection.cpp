@@ -12,12 +12,13 @@ constexpr std::size_t kBatch = std::size_t{64} << 10;
 /// A sender that was refused is waited for until it is silent for so long.
 constexpr auto kLinger = std::chrono::seconds(2);
 
-const Refusal kTimedOut{408, ErrorCode::RequestTimeout, "The request took too long to arrive."};
+const Refusal kTimedOut{408, ErrorCode::RequestTimeout,
+                        "the request took too long to arrive: send it faster"};
 
 }  // namespace
 
 const Refusal Connection::kCrowded{503, ErrorCode::Overloaded,
-                                   "Too many large bodies arrive at once; try again."};
+                                   "too many large bodies arrive at once: try again soon"};
 
 Connection::Connection(IoThread& thread, Peer peer)
     : thread_(thread),

@@ -95,19 +95,19 @@ std::optional<Response> Exchange::dispatch() {
   if (!split_path(request_.path_, decoded_, segments)) {
     return error_response(
         {400, ErrorCode::PathMalformed,
-         "The path holds a % that two hexadecimal digits do not follow, a NUL, or "
-         "bytes that are not UTF-8."});
+         "path must be UTF-8 without NUL, and have % only before two hexadecimal digits"});
   }
   const Resource* const resource = routes_.tree().find(segments);
   if (resource == nullptr) {
-    return error_response({404, ErrorCode::NotFound, "There is nothing at this path."});
+    return error_response(
+        {404, ErrorCode::NotFound, "path not found: /openapi.json lists the paths"});
   }
   const std::int16_t index = resource->route(request_.method_);
   if (index == Resource::kNone) {
     std::string allow = resource->allow();
     if (request_.method_ == Method::Options) return answer_options(std::move(allow));
     Response refused = error_response(
-        {405, ErrorCode::MethodNotAllowed, fmt::format("The methods here are {}.", allow)});
+        {405, ErrorCode::MethodNotAllowed, fmt::format("method must be one of: {}", allow)});
     return with_allow(std::move(refused), std::move(allow));
   }
   const auto route_index = static_cast<std::size_t>(index);
@@ -142,18 +142,18 @@ std::optional<Refusal> Exchange::take_target() {
     if (scheme == std::string_view::npos || (!ascii_iequals(target.substr(0, scheme), "http") &&
                                              !ascii_iequals(target.substr(0, scheme), "https"))) {
       return Refusal{400, ErrorCode::RequestMalformed,
-                     "The request target is a path that begins with a slash, or a URI."};
+                     "request target must be a path that begins with / or a URI"};
     }
     target.remove_prefix(scheme + 3);
     const std::string_view authority = target.substr(0, target.find_first_of("/?"));
     if (!is_authority(authority)) {
-      return Refusal{400, ErrorCode::RequestMalformed, "The request target names no host."};
+      return Refusal{400, ErrorCode::RequestMalformed, "request target must name a host"};
     }
     head_->host = authority;
     target.remove_prefix(authority.size());
   }
   if (target.find('#') != std::string_view::npos) {
-    return Refusal{400, ErrorCode::PathMalformed, "The request target holds a fragment."};
+    return Refusal{400, ErrorCode::PathMalformed, "request target must not have a fragment (#)"};
   }
   const std::size_t mark = target.find('?');
   request_.path_ = target.substr(0, mark);
@@ -209,9 +209,9 @@ std::optional<Error> Exchange::take_query() {
     const auto name = decode(pair.substr(0, equals));
     const auto value = decode(pair.substr(std::min(equals + 1, pair.size())));
     if (!name || !value) {
-      return Error{ErrorCode::QueryMalformed,
-                   "The query holds a % that two hexadecimal digits do not follow, a NUL, or bytes "
-                   "that are not UTF-8."};
+      return Error{
+          ErrorCode::QueryMalformed,
+          "query must be UTF-8 without NUL, and have % only before two hexadecimal digits"};
     }
     const auto found =
         std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& parameter) {
@@ -234,8 +234,7 @@ std::optional<Error> Exchange::take_query() {
     if (parameters[i].place == ParameterPlace::Query && parameters[i].required &&
         !request_.arguments_[i]) {
       return Error{ErrorCode::QueryMissing,
-                   fmt::format("Parameter {} is required.", parameters[i].name),
-                   parameters[i].name};
+                   fmt::format("parameter {} is required", parameters[i].name), parameters[i].name};
     }
   }
   return std::nullopt;
@@ -250,7 +249,7 @@ std::optional<Error> Exchange::take_headers() {
     if (!value) {
       if (!parameter.required) continue;
       return Error{ErrorCode::RequestMalformed,
-                   fmt::format("Header field {} is required.", parameter.name), parameter.name};
+                   fmt::format("header field {} is required", parameter.name), parameter.name};
     }
     auto parsed = parse_argument(parameter, *value);
     if (!parsed) return std::move(parsed).error();
@@ -263,7 +262,7 @@ std::optional<Refusal> Exchange::negotiate() {
   const std::vector<std::string>& types = request_.route_->response_types;
   if (codings_.gzip == 0 && codings_.identity == 0) {
     return Refusal{406, ErrorCode::NotAcceptable,
-                   "Accept-Encoding must accept gzip or identity; got neither."};
+                   "Accept-Encoding must accept gzip or identity; got neither"};
   }
   if (types.empty()) return std::nullopt;
   request_.response_type_ = types.front();
@@ -273,7 +272,7 @@ std::optional<Refusal> Exchange::negotiate() {
   const std::string* const best = preferred_type(accept, types);
   if (best == nullptr) {
     return Refusal{406, ErrorCode::NotAcceptable,
-                   fmt::format("This comes as {}.", fmt::join(types, ", "))};
+                   fmt::format("Accept must accept {}", fmt::join(types, ", "))};
   }
   request_.response_type_ = *best;
   return std::nullopt;
@@ -283,7 +282,7 @@ std::optional<Refusal> Exchange::check_expectation() {
   if (!head_->has_expect || head_->http_1_0) return std::nullopt;
   const std::string expect = head_->find_list("Expect").value_or("");
   if (!ascii_iequals(expect, "100-continue")) {
-    return Refusal{417, ErrorCode::ExpectationFailed, "The one expectation met is 100-continue."};
+    return Refusal{417, ErrorCode::ExpectationFailed, "Expect must be 100-continue"};
   }
   wants_continue_ = head_->has_body();
   return std::nullopt;
@@ -294,7 +293,7 @@ std::optional<Refusal> Exchange::check_body() {
   if (rules.use == BodyUse::None && !head_->has_body()) return std::nullopt;
   if (rules.use == BodyUse::Required && !head_->chunked && !head_->content_length) {
     return Refusal{411, ErrorCode::LengthRequired,
-                   "A body is required: send Content-Length or Transfer-Encoding: chunked."};
+                   "a body is required: send Content-Length or Transfer-Encoding: chunked"};
   }
   const auto content_type = head_->find("Content-Type");
   const auto media = content_type ? parse_media_type(*content_type) : std::nullopt;
@@ -307,17 +306,17 @@ std::optional<Refusal> Exchange::check_body() {
         media && std::find(types.begin(), types.end(), media->type) != types.end();
     if (!is_known) {
       return Refusal{415, ErrorCode::MediaTypeUnsupported,
-                     fmt::format("The body's Content-Type must be {}.", fmt::join(types, ", "))};
+                     fmt::format("Content-Type must be {}", fmt::join(types, ", "))};
     }
     if (!media->charset.empty() && media->charset != "utf-8") {
-      return Refusal{415, ErrorCode::MediaTypeUnsupported, "The body's charset must be UTF-8."};
+      return Refusal{415, ErrorCode::MediaTypeUnsupported, "charset of Content-Type must be UTF-8"};
     }
   }
   if (!head_->has_body()) return std::nullopt;
   const std::string coding = head_->find_list("Content-Encoding").value_or("identity");
   gzip_ = ascii_iequals(coding, "gzip") || ascii_iequals(coding, "x-gzip");
   if (!gzip_ && !ascii_iequals(coding, "identity")) {
-    return Refusal{415, ErrorCode::EncodingUnsupported, "The one Content-Encoding read is gzip."};
+    return Refusal{415, ErrorCode::EncodingUnsupported, "Content-Encoding must be gzip"};
   }
   if (head_->content_length.value_or(0) > rules.limit) {
     return body_too_large();
@@ -328,7 +327,7 @@ std::optional<Refusal> Exchange::check_body() {
 Refusal Exchange::body_too_large() const {
   const BodyRules& rules = request_.route_->body;
   return {413, ErrorCode::BodyTooLarge,
-          fmt::format("The body may have {} bytes{}{}{}.", rules.limit,
+          fmt::format("the body must have at most {} bytes{}{}{}", rules.limit,
                       gzip_ ? " after decompression" : "", rules.when_too_large.empty() ? "" : ": ",
                       rules.when_too_large)};
 }
@@ -376,7 +375,7 @@ void Exchange::run(Responder responder) {
 Response Exchange::internal_error(std::string_view what) const {
   if (hooks_.handler_threw) hooks_.handler_threw(request_, what);
   return error_response({500, ErrorCode::Internal,
-                         fmt::format("The request failed; its id is {}.", request_.id_text())});
+                         fmt::format("the request failed; its id is {}", request_.id_text())});
 }
 
 Response Exchange::error_response(const Refusal& refusal) const {

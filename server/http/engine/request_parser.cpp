@@ -65,20 +65,20 @@ bool has_endless_size(std::string_view lines) {
 const char* describe(const beast::error_code& code) {
   using beast::http::error;
   switch (static_cast<error>(code.value())) {
-    case error::bad_method: return "The request line does not begin with a method.";
+    case error::bad_method: return "the request line must begin with a method";
     case error::bad_target:
-      return "The request target holds a character that must be percent-encoded, or is missing.";
-    case error::bad_field: return "A header field name is malformed.";
-    case error::bad_value: return "A header field value is malformed; lines end with CR LF.";
+      return "the request target is missing, or has a character that must be percent-encoded";
+    case error::bad_field: return "a header field name is malformed";
+    case error::bad_value: return "a header field value is malformed; lines must end with CR LF";
     case error::bad_line_ending: return "lines of the request must end with CR LF";
     case error::bad_content_length:
     case error::multiple_content_length:
-      return "Content-Length is malformed, repeated or together with Transfer-Encoding.";
+      return "Content-Length is malformed, repeated or together with Transfer-Encoding";
     case error::bad_transfer_encoding:
-      return "Transfer-Encoding is repeated or together with Content-Length.";
+      return "Transfer-Encoding is repeated or together with Content-Length";
     case error::bad_chunk:
-    case error::bad_chunk_extension: return "The chunked body is malformed.";
-    default: return "The request is malformed.";
+    case error::bad_chunk_extension: return "the chunked body is malformed";
+    default: return "the request is malformed";
   }
 }
 
@@ -249,14 +249,15 @@ bool RequestParser::check_head() {
     return false;
   }
   if (has_transfer_encoding_) {
-    if (head_.http_1_0) return fail("Transfer-Encoding does not exist in HTTP/1.0.");
+    if (head_.http_1_0) return fail("Transfer-Encoding needs HTTP/1.1");
     if (has_content_length_) {
-      return fail("Transfer-Encoding and Content-Length exclude each other.");
+      return fail("Transfer-Encoding and Content-Length exclude each other");
     }
-    if (!head_.chunked) return fail("The one Transfer-Encoding understood is chunked.");
+    if (!head_.chunked) return fail("Transfer-Encoding must be chunked");
   }
-  if (!has_host_ && !head_.http_1_0) return fail("The Host field is missing.");
-  if (has_host_ && !is_authority(head_.host)) return fail("The Host field is not a host and port.");
+  if (!has_host_ && !head_.http_1_0) return fail("the Host field is required");
+  if (has_host_ && !is_authority(head_.host))
+    return fail("the Host field must be a host, with a port if needed");
   if (has_content_length_) head_.content_length = *content_length();
   head_.keep_alive = keep_alive();
   return true;

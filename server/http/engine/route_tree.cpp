@@ -52,10 +52,9 @@ struct Reader {
   std::string_view text;
 
   Error refuse(const std::string& expected) const {
-    return {
-        code_for(parameter.place),
-        fmt::format("The {} {} must be {}.", describe(parameter.place), parameter.name, expected),
-        parameter.name};
+    return {code_for(parameter.place),
+            fmt::format("{} {} must be {}", describe(parameter.place), parameter.name, expected),
+            parameter.name};
   }
 
   Result<ArgumentValue> operator()(const Text& type) const {

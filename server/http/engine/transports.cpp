@@ -29,7 +29,7 @@ Result<std::shared_ptr<ssl::context>> load_tls(const TlsOptions& options) {
   error_code error;
   const auto fail = [&](std::string_view what, const std::string& file) {
     return Error{ErrorCode::ConfigInvalid,
-                 fmt::format("The TLS {} {} cannot be used: {}.", what, file, error.message()),
+                 fmt::format("the TLS {} {} cannot be used: {}", what, file, error.message()),
                  file};
   };
   SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);

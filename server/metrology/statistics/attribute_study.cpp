@@ -96,11 +96,11 @@ AttributeStudy::Operator rate(const std::vector<Trials>& parts, const Ratings& r
 Result<AttributeStudy> study_attributes(const Ratings& ratings) {
   if (ratings.parts < 2 || ratings.names.size() < 2) {
     return Error{ErrorCode::StatisticsTooFew,
-                 "an attribute study takes two parts and two operators or more"};
+                 "an attribute study needs at least two parts and two operators"};
   }
   if (ratings.names.size() > kMostOperators) {
     return Error{ErrorCode::StatisticsTooMany,
-                 fmt::format("an attribute study takes at most {} operators", kMostOperators)};
+                 fmt::format("an attribute study must have at most {} operators", kMostOperators)};
   }
   std::vector<std::vector<Trials>> by(ratings.names.size(), std::vector<Trials>(ratings.parts));
   std::vector<Trials> all(ratings.parts);
@@ -114,8 +114,8 @@ Result<AttributeStudy> study_attributes(const Ratings& ratings) {
     for (std::size_t part = 0; part < ratings.parts; ++part) {
       if (by[a][part].size() == trials && trials > 0) continue;
       return Error{ErrorCode::StatisticsUnbalanced,
-                   fmt::format("every operator rates every part equally often: operator {} has {} "
-                               "ratings of part {}, others have another number",
+                   fmt::format("every operator must rate every part equally often: operator {} has "
+                               "{} ratings of part {}, others have another number",
                                a + 1, by[a][part].size(), part + 1)};
     }
     study.operators.push_back(rate(by[a], ratings, ratings.names[a]));

@@ -171,7 +171,7 @@ Result<void> check(const SpecificationLimits& limits) {
     const bool beyond =
         limits.upper ? *limits.target >= *limits.upper : *limits.target <= *limits.lower;
     if (beyond) {
-      return Error{ErrorCode::LimitsInvalid, "the target lies beyond the limit", "target"};
+      return Error{ErrorCode::LimitsInvalid, "the target must not be beyond the limit", "target"};
     }
   }
   return {};

@@ -258,12 +258,10 @@ Result<Phase> phase_of(const Subgroups& data, const ChartPlan& plan) {
   const Phase phase = plan.phase1.value_or(Phase{0, data.count()});
   if (phase.from > phase.to || phase.to > data.count()) {
     return Error{ErrorCode::FieldInvalid,
-                 fmt::format("phase1 takes points from <= index < to, to at most {}", data.count()),
-                 "phase1"};
+                 fmt::format("phase1 must have 0 <= from <= to <= {}", data.count()), "phase1"};
   }
   if (phase.to - phase.from < 2) {
-    return Error{ErrorCode::StatisticsTooFew,
-                 "the limits of a chart are taken from two points or more",
+    return Error{ErrorCode::StatisticsTooFew, "the limits of a chart need at least two points",
                  plan.phase1 ? "phase1" : ""};
   }
   return phase;
@@ -284,10 +282,10 @@ Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) 
   const bool needs_groups = plan.kind == ChartKind::XbarR || plan.kind == ChartKind::XbarS;
   if (needs_groups && data.size < 2) {
     return Error{ErrorCode::StatisticsTooFew,
-                 fmt::format("{} takes subgroups of two values or more", word(plan.kind))};
+                 fmt::format("{} needs subgroups of at least two values", word(plan.kind))};
   }
   if (plan.kind == ChartKind::IMr && data.size > 1) {
-    return Error{ErrorCode::FieldInvalid, "i_mr takes values, not subgroups"};
+    return Error{ErrorCode::FieldInvalid, "i_mr needs single values instead of subgroups"};
   }
   const auto phase = phase_of(data, plan);
   if (!phase) return phase.error();

@@ -142,8 +142,8 @@ Result<void> Decimals::add(std::string_view text) {
   if (const int by = std::abs(finer);
       widened > wide_power_of_ten(kWidest) / wide_power_of_ten(by)) {
     return Error{ErrorCode::NumberOutOfRange,
-                 fmt::format("{}: the values of one body must fit in {} digits, counted from the "
-                             "first of the largest to the last of the finest",
+                 fmt::format("{}: the values must fit in {} digits, from the first digit of the "
+                             "largest value to the last digit of the finest value",
                              text.substr(0, 40), kWidest)};
   }
   Wide count = parsed->digits;

@@ -158,7 +158,8 @@ Result<Pressure> press(const PressFit& fit, double interference_um) {
   const double inner = fit.shaft.other_diameter_mm;
   if (!(inner < d && d < outer)) {
     return Error{ErrorCode::FieldInvalid,
-                 "the hub must be wider outside than the joint, the shaft's bore narrower"};
+                 "the outer diameter of the hub must be larger than the joint, and the bore of the "
+                 "shaft smaller"};
   }
   constexpr double kFlattened = 0.4;
   constexpr double kMicrometres = 1000;
@@ -183,13 +184,13 @@ Result<Pressure> press(const PressFit& fit, double interference_um) {
 Result<std::vector<Pair>> pair(const std::vector<Length>& holes, const std::vector<Length>& shafts,
                                Length target) {
   if (holes.empty() || shafts.empty()) {
-    return Error{ErrorCode::StatisticsTooFew, "pairing takes a hole and a shaft or more"};
+    return Error{ErrorCode::StatisticsTooFew, "pairing needs at least one hole and one shaft"};
   }
   const auto [fewer, more] = std::minmax({holes.size(), shafts.size()});
   if (fewer > kLargestPairing / (more - fewer + 1)) {
     return Error{ErrorCode::FieldTooLong,
-                 fmt::format("{} and {} sizes are too many to pair; leave out some of the more, or "
-                             "pair them in parts",
+                 fmt::format("{} and {} sizes are too many to pair: send fewer sizes, or pair them "
+                             "in several requests",
                              holes.size(), shafts.size())};
   }
   const std::vector<std::size_t> hole = by_size(holes);
@@ -202,7 +203,8 @@ Result<std::vector<Pair>> pair(const std::vector<Length>& holes, const std::vect
     return (fewer_holes ? clearance(i, j) : clearance(j, i)) - target;
   });
   if (assigned.empty()) {
-    return Error{ErrorCode::FiguresLimit, "the pairing takes more time or memory than it may"};
+    return Error{ErrorCode::FiguresLimit,
+                 "the pairing needs more time or memory than one request may use"};
   }
   std::vector<Pair> pairs;
   pairs.reserve(fewer);

@@ -33,12 +33,12 @@ Error too_few(std::string message) { return {ErrorCode::StatisticsTooFew, std::m
 class Cells {
  public:
   static Result<Cells> make(const Readings& readings) {
-    if (readings.parts < 2) return too_few("a gauge study takes two parts or more");
+    if (readings.parts < 2) return too_few("a gauge study needs at least two parts");
     Cells cells(readings);
     if (const auto filled = cells.fill(); !filled) return filled.error();
     if (moments(readings.values).squares == 0) {
       return Error{ErrorCode::StatisticsZeroSpread,
-                   "all readings are equal: the gauge does not tell the parts apart"};
+                   "all readings are equal: the gauge does not resolve the parts"};
     }
     return cells;
   }
@@ -95,10 +95,10 @@ class Cells {
     Exact parts_of_one = 0;
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       if (groups_[i].empty()) {
-        return Error{ErrorCode::StatisticsUnbalanced,
-                     fmt::format("operator {} has no reading of part {}: the components cannot be "
-                                 "told apart. Measure it, or leave the part out",
-                                 i / parts() + 1, i % parts() + 1)};
+        return Error{
+            ErrorCode::StatisticsUnbalanced,
+            fmt::format("operator {} has no reading of part {}: measure it, or remove the part",
+                        i / parts() + 1, i % parts() + 1)};
       }
       const Moments of = moments(groups_[i], readings_.values.scale());
       means_.push_back(of.mean);
@@ -227,9 +227,9 @@ Result<GaugeStudy> crossed(const Cells& s, StudyModel wanted, const StudyBounds&
   study.interaction_p = of_interaction.p;
   if (wanted != StudyModel::Pooled && !has_error) {
     return too_few(
-        "one trial does not tell the repeatability from the interaction of part and operator: "
-        "measure every part twice or more, or say model \"pooled\", which takes there to be no "
-        "interaction and calls all of it repeatability");
+        "one trial cannot separate repeatability from the interaction of part and operator: "
+        "measure every part at least twice, or use model \"pooled\", which counts both as "
+        "repeatability");
   }
   if (wanted == StudyModel::Auto) {
     // Without a p there is nothing but repeatability to pool with.
@@ -358,7 +358,7 @@ std::string_view word(StudyModel model) { return kModels[static_cast<std::size_t
 
 Result<Type1Study> study_type1(const Decimals& values, const Exact& reference,
                                const Exact& tolerance, Type1Rule rule) {
-  if (values.size() < 2) return too_few("a type 1 study takes two readings or more; 50 are usual");
+  if (values.size() < 2) return too_few("a type 1 study needs at least two readings; 50 are usual");
   if (tolerance <= 0) return Error{ErrorCode::LimitsInvalid, "the tolerance must be above 0"};
   const Moments of = moments(values);
   if (of.squares == 0) {
@@ -383,12 +383,12 @@ Result<Type1Study> study_type1(const Decimals& values, const Exact& reference,
 Result<GaugeStudy> study_gauge(const Readings& readings, StudyMethod method, StudyModel model,
                                long double confidence) {
   if (method != StudyMethod::Type3 && readings.operator_count < 2) {
-    return too_few("a gauge study takes two operators or more; method \"type3\" takes none");
+    return too_few("a gauge study needs at least two operators; method \"type3\" needs none");
   }
   const auto cells = Cells::make(readings);
   if (!cells) return cells.error();
   if (method != StudyMethod::Anova && cells->error().degrees_of_freedom == 0) {
-    return too_few("a gauge study takes two trials of every part or more");
+    return too_few("a gauge study needs at least two trials of every part");
   }
   const StudyBounds intervals(confidence);
   switch (method) {
@@ -400,8 +400,8 @@ Result<GaugeStudy> study_gauge(const Readings& readings, StudyMethod method, Stu
   const auto trials = cells->equal_trials();
   if (trials) return average_and_range(*cells, *trials);
   return Error{ErrorCode::StatisticsUnbalanced,
-               "average_range takes as many readings of every part by every operator; method "
-               "\"anova\" takes any number of them"};
+               "average_range needs the same number of readings of every part by every operator; "
+               "method \"anova\" accepts different numbers"};
 }
 
 }  // namespace fitgauge::metrology

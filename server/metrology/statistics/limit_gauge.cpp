@@ -72,19 +72,19 @@ Error without_value(std::string message) {
 
 Result<LimitGauge> limit_gauge(const iso286::LimitsOfSize& limits, std::string_view class_name) {
   if (limits.nominal_size.length() > Length::millimetres(kGaugeSteps.back())) {
-    return Error{ErrorCode::SizeOutOfRange, "limit gauges go up to 500 mm"};
+    return Error{ErrorCode::SizeOutOfRange,
+                 "the nominal size of a limit gauge must be at most 500 mm"};
   }
   const auto standard = iso286::class_from_name(class_name);
   if (!standard || limits.basis != iso286::Basis::Iso286) {
     return without_value(
-        fmt::format("{} is a custom tolerance class: gauges go by the standard "
-                    "tolerance grades",
+        fmt::format("{} is a custom tolerance class: limit gauges need a standard tolerance grade",
                     class_name));
   }
   const int grade = number_of(standard->grade);
   const int finest = limits.feature == Feature::Hole ? 6 : 5;
   if (grade < finest || grade > 16) {
-    return without_value(fmt::format("{} has no gauge for {}: a {} takes IT{} to IT16",
+    return without_value(fmt::format("{} has no gauge for {}: a {} must have IT{} to IT16",
                                      kLimitGaugeScheme, class_name, word(limits.feature), finest));
   }
   const std::size_t step = step_of(limits.nominal_size);

@@ -44,7 +44,7 @@ Result<LinearityStudy> study_linearity(const Decimals& values,
   }
   if (by_reference.size() < 2 || values.size() < 3) {
     return Error{ErrorCode::StatisticsTooFew,
-                 "linearity takes two references or more, and three readings"};
+                 "linearity needs at least two references and three readings"};
   }
   const Exact n = whole(values.size());
   Exact x = 0;

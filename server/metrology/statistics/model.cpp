@@ -37,11 +37,12 @@ Error refusal(const std::string& text, const std::string& token, std::size_t at)
   const std::string place = fmt::format("at character {} of {}", at + 1, text.size());
   if (at >= text.size()) return unreadable("the model ends too early: complete the last term");
   if (can_be_quantity(token)) {
-    return unreadable(fmt::format(
-        "'{}' {} is none of the contributions: name one so, or put an operator before it", token,
-        place));
+    return unreadable(
+        fmt::format("'{}' {} is not a contribution: add a contribution of this name, or write an "
+                    "operator before it",
+                    token, place));
   }
-  return unreadable(fmt::format("'{}' cannot stand {}: check operators, brackets and arguments",
+  return unreadable(fmt::format("'{}' is not allowed {}: check operators, brackets and arguments",
                                 token.empty() ? text.substr(at, 1) : token, place));
 }
 
@@ -189,15 +190,15 @@ bool can_be_quantity(std::string_view name) {
 
 Result<Model> read_model(const std::string& text, const std::vector<std::string>& names) {
   if (text.size() > kLongestModel) {
-    return unreadable(fmt::format("a model has at most {} characters", kLongestModel));
+    return unreadable(fmt::format("a model must have at most {} characters", kLongestModel));
   }
   // The rest that muParser reads (assignment, comparison, several results) is no part of a model.
   const std::size_t foreign = text.find_first_not_of(std::string(kNameCharacters) + " .+-*/^()");
   if (foreign != std::string::npos) {
-    return unreadable(fmt::format(
-        "character {} cannot stand in a model: it has + - * / ^ ( ), numbers with a point and "
-        "names of letters a to z, digits and _",
-        foreign + 1));
+    return unreadable(
+        fmt::format("character {} is not allowed in a model: use + - * / ^ ( ), numbers with a "
+                    "point, and names of letters a to z, digits and _",
+                    foreign + 1));
   }
   const auto model = std::make_shared<ParsedModel>();
   model->arguments.resize(names.size());
@@ -258,10 +259,10 @@ Result<double> linearise(Budget& budget) {
   spread = std::max(spread, least * 1e-6);
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (errors[i] <= spread * 1e-6) continue;
-    return unreadable(fmt::format(
-        "the model has no derivative by contribution {} at its value that is known to 1e-6: choose "
-        "a model that is smooth there, and an uncertainty within which it has values",
-        i + 1));
+    return unreadable(
+        fmt::format("the derivative of the model by contribution {} cannot be computed to 1e-6 at "
+                    "its value: use a model that is smooth there, or a smaller uncertainty",
+                    i + 1));
   }
   return near.value();
 }
@@ -292,7 +293,8 @@ Result<std::optional<double>> second_order_uncertainty(const Budget& budget) {
     for (const std::size_t j : uncertain) {
       if (j < i) continue;
       if (Allowance::of_thread().is_spent()) {
-        return Error{ErrorCode::FiguresLimit, "the terms of second order take too long"};
+        return Error{ErrorCode::FiguresLimit,
+                     "the terms of second order need more time than one request may use"};
       }
       const double times = i == j ? 0.5 : 1;
       const Derivative bend = near.second(i, j);

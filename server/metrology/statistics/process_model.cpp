@@ -184,8 +184,7 @@ FTest f_test(const Variation& effect, const Variation& error) {
 
 Result<Anova> analyse_variance(const GroupedCounts& groups) {
   if (groups.size() < 2) {
-    return Error{ErrorCode::StatisticsTooFew,
-                 "an analysis of variance compares two groups or more"};
+    return Error{ErrorCode::StatisticsTooFew, "an analysis of variance needs at least two groups"};
   }
   const Moments all = moments(groups.counts, groups.scale);
   for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -195,7 +194,7 @@ Result<Anova> analyse_variance(const GroupedCounts& groups) {
   }
   if (all.count == groups.size()) {
     return Error{ErrorCode::StatisticsTooFew,
-                 "every group has one value: nothing says how they vary within a group"};
+                 "every group has one value: a group with two values or more is needed"};
   }
   const Exact within = sum_within(groups);
   Anova anova;

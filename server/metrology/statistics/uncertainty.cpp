@@ -18,11 +18,12 @@ constexpr std::array<std::string_view, 5> kDistributionWords = {"normal", "recta
 
 Error impossible() {
   return {ErrorCode::FieldInvalid,
-          "no quantities can be correlated like this: the matrix of coefficients is not positive"};
+          "the correlations contradict each other: their matrix is not positive"};
 }
 
 Error beyond_bound() {
-  return {ErrorCode::FiguresLimit, "the simulation takes more time or memory than it may"};
+  return {ErrorCode::FiguresLimit,
+          "the simulation needs more time or memory than one request may use"};
 }
 
 /// Correlations as the lower triangle L of L L' = R, row by row; none when R is not positive.
@@ -256,8 +257,8 @@ Result<MonteCarloResult> simulate(const Budget& budget, const Simulation& simula
     const std::size_t begin = values.size();
     if (static_cast<double>(begin) + least > static_cast<double>(simulation.trials)) {
       return Error{ErrorCode::FiguresLimit,
-                   "the digits are not reached with the trials that a simulation may have: ask for "
-                   "1 digit, for trials, or for a lower probability"};
+                   "the digits need more trials than a simulation may have: set digits to 1, set "
+                   "trials, or use a lower probability"};
     }
     values.resize(begin + static_cast<std::size_t>(least));
     constexpr std::size_t kBetweenLooks = 256;  // trials
@@ -265,9 +266,9 @@ Result<MonteCarloResult> simulate(const Budget& budget, const Simulation& simula
       if (i % kBetweenLooks == 0 && Allowance::of_thread().is_spent()) return beyond_bound();
       values[i] = draw_value();
       if (std::isfinite(values[i])) continue;
-      return Error{ErrorCode::NumberOutOfRange,
-                   "the model has no value for quantities that were drawn: choose distributions "
-                   "within its domain"};
+      return Error{
+          ErrorCode::NumberOutOfRange,
+          "the model has no value for some drawn quantities: use distributions within its domain"};
     }
     if (!simulation.digits) break;
     sequences.push_back(result_of(std::span(values).subspan(begin), budget.probability));
@@ -275,8 +276,8 @@ Result<MonteCarloResult> simulate(const Budget& budget, const Simulation& simula
   const MonteCarloResult made = result_of(values, budget.probability);
   if (std::isfinite(made.mean) && std::isfinite(made.standard_deviation)) return made;
   return Error{ErrorCode::NumberOutOfRange,
-               "the mean or the standard deviation of what was drawn is too large for a number: "
-               "choose a unit that fits"};
+               "the mean or the standard deviation of the drawn values is too large for a number: "
+               "use another unit"};
 }
 
 }  // namespace fitgauge::metrology

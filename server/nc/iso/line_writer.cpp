@@ -73,7 +73,7 @@ std::string LineWriter::pattern(std::string_view pattern, BlockWords& words, cha
     }
   }
   if (error.empty() && used_p < words.p.size())
-    error = fmt::format("P{:02} does not belong into this block", used_p + 1);
+    error = fmt::format("P{:02} is not allowed in this block", used_p + 1);
   return error;
 }
 
@@ -95,7 +95,7 @@ std::string LineWriter::value(char key, BlockWords& words, char tool_axis) {
   if (key == 'a') return put({&tool_axis, 1}), std::string();
   if (key == 'q')
     return put(words.text),
-           words.text.empty() ? "a Q parameter is missing behind the function" : std::string();
+           words.text.empty() ? "a Q parameter is missing after the function" : std::string();
   Word* word = words.find({&key, 1});
   if (word == nullptr || word->value.empty())
     return fmt::format("{} is missing in this block", key);

@@ -73,7 +73,7 @@ std::string_view frame_message(DiagnosticCode code) {
     case DiagnosticCode::TextAfterEnd:
       return "the text after N99999999 %NAME is not part of the program: move it to another file";
     case DiagnosticCode::NameMismatch:
-      return "the name or unit differs from the first line, which holds";
+      return "the name or unit differs from the first line, which counts";
     default: return {};
   }
 }

@@ -155,8 +155,8 @@ class Converter {
     std::string text = with_extension(print_statement(program_, block), extension_, is_unknown);
     if (is_unknown) {
       report(block, klartext::Severity::Note,
-             "a program that a parameter names has the extension of its caller, .H or .I, unless "
-             "it has one: write the extension into the text");
+             "a program name in a parameter gets the extension of its caller, .H or .I: write the "
+             "extension into the text");
     }
     if (!std::holds_alternative<klartext::Cycle>(block.statement) && block.comment_mark)
       text += fmt::format("{};{}", text.empty() ? "" : " ", program_.text(block.comment));

@@ -290,7 +290,8 @@ class Translator {
 
   void own_block(BlockWords& words) {
     const unsigned number = words.block->number;
-    if (words.block->kind == CodeKind::Cycle) return fail("a cycle stands first in its block");
+    if (words.block->kind == CodeKind::Cycle)
+      return fail("a cycle must be the first word of its block");
     check_modes(false, words);
     if (Word* angle = words.find("H"); angle != nullptr && number == 73) angle->name = "ROT";
     if (number == 26 || number == 27) {
@@ -303,8 +304,8 @@ class Translator {
     }
     for (const Word& word : words.words) {
       if (!word.used)
-        fail(fmt::format("{}{} does not belong into a block of G{:02}", word.name, word.value,
-                         number));
+        fail(
+            fmt::format("{}{} is not allowed in a block of G{:02}", word.name, word.value, number));
     }
     if (number == 98) forget_modes();
   }
@@ -317,7 +318,7 @@ class Translator {
     if (words.block->number == 27) {
       departure_ = radius->value;
     } else if (!std::exchange(approached_, false)) {
-      fail("G26 stands behind the block of the first contour point, which has G41 or G42");
+      fail("G26 must follow the block of the first contour point, which has G41 or G42");
     }
   }
 
@@ -327,7 +328,7 @@ class Translator {
         words.any([](const Word& word) { return word.name == "S" || word.name.starts_with('D'); });
     if (number == nullptr && !has_values) {
       if (words.has_plane && called_axis_ != '\0' && called_axis_ != modes_.tool_axis) {
-        fail("the tool axis changes with the tool: write G17, G18 or G19 behind T");
+        fail("the tool axis changes with the tool: write G17, G18 or G19 after T");
       }
       return;
     }
@@ -452,10 +453,9 @@ class Translator {
       if (out_.warnings.size() == kMostFindings) return;
       out_.warnings.push_back(
           {0, DiagnosticCode::ModalStateAssumed, place_,
-           fmt::format(
-               "behind a label or a call the block has no {}: G{:02} holds, as in the blocks "
-               "above it; write the code into this block",
-               missing, code)});
+           fmt::format("after a label or a call the block has no {}: G{:02} of an earlier block "
+                       "counts; write the code into this block",
+                       missing, code)});
     };
     const bool has_dimension =
         words.any([](const Word& word) { return word.is_axis() && !word.value.empty(); });

@@ -39,7 +39,7 @@ void read_code(Lexer& in, const char* begin, BlockWords& block, Modes& modes) {
     return fail(
         in, begin,
         fmt::format(
-            "G{:02} is no code of these controls; docs/reference/language.md lists their codes",
+            "G{:02} is unknown to these controls; docs/reference/language.md lists their codes",
             number));
   }
   switch (code->kind) {
@@ -64,8 +64,8 @@ void read_code(Lexer& in, const char* begin, BlockWords& block, Modes& modes) {
   }
   if (block.block != nullptr) {
     fail(in, begin,
-         fmt::format("G{:02} needs a block of its own: G{:02} stands in this one", number,
-                     block.block->number));
+         fmt::format("G{:02} must not be in the block of G{:02}: write it into another block",
+                     number, block.block->number));
   }
   block.block = code;
   in.accept(':');  // G79:PAT
@@ -114,7 +114,7 @@ std::string_view read_label(Lexer& in) {
 void read_p(Lexer& in, std::vector<std::string_view>& values) {
   while (!in.at_end()) {
     in.expect_prefix("P");
-    const unsigned number = in.digits(kMostP, "the number behind P");
+    const unsigned number = in.digits(kMostP, "the number after P");
     if (number != values.size() + 1) in.fail_expected(fmt::format("P{:02}", values.size() + 1));
     const char* begin = in.at();
     const char* at = begin;
@@ -151,7 +151,7 @@ BlockWords read_words(Lexer& in, Modes& modes) {
     const bool is_label = word.name == "L" && block.block != nullptr && block.block->number == 98;
     word.value = is_label ? read_label(in) : read_value(in);
     if (block.words.size() == kMostWords)
-      fail(in, begin, fmt::format("a block has at most {} words", kMostWords));
+      fail(in, begin, fmt::format("a block must have at most {} words", kMostWords));
     block.words.push_back(std::move(word));
   }
   return block;

@@ -48,7 +48,7 @@ Text BlockReader::quoted_text(std::size_t longest, std::string_view what) {
          fmt::format("{} holds a control character", what));
   } else if (count > longest) {
     fail(DiagnosticCode::StringTooLong, place(begin, at()),
-         fmt::format("{} has {} characters, {} are allowed", what, count, longest));
+         fmt::format("{} has {} characters; at most {} are allowed", what, count, longest));
   }
   return add_text(characters);
 }
@@ -95,7 +95,7 @@ bool BlockReader::is_string(const Expr& expr) const {
 void BlockReader::enter() {
   if (++depth_ > kDeepestNesting) {
     fail(DiagnosticCode::ExpressionTooDeep, here(),
-         fmt::format("more than {} parentheses or functions within each other: split the formula",
+         fmt::format("more than {} nested parentheses or functions: split the formula",
                      kDeepestNesting));
   }
 }

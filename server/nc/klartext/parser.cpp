@@ -170,7 +170,7 @@ void Parser::check_frame(const Block& block, bool failed) {
   }
   if (begun_ && begin != nullptr) {
     report(Severity::Error, DiagnosticCode::SyntaxError, block,
-           "BEGIN PGM stands in the middle of the program: one file holds one program");
+           "BEGIN PGM is in the middle of the program: a file must have one program");
   }
   if (!begun_ && begin != nullptr) begin_ = *begin;
   if (!begun_ && failed) return;  // BEGIN PGM may follow
@@ -180,7 +180,7 @@ void Parser::check_frame(const Block& block, bool failed) {
     if (begin_ && (!ascii_iequals(in_.text(end->name), in_.text(begin_->name)) ||
                    end->unit != begin_->unit)) {
       report(Severity::Warning, DiagnosticCode::NameMismatch, block,
-             "the name or unit differs from BEGIN PGM, which holds");
+             "the name or unit differs from BEGIN PGM, which counts");
     }
   }
 }
@@ -211,7 +211,7 @@ std::size_t Parser::parse_block(std::size_t begin) {
       const auto last = static_cast<std::uint32_t>(parts_.source.rfind('\n', first_end - 1) + 1);
       diagnostics_.add(Severity::Note, DiagnosticCode::ContinuationMissing,
                        {last, static_cast<std::uint32_t>(first_end - last)},
-                       "the line has no '~' at its end, behind the comment; the indented lines "
+                       "the line has no '~' at its end, after the comment; the indented lines "
                        "below are read as its cycle",
                        block.number);
     }

@@ -99,7 +99,7 @@ Slice<CycleParameter> parse_parameters(BlockReader& in) {
     });
     if (repeated && !in.failure()) {
       in.fail(DiagnosticCode::CycleParameterRepeated, parameter.written,
-              "this parameter stands twice in the cycle");
+              "this parameter is repeated in the cycle");
     }
     pool.push_back(parameter);
   }

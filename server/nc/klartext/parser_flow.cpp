@@ -59,7 +59,7 @@ Expr parse_path(BlockReader& in, char stop) {
   });
   if (invalid || bare.size() > kLongestString) {
     in.fail(DiagnosticCode::SyntaxError, in.place(bare.data(), bare.data() + bare.size()),
-            "the file name is too long or holds a character that no file name has");
+            "the file name is too long or has a character that is not allowed");
     return Absent{};
   }
   const bool is_parameter = ascii_iequals(bare.substr(0, 2), "QS") && bare.size() > 2 &&
@@ -92,7 +92,7 @@ Expr parse_repeat(BlockReader& in) {
   if (in.at_parameter()) {
     in.parameter();
   } else {
-    in.digits(kLargestLabel, "the count behind '/'");
+    in.digits(kLargestLabel, "the count after '/'");
   }
   return repeat;
 }

@@ -45,7 +45,7 @@ bool parse_compensation(BlockReader& in, Motion& motion, bool has_radius) {
   const RadiusCompensation compensation = found->compensation;
   if (motion.compensation != RadiusCompensation::Unchanged) {
     in.fail(DiagnosticCode::WordRepeated, in.place(in.at(), in.at() + 2),
-            "the radius compensation stands twice in this block");
+            "the radius compensation is repeated in this block");
     return true;
   }
   motion.compensation = compensation;
@@ -59,7 +59,7 @@ bool parse_rotation(BlockReader& in, Motion& motion) {
   if (ascii_upper(in.peek(1)) != 'R' || (sign != '+' && sign != '-')) return false;
   if (motion.rotation != Rotation::Unspecified) {
     in.fail(DiagnosticCode::WordRepeated, in.place(in.at(), in.at() + 3),
-            "the direction of rotation stands twice in this block");
+            "the direction of rotation is repeated in this block");
     return true;
   }
   motion.rotation = sign == '+' ? Rotation::Positive : Rotation::Negative;

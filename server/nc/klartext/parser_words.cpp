@@ -102,17 +102,18 @@ void WordReader::read() {
   parse_value_of(word);
   word.argument = arguments_.contains(word.letter);
   if (word.incremental && (word.argument || !incremental_.contains(word.letter))) {
-    in_.fail(DiagnosticCode::SyntaxError, in_.place(begin, in_.at()),
-             fmt::format("{} takes no I here: write the absolute value", spelling(word.letter)));
+    in_.fail(
+        DiagnosticCode::SyntaxError, in_.place(begin, in_.at()),
+        fmt::format("{} must not have I here: write the absolute value", spelling(word.letter)));
   }
   if (!word.argument) {
     if (!allowed_.contains(word.letter)) {
       in_.fail(DiagnosticCode::SyntaxError, in_.place(begin, in_.at()),
-               fmt::format("{} does not belong into this block", spelling(word.letter)));
+               fmt::format("{} is not allowed in this block", spelling(word.letter)));
     }
     if (seen_.contains(word.letter) && word.letter != Letter::M) {
       in_.fail(DiagnosticCode::WordRepeated, in_.place(begin, in_.at()),
-               fmt::format("{} stands twice in this block", spelling(word.letter)));
+               fmt::format("{} is repeated in this block", spelling(word.letter)));
     }
     seen_.insert(word.letter);
     plain_.erase(word.letter);

@@ -187,7 +187,7 @@ MachineResult<double> SimulatedAxes::probe_contact(const Vec3& direction, double
   const double before = touched.value_or(distance);
   if (fixtures_.contact(start, on_table, tool.radius, before, allowance).value_or(before) <
       before) {
-    return make_fault(FaultKind::FixtureCollision, "it stands in the way of the probing move");
+    return make_fault(FaultKind::FixtureCollision, "it blocks the probing move");
   }
   if (!touched) return make_fault(FaultKind::NoContact);
   touching_ = start + on_table * *touched;

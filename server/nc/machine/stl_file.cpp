@@ -35,7 +35,7 @@ Result<std::vector<Triangle>> read_binary(std::string_view bytes) {
                 sizeof corners);
     for (std::size_t k = 0; k < 9; ++k) triangles[t][k / 3][k % 3] = double{corners[k]};
     if (std::ranges::all_of(triangles[t], is_near)) continue;
-    return refused(fmt::format("triangle {} has a corner without a place", t + 1));
+    return refused(fmt::format("triangle {} has a corner that is not a point", t + 1));
   }
   return triangles;
 }

@@ -24,11 +24,11 @@ class Findings {
   /// A finite number between two bounds, both included.
   void within(const std::string& where, double value, double least, double most) {
     if (value >= least && value <= most) return;
-    add(where, fmt::format("Must be {} to {}.", least, most));
+    add(where, fmt::format("must be {} to {}", least, most));
   }
   void positive(const std::string& where, double value, double most = kLongestMm) {
     if (value > 0 && value <= most) return;
-    add(where, fmt::format("Must be more than 0 and at most {}.", most));
+    add(where, fmt::format("must be more than 0 and at most {}", most));
   }
   /// Limits of a machine's drives, so that every move takes a finite time.
   void feed(const std::string& where, double mm_min) {
@@ -42,7 +42,7 @@ class Findings {
   }
   void direction(const std::string& where, const Vec3& d) {
     point(where, d);
-    if (norm(d) < tolerance::kSamePoint) add(where, "A direction must not be zero.");
+    if (norm(d) < tolerance::kSamePoint) add(where, "a direction must not be zero");
   }
 
   Result<void> result() && {
@@ -60,7 +60,7 @@ void check_axis(Findings& findings, const std::string& at, Axis axis, const Axis
   findings.within(at + "/min_" + unit, setup.min, -most, most);
   findings.within(at + "/max_" + unit, setup.max, -most, most);
   if (!(setup.min < setup.max)) {
-    findings.add(at + "/max_" + unit, "The upper end must be above the lower one.",
+    findings.add(at + "/max_" + unit, "the upper end must be above the lower end",
                  ErrorCode::FieldConflict);
   }
   if (!is_rotary(axis)) return;
@@ -80,7 +80,7 @@ void check_start(Findings& findings, const MachineSetup& setup) {
     const std::string at = fmt::format("/machine/start_mm/{}", name(axis));
     const auto& known = setup.axes[index(axis)];
     if (!known) {
-      findings.add(at, fmt::format("The machine has no axis {}.", name(axis)),
+      findings.add(at, fmt::format("the machine has no axis {}", name(axis)),
                    ErrorCode::FieldConflict);
     } else {
       findings.within(at, *setup.start[axis], known->min, known->max);
@@ -97,8 +97,7 @@ void check_numbers(Findings& findings, const std::string& at, const Rows& rows, 
     const std::string where = fmt::format("{}/{}/number", at, k);
     findings.within(where, number, least, 65535);
     if (!seen.insert(number).second) {
-      findings.add(where, fmt::format("Number {} is given twice.", number),
-                   ErrorCode::FieldConflict);
+      findings.add(where, fmt::format("number {} is repeated", number), ErrorCode::FieldConflict);
     }
   }
 }
@@ -119,13 +118,13 @@ void check_tools(Findings& findings, const MachineSetup& setup) {
     if (!row.is_probe()) continue;
     const auto same = [&row = row](const ProbeSetup& p) { return p.row.number == row.probe; };
     if (std::none_of(setup.probes.begin(), setup.probes.end(), same)) {
-      findings.add(at + "/probe", fmt::format("There is no probe {}.", row.probe),
+      findings.add(at + "/probe", fmt::format("probe not found: {}", row.probe),
                    ErrorCode::FieldConflict);
     }
     constexpr double kSmallestBall = 0.01;
     if (radius.value_or(row.r + row.dr) < kSmallestBall) {
       findings.add(at + "/radius_mm",
-                   fmt::format("The ball of a probe has at least {} mm.", kSmallestBall));
+                   fmt::format("the ball of a probe must have at least {} mm", kSmallestBall));
     }
   }
 }
@@ -166,8 +165,7 @@ void check_presets(Findings& findings, const MachineSetup& setup) {
   const bool exists = setup.active_preset == 0 ||
                       std::any_of(setup.presets.begin(), setup.presets.end(), is_active);
   if (!exists) {
-    findings.add("/machine/active_preset",
-                 fmt::format("There is no preset {}.", setup.active_preset),
+    findings.add("/machine/active_preset", fmt::format("preset not found: {}", setup.active_preset),
                  ErrorCode::FieldConflict);
   }
 }
@@ -183,7 +181,7 @@ struct CheckFeature {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (block.min[axis] < block.max[axis]) continue;
       findings.add(fmt::format("{}/max_mm/{}", at, axis),
-                   "The upper corner must be above the lower.", ErrorCode::FieldConflict);
+                   "the upper corner must be above the lower corner", ErrorCode::FieldConflict);
     }
   }
 
@@ -201,9 +199,9 @@ struct CheckFeature {
     const double narrowest =
         bore.diameter / 2 + std::min(bore.taper_um_per_mm, 0.0) / 2000 * bore.depth;
     if (!(amplitude <= bore.diameter / 4)) {
-      findings.add(at + "/lobe_amplitude_um", "Must be at most a quarter of the diameter.");
+      findings.add(at + "/lobe_amplitude_um", "must be at most a quarter of the diameter");
     } else if (narrowest - amplitude <= 0) {
-      findings.add(at + "/taper_um_per_mm", "The bore must not close before its depth.",
+      findings.add(at + "/taper_um_per_mm", "the bore must not close before its depth",
                    ErrorCode::FieldConflict);
     }
   }
@@ -238,11 +236,12 @@ struct CheckFeature {
       if (is_finite(p) && norm(p) < 2 * kLongestMm &&
           !places.insert({std::llround(p.x * kNanometres), std::llround(p.y * kNanometres)})
                .second) {
-        findings.add(where, "A surface has one height at each X and Y.", ErrorCode::FieldConflict);
+        findings.add(where, "a surface must have one height at each X and Y",
+                     ErrorCode::FieldConflict);
       }
     }
     if (places.size() == surface.points.size() && delaunay(surface.points).triangles.empty()) {
-      findings.add(at + "/points_mm", "A surface needs three points that are not on one line.");
+      findings.add(at + "/points_mm", "a surface needs three points that are not on one line");
     }
   }
 
@@ -277,7 +276,7 @@ void check_standards(Findings& findings, const MachineSetup& setup) {
     const std::string at = "/machine/calibration_ring";
     CheckFeature{findings, at}(Boss{ring->centre, ring->top, ring->height, ring->diameter});
     if (!(ring->outside() > ring->diameter && ring->outside() <= kLongestMm)) {
-      findings.add(at + "/outer_diameter_mm", "Must be more than the diameter of the hole.",
+      findings.add(at + "/outer_diameter_mm", "must be more than the diameter of the hole",
                    ErrorCode::FieldConflict);
     }
   }
@@ -300,7 +299,7 @@ Result<void> validate(const Setup& setup) {
     const std::string at = fmt::format("/machine/axes/{}", name(axis));
     if (known) check_axis(findings, at, axis, *known);
     if (!known && !is_rotary(axis))
-      findings.add(at, "A machine has X, Y and Z.", ErrorCode::FieldMissing);
+      findings.add(at, "a machine must have X, Y and Z", ErrorCode::FieldMissing);
   }
   check_start(findings, machine);
   findings.feed("/machine/rapid_mm_min", machine.rapid_mm_min);

@@ -135,7 +135,7 @@ Result<std::vector<Diagnostic>> check(const ControlPath& program, const ControlD
                                       ProgramCache& programs, Allowance& allowance) {
   Walk walk(disk, programs, allowance);
   if (!walk.visit_all(program)) {
-    return Error{ErrorCode::ProgramUnknown, "there is no program " + program.text()};
+    return Error{ErrorCode::ProgramUnknown, "program not found: " + program.text()};
   }
   return walk.take();
 }

@@ -153,9 +153,11 @@ class BlockCheck {
       }
       given.push_back(parameter);
       if (is_feed_word(written.kind) && parameter->unit != probing::Unit::Feed) {
-        report(Severity::Error, DiagnosticCode::CycleParameterInvalid, written.written,
-               fmt::format("Input value incorrect: {} is no feed and takes no AUTO, MAX, FU or FZ",
-                           name(*parameter)));
+        report(
+            Severity::Error, DiagnosticCode::CycleParameterInvalid, written.written,
+            fmt::format(
+                "Input value incorrect: {} is not a feed, so AUTO, MAX, FU and FZ are not allowed",
+                name(*parameter)));
         continue;
       }
       if (auto value = literal(program_, written, *parameter)) {

@@ -118,8 +118,7 @@ class Linker {
                   .second;
     if (is_new) return;
     report(Severity::Error, DiagnosticCode::LabelDuplicate, block,
-           fmt::format("label {} is defined twice; each label stands once in a program",
-                       shown(label)));
+           fmt::format("label {} is defined twice: rename one of them", shown(label)));
     if (const Block* first = first_definition(label)) {
       const SourceRange range = program_.range(first->written);
       file_.diagnostics.back().notes.push_back(
@@ -209,7 +208,7 @@ class Linker {
     const std::uint32_t counter = repeats ? writer_.counter(parts_.counters++) : 0;
     if (parts_.counters == kMostRepeats + 1) {
       report(Severity::Error, DiagnosticCode::ProgramTooLarge, block,
-             fmt::format("a program has at most {} calls with REP", kMostRepeats));
+             fmt::format("a program must have at most {} calls with REP", kMostRepeats));
     }
     if (is_dynamic(call.label)) {
       writer_.add({.op = Op::Statement, .a = index, .b = counter});
@@ -248,8 +247,8 @@ class Linker {
       }
       if (instruction.op == Op::Repeat && *target > jump.instruction) {  // decision 7
         report(Severity::Warning, DiagnosticCode::RepeatBeforeLabel, block,
-               fmt::format("label {} stands after this CALL LBL REP: the program jumps forward to "
-                           "it; a part that is to be repeated stands before the call",
+               fmt::format("label {} is after this CALL LBL REP, so the program jumps forward: "
+                           "write the part to repeat before the call",
                            shown(jump.label)));
       }
       instruction.c = *target;

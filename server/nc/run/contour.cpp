@@ -48,8 +48,7 @@ std::optional<Vec3> end_direction(const Element& element) {
 }
 
 NcError no_approach() {
-  return nc_error(1024,
-                  "an SL cycle approaches its contour itself: APPR and DEP do not stand in it");
+  return nc_error(1024, "an SL cycle approaches its contour itself: remove APPR and DEP");
 }
 
 }  // namespace
@@ -116,13 +115,13 @@ NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element)
 
 NcResult<void> Contour::add(machine::Machine& machine, Element element, bool corner_follows) {
   if (element.system != machine::CoordinateSystem::Input) {
-    if (drawing_) return nc_error("M91 and M92 do not stand in the contour of an SL cycle");
+    if (drawing_) return nc_error("M91 and M92 are not allowed in the contour of an SL cycle");
     if (auto done = finish(machine); !done) return done;
     return CutterPath::move(machine, element);
   }
   if (element.side != 0 && !(element.plane == working_plane(machine))) {
     return nc_error(
-        "RL and RR hold in the working plane alone: a circle in another plane takes R0");
+        "RL and RR work only in the working plane: write R0 for a circle in another plane");
   }
   if (approach_) {
     if (auto done = approach(machine, element); !done) return done;
@@ -140,7 +139,7 @@ NcResult<void> Contour::add(machine::Machine& machine, Element element, bool cor
 
 NcResult<void> Contour::set_corner(double size, bool is_chamfer,
                                    std::optional<machine::Feed> feed) {
-  if (!kept_) return nc_error(1022, "RND and CHF stand between two positioning blocks");
+  if (!kept_) return nc_error(1022, "RND and CHF must be between two positioning blocks");
   if (size <= 0) return nc_error(1022, "the radius or length must be greater than 0");
   corner_ = Corner{size, is_chamfer, feed};
   return {};

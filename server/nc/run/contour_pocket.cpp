@@ -176,7 +176,7 @@ class ContourCycle {
 
 NcResult<void> mill_contours(Channel& channel, Machining& cycle) {
   if (!channel.active_cycle.contour_data || channel.active_cycle.contours.empty()) {
-    return nc_error(1017, "cycles 14 CONTOUR and 20 CONTOUR DATA stand before it");
+    return nc_error(1017, "cycles 14 CONTOUR and 20 CONTOUR DATA must be before it");
   }
   return ContourCycle(channel, cycle).run();
 }

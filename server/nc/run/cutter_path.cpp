@@ -117,7 +117,8 @@ NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
   if (next.side == 0 && side_ == 0) return move(machine, next);
   const machine::Vec3 factor = machine.state().frames.scaling().factor;
   if (next.side != 0 && factor[next.plane.first] != factor[next.plane.second]) {
-    return nc_error(1108, "RL and RR do not know a plane whose axes are scaled differently");
+    return nc_error(1108,
+                    "RL and RR are not available in a plane whose axes are scaled differently");
   }
   if (!next.moves_in_plane() && next.side == side_) {
     Element beside = next;
@@ -132,7 +133,7 @@ NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
   }
   if (next.side != side_) {
     if (next.side != 0 && side_ != 0) {
-      return nc_error(1021, "between RL and RR stands a block with R0 that moves in the plane");
+      return nc_error(1021, "a block between RL and RR moves in the plane with R0: write RL or RR");
     }
     if (auto done = finish(machine); !done) return done;
     side_ = next.side;
@@ -145,7 +146,7 @@ NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
 }
 
 NcResult<void> CutterPath::enter(machine::Machine& machine, const Element& next) {
-  if (next.curve.is_arc()) return nc_error(1021, "RL and RR begin with a straight block");
+  if (next.curve.is_arc()) return nc_error(1021, "RL and RR must begin with a straight block");
   if (!next.moves_in_plane()) return move(machine, next);
   last_ = next;
   is_entry_ = true;

@@ -132,10 +132,8 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
   for (const MCall& call : words.m) {
     if (call.program == nullptr) continue;
     if (ends || calls_cycle) {
-      return nc_error(
-          fmt::format("M{} calls a program and stands alone with it: M2, M30, M89 and "
-                      "M99 go into a block of their own",
-                      call.number));
+      return nc_error(fmt::format(
+          "M{} calls a program: write M2, M30, M89 and M99 into another block", call.number));
     }
     return call_program(channel, *call.program);
   }

@@ -45,7 +45,7 @@ NcResult<double> predefined_value(const Channel& channel, int parameter) {
   if (found != channel.predefined.end()) return found->second;
   // Not null: the linker has refused parameters that no GLOBAL DEF has.
   const probing::CycleDescriptor& definition = *global_definition_of(parameter);
-  return nc_error(1017, fmt::format("Q{} is PREDEF, and no GLOBAL DEF {} {} stands before",
+  return nc_error(1017, fmt::format("Q{} is PREDEF, but GLOBAL DEF {} {} is missing before it",
                                     parameter, definition.number, definition.name));
 }
 

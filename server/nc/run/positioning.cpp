@@ -111,7 +111,7 @@ NcResult<Vec2> Positioning::end_point() {
     return Vec2{words.values[plane_.first].value_or(start_.x),
                 words.values[plane_.second].value_or(start_.y)};
   }
-  if (!contour().pole) return nc_error("polar coordinates need a pole: CC stands before them");
+  if (!contour().pole) return nc_error("polar coordinates need a pole: write CC before them");
   Vec2& last = contour().last_polar;
   const Vec2 pole = contour().pole->point;
   const Vec2 from_pole = start_ - pole;
@@ -150,7 +150,7 @@ NcResult<void> Positioning::set_pole() {
   std::array<bool, 3> named{};
   for (std::size_t axis = 0; axis < 3; ++axis) named[axis] = words_.axes[axis].has_value();
   const auto count = std::count(named.begin(), named.end(), true);
-  if (count == 3) return nc_error("CC names the two axes of a plane, not three");
+  if (count == 3) return nc_error("CC must have the two axes of a plane");
   const WorkingPlane working = working_plane(channel_.machine());
   const auto& before = contour().pole;
   Pole pole{working, {}};
@@ -165,9 +165,11 @@ NcResult<void> Positioning::set_pole() {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!named[axis]) continue;
     if (!pole.plane.contains(axis)) {
-      return nc_error(1019, fmt::format("the {} axis does not lie in the plane of the circle; CC "
-                                        "names both of its axes",
-                                        "XYZ"[axis]));
+      return nc_error(
+          1019,
+          fmt::format(
+              "the {} axis is not in the plane of the circle: write both axes of the plane in CC",
+              "XYZ"[axis]));
     }
     point[axis] = resolved(*words_.axes[axis], position_.linear[axis]);
   }
@@ -300,17 +302,17 @@ std::optional<Vec2> Positioning::arriving() {
 }
 
 NcResult<Curve> Positioning::centre_arc(Vec2 end) {
-  if (!contour().pole) return nc_error("an arc needs a centre: CC stands before it");
+  if (!contour().pole) return nc_error("an arc needs a centre: write CC before it");
   const Vec2 centre = contour().pole->point;
   const double radius = norm(start_ - centre);
-  if (radius < tolerance::kSamePoint) return nc_error("the arc begins in its centre");
+  if (radius < tolerance::kSamePoint) return nc_error("the arc must not begin in its centre");
   const double error = norm(end - centre) - radius;
   if (std::abs(error) > tolerance::kBesideCircle) {
-    return nc_error(fmt::format(
-        "the end of the arc lies {:.4f} mm {} its circle in the plane {}{}: CC names the centre "
-        "and by its two axes the plane",
-        std::abs(error), error > 0 ? "outside" : "inside", "XYZ"[plane_.first],
-        "XYZ"[plane_.second]));
+    return nc_error(
+        fmt::format("the end of the arc is {:.4f} mm {} its circle in the plane {}{}: CC gives the "
+                    "centre, and its two axes give the plane",
+                    std::abs(error), error > 0 ? "outside" : "inside", "XYZ"[plane_.first],
+                    "XYZ"[plane_.second]));
   }
   double turn = sweep(start_, end, centre, left_turn());
   if (motion_.path == Path::Cp && words_.pa && words_.pa->incremental) {

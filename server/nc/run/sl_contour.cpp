@@ -161,7 +161,7 @@ machine::Position SlDrawing::position() const {
 NcResult<void> SlDrawing::add(const Element& element) {
   const WorkingPlane& plane = element.plane;
   if (!(plane == WorkingPlane::across(machine_->state().tool_axis()))) {
-    return nc_error("the contour of an SL cycle lies in the working plane");
+    return nc_error("the contour of an SL cycle must be in the working plane");
   }
   const machine::Frames& now = machine_->state().frames;
   const machine::Vec3 from = now.from_machine(at_);

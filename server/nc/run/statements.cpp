@@ -77,7 +77,7 @@ NcResult<Next> execute_statement(Channel& channel, const Instruction& instructio
   if (!std::holds_alternative<klartext::Motion>(statement)) {
     if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
     if (channel.contour.drawing() != nullptr && !may_stand_in_contour(statement)) {
-      return nc_error("this block does not stand in the contour of an SL cycle");
+      return nc_error("this block is not allowed in the contour of an SL cycle");
     }
   }
   auto next = std::visit(Dispatcher(channel, instruction), statement);

@@ -52,7 +52,9 @@ double unit_of(const TabTable& table, std::string_view column, double length_uni
   return (table.header().unit == "INCH" ? kMillimetresPerInch : 1) / length_unit;
 }
 
-NcError no_table_error() { return nc_error("no table is open: FN 26: TABOPEN stands before this"); }
+NcError no_table_error() {
+  return nc_error("no table is open: write FN 26: TABOPEN before this block");
+}
 
 constexpr std::array<std::string_view, machine::kAxes> kAxisColumns{"X", "Y", "Z", "A", "B", "C"};
 
@@ -165,7 +167,7 @@ NcResult<void> TableAccess::select_datum_table(const ControlPath& path) {
 }
 
 NcResult<machine::AxisWords> TableAccess::datum(std::int64_t row) const {
-  if (!datum_) return nc_error(1043, "SEL TABLE stands before this");
+  if (!datum_) return nc_error(1043, "write SEL TABLE before this block");
   const auto found = datum_->content->find_row(row);
   if (!found) {
     return nc_error(fmt::format("datum table {}: {}", datum_->path.text(), found.error().message));
@@ -179,7 +181,7 @@ NcResult<machine::AxisWords> TableAccess::datum(std::int64_t row) const {
 }
 
 NcResult<void> TableAccess::write_datum(std::int64_t row, const machine::AxisWords& values) {
-  if (!datum_) return nc_error(1043, "SEL TABLE stands before this");
+  if (!datum_) return nc_error(1043, "write SEL TABLE before this block");
   for (const machine::Axis axis : machine::kAllAxes) {
     if (!values[axis]) continue;
     const auto set =

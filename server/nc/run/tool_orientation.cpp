@@ -39,9 +39,10 @@ NcResult<void> stand_along(Channel& channel, const Vec3& direction, MotionWords&
   const Vec3 normal = machine::unit(on_table.direction_to_machine(direction));
   const auto rotary = rotary_along(state, normal, from);
   if (!rotary) {
-    return nc_error(1013, fmt::format("no position of the rotary axes stands the tool along {:.4f} "
-                                      "{:.4f} {:.4f}",
-                                      direction.x, direction.y, direction.z));
+    return nc_error(
+        1013,
+        fmt::format("no position of the rotary axes points the tool along {:.4f} {:.4f} {:.4f}",
+                    direction.x, direction.y, direction.z));
   }
   const Vec3 shown = state.frames.rotary_from_machine(*rotary, CoordinateSystem::Input);
   for (std::size_t letter = 0; letter < 3; ++letter) words.axes[letter + 3].reset();

@@ -165,7 +165,7 @@ Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::
   const auto json = parse_json(answer.body);
   if (answer.status == kOk) {
     if (!json || size_of(*json) != end) {
-      return failed(Sent::Failed, "the answer is not from a centre: check forward-to");
+      return failed(Sent::Failed, "the response is not from a centre: check forward-to");
     }
     most_rows_ = app::LogOutbox::kMostRows;
     took(end);
@@ -195,7 +195,8 @@ Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::
 Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root) {
   const auto bytes = tlog::from_base64(root);
   tlog::Hash there{};
-  if (!bytes || bytes->size() != there.size()) return failed(Sent::Refused, "its root is none");
+  if (!bytes || bytes->size() != there.size())
+    return failed(Sent::Refused, "the centre returned a malformed root");
   std::copy(bytes->begin(), bytes->end(), there.begin());
   const app::LogService::History& history = outbox_.history_of(confirmed_ + 1);
   if (history.end && size >= *history.end) {  // what it has beyond went on elsewhere
@@ -214,7 +215,7 @@ Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root)
     refused_note_ = std::exchange(noted_, 0);
     return Sent::Taken;
   }
-  if (*same == true) return failed(Sent::Failed, "the centre is behind itself");
+  if (*same == true) return failed(Sent::Failed, "the centre has fewer records than it confirmed");
   return forked(
       *same ? fmt::format("the {} records of this log at the centre differ from the records here: "
                           "this folder was copied and started twice, or an older copy was restored",

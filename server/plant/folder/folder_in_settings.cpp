@@ -27,7 +27,7 @@ Result<std::string> read_glob(const JsonValue& item) {
   const bool is_glob = item.is(JsonValue::Kind::String) && !item.text.empty() &&
                        item.text.size() <= kLongestGlob && item.text.find('/') == std::string::npos;
   if (is_glob) return item.text;
-  return invalid_field("a name of files without a folder, which may have * and ?: *.csv");
+  return invalid_field("must be a file name without a folder (* and ? allowed), such as *.csv");
 }
 
 /// An object of texts; `fault` says what is wrong with one.
@@ -40,12 +40,13 @@ struct TextsBy {
     const JsonValue* const object = fields.object(name);
     if (object == nullptr) return false;
     if (object->members.size() > kMostWords) {
-      fields.report(ErrorCode::FieldInvalid, name, fmt::format("at most {} of them", kMostWords));
+      fields.report(ErrorCode::FieldInvalid, name,
+                    fmt::format("must have at most {} members", kMostWords));
       return false;
     }
     for (const auto& [key, value] : object->members) {
       const bool is_text = value.is(JsonValue::Kind::String) || value.is(JsonValue::Kind::Number);
-      const std::string why = is_text ? fault(key, value.text) : "a text is wanted";
+      const std::string why = is_text ? fault(key, value.text) : "must be a text";
       if (why.empty()) {
         to.emplace_back(key, value.text);
       } else {

@@ -151,8 +151,8 @@ auto plain_topic(std::string_view name) {
                                     text.find_first_of("{}") == text.npos &&
                                     TopicTemplate::parse(text).has_value();
               if (is_topic) return std::string(text);
-              return invalid_field(
-                  fmt::format("{} is a topic without names, such as plant/fitgauge/status", name));
+              return invalid_field(fmt::format(
+                  "{} must be a topic without {{names}}, such as plant/fitgauge/status", name));
             }};
 }
 

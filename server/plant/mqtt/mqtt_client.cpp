@@ -180,7 +180,8 @@ int MqttClient::Loop::connect() {
       done = mosquitto_tls_set(handle, broker.ca_file.c_str(), nullptr, nullptr, nullptr, nullptr);
     }
     if (done != MOSQ_ERR_SUCCESS) {
-      refusal_ = fmt::format("the file of authorities {} cannot be read", broker.ca_file.string());
+      refusal_ =
+          fmt::format("the file {} with CA certificates cannot be read", broker.ca_file.string());
       return done;
     }
   }
@@ -311,7 +312,7 @@ MqttClient::MqttClient(Broker broker, std::optional<MqttMessage> will, std::func
 }
 
 /// Also from within libmosquitto, through which no exception may go.
-void MqttClient::wake() const noexcept { guarded("who is told of an MQTT connection", wake_); }
+void MqttClient::wake() const noexcept { guarded("a listener of an MQTT connection", wake_); }
 
 /// The whole life of the thread.
 void MqttClient::run(const std::optional<MqttMessage>& will, const std::stop_token& stop) {

@@ -170,8 +170,8 @@ Result<Broker> read_broker(std::string_view text) {
   Broker broker;
   broker.tls = text.starts_with(kTls);
   const auto refused = invalid_field(
-      "a broker is mqtts://host or mqtt://host, with a port behind it where it is not 8883 or "
-      "1883; its user and password have members of their own");
+      "broker must be mqtts://host or mqtt://host, with :port if it is not 8883 or 1883; user and "
+      "password are separate members");
   if (!broker.tls && !text.starts_with(kPlain)) return refused;
   std::string address(text.substr(broker.tls ? kTls.size() : kPlain.size()));
   if (address.ends_with('/')) address.pop_back();

@@ -109,8 +109,7 @@ void broker_members(V& v, Broker& broker) {
       fields.report(ErrorCode::FieldMissing, "user", "password needs user");
     }
     if (fields.has("ca_file") && !broker.tls) {
-      fields.report(ErrorCode::FieldInvalid, "ca_file",
-                    "authorities vouch for a broker at mqtts:// alone");
+      fields.report(ErrorCode::FieldInvalid, "ca_file", "ca_file needs a broker at mqtts://");
     }
   });
 }

@@ -157,7 +157,7 @@ Result<Selection> select(std::string_view path) {
     const auto steps = PathReader(trim(rest.substr(0, bar))).read();
     if (!steps) {
       return Error{ErrorCode::QueryInvalid,
-                   fmt::format("path takes XPath such as //DataItem[@type=\"PART_ID\"], not '{}'",
+                   fmt::format("path must be XPath such as //DataItem[@type=\"PART_ID\"]; got '{}'",
                                first_characters(path, 100)),
                    "path"};
     }

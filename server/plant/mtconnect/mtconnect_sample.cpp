@@ -233,7 +233,8 @@ void sample_mtconnect(const Services& services, const OpenStreams& open,
   }
   if (sample.backwards) {
     return responder.fail({ErrorCode::QueryInvalid,
-                           "a stream must run forwards: remove the minus, or interval", "count"});
+                           "count must be above 0 with interval: remove the minus, or interval",
+                           "count"});
   }
   if (++*open > kMostMtconnectStreams) {
     --*open;

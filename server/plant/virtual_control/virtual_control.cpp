@@ -93,7 +93,7 @@ Result<std::unique_ptr<VirtualControl>> VirtualControl::start(VirtualControlOpti
                                                               app::RunService& runs) {
   const ControlModel* const model = find_model(options.model);
   if (model == nullptr) {
-    return Error{ErrorCode::ConfigInvalid, "there is no control model '" + options.model + "'"};
+    return Error{ErrorCode::ConfigInvalid, "unknown control model '" + options.model + "'"};
   }
   if (const auto brought = bring_files(files, *model, options.setup); !brought) {
     return brought.error();

@@ -39,7 +39,7 @@ std::string called(DocumentKind kind, const std::string& name) {
 }
 
 Error unknown_document(DocumentKind kind, const std::string& name) {
-  return {facts_of(kind).unknown, "there is no " + called(kind, name)};
+  return {facts_of(kind).unknown, fmt::format("{} not found: '{}'", facts_of(kind).noun, name)};
 }
 
 /// Whether the document may be changed. @errors PreconditionFailed

@@ -11,7 +11,7 @@ namespace fitgauge::app {
 namespace {
 
 Error unknown(const interpreter::ControlPath& path) {
-  return {ErrorCode::FileUnknown, "there is no file " + path.text() + " on the control's disk"};
+  return {ErrorCode::FileUnknown, "file not found: " + path.text()};
 }
 
 Error changed(const interpreter::ControlPath& path) {

@@ -76,14 +76,14 @@ Result<void> read_heading(const JsonValue& json, app::ForwardedBatch& batch) {
     batch.base = {.origin = text_of(*base, "origin"), .size = size_of(*base)};
     if (batch.base.size < 1 || batch.base.size >= batch.from) {
       return Error{ErrorCode::RequestInvalid,
-                   "base takes the origin below a branch and how many of its rows there are, "
-                   "which are fewer than the place of the first record"};
+                   "base must have an origin and its number of rows, which must be less than the "
+                   "place of the first record"};
     }
   }
   if (const JsonValue* notes = json.find("hand_overs")) {
     if (notes->items.size() > kMostHandOvers) {
       return Error{ErrorCode::RequestInvalid,
-                   fmt::format("hand_overs takes at most {} checkpoints", kMostHandOvers)};
+                   fmt::format("hand_overs must have at most {} checkpoints", kMostHandOvers)};
     }
     for (const JsonValue& note : notes->items) batch.hand_overs.push_back(note.text);
   }
@@ -114,7 +114,7 @@ Result<store::IdempotencyStore::Forwarded> read_answer(const JsonValue& json) {
                         kept.answer.status >= 200 && kept.answer.status <= 299 &&
                         (!expires || expires_at.has_value());
   if (readable) return kept;
-  return Error{ErrorCode::LogRecordInvalid, "an answer of the batch cannot be read"};
+  return Error{ErrorCode::LogRecordInvalid, "a response in the batch cannot be read"};
 }
 
 Result<void> read_line(std::string_view line, bool is_first, ReadBatch& read) {
@@ -132,7 +132,7 @@ Result<void> read_line(std::string_view line, bool is_first, ReadBatch& read) {
     auto note = read_whole<app::Note>(*noted);
     if (!note) return note.error();
     if (!note->says_something()) {
-      return Error{ErrorCode::LogRecordInvalid, "a note of the batch says nothing"};
+      return Error{ErrorCode::LogRecordInvalid, "a note of the batch is empty"};
     }
     read.batch.notes.push_back(*std::move(note));
     return {};
@@ -141,9 +141,10 @@ Result<void> read_line(std::string_view line, bool is_first, ReadBatch& read) {
   if (!measurement) return measurement.error();
   if (read.batch.rows.size() == app::LogIntake::kMostRows || !read.batch.answers.empty() ||
       !read.batch.notes.empty()) {
-    return Error{ErrorCode::RequestInvalid,
-                 fmt::format("a batch has at most {} records, and answers and notes behind them",
-                             app::LogIntake::kMostRows)};
+    return Error{
+        ErrorCode::RequestInvalid,
+        fmt::format("a batch must have at most {} records, and responses and notes only after them",
+                    app::LogIntake::kMostRows)};
   }
   read.batch.rows.push_back({.measurement = *std::move(measurement), .record = line});
   return {};

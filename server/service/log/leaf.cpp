@@ -13,26 +13,27 @@ std::string_view refusal_of(const Measurement& m) {
         m.scale_expansion_uncertainty, m.added_uncertainty, std::optional(u.count())}) {
     if (uncertainty.value_or(0) < 0) return "has an uncertainty below 0";
   }
-  if (m.added_uncertainty && !m.corrected) return "has an uncertainty of no correction";
+  if (m.added_uncertainty && !m.corrected)
+    return "has the uncertainty of a correction that it lacks";
   if (m.conformance && (m.conformance->probability < 0 || m.conformance->guard_band < 0 ||
                         m.conformance->probability > 1'000'000'000)) {
-    return "has a probability that is none";
+    return "has a probability out of range";
   }
   if (!m.cycle && m.measured <= Length() && !(m.quantity && gauging::is_signed(*m.quantity))) {
     return "has no size";
   }
-  if (m.deviations.upper < m.deviations.lower) return "has its limits the wrong way round";
+  if (m.deviations.upper < m.deviations.lower) return "has its upper limit below its lower limit";
   const bool is_of_class = m.basis != LimitsBasis::Explicit && m.is_judged();
   if (is_of_class != m.class_name.has_value() || is_of_class == m.table_revision.empty()) {
-    return "says two things of where its limits are from";
+    return "has two sources of its limits";
   }
   if (m.correction_of.has_value() != m.correction_reason.has_value()) {
-    return "is a correction by half";
+    return "is a correction without its measurement or reason";
   }
   if (m.conformance.has_value() != (m.rule.kind() == gauging::DecisionRule::Kind::Conformance)) {
     return "has figures of another rule";
   }
-  if (!m.is_judged() && m.standard_uncertainty) return "has an uncertainty of no limits";
+  if (!m.is_judged() && m.standard_uncertainty) return "has an uncertainty without limits";
   if (m.rule.kind() == gauging::DecisionRule::Kind::GuardBand && !m.coverage_factor) {
     return "has no coverage factor";
   }
@@ -64,7 +65,7 @@ std::string_view finding_in(const Measurement& measurement, std::string_view tex
   std::string written;
   append_record(written, measurement);
   if (written == text) return "";
-  return "is a record that this version does not read whole: update the centre before its stations";
+  return "has members that this version does not know: update the centre before its stations";
 }
 
 }  // namespace fitgauge::app

@@ -15,24 +15,24 @@ constexpr std::int64_t kChangesAtATime = 1000;
 
 }  // namespace
 
-std::string altered_finding() { return "was altered: its record no longer gives its leaf"; }
+std::string altered_finding() { return "was altered: it does not match its hash in the log"; }
 
 void LogCheck::expect(const std::string& place, std::string_view note) {
   const auto checkpoint = tlog::open_checkpoint(note, facts_.keys);
   if (!checkpoint) {
     findings_.push_back(
-        fmt::format("{} is no checkpoint of this log: {}", place, checkpoint.error().message));
+        fmt::format("{} is not a checkpoint of this log: {}", place, checkpoint.error().message));
     return;
   }
   const auto former = facts_.former.find(checkpoint->origin);
   const bool is_former = former != facts_.former.end();
   if (!is_former && checkpoint->origin != facts_.name) {
     findings_.push_back(
-        fmt::format("{} is of the log {}, not of {}", place, checkpoint->origin, facts_.name));
+        fmt::format("{} belongs to the log {}, not to {}", place, checkpoint->origin, facts_.name));
   } else if (is_former && checkpoint->size > former->second) {
     findings_.push_back(fmt::format(
-        "{} has signed {} {} of {}, of which {} went on into {}: an older copy was put back", place,
-        checkpoint->size, facts_.leaves, checkpoint->origin, former->second, facts_.name));
+        "{} has signed {} {} of {}, but only {} of them continue in {}: an older copy was restored",
+        place, checkpoint->size, facts_.leaves, checkpoint->origin, former->second, facts_.name));
   } else if (checkpoint->size == 0) {
     empty_.push_back(place);  // every log begins so
   } else {
@@ -52,7 +52,7 @@ std::optional<std::string> LogCheck::add(const store::MeasurementRow& row) {
     whole_ = false;
     // Where its place is its id, the gap before it is named by that.
     if (row.origin || row.seq) {
-      return fmt::format("stands at {} in the log {}, where {} comes next", row.place_in_log(),
+      return fmt::format("is at {} in the log {}, but {} comes next", row.place_in_log(),
                          facts_.name, expected);
     }
   }
@@ -67,7 +67,7 @@ bool LogCheck::add_changes(store::Database& database) {
     const auto count = static_cast<std::int64_t>(page.changes.size());
     const auto leaves = LogReader(stores, names_, LogReader::kChanges).leaves(after, count);
     if (leaves.size() != page.changes.size()) {
-      return Error{ErrorCode::StorageCorrupt, fmt::format("changes behind {} are missing", after)};
+      return Error{ErrorCode::StorageCorrupt, fmt::format("changes after {} are missing", after)};
     }
     for (const store::Change& change : page.changes) {
       const tlog::Hash leaf = tlog::leaf_hash(change_entry(change));
@@ -92,8 +92,8 @@ void LogCheck::append(const tlog::Hash& leaf, std::int64_t id) {
   const auto [first, last] = expected_.equal_range(frontier_.size());
   for (auto at = first; at != last; ++at) {
     if (at->second.checkpoint.root == frontier_.root()) continue;
-    findings_.push_back(fmt::format("{} up to {} are not those that {} has signed", facts_.leaves,
-                                    id, at->second.place));
+    findings_.push_back(fmt::format("{} up to {} differ from the ones that {} has signed",
+                                    facts_.leaves, id, at->second.place));
   }
 }
 
@@ -104,7 +104,7 @@ void LogCheck::compare_nodes(unsigned completed) {
     if (((node.index + 1) << level) > static_cast<std::uint64_t>(facts_.size)) continue;
     const auto kept = kept_(node);
     if (kept && *kept == frontier_.completed(level)) continue;
-    findings_.push_back(fmt::format("measurements {} to {} are not those that the log has hashed",
+    findings_.push_back(fmt::format("measurements {} to {} do not match the hashes of the log",
                                     (node.index << level) + 1, frontier_.size()));
   }
 }
@@ -113,13 +113,15 @@ std::vector<std::string> LogCheck::finish() {
   if (!whole_) return std::move(findings_);  // the rows that are missing have been named
   const std::uint64_t size = frontier_.size();
   if (size < static_cast<std::uint64_t>(facts_.size)) {
-    findings_.push_back(fmt::format("the log has {} {}, {} are there: the newest were cut off",
-                                    facts_.size, facts_.leaves, size));
+    findings_.push_back(
+        fmt::format("the log has {} {}, but only {} are stored: the newest are missing",
+                    facts_.size, facts_.leaves, size));
   }
   for (auto at = expected_.upper_bound(size); at != expected_.end(); ++at) {
-    findings_.push_back(fmt::format(
-        "{} has signed {} {}, {} are there: the newest were cut off, or an older copy was put back",
-        at->second.place, at->first, facts_.leaves, size));
+    findings_.push_back(
+        fmt::format("{} has signed {} {}, but only {} are stored: the newest are missing, or an "
+                    "older copy was restored",
+                    at->second.place, at->first, facts_.leaves, size));
   }
   return std::move(findings_);
 }
@@ -133,7 +135,7 @@ std::string LogCheck::head_text() {
                                  tlog::to_base64(frontier_.root()));
   if (frontier_.size() == 0) return text;
   for (const std::string& place : empty_) {
-    text += fmt::format("\n{} covers 0 of them: it says nothing of any", place);
+    text += fmt::format("\n{} covers 0 of them: it proves nothing", place);
   }
   return text;
 }

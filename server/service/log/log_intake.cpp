@@ -64,8 +64,8 @@ struct LogIntake::Judged {
 Result<LogIntake::Answer> LogIntake::take(const ForwardedBatch& batch) {
   if (!is_origin_digits(batch.origin) || batch.from < 1 || batch.rows.size() > kMostRows) {
     return Error{ErrorCode::RequestInvalid,
-                 fmt::format("an origin has {} hexadecimal digits, a place counts from 1, and a "
-                             "batch has at most {} rows",
+                 fmt::format("an origin must have {} hexadecimal digits, a place must be 1 or "
+                             "more, and a batch must have at most {} rows",
                              kDigitsOfOrigin, kMostRows)};
   }
   auto known = read(batch);
@@ -148,7 +148,7 @@ Result<void> LogIntake::read_base(const store::Stores& stores, const ForwardedBa
     const auto stored = stores.origins.base(origin->number);
     if (!stored || stored->origin != known.base->origin || stored->size != batch.base.size) {
       return Error{ErrorCode::RequestInvalid,
-                   fmt::format("{} is no branch of {} behind {} rows here", batch.origin,
+                   fmt::format("{} is not a branch of {} after {} rows", batch.origin,
                                batch.base.origin, batch.base.size)};
     }
   }
@@ -166,15 +166,14 @@ Result<void> LogIntake::trust(const ForwardedBatch& batch, Known& known) const {
   const auto key = tlog::VerifierKey::parse(batch.key);
   if (!key) return key.error();
   if (origins_.number(batch.origin, 0) == 0) {
-    return Error{
-        ErrorCode::LogForked,
-        fmt::format("{} is the log of this centre itself: one of the two folders is a copy "
-                    "of the other. Give the station a folder of its own",
-                    key->name())};
+    return Error{ErrorCode::LogForked,
+                 fmt::format("{} is the log of this centre itself: one of the two folders is a "
+                             "copy of the other. Start the station with an empty folder",
+                             key->name())};
   }
   if (!is_name_of(key->name(), batch.origin)) {
     return Error{ErrorCode::LogKeyUnknown,
-                 fmt::format("{} is no key of the origin {}", key->name(), batch.origin)};
+                 fmt::format("{} is not a key of the origin {}", key->name(), batch.origin)};
   }
   const auto add = [&known](const tlog::VerifierKey& next) {
     known.keys.push_back(next);
@@ -197,8 +196,7 @@ Result<void> LogIntake::trust(const ForwardedBatch& batch, Known& known) const {
   }
   if (is_known(*key)) return {};
   return Error{ErrorCode::LogKeyUnknown,
-               fmt::format("{} has another key than the one that was seen first, and no checkpoint "
-                           "signed by both hands over to it: {}",
+               fmt::format("{} has a new key without a checkpoint that both keys signed: {}",
                            key->name(), batch.key)};
 }
 
@@ -210,7 +208,7 @@ Result<LogIntake::Judged> LogIntake::judge_tree(const ForwardedBatch& batch,
   const std::uint64_t end = known.before.size() + batch.rows.size();
   if (checkpoint->origin != known.keys.front().name() || checkpoint->size != end) {
     return Error{ErrorCode::RequestInvalid,
-                 fmt::format("the checkpoint is of {} rows of {}, the batch ends at {} of {}",
+                 fmt::format("the checkpoint covers {} rows of {}, but the batch ends at {} of {}",
                              checkpoint->size, checkpoint->origin, end, known.keys.front().name())};
   }
   Judged judged;
@@ -239,11 +237,10 @@ Result<LogIntake::Judged> LogIntake::judge_tree(const ForwardedBatch& batch,
     return judged;
   }
   if (judged.root != checkpoint->root) {
-    return Error{
-        ErrorCode::LogRootMismatch,
-        fmt::format("the rows do not give the root that {} has signed for {} of them: they "
-                    "were altered on the way, or follow others than those that are here",
-                    checkpoint->origin, checkpoint->size)};
+    return Error{ErrorCode::LogRootMismatch,
+                 fmt::format("the rows do not match the root that {} has signed for {} rows: they "
+                             "were altered, or earlier rows differ here",
+                             checkpoint->origin, checkpoint->size)};
   }
   if (!fits) judged.outcome = Outcome::Forked;
   if (fits && known.before.size() != known.head.size) judged.outcome = Outcome::Elsewhere;
@@ -257,7 +254,7 @@ Result<void> LogIntake::check_rows(const ForwardedBatch& batch) const {
     const Measurement& m = batch.rows[i].measurement;
     if (m.origin != batch.origin) return invalid(i, "has the id of another folder");
     if (m.id <= before || m.id < batch.from + static_cast<std::int64_t>(i)) {
-      return invalid(i, "has an id that does not follow the one before");
+      return invalid(i, "has an id that does not follow the previous id");
     }
     before = m.id;
     if (m.corrected_elsewhere &&
@@ -390,8 +387,8 @@ void LogIntake::tell_branch(const ForwardedBatch& batch, const Known& known) con
       known.before.size() != static_cast<std::uint64_t>(known.base->size))
     return;
   tell_("log_branched",
-        fmt::format("{} goes on behind {} measurements of {}: an older copy of that folder was put "
-                    "back, or may have been. What {} has here beyond them stays",
+        fmt::format("{} continues after {} measurements of {}: an older copy of that folder may "
+                    "have been restored. Later measurements of {} stay stored here",
                     known.keys.front().name(), known.base->size, batch.base.origin,
                     batch.base.origin));
 }
@@ -402,11 +399,10 @@ void LogIntake::fork(const ForwardedBatch& batch, const Known& known) {
     return stores.origins.add_fork(known.number, batch.checkpoint, clock_.now().nanoseconds);
   });
   if (!is_new || !*is_new) return;
-  tell_("log_forked",
-        fmt::format("{} has two histories: its folder was copied and started twice, or an older "
-                    "copy was put back. The one that came first goes on; the other stays where it "
-                    "is, and its checkpoint is kept here",
-                    known.keys.front().name()));
+  tell_("log_forked", fmt::format("{} has two histories: its folder was copied and started twice, "
+                                  "or an older copy was restored. The first history continues; the "
+                                  "other stays at its station, and its checkpoint is stored here",
+                                  known.keys.front().name()));
 }
 
 }  // namespace fitgauge::app

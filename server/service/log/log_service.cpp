@@ -91,8 +91,8 @@ void LogService::committed() {
 void LogService::take_names(const store::Stores& stores) {
   if (digits_of_origin(stores.log.state().origin) != origin()) {
     throw store::StorageFailure({ErrorCode::StorageUnavailable,
-                                 "an older copy of the database was put back, and another daemon "
-                                 "has begun a branch: start this daemon again"});
+                                 "an older copy of the database was restored, and another service "
+                                 "has begun a branch: restart this service"});
   }
   for (const auto& origin : stores.origins.list()) {
     origins_.remember(origin.number, origin.digits);

@@ -127,10 +127,9 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
     });
     // Of daemons that share a database each has a key of its own.
     if (was_there && !options_.shares) {
-      tell("log_key_lost",
-           fmt::format("{} is not there: a new key signs from now on, and nothing but a kept "
-                       "checkpoint joins it to the old one",
-                       kLogKeyFile));
+      tell("log_key_lost", fmt::format("{} is missing: a new key signs from now on, and only a "
+                                       "stored checkpoint connects it to the old key",
+                                       kLogKeyFile));
     }
   }
   signer_ = histories_.back().signer = signers_.front();
@@ -165,7 +164,7 @@ void LogService::set_aside(std::string_view name, std::string_view why) {
   std::filesystem::rename(options_.directory / name, options_.directory / aside, failure);
   tell("log_file_set_aside",
        failure ? fmt::format("{} is {}, and cannot be renamed: {}", name, why, failure.message())
-               : fmt::format("{} is {}: it is called {} now", name, why, aside));
+               : fmt::format("{} is {}: it was renamed to {}", name, why, aside));
 }
 
 /// The finding of a tree's checkpoint in the folder against the database, which has so many leaves
@@ -175,7 +174,7 @@ std::optional<std::string> LogService::told_by(const TreeNames& tree, std::int64
   const auto note = read_small_file(options_.directory / tree.file);
   if (!note || !*note || (*note)->empty()) return std::nullopt;
   if (!tlog::parse_checkpoint(**note)) {  // cut by a power failure, say
-    set_aside(tree.file, "no checkpoint");
+    set_aside(tree.file, "not a checkpoint");
     return std::nullopt;
   }
   const auto kept = tlog::open_checkpoint(**note, tree.keys(loaded.keys));
@@ -207,13 +206,13 @@ std::optional<std::string> LogService::why_to_branch(const Loaded& loaded) {
   if (loaded.is_copy) return "the database is a copy that `backup` made";
   if (!options_.ask_centre) return std::nullopt;
   const auto there = options_.ask_centre(digits_of_origin(loaded.state.origin));
-  if (!there) return "the centre does not say whether it has more of this log";
+  if (!there) return "the centre did not return its size of this log";
   if (there->rows > loaded.rows) {
     return fmt::format("the centre has {} measurements of this log, and the database has {}",
                        there->rows, loaded.rows);
   }
   if (!loaded.centre || *loaded.centre == there->centre) return std::nullopt;
-  return fmt::format("the centre has begun {} since it was {}, and may have lost measurements",
+  return fmt::format("the centre has begun {} after {}, and may have lost measurements",
                      there->centre, *loaded.centre);
 }
 
@@ -233,10 +232,9 @@ Result<void> LogService::branch(const Loaded& loaded, const std::string& why) {
   });
   if (!begun) return begun.error();
   if (*begun) {
-    tell("log_branched",
-         fmt::format("{} goes on as {} behind {} measurements, which keep their ids; those from "
-                     "then on end with {}: {}",
-                     before, name, loaded.rows, digits_of_origin(origin), why));
+    tell("log_branched", fmt::format("{} continues as {} after {} measurements, which keep their "
+                                     "ids; later ids end with {}: {}",
+                                     before, name, loaded.rows, digits_of_origin(origin), why));
   }
   return {};
 }

@@ -175,7 +175,7 @@ Result<std::unique_ptr<ReadRevisions>> read_revisions(std::string_view body) {
   const JsonValue* revisions = json->find("revisions");
   if (!app::is_origin_digits(read->page.origin) || read->page.position.empty() ||
       revisions == nullptr) {
-    return Error{ErrorCode::RequestInvalid, "this is no answer of a centre"};
+    return Error{ErrorCode::RequestInvalid, "the response is not from a centre"};
   }
   for (const JsonValue& revision : revisions->items) {
     if (const auto done = read_revision(revision, *read); !done) return done.error();

@@ -73,7 +73,7 @@ Result<iso286::TableData> from_store(const store::TableContent& content) {
   for (const store::TableCell& cell : content.cells) {
     const auto table = iso286::table_from_name(cell.table);
     if (!table) {
-      return Error{ErrorCode::TablesInconsistent, "there is no table " + cell.table, cell.table};
+      return Error{ErrorCode::TablesInconsistent, "unknown table " + cell.table, cell.table};
     }
     data.cells.push_back({.table = *table,
                           .range = range_of(cell.over_nm, cell.up_to_nm),
@@ -84,7 +84,7 @@ Result<iso286::TableData> from_store(const store::TableContent& content) {
   for (const store::CustomCell& cell : content.custom) {
     const auto feature = iso286::feature_from_word(cell.table);
     if (!feature) {
-      return Error{ErrorCode::TablesInconsistent, "there is no table " + cell.table, cell.table};
+      return Error{ErrorCode::TablesInconsistent, "unknown table " + cell.table, cell.table};
     }
     columns[{*feature, cell.column}].push_back(
         {.range = range_of(cell.over_nm, cell.up_to_nm),

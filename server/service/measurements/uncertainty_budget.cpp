@@ -203,8 +203,8 @@ void apply_model(BudgetOrder& order, FieldReader& fields) {
     report(c.sensitivity.has_value(), ErrorCode::FieldConflict, "sensitivity",
            "sensitivity follows from the model: remove it");
     report(!metrology::can_be_quantity(c.name), ErrorCode::FieldInvalid, "name",
-           "a name in a model has 1 to 100 letters a to z, digits and _, begins with no digit, and "
-           "is no function and not pi");
+           "a name in a model must have 1 to 100 letters a to z, digits and _, begin with a letter "
+           "or _, and not be a function or pi");
   }
   if (!order.model || !fields.errors().empty()) return;
   UncertaintyBudget& made = order.made;

@@ -80,8 +80,8 @@ struct RevisionIntake::Job {
     ++outcome.taken;
     if (taken->replaced_own && !(before && before->digest == taken->replaced_digest)) {
       told.emplace_back("revision_replaced",
-                        fmt::format("the centre's tables {} take the place of {}, which has "
-                                    "columns of this folder: it is still read by its name",
+                        fmt::format("the centre's tables {} replace {}, which has custom classes "
+                                    "of this folder and stays readable by its name",
                                     revision.id, taken->replaced_id));
     }
     received = *std::move(taken);
@@ -104,10 +104,10 @@ struct RevisionIntake::Job {
     }
     if (is_own) {
       const std::string kept = keep_own(stores, *current, now);
-      told.emplace_back("revision_replaced",
-                        fmt::format("the centre's {} '{}' takes the place of one of this folder, "
-                                    "which is called '{}' now",
-                                    word(revision.kind), revision.name, kept));
+      told.emplace_back(
+          "revision_replaced",
+          fmt::format("the centre's {} '{}' replaces one of this folder, which was renamed to '{}'",
+                      word(revision.kind), revision.name, kept));
     }
     if (!current || current->text != revision.text) {
       put_document(stores, {.kind = kind,
@@ -135,8 +135,8 @@ struct RevisionIntake::Job {
             revision.name, revision.role, revision.token_hash, now,
             revision.expires_at ? std::optional(revision.expires_at->nanoseconds) : std::nullopt)) {
       return refuse(
-          fmt::format("the centre's key '{}': this folder has a valid key of its own of "
-                      "that name, or has revoked this one",
+          fmt::format("the centre's key '{}': this folder has another valid key of that name, or "
+                      "has revoked this key",
                       revision.name));
     }
     log_key(stores, revision.name, now, true);
@@ -161,7 +161,7 @@ struct RevisionIntake::Job {
                         : *of == 0 ? m.correction_of
                                    : stores.measurements.find_forwarded(*of, *m.correction_of);
     if (!target || !stores.measurements.find(*target, [](const auto&) {})) {
-      return refuse(fmt::format("the centre's correction {}: what it corrects is not here",
+      return refuse(fmt::format("the centre's correction {}: its measurement is not stored here",
                                 measurement_id_text(m.id, m.origin)));
     }
     store::MeasurementRow row = to_store(m);

@@ -106,7 +106,7 @@ Result<std::optional<std::int64_t>> MachineTable::number_of(std::size_t row) con
     if (behind == end) return std::optional(number);
     if (*behind == '.') return std::optional<std::int64_t>();
   }
-  return malformed(fmt::format("'{}' is not the number of a row", text));
+  return malformed(fmt::format("row number must be a whole number; got '{}'", text));
 }
 
 std::string_view MachineTableRow::text(std::string_view column) const {

@@ -59,7 +59,7 @@ Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlP
                         kTableExtensions.end();
   if (!is_mask && !is_table) return interpreter::check(path, disk, programs, allowance);
   const auto file = disk.find(path);
-  if (!file) return Error{ErrorCode::ProgramUnknown, "there is no file " + path.text()};
+  if (!file) return Error{ErrorCode::ProgramUnknown, "file not found: " + path.text()};
   if (is_mask) return klartext::parse_mask(*file->bytes, file->path.text()).diagnostics;
   return check_table(*file, allowance);
 }
@@ -69,7 +69,7 @@ Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlP
 Result<std::string> format_file(const interpreter::ControlPath& path,
                                 const interpreter::ControlDisk& disk) {
   const auto file = disk.find(path);
-  if (!file) return Error{ErrorCode::ProgramUnknown, "there is no file " + path.text()};
+  if (!file) return Error{ErrorCode::ProgramUnknown, "file not found: " + path.text()};
   const auto parsed = iso::parse_program(*file->bytes, file->path.text());
   if (const klartext::Diagnostic* found = parsed.not_printed()) {
     return Error{ErrorCode::ProgramInvalid, "line " + std::to_string(found->range.begin.line) +

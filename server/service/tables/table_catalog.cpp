@@ -193,7 +193,7 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
       [this, column = std::move(column), edit = std::move(edit), condition = std::move(condition),
        caller = std::move(caller)](store::Stores& stores) -> Result<Changed> {
         if (has_centre_ && stores.revisions.received(store::RevisionKind::Tables, "")) {
-          return centre_decides("the tables with their own columns");
+          return centre_decides("the tables with their custom tolerance classes");
         }
         const auto latest = stores.tables.load_latest().value();
         const TableState state = audit(latest);
@@ -202,8 +202,8 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
         auto before = column_text(data.custom_columns, column);
         const bool holds = condition(latest.revision.id, before.has_value());
         const Error changed{ErrorCode::PreconditionFailed,
-                            "the tables have changed since you read them, or the class is there or "
-                            "not against `*`: read them again, and repeat the change"};
+                            "the tables do not match If-Match or If-None-Match: read them again, "
+                            "and repeat the change"};
         const auto created = edit(data.custom_columns);
         if (!created) return created.error();
         auto after = column_text(data.custom_columns, column);
@@ -270,8 +270,8 @@ Result<TableCatalog::Received> TableCatalog::receive(
   const Digest digest = digest_of(content);
   if (!id.ends_with("-" + store::shown_digits(digest))) {
     return Error{ErrorCode::TablesInconsistent,
-                 "with its columns the tables here are not those that the centre calls so: its "
-                 "version has other tables of the standard"};
+                 "the tables differ from the centre's tables of this revision: use the centre's "
+                 "version of fitgauge"};
   }
   const auto imported = stores.tables.import({.content = std::move(content),
                                               .source = "centre",

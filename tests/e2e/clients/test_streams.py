@@ -86,7 +86,7 @@ class Serial(ClientTest):
 
     def test_what_cannot_work_is_refused(self):
         self.assertIn("must be a regular expression", self.assert_fails(4, "gauge", "25H7", "--serial", "/dev/null", "--pattern", "("))
-        self.assertIn("is no serial port", self.assert_fails(5, "gauge", "25H7", "--serial", "/dev/null"))
+        self.assertIn("is not a serial port", self.assert_fails(5, "gauge", "25H7", "--serial", "/dev/null"))
         self.assertIn("got 110", self.assert_fails(4, "gauge", "25H7", "--serial", "/dev/null", "--baud", "110"))
         self.assertIn("cannot be opened", self.assert_fails(5, "gauge", "25H7", "--serial", "/dev/none"))
         self.assert_fails(4, "gauge", "25H7", "25.013", "--serial", "/dev/null")

@@ -9,6 +9,10 @@ from support.daemon import FITGAUGED, ROOT
 
 BANNED = re.compile(r"\b(any more|no longer|whoever|whatever|(?:is|are) told|rejected requests?|daemons?|the one before|"
                     r"inspection certificates?|own columns?|columns? of the shop)\b", re.IGNORECASE)
+# Help: half sentences. Errors: idioms in place of what is wrong.
+RIDDLES = re.compile(r"  Of .*|, else \d+|when absent")
+SPOKEN = re.compile(r"^an? \w+ takes|is no (?:number|length|date|key)\b|stands? (?:twice|before|behind)|goes on behind|put back|"
+                    r"does not (?:say|tell)|says '|which holds$|of its own\b|the other way round")
 # The words themselves stand in the first two; the others are for developers.
 LEFT_OUT = {"STYLE.md", "glossary.md", "ARCHITECTURE.md", "api.md", "cycles.md"}
 GENERATED = {"api", "cycles"}  # folders; their texts are those of the program
@@ -17,6 +21,14 @@ GENERATED = {"api", "cycles"}  # folders; their texts are those of the program
 def found(text):
     """The banned words outside of code, which shows what a program prints."""
     return [match[0] for match in BANNED.finditer(re.sub(r"```.*?```|`[^`\n]*`", "", text, flags=re.DOTALL))]
+
+
+def literals(source):
+    """The texts of C++ string literals, neighbours joined."""
+    for match in re.finditer(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*', re.sub(r"^\s*(?://|#).*", "", source, flags=re.MULTILINE)):
+        text = re.sub(r'"\s*"', "", match[0])[1:-1]
+        if len(re.findall(r"[A-Za-z]{2,}", text)) > 2 and not re.match(r" ?(?:SELECT|SET|AND) ", text):
+            yield text
 
 
 class Words(unittest.TestCase):
@@ -31,11 +43,33 @@ class Words(unittest.TestCase):
         for name in ("server/base/error_codes.inc", *(f"clients/web/lang/{part}.js" for part in ("en", "desk_en", "plans_en", "figures_en"))):
             self.assertEqual(found((ROOT / name).read_text(encoding="utf-8")), [], name)
 
+    def help_of(self, *command):
+        """The help of a program or command, and of every command below it."""
+        text = subprocess.run([*command, "--help"], capture_output=True, text=True, check=True).stdout
+        yield command, text
+        for name in re.findall(r"^  ([a-z][a-z-]*)", text.partition("\nSubcommands:\n")[2], re.MULTILINE):
+            yield from self.help_of(*command, name)
+
     def test_help(self):
-        for program in (FITGAUGE, FITGAUGED):
-            done = subprocess.run([program, "--help"], capture_output=True, text=True, check=True)
-            self.assertEqual(found(done.stdout), [], program)
+        commands = [*self.help_of(FITGAUGE), *self.help_of(FITGAUGED)]
+        self.assertGreater(len(commands), 60)
+        for command, text in commands:
+            with self.subTest(command[1:]):
+                self.assertEqual(found(text) + RIDDLES.findall(text), [])
+
+    def test_errors(self):
+        """Texts in the sources: all string literals with three words or more, but for SQL and includes."""
+        checked = 0
+        for folder in ("server", "db", "tables", "clients/cli"):
+            for path in [*(ROOT / folder).rglob("*.[ch]pp"), *(ROOT / folder).rglob("*.inc")]:
+                for text in literals(path.read_text(encoding="utf-8")):
+                    checked += 1
+                    self.assertEqual(found(text) + SPOKEN.findall(text), [], f"{path.relative_to(ROOT)}: {text}")
+        self.assertGreater(checked, 3000)
 
     def test_a_banned_word_is_found(self):
         self.assertEqual(found("It is told. `whatever`, and no\nlonger. Any more?"), ["is told", "Any more"])
         self.assertEqual(found("A daemon answers."), ["daemon"])
+        self.assertTrue(RIDDLES.search("  --rules TEXT   Of Western Electric"))
+        self.assertEqual(list(literals('fail("a plan takes "\n  "one part");  // "no text of this"')), ["a plan takes one part"])
+        self.assertTrue(SPOKEN.search("a plan takes one part"))

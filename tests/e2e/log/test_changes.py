@@ -233,14 +233,14 @@ class Changes(DaemonTest):
             self.assertEqual(each.stop(), 0)
         for head in heads[:2]:
             self.assert_verified(daemon, "/changes: 260 changes, root ", "--checkpoint", head, status=0)
-        self.assert_verified(daemon, "is no checkpoint of this log", "--checkpoint", heads[2])
+        self.assert_verified(daemon, "is not a checkpoint of this log", "--checkpoint", heads[2])
         alter(daemon.database, "DROP TRIGGER changes_are_not_updated", "UPDATE changes SET caller = 'nobody' WHERE id = 7",
               sealed_anew("changes"))
         self.assert_verified(daemon, "change 7 was altered")
         for head in heads[:2]:
-            self.assert_verified(daemon, f"are not those that {head} has signed", "--checkpoint", head)
+            self.assert_verified(daemon, f"differ from the ones that {head} has signed", "--checkpoint", head)
         alter(daemon.database, "DROP TRIGGER changes_are_not_deleted", "DELETE FROM changes WHERE id = 100")
-        self.assert_verified(daemon, "changes behind 0 are missing")
+        self.assert_verified(daemon, "changes after 0 are missing")
 
 
 if __name__ == "__main__":

@@ -208,7 +208,7 @@ class Tampered(StorageTest):
               with_leaf.format(3, 2))
         verified = self.verify(self.kept).stdout
         self.assertNotIn("measurement 280 was", verified)
-        self.assertIn(f"measurements up to {self.ROWS} are not those that", verified)
+        self.assertIn(f"measurements up to {self.ROWS} differ from the ones that", verified)
 
     def daemon_record(self, row, statement):
         """The record of a row after an alteration, as the service shows it."""
@@ -247,9 +247,9 @@ class Tampered(StorageTest):
 
     def test_another_log_and_a_broken_checkpoint(self):
         other = self.stopped_with(2)
-        self.assert_found("is no checkpoint of this log", other.data / "fitgauge.checkpoint")
+        self.assert_found("is not a checkpoint of this log", other.data / "fitgauge.checkpoint")
         self.kept.write_text(self.kept.read_text().replace(f"\n{self.ROWS}\n", f"\n{self.ROWS - 1}\n"))
-        self.assert_found("is no checkpoint of this log", self.kept)
+        self.assert_found("is not a checkpoint of this log", self.kept)
         self.assertEqual(self.verify(self.daemon.folder / "none").returncode, 2)
         self.assertEqual(command("verify", "--data", self.daemon.folder / "none").returncode, 2)
 
@@ -261,7 +261,7 @@ class Tampered(StorageTest):
         self.assertEqual(twin.stop(), 0)
         self.assertEqual(twin.command("verify").returncode, 0)
         self.daemon = twin
-        self.assert_found("is no checkpoint of this log", self.kept)
+        self.assert_found("is not a checkpoint of this log", self.kept)
 
     def test_an_older_copy_put_back(self):
         copy = self.daemon.folder / "copy.db"

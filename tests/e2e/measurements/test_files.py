@@ -136,7 +136,7 @@ class Files(DaemonTest):
         self.daemon.measure({"designation": "25 H7", "measured_mm": 25.01})
         for form in ("xlsx", "dfq"):
             answer = self.download("format=" + form, 400)
-            self.assertIn("100001 measurements match, and a file of this format has at most 100000", answer.text)
+            self.assertIn("100001 measurements match, but a file of this format has at most 100000", answer.text)
 
     def test_of_long_records_fewer_are_held(self):
         """What is made of them is held in memory: 10,000 as long as these take 60 MB, and a QIF of them 130."""

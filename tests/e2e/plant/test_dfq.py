@@ -122,7 +122,7 @@ class Dfq(Folders):
         self.drop("bad.dfd", dfq(HEAD.replace("K0100 2", "K0100 3")))
         self.drop("bad.dfx", dfq(VALUES))
         self.wait(lambda: "bad.dfx" in self.files("failed") and "bad.dfd" in self.files("failed"))
-        self.assertIn("K0100 says 3 characteristics, and the file describes 2", self.told("bad.dfx"))
+        self.assertIn("K0100 gives 3 characteristics, but the file describes 2", self.told("bad.dfx"))
         self.assertEqual(len(daemon.stored()), 3)
 
     def test_a_wrong_file_stores_nothing_and_is_told_with_its_line(self):
@@ -130,7 +130,7 @@ class Dfq(Folders):
         whole = dfq(HEAD, VALUES)
         cases = {
             "cut": (whole[:whole.index(b"SN-2") + 3], "line 32 has no line end, so the file may be cut"),
-            "count": (dfq(HEAD.replace("K0100 2", "K0100 1"), VALUES), "line 17 is of characteristic 2, and K0100 says that there are 1"),
+            "count": (dfq(HEAD.replace("K0100 2", "K0100 1"), VALUES), "line 17 is for characteristic 2, but K0100 gives 1 characteristics"),
             "limits": (dfq(HEAD.replace("25.021", "25.02"), VALUES), "line 13 says 25.02 mm in K2111, and H7 of 25 mm is 25.021 mm"),
             "class": (dfq(HEAD.replace("K2104/1 7", "K2104/1 99"), VALUES), "line 10 says H99 in K2103 and K2104"),
             "negative": (dfq(HEAD, VALUES.replace("25.03", "-25.03")), "line 31: measured_mm"),

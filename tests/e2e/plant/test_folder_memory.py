@@ -34,13 +34,13 @@ def bad_files():
     yield "quote.csv", table('"25 H7;25;;\n', 1 << 23).encode() + b"25 H7;25;;\n" * 2_000_000, "is a quote open?"
     yield "quotes.csv", HEADER.encode() + b'25 H7;25;"""";""""\n' * 90_000 + wrong.encode(), "not a decimal number"
     yield "rows.csv", b"designation;measured_mm\n" + b"25 H7;25\n" * (SIZE // 9), "it has more than 100000 rows"
-    yield "empty.csv", b"\n" * (1 << 22), "should have the names of the columns"
+    yield "empty.csv", b"\n" * (1 << 22), "must have the column names"
     yield "line.csv", b"1" * SIZE, "begins a row of more than 1024 KiB"
     yield "nul.csv", bytes(SIZE), "designation|measured_mm|1024 KiB|UTF-16"
     yield "value.ndjson", table('{"designation":"25 H7","measured_mm":"oops"}\n', header="", row=(
         '{{"designation":"25 H7","measured_mm":25.0131,"part_id":"SN-{number:09}","comment":"{text}"}}\n')).encode(), "line 90001"
     yield "escapes.ndjson", (b'{"designation":"25 H7","measured_mm":25,"comment":"%s"}\n' % (b'\\"' * 100)) * 90_000 + b"{}\n", "line 90001"
-    yield "line.ndjson", b" " * SIZE, "holds no measurement|more than 1024 KiB"
+    yield "line.ndjson", b" " * SIZE, "must have at least one measurement|more than 1024 KiB"
     values = "".join(f"25.0131\r\nK0014/1 SN-{number:09}\r\nK0009/1 {'x' * 250}\r\n" for number in range(90_000))
     yield "value.dfq", (DFQ + values + "-25\r\n").encode(), "measured_mm"
     yield "cut.dfq", (DFQ + values + "25.0").encode(), "has no line end"

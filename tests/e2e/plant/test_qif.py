@@ -70,7 +70,7 @@ def sizes_of(path):
         for each in parent:
             item = by_id.get(text(each, "CharacteristicItemId"))
             if item is None or not item.tag.endswith("CharacteristicItem"):  # it stands in another document
-                return "measures a characteristic whose item the document lacks"
+                return "measures a characteristic without an item in the document"
             if each.tag.removeprefix(T).removesuffix("CharacteristicMeasurement") not in SIZES or text(each, "Value") is None:
                 continue
             nominal = by_id.get(text(item, "CharacteristicNominalId"))
@@ -213,9 +213,9 @@ class Qif(Folders):
             "other": ("<html/>", "is the begin of html, and no QIFDocument of QIF 3"), "qif2": (DOCUMENT.replace("xsd/qif3", "xsd/qif2"), "no QIFDocument of QIF 3"),
             "deep": ("<a>" * 100_000, ""), "no-value": (DOCUMENT.replace("<Value>7.9955</Value>", ""), "without a Value"),
             "angle": (DOCUMENT.replace("WidthCharacteristicMeasurement", "AngleCharacteristicMeasurement"), "no size that a measurement can hold"),
-            "number": (DOCUMENT.replace("7.9955", "7.99.55"), "line 28 has the value '7.99.55', which is no length"),
+            "number": (DOCUMENT.replace("7.9955", "7.99.55"), "line 28 has the value '7.99.55', which is not a length"),
             "item": (DOCUMENT.replace("<CharacteristicItemId>6<", "<CharacteristicItemId>66<"), "whose item the document lacks"),
-            "class": (class_with("<MaxValue>25.03</MaxValue>"), "whose MaxValue is 25.021 mm, and the document says 25.03 mm"),
+            "class": (class_with("<MaxValue>25.03</MaxValue>"), "whose MaxValue is 25.021 mm, but the document has 25.03 mm"),
             "unit": (DOCUMENT.replace("<Value>7", '<Value linearUnit="inch">7'), "has a value in 'inch'"),
             "units": (DOCUMENT.replace("0.001<", "0.3048<"), "names no unit that is known"),
             "time": (DOCUMENT.replace("2026-11-20T08:00:00<", "2026-03-29T02:30:00<"), "2026-03-29T02:30:00"),

@@ -55,10 +55,10 @@ CycleResult<void> begin_without_rotation(const CycleContext& context) {
       rotation.x == 0 && rotation.y == 0
           ? fmt::format("{:g}", rotation.z)
           : fmt::format("SPA{:+g} SPB{:+g} SPC{:+g}", rotation.x, rotation.y, rotation.z);
-  auto noted = context.host.note(
-      fmt::format("basic rotation of {} degrees is reset by cycle {}: its coordinates, and "
-                  "those of the blocks after it, count without",
-                  shown, context.arguments.descriptor().number));
+  auto noted =
+      context.host.note(fmt::format("basic rotation of {} degrees is reset by cycle {}: its "
+                                    "coordinates and all later coordinates count without it",
+                                    shown, context.arguments.descriptor().number));
   return noted ? reset_basic_rotation(context.machine) : noted;
 }
 

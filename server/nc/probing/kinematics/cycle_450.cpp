@@ -83,7 +83,7 @@ CycleResult<std::string> restore(const CycleContext& context, const KinematicsRe
                                  const std::string& record) {
   const auto saved = records.find(record);
   if (saved == records.end()) {
-    return nc_error(1096, fmt::format("there is no record {}", record));
+    return nc_error(1096, fmt::format("record not found: {}", record));
   }
   const std::string before = table_of(context.machine.state().kinematics);
   if (const auto set = context.machine.set_kinematics(saved->second); !set) {
@@ -104,7 +104,7 @@ std::string status(const KinematicsRecords& records) {
 CycleResult<std::string> remove(const CycleContext& context, KinematicsRecords& records,
                                 const std::string& record) {
   if (records.erase(record) == 0) {
-    return nc_error(1011, fmt::format("there is no record {}", record));
+    return nc_error(1011, fmt::format("record not found: {}", record));
   }
   if (auto kept = context.host.keep_kinematics(records); !kept) return kept.error();
   return fmt::format("<p>Deleted {}</p>\n", escape_html(record));

@@ -96,7 +96,7 @@ CycleResult<ObjectProbing> ObjectProbing::begin(const CycleContext& context) {
   if (context.arguments.number_or(1126, 0) != 0 && context.arguments.number_or(1121, 0) != 2) {
     return nc_error(1097,
                     "Q1126 without Q1121 = 2 would position the axes of a tilted plane: write "
-                    "Q1126 = 0, and PLANE behind the cycle");
+                    "Q1126 = 0, and PLANE after the cycle");
   }
   auto motion = ProbingMotion::begin(context);
   if (!motion) return motion.error();

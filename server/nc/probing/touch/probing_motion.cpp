@@ -37,8 +37,9 @@ CycleResult<ProbingMotion> ProbingMotion::begin(const CycleContext& context) {
   if (state.active_tool() == nullptr) return from_machine(make_fault(FaultKind::NoTool));
   const auto probe = state.probe_system();
   if (!probe) {
-    return from_machine(make_fault(
-        FaultKind::NotAProbe, fmt::format("tool {} is no touch probe (TP_NO)", state.tool.number)));
+    return from_machine(
+        make_fault(FaultKind::NotAProbe,
+                   fmt::format("tool {} is not a touch probe: set its TP_NO", state.tool.number)));
   }
   return ProbingMotion(context, *probe);
 }

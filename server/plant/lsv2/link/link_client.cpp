@@ -162,7 +162,7 @@ LinkResult<void> LinkClient::upload(const std::string& path, std::string_view by
   std::string wire(bytes);
   if (transfer == Transfer::Lines) {
     if (wire.find('\0') != std::string::npos) {
-      return LinkFailure(Kind::Unfit, path + ": a text has no NUL; it cannot travel as lines");
+      return LinkFailure(Kind::Unfit, path + ": a text file must not have a NUL character");
     }
     std::erase(wire, '\r');
     std::replace(wire.begin(), wire.end(), '\n', '\0');

@@ -1,4 +1,4 @@
-; run: failed line 5: Tool number not permitted: tool 5 is no touch probe (TP_NO)
+; run: failed line 5: Tool number not permitted: tool 5 is not a touch probe: set its TP_NO
 BEGIN PGM BAD MM
 TOOL DEF 5 L+100 R+6
 TOOL CALL 5 Z

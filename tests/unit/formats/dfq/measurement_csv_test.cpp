@@ -109,16 +109,16 @@ TEST_CASE("limits and units") {
        "nominal_mm=25 feature=shaft upper_um=100 characteristic=D comment=|K1001 4711| "
        "uncertainty_um=0.8 rule=guard_band"},
       {"K2101/1 25\nK2103/1 H\nK2104/1 7\nK2111/1 25.02\nK2142/1 mm\n",
-       "error: line 8 says 25.02 mm in K2111, and H7 of 25 mm is 25.021 mm: correct one"},
+       "error: line 8 has 25.02 mm in K2111, but H7 of 25 mm gives 25.021 mm: correct one of them"},
       {"K2101/1 25\nK2103/1 ZZ\nK2104/1 7\nK2142/1 mm\n",
-       "error: line 6 says ZZ7 in K2103 and K2104: there is no class ZZ7"},
+       "error: line 6 has ZZ7 in K2103 and K2104: there is no class ZZ7"},
       {"K2101/1 25\nK2103/1 H\nK2142/1 mm\n", "error: line 6 has one of K2103 and K2104"},
       {"K2101/1 25\nK2111/1 25.1\nK2113/1 0.2\nK2142/1 mm\n",
        "error: line 6 says 25.1 mm in K2111, and K2113 makes it 25.2 mm"},
       {"K2101/1 25\nK2110/1 25.2\nK2111/1 25.1\nK2142/1 mm\n",
        "error: line 7 has an upper limit that is below"},
       {"K2101/1 25\nK2111/1 many\nK2142/1 mm\n",
-       "error: line 6 says 'many' in K2111, the upper limit, which is no number"},
+       "error: line 6 has 'many' in K2111, the upper limit, which must be a number"},
       {"K2101/1 25\nK2111/1 25.1\nK2121/1 7\nK2142/1 mm\n",
        "error: line 7 says '7' in K2121: 0 is no limit"},
       {"K2101/1 25\nK2111/1 25.1\n", "error: line 3 describes characteristic 1, which has no unit"},
@@ -127,7 +127,7 @@ TEST_CASE("limits and units") {
        "1"},
       {"K2101/1 25\nK2111/1 25.1\nK2142/1 \xB0\n",
        "error: line 3 describes characteristic 1, which no measurement can hold, as its unit "
-       "\xC2\xB0 is no length"},
+       "\xC2\xB0 is not a length"},
       {"K2101/1 0\nK2111/1 0.1\nK2142/1 mm\n",
        "error: line 3 describes characteristic 1, which no measurement can hold, as its nominal "
        "value (K2101) is not above 0"},
@@ -199,7 +199,7 @@ TEST_CASE("attributes") {
                      "20.11.2026/08:00:00\n"))
             .find("error: line 9 has no value of characteristic 1") == 0);
   CHECK(rows_of(file(kH7, "25.0.1\n"))
-            .find("error: line 9 has the value '25.0.1', which is no length") == 0);
+            .find("error: line 9 has the value '25.0.1', which is not a length") == 0);
 }
 
 TEST_CASE("times") {

@@ -156,10 +156,10 @@ TEST_CASE("a wrong file names its line and a remedy") {
       {"K0100 0\r\n", "line 1 should say in K0100"},
       {"K0100 99999\r\n", "line 1 should say in K0100"},
       {"K0100 3\r\n" + kTwo.substr(9) + "1\r\n",
-       "K0100 says 3 characteristics, and the file describes 2"},
+       "K0100 gives 3 characteristics, but the file describes 2"},
       {"K0100 1\r\n" + kTwo.substr(9),
-       "line 5 is of characteristic 2, and K0100 says that there are 1"},
-      {kTwo + "K0100 3\r\n", "line 7 says K0100 3 and a line before it 2"},
+       "line 5 is for characteristic 2, but K0100 gives 1 characteristics"},
+      {kTwo + "K0100 3\r\n", "line 7 has 3 in K0100, but an earlier line has 2"},
       {kTwo + "K2002/1 Other\r\n", "line 7 says 'Other' and line 4 'Diameter'"},
       {kTwo + "1\x0F"
               "2\x0F"
@@ -176,7 +176,7 @@ TEST_CASE("a wrong file names its line and a remedy") {
       {kTwo + "K2101/x 3\r\n", "line 7 has an index behind K2101 that is no number"},
       {kTwo + "K2101/1/2 3\r\n", "line 7 has an index behind K2101 that is no number"},
       {kTwo + "K2101/9999999 3\r\n", "line 7 has an index behind K2101 that is no number"},
-      {kTwo + "K21015 3\r\n", "line 7 has no blank behind K2101"},
+      {kTwo + "K21015 3\r\n", "line 7 has no blank after K2101"},
       {kTwo + std::string("1\0\r\n", 4), "line 7 has a byte that is 0"},
       {"\xFF\xFEK", "line 1 is UTF-16: save the file as UTF-8"},
       {kTwo + "25.0", "line 7 has no line end, so the file may be cut"},

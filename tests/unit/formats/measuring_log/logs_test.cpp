@@ -97,16 +97,16 @@ TEST_CASE("what cannot be read is told with its line, and the logs beside it are
     if (reading.unread.empty()) return std::string("read");
     return std::to_string(reading.unread.front().line) + ": " + reading.unread.front().why;
   };
-  CHECK(first("PART 7\nOK\n") == "1: this is no log of a touch-probe cycle");
-  CHECK(first(with(kHole, "30-06-2005", "31-13-2005")) == "2: '31-13-2005' is no date");
-  CHECK(first(with(kHole, "Diameter: 12.0259", "Diameter: 12.x")) == "23: '12.x' is no number");
-  CHECK(first(with(kHole, "12.0259", "12.02.59")) == "23: '12.02.59' is no length");
+  CHECK(first("PART 7\nOK\n") == "1: this is not a log of a touch-probe cycle");
+  CHECK(first(with(kHole, "30-06-2005", "31-13-2005")) == "2: '31-13-2005' is not a date");
+  CHECK(first(with(kHole, "Diameter: 12.0259", "Diameter: 12.x")) == "23: '12.x' is not a number");
+  CHECK(first(with(kHole, "12.0259", "12.02.59")) == "23: '12.02.59' is not a length");
   CHECK(first(with(kHole, "Maximum dimension for hole: 12.0450\r\n", "")) ==
-        "22: 'Diameter' has limits that belong to nothing");
+        "22: 'Diameter' has limits without a value");
   CHECK(first(with(kHole, "12.0450", "11.0450")) ==
-        "23: 'Diameter' has limits that belong to nothing");
+        "23: 'Diameter' has limits without a value");
   CHECK(first(with(kHole, "Maximum dimension", "Greatest dimension")) ==
-        "17: 'Greatest dimension for hole' is no limit that is known");
+        "17: 'Greatest dimension for hole' is an unknown limit");
   const Reading beside = read_logs(with(kHole, "12.0259", "?") + std::string(kHole));
   CHECK(beside.unread.size() == 1);
   CHECK(beside.logs.size() == 1);

@@ -47,14 +47,14 @@ TEST_CASE("a result that lacks a line is told, and the next one is read") {
 
 TEST_CASE("a pattern that cannot be meant is refused with its line") {
   const auto why = [](std::string_view text) { return Pattern::parse(text).error().message; };
-  CHECK(why("") == "line 1: no lines of a result stand below ---");
+  CHECK(why("") == "line 1: lines of a result must follow ---");
   CHECK(why("---\nX {part_id}\n") == "line 1: no line below --- has {measured_mm}");
   CHECK(why("measured_mm = 5\n---\nX\n") == "line 1: no line below --- has {measured_mm}");
   CHECK(why("---\n{measured_mm}{part_id}\n") ==
-        "line 2: two fields need something printed between them");
+        "line 2: two fields need a text between them");
   CHECK(why("---\n{measured_mm\n") == "line 2: a { has no }");
-  CHECK(why("H7\n---\n{measured_mm}\n") == "line 1: above --- a line is: field = value");
+  CHECK(why("H7\n---\n{measured_mm}\n") == "line 1: a line above --- must be: field = value");
   CHECK(why("part_id = x\n---\n{measured_mm} {part_id}\n") ==
-        "line 3: the field 'part_id' comes twice");
-  CHECK(why("---\n{diameter}\n").starts_with("line 2: there is no field 'diameter'; there are "));
+        "line 3: the field 'part_id' is used twice");
+  CHECK(why("---\n{diameter}\n").starts_with("line 2: unknown field 'diameter'; use one of: "));
 }

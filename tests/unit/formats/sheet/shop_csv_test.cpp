@@ -119,7 +119,7 @@ TEST_CASE("a row that does not end is refused before it is held") {
 }
 
 TEST_CASE("what is wrong names its line") {
-  CHECK(converted("") == "error: line 1 should have the names of the columns");
+  CHECK(converted("") == "error: line 1 must have the column names");
   CHECK(converted("measured_mm;comment\n25;a\n26\n") ==
         "error: line 3 has 1 cells, and the header has 2");
   CHECK(converted("measured_mm\n\"25\n") == "error: line 2 has a quote without its end");

@@ -256,7 +256,7 @@ TEST_CASE("a file that is cut anywhere is an error with its line") {
 
 TEST_CASE("what a file may not have is an error with its line") {
   CHECK(error_of(replaced(housing(), "LENGTH_MEASURE(0.),#5", "LENGTH_MEASURE(0.),#9"))
-            .find("#139 has the unit #9, which is no length") != std::string::npos);
+            .find("#139 has the unit #9, which is not a length") != std::string::npos);
   CHECK(error_of(replaced(housing(), "#7=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#5)",
                           "#7=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#6)"))
             .starts_with("line "));

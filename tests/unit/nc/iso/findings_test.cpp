@@ -30,9 +30,9 @@ TEST_CASE("A code that is not available says what to use instead") {
 
 TEST_CASE("A finding stands at its place in the DIN/ISO text") {
   CHECK(finding("N10 G00 X+1 *\nN20 G01 X+1 X+2 *") ==
-        "3:13 word.repeated: X stands twice in this block");
+        "3:13 word.repeated: X is repeated in this block");
   CHECK(finding("N10 G421 ~\n  Q273=+1 ;A ~\n  Q273=+2 ;B *") ==
-        "4:3 cycle.parameter_repeated: this parameter stands twice in the cycle");
+        "4:3 cycle.parameter_repeated: this parameter is repeated in the cycle");
   CHECK(finding("N10 Q1 = 5 / *").starts_with("2:"));
   CHECK(finding("N10 G01 X+Q9999 *").starts_with("2:11 parameter.out_of_range"));
 }
@@ -42,15 +42,15 @@ TEST_CASE("A block says what is missing or does not belong to it") {
       finding("N10 X+5 *") ==
       "2:1 syntax.error: the block has no path function: write G00 or G01 before its coordinates");
   CHECK(finding("N10 G04 *") == "2:1 syntax.error: F is missing in this block");
-  CHECK(finding("N10 G04 F1 X+5 *") == "2:1 syntax.error: X+5 does not belong into a block of G04");
+  CHECK(finding("N10 G04 F1 X+5 *") == "2:1 syntax.error: X+5 is not allowed in a block of G04");
   CHECK(finding("N10 G04 F1 G28 X *") ==
-        "2:12 syntax.error: G28 needs a block of its own: G04 stands in this one");
+        "2:12 syntax.error: G28 must not be in the block of G04: write it into another block");
   CHECK(finding("N10 D01 Q1 P01 +5 *") == "2:1 syntax.error: P02 is missing");
   CHECK(finding("N10 D00 Q1 P01 +5 P02 +6 *") ==
-        "2:1 syntax.error: P02 does not belong into this block");
-  CHECK(finding("N10 G62 T0.1 P01 1 *") == "2:1 syntax.error: P01 does not belong into this block");
+        "2:1 syntax.error: P02 is not allowed in this block");
+  CHECK(finding("N10 G62 T0.1 P01 1 *") == "2:1 syntax.error: P01 is not allowed in this block");
   CHECK(finding("N10 D00 P01 +5 *") ==
-        "2:1 syntax.error: a Q parameter is missing behind the function");
+        "2:1 syntax.error: a Q parameter is missing after the function");
   CHECK(finding("N10 G26 R5 *") ==
         "2:1 syntax.error: G26 stands behind the block of the first contour point, which has G41 "
         "or G42");
@@ -60,10 +60,10 @@ TEST_CASE("A block says what is missing or does not belong to it") {
   CHECK(finding("N10 G05 X+5 R+3 *") ==
         "2:1 syntax.error: the arc has no direction: write G02 or G03, or G12 or G13");
   CHECK(finding("N10 T1 G17 *\nN20 G18 G40 *") ==
-        "3:1 syntax.error: the tool axis changes with the tool: write G17, G18 or G19 behind T");
+        "3:1 syntax.error: the tool axis changes with the tool: write G17, G18 or G19 after T");
   CHECK(finding("N10 G70 *") ==
         "2:5 syntax.error: G70 is not available; the unit of the program stands in its first line");
-  CHECK(finding("N10 G90 G421 Q273=+1 *") == "2:1 syntax.error: a cycle stands first in its block");
+  CHECK(finding("N10 G90 G421 Q273=+1 *") == "2:1 syntax.error: a cycle must be the first word of its block");
 }
 
 TEST_CASE("A mode that holds on over a label is named at its use") {
@@ -90,7 +90,7 @@ TEST_CASE("A program has a first and a last line") {
   CHECK(first("N10 M3 *\n%T G71 *\nN99999999 %T G71 *") ==
         "a DIN/ISO program begins with %NAME G71 *, or G70 for inch");
   CHECK(first("%T G71 *\nN99999999 %U G71 *") ==
-        "the name or unit differs from the first line, which holds");
+        "the name or unit differs from the first line, which counts");
 }
 
 TEST_CASE("A damaged program is bounded") {
@@ -109,7 +109,7 @@ TEST_CASE("A block has a bounded number of words, a program one of lines") {
   for (int i = 0; i < 1001; ++i) words += "X1 ";
   const auto block = parse_program("%T G71 *\n" + words + "\nN99 %T G71 *\n", "t.i");
   REQUIRE_FALSE(block.diagnostics.empty());
-  CHECK(block.diagnostics.front().message == "a block has at most 1000 words");
+  CHECK(block.diagnostics.front().message == "a block must have at most 1000 words");
   const auto lines = parse_program("%T G71 *\n" + std::string(klartext::kMostLines, '\n'), "t.i");
   REQUIRE(lines.diagnostics.size() == 1);
   CHECK(lines.diagnostics.front().code == klartext::DiagnosticCode::ProgramTooLarge);

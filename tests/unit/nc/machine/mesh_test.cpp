@@ -123,7 +123,7 @@ TEST_CASE("what is no STL says where") {
         "line 2: too far away");
   Triangles far = box({}, {1, 1, 1});
   far[6][1].y = std::numeric_limits<double>::quiet_NaN();
-  CHECK(refused(binary_stl(far)) == "triangle 7 has a corner without a place");
+  CHECK(refused(binary_stl(far)) == "triangle 7 has a corner that is not a point");
 }
 
 TEST_CASE("volumes are the published ones of regular bodies") {

@@ -149,7 +149,7 @@ TEST_CASE("a CC with one axis keeps the other of the CC before") {
             .back() ==
         "ARC X+37.0000 Y+0.0000 Z+0.0000 CC X+30.0000 Y+0.0000 Z+0.0000 +270.0000 F100");
   mill.moves("CC X+0 Y+0 Z+0");
-  CHECK(outcome(mill.last) == "failed line 3: CC names the two axes of a plane, not three");
+  CHECK(outcome(mill.last) == "failed line 3: CC must have the two axes of a plane");
 }
 
 TEST_CASE("CHF takes its length from both sides") {
@@ -199,14 +199,14 @@ TEST_CASE("arcs that are none are errors") {
     mill.moves(body);
     return outcome(mill.last);
   };
-  CHECK(outcome_of("C X+1 Y+1 DR+") == "failed line 3: an arc needs a centre: CC stands before it");
+  CHECK(outcome_of("C X+1 Y+1 DR+") == "failed line 3: an arc needs a centre: write CC before it");
   CHECK(outcome_of("L X+10 FMAX\nCC X+0 Y+0\nC X+0 Y+11 DR+") ==
         "failed line 5: the end of the arc lies 1.0000 mm outside its circle in the plane XY: CC "
         "names the centre and by its two axes the plane");
   CHECK(outcome_of("CR X+30 Y+0 R+10 DR+") ==
         "failed line 3: CR: no arc of radius 10 mm joins two points 30.0000 mm apart");
   CHECK(outcome_of("LP PR+5 PA+3") ==
-        "failed line 3: polar coordinates need a pole: CC stands before them");
+        "failed line 3: polar coordinates need a pole: write CC before them");
   CHECK(outcome_of("L X+10 FMAX\nRND R50\nL Y+10 FMAX") ==
         "failed line 5: Rounding radius too large: it does not fit between the two blocks");
   CHECK(outcome_of("L X+10 FMAX\nRND R5\nM8") ==

@@ -37,7 +37,7 @@ TEST_CASE("who is told of an MQTT connection and throws ends neither it nor the 
     CAPTURE(*why);
     CHECK(why->find("cannot be reached") != std::string::npos);
   }
-  CHECK(bugs_of_mqtt == "who is told of an MQTT connection: a bug of the hook\n");
+  CHECK(bugs_of_mqtt == "a listener of an MQTT connection: a bug of the hook\n");
 }
 
 /// A broker that takes one connection and says what the test wants, byte by byte (MQTT 3.1.1).
