@@ -8,20 +8,19 @@
 
 namespace fitgauge {
 
-/// Bytes that the calling thread has taken with `new` less those it has given back, since it
-/// began. The program's operators new and delete keep this count, so no container can be
-/// forgotten, and what the allocator keeps beside each piece is counted with it. Memory that
-/// another thread gives back is counted there.
+/// Bytes that the calling thread has allocated minus the bytes it has freed since it began. The
+/// program's operators new and delete count them, with the overhead of the allocator. Memory that
+/// another thread frees is counted there.
 std::int64_t thread_memory();
 
-/// Adds to the calling thread's count: `bytes` that another thread has taken and this one is to
-/// give back, or, negative, the other way round.
+/// Adds `bytes` to the count of the calling thread, for memory that another thread allocates or
+/// frees.
 void hand_over_memory(std::int64_t bytes);
 
-/// The budget of one piece of work: time of the wall clock, memory of its thread, and whether
-/// it has been called off. Every loop whose length a user chooses looks at it and leaves off once
-/// it is spent; spent stays spent, so a result computed meanwhile can be told from a whole one.
-/// Belongs to the thread that makes it; the stop may be requested by any.
+/// Budget of one piece of work: wall-clock time, memory of its thread, and a stop request. Every
+/// loop whose length a user chooses checks it and ends if it is spent. A spent budget stays spent,
+/// so an incomplete result can be recognised. Belongs to the thread that makes it; any thread may
+/// request the stop.
 class Allowance {
  public:
   enum class Spent : std::uint8_t { Nothing, Stop, Time, Memory };
@@ -44,14 +43,14 @@ class Allowance {
     OfThread& operator=(OfThread&&) = delete;  // neither copied nor moved
     ~OfThread();
   };
-  /// That of the calling thread's work; an unlimited one where it has none.
+  /// Returns the allowance of the calling thread's work; an unlimited one if it has none.
   static Allowance& of_thread();
   /// The result of an earlier check.
   Spent found() const { return spent_; }
 
-  /// Counts memory that this work keeps alive but has not taken itself: a shared program.
+  /// Counts memory that this work keeps alive but did not allocate, such as a shared program.
   void share(std::size_t bytes) { baseline_ -= static_cast<std::int64_t>(bytes); }
-  /// Runs `take` without counting what it takes: for caches that outlive the work.
+  /// Runs `take` without counting its memory: for caches that outlive the work.
   template <class Take>
   auto uncounted(const Take& take) {
     const std::int64_t before = thread_memory();

@@ -33,7 +33,7 @@ Result<Timestamp> parse_rfc3339(std::string_view text);
 std::string format_rfc3339(Timestamp time);
 
 inline constexpr std::size_t kRfc3339Room = 32;
-/// The same, written in place: to where there is room. @returns the end of its text.
+/// Writes the same text to a buffer with enough room. @returns the end of the text.
 char* write_rfc3339(char* to, Timestamp time);
 
 /// The calendar date and time of day in UTC.
@@ -50,7 +50,7 @@ struct CivilTime {
 
 CivilTime civil_time(Timestamp time);
 
-/// Where the time comes from. Implementations are thread-safe.
+/// Source of the time. Implementations are thread-safe.
 class Clock {
  public:
   Clock& operator=(Clock&&) = delete;  // neither copied nor moved
@@ -91,7 +91,7 @@ class ForwardClock final : public Clock {
   /// The other clock's time, which deletions go by.
   SteadyTime steady() const;
 
-  /// As if `time` had been given, for records from before the start.
+  /// Acts as if `time` was the last time returned, for records of earlier starts.
   void begin_after(Timestamp time);
 
   static std::chrono::nanoseconds running_time();

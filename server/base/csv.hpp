@@ -16,12 +16,12 @@ namespace fitgauge::sheet {
 /// The separator of cells. With a semicolon, a comma belongs to a number.
 enum class CsvSeparator : char { Comma = ',', Semicolon = ';' };
 
-/// Appends `text` as a CSV cell, quoted where a separator, a quote or a line end wants it.
+/// Appends `text` as a CSV cell, quoted if it has a separator, a quote or a line end.
 void append_csv_cell(std::string& out, std::string_view text,
                      CsvSeparator separator = CsvSeparator::Comma);
 
-/// The same of a text that somebody chose: an apostrophe stands before one that a spreadsheet would
-/// run as a formula (it begins with `=`, `+`, `-`, `@`, a tab or a line end).
+/// Appends a text from outside as a CSV cell, with an apostrophe before a text that a spreadsheet
+/// would run as a formula (it begins with `=`, `+`, `-`, `@`, a tab or a line end).
 void append_csv_text(std::string& out, std::string_view text,
                      CsvSeparator separator = CsvSeparator::Comma);
 

@@ -28,7 +28,7 @@ class Sha256 {
   /// The digest of everything since the last one; the next begins empty.
   Digest finish();
 
-  /// The digest of the same, which goes on.
+  /// Returns the digest of all data until now; more data may follow.
   Digest so_far() const;
 
  private:
@@ -41,7 +41,7 @@ Digest sha256(std::string_view text);
 /// Lower-case hexadecimal.
 std::string to_hex(std::span<const std::uint8_t> bytes);
 
-/// Compares in a time that depends on the sizes alone.
+/// Compares in a time that depends only on the sizes.
 bool equal_in_constant_time(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
 }  // namespace fitgauge

@@ -35,9 +35,9 @@ class Descriptor {
   int fd_ = -1;
 };
 
-/// A folder that others may write into, held by its descriptor. A name in it is looked up once and
-/// never followed as a link. Nothing here waits: a FIFO or a device with the name of a file is no
-/// file. All errors are StorageUnavailable and name the path and the cause.
+/// A folder that others may write into, opened by its descriptor. Names are looked up once, and
+/// links are not followed. Never blocks: a FIFO or a device is not a file. All errors are
+/// StorageUnavailable and have the path and the cause.
 class Folder {
  public:
   static Result<Folder> open(const std::filesystem::path& path);

@@ -12,7 +12,7 @@
 
 namespace fitgauge {
 
-/// Packs text piece by piece (RFC 1952), at the fastest level: what is packed here repeats itself.
+/// Packs text piece by piece (RFC 1952), at the fastest level because the texts are repetitive.
 class GzipWriter {
  public:
   /// @throws std::bad_alloc.
@@ -65,7 +65,7 @@ class Gunzip {
   bool has_more_ = false;
 };
 
-/// Unpacks a packed text piece by piece, so that the text need not be held as a whole.
+/// Unpacks a packed text piece by piece.
 class GzipReader {
  public:
   /// @throws std::bad_alloc.

@@ -9,12 +9,12 @@
 
 namespace fitgauge {
 
-/// Counts observations by upper bound, for metrics. Thread-safe; an observation takes two atomic
-/// additions, and a reader may see one of them before the other.
+/// Counts observations by upper bound, for metrics. Thread-safe. An observation is two atomic
+/// additions; a reader may see one before the other.
 template <std::size_t N>
 class Histogram {
  public:
-  using Bounds = std::array<double, N>;  ///< rising; a last bucket takes what is above all of them
+  using Bounds = std::array<double, N>;  ///< rising; a last bucket has the values above them
 
   explicit constexpr Histogram(const Bounds& bounds) : bounds_(bounds) {}
 

@@ -12,11 +12,11 @@ namespace fitgauge {
 
 /// Forms of a decimal text, and the treatment of digits finer than the scale.
 struct DecimalSyntax {
-  int scale = 6;               ///< digits after the point that are kept: value = integer / 10^scale
+  int scale = 6;               ///< digits after the point: value = integer / 10^scale
   bool decimal_comma = false;  ///< `25,5` is read as `25.5`
   bool exponent = false;       ///< `2.5e1` is read
   bool round_to_nearest =
-      false;  ///< finer digits are rounded, half away from zero, instead of refused
+      false;  ///< round finer digits, half away from zero, instead of refusing them
 };
 
 /// Reads the whole of `text` as an exact decimal: [sign] digits [mark digits] [exponent].
@@ -32,8 +32,8 @@ std::string format_decimal(std::int64_t value, int scale);
 
 /// Room for any decimal: its sign, 19 digits, a zero before the point, the point.
 inline constexpr std::size_t kDecimalRoom = 24;
-/// As append_decimal, written in place: to where there is room. @param scale from 0 to 18.
-/// @returns the end of its text.
+/// Writes a decimal as append_decimal to a buffer with enough room. @param scale from 0 to 18.
+/// @returns the end of the text.
 char* write_decimal(char* to, std::int64_t value, int scale);
 
 /// A length, or a difference of lengths, in whole nanometres: exact in every sum and comparison.
@@ -47,8 +47,8 @@ class Length {
   static constexpr Length micrometres(std::int64_t count) { return Length(count * 1'000); }
   static constexpr Length millimetres(std::int64_t count) { return Length(count * 1'000'000); }
 
-  /// The nearest nanometre to a floating-point value in mm, half away from zero.
-  /// @errors LengthOutOfRange when it is not finite or beyond 1e12 mm.
+  /// Returns the nearest nanometre to a floating-point value in mm, half away from zero.
+  /// @errors LengthOutOfRange if it is not finite or beyond 1e12 mm.
   static Result<Length> nearest_mm(double millimetres);
 
   constexpr std::int64_t count() const { return nanometres_; }

@@ -20,7 +20,7 @@ struct FileText {
   /// Lets the pages of a mapped file go; one that is read again comes again.
   void let_go(std::size_t from, std::size_t to) const;
 
-  /// Calls `take` for the first `size` bytes, a stretch at a time, and lets each go behind it.
+  /// Calls `take` for the first `size` bytes in stretches, and releases each stretch afterwards.
   template <class Take>
   void each_stretch(std::size_t size, const Take& take) const {
     for (std::size_t from = 0; from < size; from += kStretch) {
@@ -40,8 +40,8 @@ class MappedFile {
   MappedFile() = default;
   /// A file as the kernel has it, to read. @errors StorageUnavailable with the cause.
   static Result<MappedFile> open(const std::string& path);
-  /// A new file of `size` bytes without a name, gone with its process however that ends. None if
-  /// the folder's file system cannot make one. @errors StorageUnavailable: its disk is full.
+  /// Makes a file of `size` bytes without a name, which ends with its process. None if the file
+  /// system of the folder cannot make one. @errors StorageUnavailable: its disk is full.
   static Result<MappedFile> unnamed(const std::string& folder, std::size_t size);
 
   MappedFile(MappedFile&& other) noexcept

@@ -30,15 +30,15 @@ std::string_view title(ErrorCode code);
 /// aggregate error begins with an integer.
 struct Error {
   ErrorCode code{};
-  std::string message;  ///< what is wrong and how to put it right, one sentence each
+  std::string message;  ///< one sentence with the fault and its remedy
   std::string where{};  ///< the place (JSON pointer, file:line:column, table and cell), or empty
   std::vector<Error> details{};  ///< each bad field, when one answer reports several
 
   friend bool operator==(const Error&, const Error&) = default;
 };
 
-/// One error of all that were found: its message is the first, with the number of the others.
-/// @param count of all, where only some of them are listed
+/// Returns one error for several: the first message and the number of the others.
+/// @param count of all errors, if only some are listed
 inline Error listed(ErrorCode code, std::vector<Error> found, std::size_t count = 0) {
   std::string message = found.front().message;
   count = std::max(count, found.size());
@@ -57,7 +57,7 @@ inline Error listed(ErrorCode code, std::vector<Error> found, std::size_t count 
   throw_bad_result(error);
 }
 
-/// A value, or the Error that kept it from being made.
+/// A value, or the Error that prevented it.
 template <class T>
 using Result = boost::system::result<T, Error>;
 

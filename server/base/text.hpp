@@ -32,8 +32,8 @@ inline bool is_utf8(std::string_view text) {
   return find_invalid_utf8(text) == std::string_view::npos;
 }
 
-/// The first characters of `text` in at most `most` bytes; what is not UTF-8 ends them. A message
-/// that cut a character in two could not be sent as JSON.
+/// Returns the first characters of `text` in at most `most` bytes, up to the first byte that is not
+/// UTF-8. A message with half a character could not be sent as JSON.
 inline std::string_view first_characters(std::string_view text, std::size_t most) {
   text = text.substr(0, most);
   return text.substr(0, find_invalid_utf8(text));
@@ -63,12 +63,12 @@ std::string_view trim(std::string_view text);
 /// Whether a name is of a pattern with `*` and `?`; letters count in either case.
 bool matches_glob(std::string_view pattern, std::string_view name);
 
-/// Whether XML 1.0 can hold a text (UTF-8): it has no place for control characters but tab and line
-/// ends, nor for U+FFFE and U+FFFF.
+/// Whether XML 1.0 can hold a UTF-8 text: no control characters except tab and line ends, no U+FFFE
+/// and U+FFFF.
 bool is_xml_text(std::string_view text);
 
-/// `text` as content of an element or of an attribute; tabs and line ends stand as references, so
-/// that no reader makes blanks of them. What XML cannot hold becomes a blank.
+/// Escapes `text` as content of an element or an attribute. Tabs and line ends become references,
+/// so that readers keep them; characters that XML cannot hold become blanks.
 std::string xml_text(std::string_view text);
 
 /// Finds the known word that is spelled most like one that is not known, without regard to case.

@@ -20,7 +20,7 @@ namespace fitgauge {
 /// exception's text. Called on any thread; must not throw.
 using BugReport = void (*)(std::string_view place, std::string_view what);
 
-/// Sets where bugs are reported, before other threads start; until then they go to stderr.
+/// Sets the reporter of bugs, before other threads start; the default is stderr.
 void report_bugs_to(BugReport report);
 void report_bug(std::string_view place, std::string_view what) noexcept;
 
@@ -44,10 +44,10 @@ bool guarded(std::string_view place, Function&& function) noexcept {
 /// Waits so long, or until a stop is asked for. @returns whether none is.
 bool wait_unless_stopped(const std::stop_token& stop, std::chrono::milliseconds time);
 
-/// A thread whose work no exception ends: what the body throws is a bug, reported as of `place`,
-/// and after a short rest the body begins again, until it returns or a stop was asked for. No other
-/// thread is started anywhere (tests/layering). Its destructor asks it to stop and waits. `top -H`
-/// shows the first 15 bytes of `place`, without its article.
+/// A thread that survives exceptions: an exception is reported as a bug at `place`, and the body
+/// begins again after a short rest, until it returns or a stop is requested. All threads are
+/// started here (tests/layering). The destructor requests a stop and waits. `top -H` shows the
+/// first 15 bytes of `place` without its article.
 class Thread {
  public:
   using Body = std::function<void(const std::stop_token& stop)>;
@@ -78,9 +78,9 @@ Result<T> wait_for_result(const Begin& begin) {
   return future.get();
 }
 
-/// An immutable value that every thread reads and one replaces: readers keep what they took.
-/// Thread-safe. A mutex and not std::atomic<std::shared_ptr>, which libstdc++ 12 implements with a
-/// lock of its own that ThreadSanitizer reports as a race.
+/// An immutable value that every thread reads and one replaces; readers keep their copy.
+/// Thread-safe. Uses a mutex, because ThreadSanitizer reports the lock of libstdc++ 12's
+/// std::atomic<std::shared_ptr> as a race.
 template <class T>
 class Snapshot {
  public:
@@ -92,7 +92,7 @@ class Snapshot {
     return value_;
   }
 
-  /// Whether `kept`, whose owner the caller is too, is still the value: without the lock.
+  /// Whether `kept`, which the caller owns too, is still the value; takes no lock.
   bool is(const T* kept) const { return current_.load(std::memory_order_acquire) == kept; }
 
   void set(std::shared_ptr<const T> value) {

@@ -22,8 +22,8 @@
 
 namespace fitgauge {
 
-/// First in, first out, between threads: whoever brings an item hears at once that there is no
-/// place for it, whoever takes one waits. Thread-safe.
+/// Bounded first-in first-out queue between threads: adding returns at once if it is full, taking
+/// waits. Thread-safe.
 template <class Item>
 class BoundedQueue {
  public:
@@ -33,7 +33,7 @@ class BoundedQueue {
   /// @param limit most items that wait.
   explicit BoundedQueue(std::size_t limit) : limit_(limit) {}
 
-  /// @returns why it was not taken; `item` is then as it was.
+  /// @returns why it was refused; `item` is then unchanged.
   [[nodiscard]] std::optional<Refusal> push(Item&& item) {
     const std::lock_guard lock(mutex_);
     if (closed_) return Refusal::Closed;
@@ -43,7 +43,7 @@ class BoundedQueue {
     return std::nullopt;
   }
 
-  /// Waits for items, at most `patience`. Empty when none came, or none comes any more.
+  /// Waits for items, at most `patience`. Empty if none came, or the queue is closed.
   Items take_all(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     wake_.wait_for(lock, patience, [this] { return !items_.empty() || closed_; });
@@ -58,7 +58,7 @@ class BoundedQueue {
     return take(items_.begin());
   }
 
-  /// Takes back the first item for which `is_it` holds; none when no such one waits.
+  /// Removes the first item that fulfils `is_it`; none if there is none.
   template <class Predicate>
   std::optional<Item> withdraw(Predicate is_it) {
     const std::lock_guard lock(mutex_);
@@ -72,14 +72,14 @@ class BoundedQueue {
     return items_.size();
   }
 
-  /// Queued work can still be taken; new work is refused.
+  /// Refuses new items; queued items can still be taken.
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
     wake_.notify_all();
   }
 
-  /// Whether nothing is left and nothing comes any more.
+  /// Whether the queue is closed and empty.
   bool is_finished() const {
     const std::lock_guard lock(mutex_);
     return closed_ && items_.empty();
@@ -99,8 +99,8 @@ class BoundedQueue {
   bool closed_ = false;
 };
 
-/// A few threads that work off one bounded queue, for what may take long. Owns its threads.
-/// Thread-safe. What a job throws is a bug: it is reported and ends that job alone.
+/// A few threads with one bounded queue, for long work. Owns its threads. Thread-safe. An exception
+/// of a job is reported as a bug and ends only that job.
 class WorkerPool {
  public:
   using Job = std::function<void()>;
@@ -116,10 +116,11 @@ class WorkerPool {
   /// not run.
   [[nodiscard]] std::optional<Ticket> submit(Job job);
 
-  /// Takes a job back that no thread has begun. @returns false when it has begun, or is over.
+  /// Removes a job that has not begun. @returns false if it has begun or ended.
   [[nodiscard]] bool withdraw(Ticket ticket);
 
-  /// Takes no more jobs, finishes those queued and ends the threads. Not for the pool's own.
+  /// Refuses new jobs, finishes the queued ones and ends the threads. Not for the pool's own
+  /// threads.
   void stop();
 
  private:
@@ -142,7 +143,7 @@ struct JobBound {
   std::size_t memory_bytes = 0;
 };
 
-/// The threads for one kind of work that would hold up an I/O thread. Thread-safe.
+/// The threads for one kind of work that would block an I/O thread. Thread-safe.
 class JobPool {
  public:
   /// @param kind of work, a literal: the name of the threads.
@@ -151,11 +152,11 @@ class JobPool {
           std::optional<JobBound> bound = std::nullopt)
       : bound_(bound), pool_(kind, threads, waiting) {}
 
-  /// Calls `compute` on a thread of the pool, which it may block, and hands what it returns, a
-  /// Result, to `done`, which is called exactly once: there, or at once on the caller's thread.
-  /// Loops of bounded work look at Allowance::of_thread().
+  /// Calls `compute` on a thread of the pool, which may block, and passes its Result to `done`,
+  /// which is called exactly once: there, or at once on the caller's thread. Bounded loops check
+  /// Allowance::of_thread().
   /// @errors those of `compute`; Overloaded; ShuttingDown; FiguresLimit beyond the bound; Internal
-  ///   for what `compute` throws.
+  ///   if `compute` throws.
   template <class Compute, class Done>
   void run(Compute compute, Done done) {
     const bool is_queued = pool_

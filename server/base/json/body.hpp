@@ -27,7 +27,7 @@ namespace fitgauge::api {
 /// An order is read and refuses members it does not know; an answer is written and may grow.
 enum class Side : std::uint8_t { Order, Answer };
 
-/// The form of a type whose description names none; specialised beside the form.
+/// Form of a type if the description has none; specialised next to the form.
 template <class T>
 struct FormOf;
 
@@ -50,8 +50,8 @@ struct Bare<const T*> {
 template <class T>
 using BareType = typename Bare<std::remove_const_t<T>>::Type;
 
-/// The form that a description names after a member's variable; the usual one if it names none. Its
-/// meaning follows if the name does not say it.
+/// Form that a description gives after a member's variable; the usual form if it gives none. The
+/// meaning follows if the name is not enough.
 template <class T>
 typename FormOf<BareType<T>>::Type form_of(std::string_view = {}) {
   return {};
@@ -68,7 +68,7 @@ requires(!std::is_convertible_v<Form, std::string_view>) std::string_view
   return meaning;
 }
 
-/// Whether the schema says the value of a variable that is not given: not of bodies and lists.
+/// Whether the schema has the default of a variable: not for bodies and lists.
 template <class Form, class T>
 concept HasDefault = !requires {
   Form::kHasDefault;
@@ -108,7 +108,7 @@ class BodySchema {
         {std::string(name), std::move(json), std::string(meaning_of(more...)), false});
   }
 
-  /// Looks at what members say together; of no concern to a schema or an answer.
+  /// Checks members that depend on each other; schemas and responses ignore it.
   void check(const auto&) {}
 
   const schema::Fields& fields() const { return fields_; }

@@ -41,7 +41,7 @@ Nested(std::string_view, Members) -> Nested<Members>;
 struct MembersOf {
   void operator()(auto& v, auto& body) const { members(v, body); }
 };
-/// A body of a type within a body; without a component its schema stands in its place.
+/// A body within a body; without a component its schema is written in place.
 template <class T>
 struct Object : Nested<MembersOf> {
   constexpr Object(std::string_view name = {}) : Nested{name, {}} {}
@@ -164,7 +164,7 @@ struct Number {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
   Ends ends = Ends::Closed;
-  std::string_view must{};  ///< what the refusal says after the name, unless both ends
+  std::string_view must{};  ///< text of the error after the name, unless both ends have limits
 
   std::string schema(Side) const;
   bool read(FieldReader& fields, std::string_view name, double& to) const;
@@ -173,8 +173,8 @@ struct Number {
 inline constexpr Number kPositive{
     .least = 0, .ends = Number::Ends::OpenBelow, .must = "is above 0"};
 
-/// A figure of an answer: null where it is undefined. A double has the shortest text that reads
-/// back as the same, a long double 17 digits.
+/// A figure of a response; null if it is undefined. A double has the shortest text that reads back
+/// equal, a long double 17 digits.
 struct Figure {
   std::string schema(Side) const { return schema::null_or(schema::number()); }
   void write(JsonWriter& json, double from) const { json.value(from); }

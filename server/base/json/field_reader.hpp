@@ -14,19 +14,19 @@
 
 namespace fitgauge::api {
 
-/// A member of a request that some kinds of it take: with another kind it would change nothing, so
-/// it is refused.
+/// A request member that only some kinds of the request use. Other kinds refuse it, because it
+/// would have no effect.
 struct Applicable {
   std::string_view member;
-  std::string_view kinds;     ///< those that take it: `xbar_r xbar_s`
+  std::string_view kinds;     ///< kinds that use it: `xbar_r xbar_s`
   std::string_view values{};  ///< which of its values it is asked for; empty: all
 };
 
 /// `a, b or c` of `a b c`.
 std::string listed(std::string_view words);
 
-/// Why a member is refused; none where the kind takes it.
-/// @param what names the kind: `kind`, `method`, `rule`
+/// Returns why a member is refused; none if the kind uses it.
+/// @param what name of the kind: `kind`, `method`, `rule`
 std::optional<std::string> not_applicable(const Applicable& row, std::string_view what,
                                           std::string_view kind);
 
@@ -40,7 +40,7 @@ void refuse_not_applicable(std::span<const Applicable> table, std::string_view w
   }
 }
 
-/// Collects what is wrong with a body, field by field, to report it all at once.
+/// Collects all errors of a body, to report them together.
 class FieldErrors {
  public:
   /// Beyond this many the rest is counted, not listed.
@@ -66,9 +66,9 @@ class FieldErrors {
   std::vector<Error> entries_;
 };
 
-/// Reads the members of one JSON object, each at most once; what it does not get or cannot read
-/// goes to the FieldErrors with its pointer. A member that is read as optional may be absent, not
-/// null. Refers to the value and the errors, which outlive it.
+/// Reads the members of one JSON object, each at most once. Missing or unreadable members go to the
+/// FieldErrors with their pointer. An optional member may be absent, not null. The value and the
+/// errors must outlive it.
 class FieldReader {
  public:
   FieldReader(const JsonValue& object, std::string pointer, FieldErrors& errors);

@@ -11,8 +11,8 @@
 
 namespace fitgauge {
 
-/// One JSON value as it was written: numbers keep their digits, because a length must not pass
-/// through a double. Members stand in the order of the text.
+/// One JSON value as written: numbers keep their digits, because a length must not pass through a
+/// double. Members have the order of the text.
 struct JsonValue {
   enum class Kind { Null, Boolean, Number, String, Array, Object };
 
@@ -25,13 +25,13 @@ struct JsonValue {
   bool is(Kind other) const { return kind == other; }
   /// The member of that name, or nullptr.
   const JsonValue* find(std::string_view name) const;
-  /// The member of that name; a null where there is none.
+  /// Returns the member of that name; a null if it is absent.
   const JsonValue& member(std::string_view name) const;
-  /// The text of a member, `true` or `false` of a boolean; empty where there is none.
+  /// Returns the text of a member, `true` or `false` for a boolean; empty if it is absent.
   std::string_view text_of(std::string_view name) const;
 };
 
-/// "a number", "a string", …: for messages that say what was found.
+/// "a number", "a string", …: for error messages.
 std::string_view name_of(JsonValue::Kind kind);
 
 /// Limits of a text: the tree of a request needs less than 50 MB.
@@ -42,12 +42,12 @@ inline constexpr std::size_t kMostRequestValues = 500'000;
 ///   JsonDuplicateKey, JsonTooDeep (more than 32 levels), BodyTooLarge (more than `most` values).
 Result<JsonValue> parse_json(std::string_view text, std::size_t most = kMostRequestValues);
 
-/// Takes an item of a list; false: no more.
+/// Receives an item of a list; returns false to stop.
 using JsonItemHandler = std::function<bool(const JsonValue& item)>;
 
-/// The same of a text that may be a long list, whose items are handed over one by one as they are
-/// read: the result is then an empty Array. What was handed over before an error is not to be used.
-/// @errors as above, for each item; any once the handler has said false.
+/// Reads a text that may be a long list, and passes its items one by one; the result is then an
+/// empty Array. Discard the items before an error.
+/// @errors as parse_json, for each item; any after the handler returned false.
 Result<JsonValue> parse_json(std::string_view text, const JsonItemHandler& handle_item);
 
 /// The same of a text the service has stored itself. @param what names it in the message.

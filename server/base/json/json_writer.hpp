@@ -11,7 +11,7 @@
 
 namespace fitgauge {
 
-/// Whether a character of a JSON string stands as an escape (RFC 8259, 7).
+/// Whether a character of a JSON string needs an escape (RFC 8259, 7).
 constexpr bool needs_escape(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == '"' || c == '\\';
 }
@@ -19,7 +19,7 @@ constexpr bool needs_escape(char c) {
 /// Room for one.
 inline constexpr std::size_t kEscapeRoom = 6;
 
-/// Writes it to where there is room, in the one spelling that RFC 8785 (3.2.2.2) allows.
+/// Writes it to a buffer with enough room, as RFC 8785 (3.2.2.2) requires.
 /// @returns its end.
 char* write_escape(char* to, char c);
 
@@ -59,7 +59,7 @@ class JsonWriter {
   JsonWriter& value(std::string_view text);
   JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
   JsonWriter& value(const char* text) { return value(std::string_view(text)); }
-  /// null where there is none.
+  /// Writes null if it is absent.
   template <class T>
   JsonWriter& value(const std::optional<T>& content) {
     return content ? value(*content) : null();

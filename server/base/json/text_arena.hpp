@@ -6,7 +6,7 @@
 
 namespace fitgauge::api {
 
-/// Texts that outlive what they were read from: views of them stay valid as long as the arena.
+/// Keeps texts: views of them stay valid as long as the arena.
 class TextArena {
  public:
   std::string_view keep(std::string_view text) {
