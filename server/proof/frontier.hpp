@@ -14,7 +14,7 @@ namespace fitgauge::tlog {
 
 using Hash = Digest;
 
-/// SHA-256(0x00 || data): what a leaf's data counts for in the tree.
+/// SHA-256(0x00 || data): the hash of a leaf.
 Hash leaf_hash(std::string_view data);
 
 /// The root of the tree without leaves: SHA-256 of nothing.
@@ -24,7 +24,7 @@ Hash empty_root();
 class TreeHasher {
  public:
   TreeHasher() = default;
-  // Nothing is kept between two hashes: a copy is as good as a new one.
+  // Stateless between two hashes, so a copy is equivalent.
   TreeHasher(const TreeHasher&) {}
   TreeHasher& operator=(const TreeHasher&) { return *this; }
   TreeHasher(TreeHasher&&) noexcept = default;
@@ -55,7 +55,7 @@ std::vector<Node> subtrees(std::uint64_t begin, std::uint64_t end);
 class Frontier {
  public:
   Frontier() = default;
-  /// @param size and `roots` those of `subtrees(0, size)`, in that order.
+  /// @param size and `roots` as of `subtrees(0, size)`, in that order.
   Frontier(std::uint64_t size, std::vector<Hash> roots);
 
   /// @returns how many complete subtrees ended with this leaf: level 0 always, so at least 1. Their
@@ -103,11 +103,11 @@ struct Tile {
   std::uint64_t end() const { return begin() + width; }
 };
 
-/// Reads what stands behind `tile/`: `0/x001/067`, `1/000.p/3`, `entries/x012/000`.
+/// Reads the path after `tile/`: `0/x001/067`, `1/000.p/3`, `entries/x012/000`.
 /// @returns none for any other spelling.
 std::optional<Tile> parse_tile(std::string_view path);
 
-/// Whether a tree of `size` leaves has all that the tile holds.
+/// Whether a tree of `size` leaves has everything in the tile.
 bool has_tile(std::uint64_t size, const Tile& tile);
 
 }  // namespace fitgauge::tlog

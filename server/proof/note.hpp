@@ -26,15 +26,14 @@ struct Note {
   std::vector<const VerifierKey*> signers;  ///< of the keys given to open_note
 };
 
-/// Reads a note and checks the signatures of the keys that are known; those of others are skipped.
-/// @errors NoteMalformed when it is not a note; NoteUnverified when a known key's signature is
-/// wrong
-///   or no known key signed.
+/// Reads a note and checks the signatures of the known keys; other signatures are skipped.
+/// @errors NoteMalformed if it is not a note; NoteUnverified if a known key's signature is wrong or
+///   no known key signed.
 Result<Note> open_note(std::string_view note, std::span<const VerifierKey> keys);
 
 /// The head of a log at one size (C2SP tlog-checkpoint).
 struct Checkpoint {
-  std::string origin;  ///< the log's name, also that of its key
+  std::string origin;  ///< name of the log and of its key
   std::uint64_t size = 0;
   Hash root{};
 
@@ -49,9 +48,8 @@ struct Checkpoint {
 Result<Checkpoint> parse_checkpoint(std::string_view text);
 
 /// Opens a signed checkpoint.
-/// @errors those of open_note and parse_checkpoint; NoteUnverified when none of the keys that
-/// signed
-///   has the name of the origin.
+/// @errors those of open_note and parse_checkpoint; NoteUnverified if no key that signed has the
+///   name of the origin.
 Result<Checkpoint> open_checkpoint(std::string_view note, std::span<const VerifierKey> keys);
 
 }  // namespace fitgauge::tlog

@@ -20,7 +20,7 @@ class VerifierKey {
   VerifierKey(std::string name, const Bytes& key);
 
   /// Reads a vkey: `name+hash+base64(0x01 || key)`.
-  /// @errors KeyMalformed, also where the hash is not that of name and key.
+  /// @errors KeyMalformed, also if the hash does not match name and key.
   static Result<VerifierKey> parse(std::string_view vkey);
 
   const std::string& name() const { return name_; }
