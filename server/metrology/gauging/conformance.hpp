@@ -44,16 +44,16 @@ struct KnownUncertainty {
 /// 100:2008, G.6.4); at most a million. @pre degrees_of_freedom > 0, finite
 std::int64_t coverage_millionths(double degrees_of_freedom);
 
-/// The probability that the true value lies within the limits, with nothing known of it before:
-/// normal about the measured one (JCGM 106:2012, clause 7), Student's t with degrees of freedom.
+/// Returns the probability that the true value is within the limits, without prior knowledge:
+/// normal around the measured value (JCGM 106:2012, clause 7), Student's t with degrees of freedom.
 double conformance_probability(const ConformanceLimits& limits, Length measured,
                                const KnownUncertainty& uncertainty);
-/// The probability that it lies outside: 1 - the above, without losing its digits.
+/// Returns the probability that it is outside: 1 - conformance_probability, with all its digits.
 double nonconformance_probability(const ConformanceLimits& limits, Length measured,
                                   const KnownUncertainty& uncertainty);
 
-/// How far inside both limits a value lies that conforms with just this probability, in standard
-/// uncertainties: the coverage factor of a guard band that decides the same; none where not even
+/// Returns the distance inside both limits, in standard uncertainties, at which a value conforms
+/// with exactly this probability: the coverage factor of an equivalent guard band. None if not even
 /// the middle of the limits conforms. @pre 0.5 <= probability < 1
 std::optional<double> guard_band_factor(Length tolerance, const KnownUncertainty& uncertainty,
                                         double probability);
@@ -66,8 +66,8 @@ struct ConformanceFigures {
   friend bool operator==(const ConformanceFigures&, const ConformanceFigures&) = default;
 };
 
-/// None where not even the middle of the limits conforms with the probability asked for.
-/// @pre as of the functions above
+/// None if not even the middle of the limits conforms with this probability.
+/// @pre as conformance_probability
 std::optional<ConformanceFigures> conformance_figures(const ConformanceLimits& limits,
                                                       Length measured,
                                                       const KnownUncertainty& uncertainty,
@@ -107,12 +107,12 @@ std::int64_t added_uncertainty(Length corrected, const ThermalBody& part, const 
 /// √(u² + added²), rounded up to the nanometre. @param added_pm in pm
 Length combined_uncertainty(Length u, std::int64_t added_pm);
 
-/// A material by name, with the mean coefficient near 20 °C and where it is from.
+/// A material by name, with its mean coefficient near 20 °C and the source.
 struct Material {
   std::string_view name;
   std::int64_t expansion;  ///< as ThermalBody has it
   std::string_view source;
-  std::int64_t uncertainty = 0;  ///< standard, of the coefficient; 0: its source does not say
+  std::int64_t uncertainty = 0;  ///< standard uncertainty of the coefficient; 0: unknown
 };
 std::span<const Material> materials();
 /// Null for a name there is no material of.

@@ -25,7 +25,7 @@ inline constexpr std::size_t kVerdicts = 5;
 std::string_view word(Verdict verdict);
 std::optional<Verdict> verdict_from_word(std::string_view text);
 
-/// The kind of a measured value. A deviation is that of a surface from its nominal form.
+/// Kind of a measured value. A deviation is of a surface from its nominal form.
 enum class Quantity : std::uint8_t {
   Diameter,
   Width,
@@ -57,7 +57,7 @@ constexpr bool is_signed(Quantity quantity) {
          quantity == Quantity::Deviation;
 }
 
-/// The verdicts beyond the two limits: rework where material can still be removed.
+/// Verdicts beyond the two limits: rework if material can still be removed.
 struct Beyond {
   Verdict above = Verdict::Reject;
   Verdict below = Verdict::Reject;
@@ -134,7 +134,7 @@ class DecisionRule {
   /// @errors RuleInvalid when the uncertainty is negative.
   static Result<DecisionRule> guard_band(Length standard_uncertainty, CoverageFactor factor = {});
 
-  /// By the probability that the true value lies within the limits (JCGM 106:2012, clause 7).
+  /// Decides by the probability that the true value is within the limits (JCGM 106:2012, clause 7).
   /// @errors RuleInvalid unless the uncertainty is above 0.
   static Result<DecisionRule> conformance(const KnownUncertainty& uncertainty,
                                           ConformanceProbability probability = {});

@@ -35,8 +35,8 @@ struct FittedDistribution {
   /// long tail is the lower one; mixture of two normal ones: share, mean and standard deviation of
   /// the first, mean and standard deviation of the second.
   std::array<double, 5> parameters{};
-  /// Pearson's test over classes of about equal probability; a parameter costs a degree of freedom.
-  /// Not made of a normal distribution that Anderson and Darling's test lets stand.
+  /// Pearson's test over classes of about equal probability; each parameter costs a degree of
+  /// freedom. Omitted for a normal distribution that the test of Anderson and Darling accepts.
   double chi_squared = kUndefined;
   double degrees_of_freedom = kUndefined;
   double p = kUndefined;
@@ -49,7 +49,7 @@ struct FittedDistribution {
   std::vector<std::pair<std::string_view, double>> named_parameters() const;
 };
 
-/// Fewer values do not tell one distribution from another.
+/// Fewer values cannot distinguish distributions.
 inline constexpr std::size_t kFewestForFit = 25;
 
 /// The distribution with the least information criterion (Akaike 1974) among those whose test has
@@ -84,9 +84,9 @@ struct PercentileCapability {
   std::optional<long double> pp{};
   std::optional<long double> ppk{};
 };
-/// Indices that a missing limit leaves without meaning are none. Of values that are not normal,
-/// `pp` and `ppk` are those of the percentile method, `cp`, `cpl`, `cpu` and `cpk` too if location
-/// and dispersion are constant; none, and no `cpm`, if no distribution fits.
+/// Indices without meaning because of a missing limit are none. For values that are not normal,
+/// `pp` and `ppk` use the percentile method, also `cp`, `cpl`, `cpu` and `cpk` if location and
+/// dispersion are constant; none, and no `cpm`, if no distribution fits.
 struct Capability {
   std::size_t count = 0;
   long double mean = 0;
@@ -97,7 +97,7 @@ struct Capability {
   std::vector<ChartViolation> violations{};  ///< of rules 1 to 4: what `stable` answers
   std::optional<NormalityTest> normality{};
   std::optional<ModelChoice> model{};
-  /// From kFewestForFit values; a normal one where the test of normality has nothing against it.
+  /// From kFewestForFit values on; normal if the test of normality accepts it.
   std::optional<FittedDistribution> distribution{};
   std::optional<PercentileCapability> percentile{};
 

@@ -11,14 +11,14 @@ namespace fitgauge::metrology {
 struct MadePart {
   double deviation = 0;       ///< from the target
   double offset = 0;          ///< a correction that was made before it; moves the size by as much
-  bool has_new_tool = false;  ///< its size is not that of the parts before
+  bool has_new_tool = false;  ///< its size differs from the previous parts
 };
 
 enum class CompensationState : std::uint8_t { Propose, Wait, Unstable };
 /// `propose`, `wait`, `unstable`
 std::string_view word(CompensationState state);
 
-/// The next correction of a machine, and by what it was found.
+/// The next correction of a machine, and how it was found.
 struct Compensation {
   CompensationState state = CompensationState::Wait;
   std::string_view reason{};  ///< in a sentence
@@ -31,7 +31,7 @@ struct Compensation {
   std::optional<std::int64_t> next_in{};  ///< parts until the next one has to be measured
 };
 
-/// Fewer values since the beginning do not tell wear from scatter.
+/// Fewer values cannot distinguish wear from scatter.
 inline constexpr std::size_t kFewestForCompensation = 6;
 
 /// A level that wears at a constant rate and wanders, seen with scatter (NIST/SEMATECH e-Handbook

@@ -16,7 +16,7 @@ enum class ChartKind : std::uint8_t { IMr, XbarR, XbarS, Ewma, Cusum };
 std::string_view word(ChartKind kind);
 std::optional<ChartKind> chart_kind_from_word(std::string_view text);
 
-/// Values in subgroups of one size, one behind the other; size 1: individual values.
+/// Values in consecutive subgroups of one size; size 1: individual values.
 struct Subgroups {
   Decimals values;
   std::size_t size = 1;

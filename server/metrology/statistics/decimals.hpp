@@ -13,8 +13,7 @@
 namespace fitgauge::metrology {
 
 /// Whole numbers of any size and their fractions, without expression templates. Sums, differences
-/// and quotients of decimals are exact in them; what is irrational is rounded once, to `long
-/// double`.
+/// and quotients of decimals are exact; irrational results are rounded once, to `long double`.
 using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
                                               boost::multiprecision::et_off>;
 using Exact = boost::multiprecision::number<
@@ -29,7 +28,7 @@ inline Exact whole(std::size_t count) { return {Integer(count)}; }
 
 /// The nearest `long double`, which holds 19 digits; ties to even.
 long double nearest(const Exact& value);
-/// The nearest `double`, which is not always that of the nearest `long double`: that was rounded.
+/// Returns the nearest `double`, rounded once and not through `long double`.
 double nearest_double(const Exact& value);
 /// Whether products of two such numbers fit in 128 bits.
 constexpr bool is_short(Wide value) {
@@ -79,9 +78,9 @@ class Decimals {
   /// counts / 10^scale, each within ±10^36.
   Decimals(std::vector<Wide> counts, int scale) : counts_(std::move(counts)), scale_(scale) {}
 
-  /// Adds one, and widens the scale of all where it is finer.
-  /// @errors those of parse_exact; NumberOutOfRange where the values have more than 36 digits
-  ///   between the first of the largest and the last of the finest. Nothing is added then.
+  /// Adds a value. If it has more decimals than the others, rescales all of them.
+  /// @errors those of parse_exact; NumberOutOfRange if the values have more than 36 digits between
+  ///   the first digit of the largest and the last digit of the finest. Then nothing is added.
   Result<void> add(std::string_view text);
 
   std::size_t size() const { return counts_.size(); }
@@ -97,7 +96,7 @@ class Decimals {
   Wide largest_ = 0;  // magnitude
 };
 
-/// Values in groups, one behind the other: counts / 10^scale.
+/// Values in consecutive groups: counts / 10^scale.
 struct GroupedCounts {
   std::span<const Wide> counts;
   int scale = 0;

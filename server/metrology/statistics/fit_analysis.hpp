@@ -48,8 +48,8 @@ struct FoundFit {
   Length most;
 };
 
-/// Every fit whose clearances lie within the bounds: the preferred ones first, then those with the
-/// widest range of clearance, which cost the least to make; by name where they are equal.
+/// Returns every fit with clearances within the bounds: preferred ones first, then by the widest
+/// range of clearance, which is the cheapest to make, then by name.
 std::vector<FoundFit> find_fits(const iso286::ToleranceTables& tables, iso286::NominalSize size,
                                 const ClearanceBounds& bounds);
 
@@ -82,13 +82,13 @@ struct Pressure {
   double torque_nm = 0;         ///< that slips
 };
 
-/// Lamé's thick cylinders under plane stress (DIN 7190-1:2017 with its 0.4 Rz).
+/// Computes Lamé's thick cylinders under plane stress (DIN 7190-1:2017 with its 0.4 Rz).
 /// @param interference_um of the diameters, 0 or more
-/// @errors FieldInvalid where the parts are no cylinders around each other.
+/// @errors FieldInvalid if the parts are not cylinders around each other.
 Result<Pressure> press(const PressFit& fit, double interference_um);
 
 struct Pair {
-  std::size_t hole = 0;  ///< index of what was given, from 0
+  std::size_t hole = 0;  ///< index in the request, from 0
   std::size_t shaft = 0;
   Length clearance;  ///< hole - shaft
 

@@ -34,7 +34,7 @@ struct Type1Rule {
 Result<Type1Study> study_type1(const Decimals& values, const Exact& reference,
                                const Exact& tolerance, Type1Rule rule = {});
 
-/// Readings of parts by operators. Labels are small numbers from 0, in the order they first stand.
+/// Readings of parts by operators. Labels are numbers from 0 in the order of their first use.
 struct Readings {
   Decimals values;
   std::vector<std::size_t> part;
@@ -71,7 +71,7 @@ struct StudyIntervals {
   std::optional<Interval> grr{};  ///< not of Nested
 };
 
-/// Standard deviations; a component the method does not tell apart is kUndefined.
+/// Standard deviations; kUndefined for a component that the method cannot separate.
 struct GaugeStudy {
   long double ev = kUndefined;           ///< equipment: repeatability
   long double av = kUndefined;           ///< appraiser: reproducibility
@@ -79,7 +79,8 @@ struct GaugeStudy {
   long double grr = 0;
   long double pv = 0;  ///< part
   long double tv = 0;  ///< total
-  /// Categories told apart: the whole part of sqrt(2) pv / grr, at least 1; none where grr is 0.
+  /// Number of distinct categories: the whole part of sqrt(2) pv / grr, at least 1; none if grr is
+  /// 0.
   std::optional<std::int64_t> ndc{};
   std::optional<StudyModel> model{};  ///< of Anova: Interaction or Pooled
   long double interaction_p = kUndefined;
@@ -107,7 +108,7 @@ struct LinearityStudy {
     long double reference = 0;
     std::size_t count = 0;
     long double bias = 0;
-    long double p = kUndefined;  ///< that it is 0, from its own readings
+    long double p = kUndefined;  ///< that the bias is 0, from its readings
   };
   Coefficient slope;
   Coefficient intercept;

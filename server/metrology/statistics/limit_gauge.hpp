@@ -15,7 +15,7 @@ inline constexpr std::string_view kLimitGaugeScheme = "ISO/R 1938:1971";
 /// Sizes of the gauges for one tolerance: a plug for a hole, a ring or snap gauge for a shaft.
 struct LimitGauge {
   iso286::LimitDeviations go;  ///< upper and lower size of a new GO gauge, as lengths
-  Length go_wear_limit;        ///< a GO gauge beyond this size is taken out of use
+  Length go_wear_limit;        ///< wear limit of a GO gauge
   iso286::LimitDeviations no_go;
 };
 
@@ -43,7 +43,7 @@ struct ShaftRows {
   GaugeRow safety;
 };
 
-// z: how far the new GO gauge stands inside the limit, by grade from IT6 to IT16.
+// z: distance of the new GO gauge inside the limit, by grade from IT6 to IT16.
 inline constexpr std::array<GaugeRow, 11> kInset = {{
     {10, 15, 15, 20, 20, 25, 25, 30, 40, 50, 60, 70, 80},                     // IT6
     {15, 20, 20, 25, 30, 35, 40, 50, 60, 70, 80, 100, 110},                   // IT7
@@ -58,7 +58,7 @@ inline constexpr std::array<GaugeRow, 11> kInset = {{
     {400, 480, 560, 640, 720, 800, 900, 1000, 1100, 2100, 2400, 2800, 3200},  // IT16
 }};
 
-// y: how far a worn GO gauge may stand outside the limit, IT6 to IT8; coarser: not at all.
+// y: allowed distance of a worn GO gauge outside the limit, IT6 to IT8; 0 for coarser grades.
 inline constexpr std::array<GaugeRow, 3> kWear = {{
     {10, 10, 10, 15, 15, 20, 20, 30, 30, 40, 50, 60, 70},   // IT6
     {15, 15, 15, 20, 30, 30, 30, 40, 40, 60, 70, 80, 90},   // IT7
@@ -80,8 +80,8 @@ inline constexpr std::array<GaugeRow, 11> kSafety = {{
     {0, 0, 0, 0, 0, 0, 0, 0, 0, 1100, 1400, 1800, 2200},  // IT16
 }};
 
-// Gauges for shafts of IT5 and IT6, where they are not those for holes. The inset of IT5 up to 315
-// mm is 4 in one source and 5 in another: no value.
+// Gauges for shafts of IT5 and IT6, if they differ from those for holes. The inset of IT5 up to 315
+// mm has no value: it is 4 in one source and 5 in another.
 inline constexpr ShaftRows kShaft5 = {{10, 10, 10, 15, 15, 20, 20, 25, 30, 40, -1, 60, 70},
                                       {10, 10, 10, 15, 20, 20, 20, 30, 30, 30, 30, 40, 40},
                                       {0, 0, 0, 0, 0, 0, 0, 0, 0, 10, 15, 25, 30}};

@@ -48,8 +48,8 @@ struct MeasuringProcess {
   const std::optional<double>& operator[](Component of) const {
     return components.at(static_cast<std::size_t>(of));
   }
-  /// u_MS and u_MP: the root of the sum of squares. Of u_EVR and u_RE, for the process of u_EVR,
-  /// u_EVO and u_RE, the greatest alone counts (ISO 22514-7:2012, A.3).
+  /// u_MS and u_MP: the root of the sum of squares. Only the largest of u_EVR and u_RE, for the
+  /// process of u_EVR, u_EVO and u_RE, counts (ISO 22514-7:2012, A.3).
   double system() const { return combined(Component::MsRest); }
   double process() const { return combined(Component::MpRest); }
 

@@ -17,8 +17,8 @@ struct Variation {
   Exact mean_square() const { return sum_of_squares / whole(degrees_of_freedom); }
 };
 
-/// F and its probability. Where nothing varies within, F is undefined, and its probability 0 where
-/// something varies between.
+/// F and its probability. Without variation within groups F is undefined; its probability is then 0
+/// if the groups differ.
 struct FTest {
   long double f = kUndefined;
   long double p = kUndefined;
@@ -52,7 +52,7 @@ struct ModelTests {
   /// subgroups of two.
   long double dispersion = kUndefined;
   long double trend = kUndefined;  ///< subgroup means have no slope: regression on their index
-  std::size_t subgroup_size = 0;   ///< individual values are taken five by five
+  std::size_t subgroup_size = 0;   ///< individual values are grouped by five
 };
 inline constexpr double kModelSignificance = 0.01;
 

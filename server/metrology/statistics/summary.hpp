@@ -109,7 +109,7 @@ struct NormalityTest {
   double p = 0;
 };
 
-/// Fewer values say nothing.
+/// Minimum number of values.
 inline constexpr std::size_t kFewestForNormality = 5;
 
 /// @param ranking of kFewestForNormality values or more, in any unit

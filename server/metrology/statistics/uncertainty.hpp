@@ -24,12 +24,12 @@ struct Contribution {
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
   Distribution distribution = Distribution::Normal;
   double estimate = 0;  ///< of the quantity, for a model
-  /// Of rectangular limits that are not known exactly (JCGM 101, 6.4.3): their half width over that
-  /// of the quantity.
+  /// Half width of inexact rectangular limits (JCGM 101, 6.4.3), divided by the half width of the
+  /// quantity.
   double inexactness = 0;
 };
 
-/// y = f(x1, ..., xn), not finite where f has no value. For one thread at a time.
+/// y = f(x1, ..., xn), not finite if f has no value. Used by one thread at a time.
 using Model = std::function<double(const std::vector<double>&)>;
 
 struct Correlation {

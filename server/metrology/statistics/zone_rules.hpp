@@ -57,14 +57,14 @@ class ZoneRules {
 /// The past of a chart that decides about its next point; it never starts anew after a signal.
 class ZoneHistory {
  public:
-  /// How many whole standard deviations a point is beyond, at most 3, with its sign: 0 for a point
-  /// between ±1, whose side `side` still tells (-1, 0 on the centre line, 1).
+  /// Number of whole standard deviations from the centre, at most 3, with its sign; for 0, `side`
+  /// is the side (-1, 0 on the centre line, 1).
   struct Point {
     int zone = 0;
     int side = 0;
   };
 
-  /// Takes the next point. @returns the rules whose pattern it completes, itself beyond the zone.
+  /// Adds a point. @returns the rules whose pattern this point completes.
   ZoneRules add(Point point) {
     const unsigned now =
         past_ << 1U | on_side(point.zone, point.side) | on_side(-point.zone, -point.side) << kSide;
@@ -86,7 +86,7 @@ class ZoneHistory {
   static constexpr unsigned kBeyond2 = 5;  ///< the last three, whether beyond 2
   static constexpr unsigned kRun = 8;      ///< the last eight, whether on this side at all
   static constexpr unsigned kSide = 16;    ///< from here on the same of the side below
-  /// All but the oldest of each part: what is kept for the next point.
+  /// All points of each part except the oldest: the state for the next point.
   static constexpr unsigned kPastOfSide = 0b1111U << kBeyond1 | 0b11U << kBeyond2 | 0x7FU << kRun;
   static constexpr unsigned kPast = kPastOfSide | kPastOfSide << kSide;
 
