@@ -49,14 +49,15 @@ struct MeasurementFields {
   std::optional<std::string_view> envelope{};        ///< `required`
   std::optional<std::string_view> go_gauge{};        ///< `passes` or `fails`, of the envelope
 
-  std::optional<std::string_view> caller{};       ///< name of the API key that stored it
-  std::optional<std::int64_t> run_id{};           ///< the run of a simulated measurement
-  std::optional<std::int64_t> cycle{};            ///< number of its measuring cycle
-  std::optional<std::int64_t> points{};           ///< that it touched
-  std::optional<std::int64_t> start_angle{};      ///< of the first, in millionths of a degree
-  std::optional<std::int64_t> diameter_factor{};  ///< of its scatter over that of a touch, in 1e-6
-  std::optional<std::int64_t> form{};             ///< deviation of form that they show, in nm
-  std::optional<std::string_view> correction_reason{};        ///< of a correction, and of no other
+  std::optional<std::string_view> caller{};   ///< name of the API key that stored it
+  std::optional<std::int64_t> run_id{};       ///< the run of a simulated measurement
+  std::optional<std::int64_t> cycle{};        ///< number of its measuring cycle
+  std::optional<std::int64_t> points{};       ///< that it touched
+  std::optional<std::int64_t> start_angle{};  ///< of the first, in millionths of a degree
+  std::optional<std::int64_t>
+      diameter_factor{};  ///< scatter of the diameter divided by the scatter of a touch, in 1e-6
+  std::optional<std::int64_t> form{};                   ///< deviation of form that they show, in nm
+  std::optional<std::string_view> correction_reason{};  ///< of a correction, and of no other
   std::optional<std::string_view> uncertainty_budget{};       ///< of the gauge, if it gave u
   std::optional<std::string_view> calibration_due{};          ///< of the gauge, if overdue
   std::optional<std::string_view> calibration_certificate{};  ///< of the gauge, if in date
@@ -245,7 +246,7 @@ inline constexpr auto kGivenFields =
     std::span(kMeasurementFields)
         .first(static_cast<std::size_t>(std::ranges::count_if(
             kMeasurementFields, [](const MeasurementField& f) { return !f.accepted.nothing(); })));
-/// Texts that say what was measured where, and that nothing follows from.
+/// Texts that identify a measurement and have no effect on it.
 inline constexpr auto kLabels = kGivenFields.first(static_cast<std::size_t>(
     std::ranges::find_if(kGivenFields, [](const auto& f) { return f.number != nullptr; }) -
     kGivenFields.begin()));
@@ -257,7 +258,7 @@ inline constexpr auto kThermalFields = kGivenFields.subspan(
         kGivenFields, [](const MeasurementField& f) { return f.accepted.is_thermal; })));
 
 /// Names of the texts that lists filter and summaries group by, in the order of their numbers. The
-/// tolerance class is the one that a caller does not give as it is kept.
+/// tolerance class is not stored as the caller gives it.
 inline constexpr auto kTextFilters = [] {
   constexpr auto kCount =
       1 + std::ranges::count_if(kMeasurementFields, [](const auto& f) { return f.filter != 0; });

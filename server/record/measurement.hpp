@@ -17,8 +17,8 @@
 
 namespace fitgauge::app {
 
-/// A note of a person about a measurement: at least one of cause, measure
-/// and text. It stands beside the record and is never changed.
+/// A note of a person on a measurement: at least one of cause, measure and text. It is stored with
+/// the measurement and never changed.
 struct Note {
   std::string id{};           ///< `n3-5f0c9a3e77d21b40`; empty before it is stored
   std::string measurement{};  ///< the id of the record
@@ -39,8 +39,8 @@ class Origins;
 
 /// The source of a measurement: a gauge at a part, or the simulated machine.
 enum class Source : std::uint8_t { Gauge, Simulation };
-/// Where the limits come from: a class of the tables, a custom tolerance class, the drawing, or a
-/// designation of another standard; None: a value that nothing judges.
+/// Source of the limits: a class of the tables, a custom tolerance class, the drawing, or a
+/// designation of another standard; None: a value without limits.
 enum class LimitsBasis : std::uint8_t { Iso286, Custom, Explicit, Standard, None };
 
 std::string_view word(Source source);
@@ -57,7 +57,7 @@ inline constexpr std::string_view kGoFails = "fails";
 /// The deviation of a limit that a drawing does not have: beyond every length.
 inline constexpr Length kNoLimit = Length::nanometres(2 * kLongest.count());
 
-/// A record that another folder has stored, and where it stands in this one.
+/// A measurement that another folder has stored, and its place in this folder.
 struct Elsewhere {
   std::int64_t row = 0;
   std::int64_t origin = 0;    ///< as Origins numbers them
@@ -68,9 +68,9 @@ struct Elsewhere {
 /// read from: the request's body, or the database's own page while a visitor runs.
 struct Measurement : MeasurementFields {
   std::int64_t id = 0;      ///< the number in its id; 0 before it is stored
-  std::string_view origin;  ///< where it was stored: what its ids end with
+  std::string_view origin;  ///< its origin: the ending of its ids
   // Once it is read from the store:
-  std::int64_t row = 0;            ///< where it stands in this folder
+  std::int64_t row = 0;            ///< its place in this folder
   std::int64_t origin_number = 0;  ///< of the folder that has stored it; 0 is this one
   Source source = Source::Gauge;
   Timestamp measured_at;
@@ -96,21 +96,21 @@ struct Measurement : MeasurementFields {
 
   std::optional<gauging::ConformanceFigures> conformance;  ///< of that rule
 
-  std::optional<Length> corrected;               ///< the size at 20 °C, where it decides
+  std::optional<Length> corrected;               ///< the size at 20 °C, if the verdict uses it
   std::optional<std::int64_t> correction_of;     ///< the number in the id of the one it replaces
-  std::optional<Elsewhere> corrected_elsewhere;  ///< where that one is of another folder
-  std::optional<std::int64_t> corrected_by;      ///< known where one measurement was asked for
-  std::string_view corrected_by_origin{};        ///< empty: that of this one
+  std::optional<Elsewhere> corrected_elsewhere;  ///< if that measurement is of another folder
+  std::optional<std::int64_t> corrected_by;      ///< known if a single measurement was requested
+  std::string_view corrected_by_origin{};        ///< empty: the origin of this measurement
   bool has_unknown_gauge = false;  ///< while it is judged: others are registered, this one is not
   /// Another correction of the same record was made apart from this one. Known as corrected_by, and
   /// in lists.
   bool conflict = false;
-  std::span<const Note> notes{};  ///< known where a list was asked to show them
+  std::span<const Note> notes{};  ///< known if a list was requested with notes
 
   Length upper_limit() const { return nominal_size + deviations.upper; }
   Length lower_limit() const { return nominal_size + deviations.lower; }
   bool is_judged() const { return basis != LimitsBasis::None; }
-  /// Whether it says that it is a hole or a shaft.
+  /// Whether it defines a hole or a shaft.
   bool has_feature() const {
     return !quantity || (gauging::has_feature(*quantity) && (is_judged() || cycle.has_value()));
   }
@@ -122,7 +122,7 @@ struct Measurement : MeasurementFields {
   Length decisive() const { return corrected.value_or(measured); }
 };
 
-/// A measurement with texts of its own, to be kept after the visitor's call.
+/// A measurement that owns its texts, to keep it after the visitor's call.
 class KeptMeasurement {
  public:
   explicit KeptMeasurement(const Measurement& measurement);
@@ -139,24 +139,24 @@ class KeptMeasurement {
 /// A number of a measurement as a request gives it.
 std::string number_text(const MeasurementField& field, std::int64_t number);
 
-/// Takes the limits of a class of the tables.
+/// Sets the limits of a class of the tables.
 void apply_limits(Measurement& measurement, const iso286::LimitsOfSize& limits,
                   const iso286::ToleranceTables& tables);
 
 /// `M10-6H` is a pitch diameter, `R2 ISO 2768-m` a radius, `25 ISO 2768-m` a distance.
 gauging::Quantity quantity_of(const standards::DesignatedLimits& limits);
 
-/// Takes the limits of a designation of another standard.
+/// Sets the limits of a designation of another standard.
 void apply_limits(Measurement& measurement, const standards::DesignatedLimits& limits);
 
-/// Takes the limits that stand in another measurement, as they were applied there.
+/// Copies the limits of another measurement, as they were applied there.
 void apply_limits(Measurement& measurement, const Measurement& other);
 
-/// Takes the nominal size, if there is one, and no limits.
+/// Sets the nominal size, if there is one, and no limits.
 void apply_no_limits(Measurement& measurement, std::optional<Length> nominal);
 
-/// Judges the value by the limits and the rule that stand in the record; without limits it is
-/// unjudged. @pre a rule of conformance can accept some value
+/// Judges the value by the limits and the rule of the measurement; without limits it is unjudged.
+/// @pre a rule of conformance can accept some value
 void judge(Measurement& measurement);
 
 struct SizeLimits {
@@ -164,7 +164,7 @@ struct SizeLimits {
   Length lower;
 };
 
-/// A size, or the position of a centre, as a measuring cycle tells it.
+/// A size, or the position of a centre, from a measuring cycle.
 struct CycleSize {
   gauging::Quantity quantity = gauging::Quantity::Diameter;
   iso286::Feature feature = iso286::Feature::Hole;
@@ -173,7 +173,7 @@ struct CycleSize {
   std::optional<SizeLimits> limits{};
 };
 
-/// Takes the size with the limits of its drawing and judges it; without limits it is unjudged.
+/// Sets the size with the limits of its drawing and judges it; without limits it is unjudged.
 void judge_size(Measurement& measurement, const CycleSize& size);
 
 /// The ids of measurements and runs as the outside sees them, opaque: `m17-5f0c9a3e77d21b40`. The

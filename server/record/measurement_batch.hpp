@@ -22,8 +22,8 @@ namespace fitgauge::api {
 struct GaugePeriod {
   Timestamp from{std::numeric_limits<std::int64_t>::min()};
   std::string budget{};  ///< its name; empty: none
-  /// Of the budget, whose figures are in µm, rounded up to the nanometre; none where there is no
-  /// such budget any more.
+  /// Uncertainty of the budget, which is in µm, rounded up to the nanometre; none if the budget is
+  /// deleted.
   std::optional<Length> standard_uncertainty{};
   std::optional<std::int64_t> degrees_of_freedom{};  ///< of the budget, in millionths
   std::string calibration_due{};                     ///< a date, or a time in UTC; empty: none
@@ -36,11 +36,11 @@ struct GaugePeriod {
 };
 
 struct GaugeInUse {
-  /// By time: what the gauge itself says, each from a change on, and then its calibrations. The
+  /// By time: the entries of the gauge itself, each from its change on, then its calibrations. The
   /// first has no beginning.
   std::vector<GaugePeriod> periods{1};
 
-  /// The period that a time lies in.
+  /// Returns the period of a time.
   const GaugePeriod& at(Timestamp time) const;
 };
 
@@ -54,8 +54,8 @@ std::optional<Timestamp> parse_due(std::string_view text);
 /// The same text with its time in UTC; a date stays as it is.
 std::optional<std::string> due_in_utc(std::string_view text);
 
-/// A standard uncertainty in µm as measurements have it: rounded up to the nanometre. None where it
-/// is no length.
+/// Standard uncertainty in µm as in measurements, rounded up to the nanometre. None if it is not a
+/// length.
 std::optional<Length> rounded_up(double micrometres);
 
 class FieldErrors;
@@ -65,9 +65,9 @@ struct MeasurementBatch {
   std::vector<app::Measurement> rows{};
   bool single = false;                  ///< the body was one object, not a list
   std::shared_ptr<const void> texts{};  ///< keeps what had to be copied out of the body
-  bool is_begun = false;                ///< BatchContext::take has rows before these
-  /// The fast reader had delivered rows before it met an error or an escaped key. The caller
-  /// discards them and decodes the whole body without `take`.
+  bool is_begun = false;                ///< BatchContext::take already received rows
+  /// The fast reader passed rows before it met an error or an escaped key. The caller discards them
+  /// and decodes the whole body without `take`.
   bool wants_whole = false;
   bool has_too_many = false;  ///< more than kMostRows
 
@@ -88,14 +88,13 @@ struct BatchContext {
   Timestamp received_at;
   std::optional<std::string_view> caller{};  ///< of every row
   const GaugeBook* gauges = nullptr;         ///< those in use; null: none
-  /// Takes rows away as soon as there are kRowsAtATime, while none was wrong.
+  /// Passes rows to `take` in batches of kRowsAtATime, as long as there are no errors.
   std::function<void(std::vector<app::Measurement>)> take{};
-  /// Finds every error in its place, also with `take`.
+  /// Finds every error with its place, also with `take`.
   bool is_exact = false;
 };
 
-/// For the readers of each format, after every row: lets `take` have the rows when there are
-/// enough.
+/// Called by every format reader after each row. Passes a full batch to `take`.
 void take_full(MeasurementBatch& batch, const BatchContext& context, const FieldErrors& errors);
 
 /// The most rows one request may have.

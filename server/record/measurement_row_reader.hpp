@@ -44,7 +44,7 @@ struct RowField {
   Kind kind = Kind::Text;
   std::size_t longest = 0;  ///< of a text, in bytes
   std::string_view meaning{};
-  const app::MeasurementField* plain = nullptr;  ///< kept as it is; else the reader uses it
+  const app::MeasurementField* plain = nullptr;  ///< stored as it is; otherwise the reader uses it
 };
 
 /// By RowField::Index: the fields that the readers accept and /openapi.json describes.
@@ -88,7 +88,7 @@ inline constexpr std::array<RowField, RowField::Count> kRowFields = [] {
 }();
 static_assert(kRowFields[RowField::DegreesOfFreedom].name == "degrees_of_freedom");
 
-/// One value as its format has it, before the field says what it must be.
+/// One value in its format, before it is read as a field.
 struct RawValue {
   enum class Kind : std::uint8_t { Null, Boolean, Number, String, Array, Object };
 
@@ -108,19 +108,18 @@ class MeasurementRowReader {
   MeasurementRowReader(const BatchContext& context, FieldErrors& errors)
       : tables_(context.tables), context_(context), errors_(errors) {}
 
-  /// @param row the index of the row, from 0; none for a single object.
-  /// @param line the line it stands on, from 1; none where lines mean nothing.
+  /// @param row index of the row, from 0; none for a single object.
+  /// @param line line of the row, from 1; none if the format has no lines.
   void begin(std::optional<std::size_t> row, std::optional<std::size_t> line = {});
 
   /// @returns false, and reports nothing, when there is no such field or it was given before.
   bool field(std::string_view name, const RawValue& value);
   void report_unknown(std::string_view name);
 
-  /// Gives the row the limits of another measurement as they were applied there; then it has no
-  /// field of its own that says limits.
+  /// Gives the row the limits of another measurement; then its own fields must not have limits.
   void take_limits(const app::Measurement& other);
 
-  /// Gives the row what the gauge of another measurement said there; then it is not asked again.
+  /// Gives the row the gauge's data of another measurement, instead of looking the gauge up.
   void take_gauge(const app::Measurement& other);
 
   /// The judged measurement, until the next row begins; null when the row has errors.
@@ -146,7 +145,7 @@ class MeasurementRowReader {
     std::optional<Length> upper{};
     std::optional<Length> lower{};
     RuleWords rule{};
-    bool has_limits = false;                     ///< taken from another measurement
+    bool has_limits = false;                     ///< copied from another measurement
     const app::Measurement* gauge_of = nullptr;  ///< of take_gauge
     bool failed = false;
   };

@@ -32,7 +32,7 @@ class Origins {
   /// A history of this folder before its present one, and the newest numbers of it that are here.
   struct Ended {
     std::string digits;
-    std::array<std::int64_t, 4> newest{};  ///< by what is counted
+    std::array<std::int64_t, 4> newest{};  ///< key: counted by
 
     std::int64_t newest_of(Counted what) const { return newest.at(static_cast<std::size_t>(what)); }
   };
@@ -61,8 +61,8 @@ class Origins {
     return of(origin);
   }
 
-  /// The origin of an id with these digits; none where they are not known, and where that number
-  /// was given out behind the end of a history. Without digits it is of the first history.
+  /// Returns the origin of an id with these digits; none if the digits are unknown, or the number
+  /// is after the end of a history. Without digits the first history counts.
   std::optional<std::int64_t> number(std::string_view digits, std::int64_t number,
                                      Counted what = Counted::Measurement) const {
     const std::lock_guard lock(mutex_);

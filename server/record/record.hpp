@@ -21,9 +21,8 @@ namespace fitgauge::app {
 /// is coarser than the doubles around the longest length, so RFC 8785 spells them alike.
 void append_record(std::string& out, const Measurement& measurement);
 
-/// Appends records, one after the other. Those of a request mostly have the same times and limits:
-/// these are copied from the record before. Each measurement stays where it is until the next is
-/// written.
+/// Appends records. Equal times and limits are copied from the previous record. Each measurement
+/// must stay in place until the next one is written.
 class RecordWriter {
  public:
   explicit RecordWriter(std::string& out) : out_(out) {}
@@ -32,7 +31,7 @@ class RecordWriter {
 
  private:
   static constexpr std::size_t kMostMembers = 80;
-  /// Where a part of the record before stands.
+  /// Place of a part of the previous record.
   struct Place {
     std::size_t at = 0;
     std::size_t size = 0;
@@ -46,13 +45,13 @@ class RecordWriter {
 
 namespace fitgauge::api {
 
-/// The member's text; empty where it is none.
+/// Returns the member's text; empty if it is not a text.
 inline std::string text_of(const JsonValue& json, std::string_view name) {
   const JsonValue* value = json.find(name);
   return value != nullptr && value->is(JsonValue::Kind::String) ? value->text : std::string();
 }
 
-/// Reads what to_hex() writes; none where it is something else.
+/// Reads the output of to_hex(); none for other texts.
 inline std::optional<Digest> digest_from_hex(std::string_view hex) {
   Digest digest{};
   if (hex.size() != 2 * digest.size()) return std::nullopt;

@@ -24,7 +24,7 @@ struct ThermalCorrection {
   Length operator()(Length reading) const {
     return gauging::size_at_20_degrees(reading, part, scale);
   }
-  /// Of a corrected size, in pm; none where no uncertainty was given.
+  /// Of a corrected size, in pm; none if no uncertainty was given.
   std::optional<std::int64_t> added_uncertainty(Length corrected) const {
     if (!has_uncertainties) return std::nullopt;
     return gauging::added_uncertainty(corrected, part, scale);
@@ -40,7 +40,7 @@ Result<std::optional<ThermalCorrection>> make_correction(const app::MeasurementF
 /// The largest measured value: 100 km.
 inline constexpr Length kLargestMeasured = Length::millimetres(100'000'000);
 
-/// A remark beside an answer; of a stored value never in its leaf.
+/// A warning of a response; a stored leaf never has it.
 struct Warning {
   std::string_view code;
   std::string detail;
@@ -48,15 +48,15 @@ struct Warning {
 /// Writes `"warnings":[{code, detail}]`; nothing without any.
 void write_warnings(JsonWriter& json, std::span<const Warning> warnings);
 
-/// Adds `rule.no_acceptance` where the guard bands leave no value that is good.
+/// Adds `rule.no_acceptance` if the guard bands leave no good value.
 void warn_of_no_acceptance(const gauging::DecisionRule& rule, Length tolerance,
                            std::vector<Warning>& warnings);
 
 /// @errors LengthOutOfRange unless 0 < measured <= kLargestMeasured; a position, distance or
-///   deviation lies from -kLargestMeasured on.
+///   deviation must be at least -kLargestMeasured.
 Result<void> check_measured(Length measured,
                             gauging::Quantity quantity = gauging::Quantity::Diameter);
-/// @errors LengthOutOfRange where it is negative.
+/// @errors LengthOutOfRange if it is negative.
 Result<void> check_uncertainty(Length uncertainty);
 
 /// A decision rule as it is written, in the query as in a body.
@@ -75,11 +75,11 @@ struct RuleWords {
 ///   the rule's.
 Result<gauging::DecisionRule> make_rule(const RuleWords& words);
 
-/// @errors RuleNoAcceptance where conformance leaves no value that could be good.
+/// @errors RuleNoAcceptance if conformance leaves no good value.
 Result<void> check_acceptance(const gauging::DecisionRule& rule,
                               const gauging::ConformanceLimits& limits);
 
-/// A measured value: what was read, and its size at 20 °C where that decides.
+/// A measured value: the reading, and its size at 20 °C if the verdict uses it.
 struct MeasuredSize {
   Length reading;
   std::optional<Length> corrected{};
