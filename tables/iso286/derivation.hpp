@@ -28,7 +28,7 @@ class IndexedTable {
   /// Empty when there is no such column.
   Column column(std::string_view name) const;
 
-  /// The index of the range that holds all of `range`.
+  /// Returns the index of the range that contains `range`.
   /// @pre there is one
   std::size_t index_of(const NominalSizeRange& range) const;
 
@@ -57,11 +57,11 @@ struct StandardTables {
 /// fundamental deviations, the first one parted at 1 mm.
 std::vector<NominalSizeRange> derivation_ranges(const StandardTables& tables);
 
-/// The standard tolerance of a grade, or nothing where the grade is not used.
+/// Returns the standard tolerance of a grade; none if the grade is not used.
 std::optional<Length> standard_tolerance(const StandardTables& tables, StandardToleranceGrade grade,
                                          const NominalSizeRange& range);
 
-/// The limit deviations of a class for each of `ranges`, by the rules of ISO 286-1; nothing where
+/// Returns the limit deviations of a class for each of `ranges`, by the rules of ISO 286-1; none if
 /// the standard does not define the class.
 std::vector<std::optional<LimitDeviations>> derive(const StandardTables& tables,
                                                    const ToleranceClass& tolerance_class,

@@ -27,7 +27,7 @@ class ToleranceTables;
 std::optional<LimitDeviations> deviations_in_range(const ToleranceTables& tables, ClassId id,
                                                    const NominalSizeRange& range);
 
-/// Where limits come from: the standard, or a column of the shop's own.
+/// Source of limits: the standard, or a custom tolerance class.
 enum class Basis : std::uint8_t { Iso286, Custom };
 
 /// `iso286` or `custom`.

@@ -45,8 +45,7 @@ struct CustomRow {
   friend bool operator==(const CustomRow&, const CustomRow&) = default;
 };
 
-/// A shop's own column: from then on it answers for its name, also where the standard has a class
-/// of that name, and no size it does not cover is answered.
+/// A custom tolerance class. It replaces a class of the standard with its name, for all sizes.
 struct CustomColumn {
   Feature feature = Feature::Hole;
   std::string name;
@@ -76,10 +75,10 @@ std::vector<Error> table_rules(const TableData& data);
 /// @returns TablesInconsistent each, naming table, range, column, found and expected.
 std::vector<Error> compare_with_compiled_in(const TableData& data);
 
-/// Rules of a custom column: a name of the grammar whose case is the feature's and that is
-/// not NR or BEREICH, at least one row, contiguous ascending ranges within 0 to 3150 mm, and
-/// upper >= lower.
-/// @errors TableRowsInvalid; `details` has one entry a finding, `where` its JSON pointer.
+/// Checks a custom tolerance class: a valid name whose case matches the feature and that is not NR
+/// or BEREICH, at least one row, contiguous ascending ranges within 0 to 3150 mm, and upper >=
+/// lower.
+/// @errors TableRowsInvalid; `details` has one entry for each finding, `where` its JSON pointer.
 Result<void> check_custom_column(const CustomColumn& column);
 
 /// The files of tables/data, byte for byte. Sizes are in mm, deviations and tolerances in µm.

@@ -58,8 +58,8 @@ class ToleranceTables {
     return classes_info_[id.index].custom_rows.empty() ? Basis::Iso286 : Basis::Custom;
   }
 
-  /// The deviations, or nothing where the class is not defined for the size (or the lower limit of
-  /// size would be 0 or less). A few nanoseconds.
+  /// Returns the deviations; none if the class is not defined for the size (or the lower limit of
+  /// size would be 0 or less). Takes a few nanoseconds.
   std::optional<LimitDeviations> limit_deviations(NominalSize size, ClassId id) const {
     const Cell& cell = cells_[id.index * kSlots + slot(size)];
     if (cell.upper == kElsewhere) [[unlikely]]
@@ -77,8 +77,8 @@ class ToleranceTables {
   /// @errors FitMalformed unless the classes are of a hole and a shaft; those of limits_of_size.
   Result<Fit> fit(NominalSize size, ClassId hole, ClassId shaft) const;
 
-  /// The class to use instead: of the same letter the nearest grade, else of the nearest letter the
-  /// same grade; the finer grade and the earlier letter where two are equally near.
+  /// Suggests a class: the nearest grade of the same letter, else the nearest letter of the same
+  /// grade; the finer grade or the earlier letter if two are equally near.
   std::optional<ClassId> nearest_defined(NominalSize size, ClassId id) const;
 
  private:
@@ -109,7 +109,7 @@ class ToleranceTables {
   void add_custom_column(const CustomColumn& column);
   void list_classes();
 
-  /// Where the class is defined, ranges that touch joined.
+  /// Size ranges of the class; adjacent ranges are joined.
   std::vector<NominalSizeRange> defined_ranges(ClassId id) const;
   const CustomRow* custom_row(NominalSize size, ClassId id) const;
   std::optional<LimitDeviations> custom_deviations(NominalSize size, ClassId id) const;

@@ -12,8 +12,7 @@
 
 namespace fitgauge::standards {
 
-/// The limits that a designation of another standard than ISO 286 stands for. All lengths are
-/// exact.
+/// Limits of a designation of another standard than ISO 286. All lengths are exact.
 struct DesignatedLimits {
   const Standard* standard = nullptr;  ///< never null
   /// The designation without the nominal size: `ISO 2768-m`, `R ISO 2768-m` of a broken
@@ -21,7 +20,7 @@ struct DesignatedLimits {
   /// Stays as long as the program runs.
   std::string_view tolerance_class;
   iso286::Feature feature = iso286::Feature::Shaft;
-  bool feature_is_open = false;  ///< it also stands for an inside dimension
+  bool feature_is_open = false;  ///< also for an inside dimension
   Length nominal;
   iso286::LimitDeviations deviations;
   std::optional<iso286::NominalSizeRange> size_range;  ///< of general tolerances
@@ -34,7 +33,7 @@ struct DesignatedLimits {
 /// Whether a designation is meant to be one of these: it begins with M, R or C and a digit, or
 /// names ISO 2768. None of them is one of ISO 286.
 bool is_designation(std::string_view text);
-/// Whether a class is one that stands beside a nominal size: `ISO 2768-m`.
+/// Whether a class follows a nominal size: `ISO 2768-m`.
 bool is_class(std::string_view text);
 
 /// Reads `M10-6H`, `M10x1.25-6g`, `M10×1,25-5g6g` (the first class is that of the pitch diameter;
@@ -44,11 +43,11 @@ bool is_class(std::string_view text);
 ///   does not have; ClassUndefinedForSize: a diameter or pitch that it has no number for;
 ///   SizeOutOfRange.
 Result<DesignatedLimits> limits_of(std::string_view designation);
-/// The same of a class beside its size. @pre is_class
+/// Returns the limits of a class and a size. @pre is_class
 Result<DesignatedLimits> limits_of(Length nominal, std::string_view tolerance_class);
 
-/// The limits of the pitch diameter of a metric thread (ISO 965-1), as limits_of() says: the
-/// nominal size is D2 = d2 = d - 3 sqrt(3) P / 8 to the micrometre, as ISO 724 has it.
+/// Returns the limits of the pitch diameter of a metric thread (ISO 965-1); the nominal size is D2
+/// = d2 = d - 3 sqrt(3) P / 8, rounded to the micrometre as in ISO 724.
 Result<DesignatedLimits> thread_limits(std::string_view designation);
 
 /// Whether a class names one of bearings: `ISO 492-P6`.
@@ -59,7 +58,7 @@ bool is_bearing_class(std::string_view text);
 Result<DesignatedLimits> bearing_limits(Length nominal, std::string_view tolerance_class,
                                         iso286::Feature feature);
 
-/// `25 H7`, `M10-6H`, `R2 ISO 2768-m`: a nominal size and a class, of whatever standard.
+/// A nominal size and a class of any standard: `25 H7`, `M10-6H`, `R2 ISO 2768-m`.
 void append_designation(std::string& out, Length nominal, std::string_view tolerance_class);
 
 }  // namespace fitgauge::standards

@@ -23,7 +23,7 @@ enum class Member : std::uint8_t {
   LowerAngle
 };
 
-/// One number of a standard: the upper deviation of class m, say.
+/// One number of a standard, such as the upper deviation of class m.
 struct Cell {
   std::string_view item;  ///< `m`, `P6`, `hub_depth`
   Member member = Member::Nominal;
@@ -33,7 +33,7 @@ struct Cell {
 /// The scope of a row: a range of sizes, a pitch, a diameter, or several of them.
 struct Row {
   std::optional<Length> over{};   ///< exclusive
-  std::optional<Length> up_to{};  ///< inclusive; none beside `over`: without end
+  std::optional<Length> up_to{};  ///< inclusive; absent with `over`: no upper end
   std::optional<Length> pitch{};
   std::optional<Length> diameter{};
   std::vector<Cell> cells{};
@@ -42,7 +42,7 @@ struct Row {
   std::optional<Length> length(std::string_view item, Member member) const;
 };
 
-/// One table of a standard. Its texts are those of the file it was read from, which stays.
+/// One table of a standard. Its texts are views of its file, which must outlive it.
 struct Table {
   std::string_view name;
   std::vector<Row> rows;
@@ -57,14 +57,15 @@ struct Table {
 ///   wrong way round, ranges with a gap or out of order.
 Result<Table> read_table(std::string_view name, std::string_view csv);
 
-/// A standard beside ISO 286 that the program has numbers of.
+/// A standard besides ISO 286 with tables in the program.
 struct Standard {
   std::string_view name;     ///< `iso2768-1`
   std::string_view edition;  ///< `ISO 2768-1:1989`
   std::string_view title;
-  std::string_view designation;  ///< an example; empty where the standard has none for limits
+  std::string_view designation;           ///< an example; empty if the standard has no limits
   std::vector<std::string_view> sources;  ///< the numbers were compared with
-  std::string_view left_out;  ///< what it has too, and why it is not here; empty for nothing
+  std::string_view
+      left_out;  ///< other parts of the standard, and why they are missing; empty for none
   std::vector<Table> tables;
   /// The edition with the first digits of the digest of its numbers, `ISO 2768-1:1989-1f2e3d4c`:
   /// what records name, so that they can be judged again.
@@ -73,14 +74,15 @@ struct Standard {
   const Table& table(std::string_view table_name) const;
 };
 
-/// All of them, read and checked once, at the first call. The files are compiled in.
-/// @throws std::logic_error where a file breaks a rule of its own: a test reads them all.
+/// Returns all standards, read and checked once at the first call. The files are compiled in.
+/// @throws std::logic_error if a file breaks a rule: a test reads them all.
 std::span<const Standard> all();
 
-/// Null where there is none of this name.
+/// Returns null if there is no standard of this name.
 const Standard* find(std::string_view name);
 
-/// A file of tables/data/standards, byte for byte: `iso2768_linear`. Empty where there is none.
+/// Returns a file of tables/data/standards, such as `iso2768_linear`, byte for byte; empty if it
+/// does not exist.
 std::string_view compiled_in_csv(std::string_view name);
 
 }  // namespace fitgauge::standards

@@ -16,10 +16,10 @@ namespace fitgauge::tabfile {
 /// A column of a table file.
 struct TabColumn {
   std::string name;
-  /// The type as the file gives it: `N`, `C`, `LENGTH`, `TEXT`; empty where it describes none.
+  /// Type as in the file: `N`, `C`, `LENGTH`, `TEXT`; empty if the file has none.
   std::string type{};
   std::size_t width = 0;  ///< characters of a cell, without the blank between columns
-  /// Digits after the point of a number that is written; nothing where the file does not tell.
+  /// Digits after the point of a written number; none if the file does not define them.
   std::optional<int> decimals{};
 
   friend bool operator==(const TabColumn&, const TabColumn&) = default;
@@ -58,8 +58,8 @@ class TabTable {
   /// The cell of the row in file order, trimmed; empty when blank.
   std::string_view cell(std::size_t row, std::size_t column) const;
 
-  /// Appends a row; cells it lacks are blank.
-  /// @errors TableFileMalformed when its number is taken or it has more cells than columns.
+  /// Appends a row; missing cells are blank.
+  /// @errors TableFileMalformed if its number exists or it has more cells than columns.
   Result<void> append_row(std::vector<std::string> cells);
 
   /// @errors TableColumnMissing.
@@ -128,7 +128,7 @@ inline constexpr std::size_t kMostColumns = 4096;
 /// Reads the lines between #STRUCTBEGIN and #STRUCTEND; texts for dialogs are passed over.
 ColumnDescriptions read_struct_block(const std::vector<std::string_view>& lines);
 
-/// Reads what stands in the parentheses of TableDescription.
+/// Reads the text in the parentheses of TableDescription.
 ColumnDescriptions read_table_description(std::string_view text);
 
 /// The description of all columns that have a type, as the lines of their form.
