@@ -42,9 +42,9 @@ struct Head {
   std::int64_t names = 0;
 };
 
-/// A connection to the server that takes writes. What gives no rows is sent and not waited for:
-/// what fails there is thrown by the next call that waits. Used by one thread at a time. After a
-/// StorageFailure it is closed and another is opened.
+/// A connection to the server that accepts writes. Statements without rows are sent without
+/// waiting; their failure is thrown by the next call that waits. Used by one thread at a time.
+/// After a StorageFailure it is closed and another one is opened.
 class Connection final : public sql::Connection {
  public:
   /// @param address `postgresql://…`, as libpq reads it; of several hosts the one that writes.
@@ -59,9 +59,9 @@ class Connection final : public sql::Connection {
   void send(const std::string& sql);
   /// Sends a prepared statement; the first time under this name it is prepared with these types.
   void send(const std::string& name, const std::string& sql, std::span<const Parameter> values);
-  /// Waits for all that was sent. @returns the result of the last statement, null where there was
-  /// none.
-  /// @throws StorageFailure, std::logic_error of the first that failed.
+  /// Waits for everything that was sent. @returns the result of the last statement; null if there
+  /// was none.
+  /// @throws StorageFailure, std::logic_error of the first statement that failed.
   ResultPtr wait();
   /// Waits for all that was sent, a COMMIT among it.
   /// @throws as wait(); StorageFailure for all that fails when it has committed.
@@ -76,7 +76,7 @@ class Connection final : public sql::Connection {
 
   /// The name of a new statement.
   std::string new_name() { return "s" + std::to_string(++names_); }
-  /// A statement that nobody uses any more.
+  /// A statement without users.
   void forget(const std::string& name) noexcept;
 
   PGconn* handle() const { return connection_.get(); }
@@ -102,7 +102,7 @@ class Connection final : public sql::Connection {
   std::unique_ptr<PGconn, Finish> connection_;
   std::vector<std::string> sent_;    ///< of each the name it prepares, or nothing
   std::set<std::string> prepared_;   ///< names the server knows
-  std::vector<std::string> unused_;  ///< names it need not know any more
+  std::vector<std::string> unused_;  ///< names that the server may forget
   bool has_committed_ = false;       ///< COMMIT was among what wait() has waited for
   std::uint64_t names_ = 0;
   std::string warning_;

@@ -15,10 +15,11 @@
 
 namespace fitgauge::store::postgres {
 
-/// When commits of this daemon are notified. Each NOTIFY wakes every daemon and a session of it on
-/// the server, so there is one for all commits within 20 ms: a transaction notifies when the last
-/// one is that long ago, and is postponed else. The next one then notifies for both, or the
-/// listener where there is none for so long. What a killed daemon has postponed is lost.
+/// Decides when commits of this daemon are notified. Each NOTIFY wakes every daemon and one of its
+/// sessions on the server, so there is one for all commits within 20 ms: a transaction notifies if
+/// the last one is that long ago, and is postponed otherwise. The next transaction then notifies
+/// for both, or the listener if there is none in time. Postponed notifications of a killed daemon
+/// are lost.
 class Notifications {
  public:
   using Clock = std::chrono::steady_clock;
@@ -43,11 +44,11 @@ class Notifications {
     }
   }
 
-  /// Thread-safe; wakes the listener where nothing was postponed before.
+  /// Thread-safe; wakes the listener if nothing was postponed before.
   void postpone() {
     if (!postponed_.exchange(true)) wake_listener();
   }
-  /// @returns whether something was postponed; who takes it notifies.
+  /// @returns whether something was postponed; then the caller must notify.
   bool take_postponed() { return postponed_.exchange(false); }
 
   void wake_listener() const { eventfd_write(event_, 1); }
@@ -60,26 +61,26 @@ class Notifications {
   Clock::time_point next_{};
 };
 
-/// The class of the advisory locks that daemons hold while they live.
+/// Class of the advisory locks that living daemons hold.
 inline constexpr int kDaemonLocks = 0x46744761;
 
-/// Hears of the commits of all daemons, notifies what this one has postponed, on a connection and a
-/// thread of its own, and holds the lock that says this daemon lives. Where the connection is lost
-/// it is opened again, and what was not heard meanwhile counts as heard. Every few seconds it looks
-/// at what the server says of itself, and as if it had heard: a killed daemon may not have
+/// Receives the notifications of all daemons and sends the postponed ones of this daemon, on its
+/// own connection and thread. Holds the lock that shows that this daemon is alive. Opens a lost
+/// connection again and then reports a notification, because some may be lost. Every few seconds it
+/// reads the state of the server and reports a notification, because a killed daemon may not have
 /// notified.
 class Listener {
  public:
-  using Figures = std::optional<ServerFigures>;  ///< nothing while the server is away
+  using Figures = std::optional<ServerFigures>;  ///< absent while the server is unreachable
 
-  /// @param notifications outlive it.
-  /// @param heard called on the thread, after one or more commits, with whether one of them has
-  ///   changed names (store::postgres::Names); must not block.
-  /// @param told called on the thread with what is new; must not block.
+  /// @param notifications must outlive it.
+  /// @param heard called on the thread after one or more commits, with whether one of them has
+  /// changed names (store::postgres::Names); must not block.
+  /// @param told called on the thread with changes of the server's state; must not block.
   Listener(std::string address, std::int64_t daemon, Notifications& notifications,
            std::function<void(bool names)> heard, std::function<void(Figures)> told);
   Listener& operator=(Listener&&) = delete;  // neither copied nor moved
-  /// Notifies what is postponed.
+  /// Sends the postponed notification.
   ~Listener();
 
  private:

@@ -46,8 +46,8 @@ inline std::int64_t read_number(std::string_view bytes) {
   return static_cast<std::int64_t>(value);
 }
 
-/// A statement of a connection: prepared on the server when it first runs, then with the types of
-/// what is bound. A query brings all its rows at once.
+/// A statement of a connection, prepared on the server at its first run with the types of its
+/// parameters. A query fetches all rows at once.
 class Prepared final : public sql::Prepared {
  public:
   Prepared(Connection& connection, std::string_view sql);
@@ -81,8 +81,8 @@ class Prepared final : public sql::Prepared {
   int row_ = -1;
 };
 
-/// Appends rows, and makes the part of the table that a row goes to where it is the first.
-/// Every row says whose it is and where it stands in that log.
+/// Appends rows, and makes the partition of the table for its first row. Every row has its origin
+/// and its place in that log.
 class MeasurementTable final : public sql::MeasurementTable {
  public:
   explicit MeasurementTable(Connection& connection);
@@ -102,7 +102,7 @@ class MeasurementTable final : public sql::MeasurementTable {
   sql::Statement make_part_;
   Oid row_type_ = 0;                ///< of the table; 0 until it was asked for
   std::vector<std::size_t> order_;  ///< of the table's columns: their indices in a row
-  std::string values_;              ///< of one row, and where each of them ends
+  std::string values_;              ///< of one row, and the end of each
   std::vector<std::size_t> ends_;
   std::set<std::pair<std::int64_t, std::int64_t>> parts_;  ///< origin and month that are there
 };

@@ -15,9 +15,9 @@
 
 namespace fitgauge::store::postgres {
 
-/// The part of the database that the application keeps in memory (table revisions, origins, keys of
-/// the log), as other daemons change it too: it is told before a transaction shows rows that need
-/// what is new.
+/// Data of the database that the application keeps in memory and other daemons change (table
+/// revisions, origins, log keys). It is informed before a transaction shows rows that need new
+/// ones.
 class Names {
  public:
   /// @param changed see OpenOptions::names_changed.
@@ -35,10 +35,10 @@ class Names {
   std::atomic<std::int64_t> seen_{-1};
 };
 
-/// A connection with its stores. Transactions that write hold the row `head` from their first
-/// statement to their commit, so that they follow each other, whoever makes them. The next one need
-/// not wait until the disk has the one before: the WAL keeps their order, and commit() returns, of
-/// what was written as of what was read, when all of it is on the disk.
+/// A connection with its stores. Writing transactions lock the row `head` from their first
+/// statement to their commit, so that all daemons write in turn. The next transaction does not wait
+/// for the disk: the WAL keeps their order, and commit() returns when everything that was read and
+/// written is on the disk.
 class Session final : public sql::Session {
  public:
   /// @param daemon what open runs are marked with. @param names and `notifications` outlive the

@@ -15,9 +15,9 @@ namespace fitgauge::store::sql {
 /// The meaning of a NULL, for an engine that knows its types before the values.
 enum class Kind : std::uint8_t { Integer, Text, Bytes };
 
-/// A statement that an engine has prepared, with the row it stands at. Parameters count from 1,
-/// columns from 0. Texts that are bound and read are not copied: those bound live until the
-/// statement has run, those read until its next step.
+/// A statement that an engine has prepared, with its current row. Parameters count from 1, columns
+/// from 0. Texts are not copied: bound texts must live until the statement has run, read texts live
+/// until its next step.
 class Prepared {
  public:
   Prepared& operator=(Prepared&&) = delete;  // neither copied nor moved
@@ -28,8 +28,8 @@ class Prepared {
   virtual void bind_text(int index, std::string_view value) = 0;
   virtual void bind_blob(int index, std::string_view bytes) = 0;
 
-  /// Runs to the end, whatever rows there are. An engine may put off what gives none; what fails
-  /// then is told by a later call, at the latest by the commit.
+  /// Runs to the end and ignores rows. An engine may postpone a statement without rows; a later
+  /// call, at the latest the commit, reports its failure.
   virtual void run() = 0;
   /// @returns whether there is a next row.
   virtual bool step() = 0;
@@ -45,7 +45,7 @@ class Prepared {
   virtual void release_pages() noexcept {}
 };
 
-/// The end of the measurements, where an engine adds rows its own way.
+/// Appends measurements, if an engine has a special way.
 class MeasurementTable {
  public:
   MeasurementTable& operator=(MeasurementTable&&) = delete;  // neither copied nor moved
@@ -55,8 +55,8 @@ class MeasurementTable {
   virtual void append(std::span<const MeasurementRow> rows) = 0;
   /// 0 when there is none.
   virtual std::int64_t last_id() = 0;
-  /// How many rows of this folder's own there are, where the engine counts them and numbers them in
-  /// their log; else none.
+  /// Number of rows of this folder, if the engine counts them and numbers them in their log; else
+  /// none.
   virtual std::optional<std::int64_t> own_rows() { return std::nullopt; }
 };
 
@@ -75,7 +75,7 @@ class Connection {
   Connection& operator=(Connection&&) = delete;  // neither copied nor moved
   virtual ~Connection() = default;
 
-  /// @param sql in SQLite's words; parameters are `?`, or `?1` where one stands twice.
+  /// @param sql in SQLite's dialect; parameters are `?`, or `?1` if one is used twice.
   virtual std::unique_ptr<Prepared> prepare(const std::string& sql) = 0;
 
   virtual MeasurementTable& measurements() = 0;

@@ -31,14 +31,14 @@ class IndexNodes {
  public:
   explicit IndexNodes(sql::Connection& connection);
 
-  /// How a node's times lie to those the filter asks for.
+  /// Relation of a node's times to the times of the filter.
   enum class Times : std::uint8_t { Outside, Inside, Partly };
   struct Found {
     Times times = Times::Partly;
     bool has_aggregates = false;  ///< of its current rows
     bool has_pairs = false;       ///< and tuples
   };
-  /// @returns none where there is no such node
+  /// @returns none if there is no such node
   std::optional<Found> find(const IndexNode& node, const MeasurementFilter& filter);
 
   /// Whether it is known that no current row of the kinds asked for has all these values.
@@ -54,7 +54,7 @@ class IndexNodes {
   /// At most a row: what PairIndex keeps of the two fields.
   sql::Rows pairs(const IndexNode& node, int field, int by_field);
 
-  /// @param bytes what the column is a view of
+  /// @param bytes storage of the column, which is a view of it
   std::optional<TupleColumn> column(const IndexNode& node, int field, std::string& bytes);
 
  private:
@@ -83,11 +83,11 @@ class PairIndex {
   };
 
   static constexpr int kSums = 0;     ///< the field of tuples' sums
-  static constexpr int kColumns = 0;  ///< what their columns stand by
+  static constexpr int kColumns = 0;  ///< key of their columns
 
   explicit PairIndex(sql::Connection& connection);
 
-  /// From what is stored of the nodes below. @pre node.level > 0
+  /// Builds it from the stored nodes below. @pre node.level > 0
   Node derive(const IndexNode& node);
   void insert(const IndexNode& node, const Node& index);
   void erase(const IndexNode& node);

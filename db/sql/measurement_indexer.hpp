@@ -15,7 +15,7 @@
 
 namespace fitgauge::store {
 
-/// The statistics of a node; derived from the measurements alone.
+/// Statistics of a node, derived only from the measurements.
 struct NodeIndex {
   std::int64_t min_measured_at = 0;
   std::int64_t max_measured_at = 0;
@@ -27,8 +27,8 @@ struct NodeIndex {
   /// By field, value and kind (8 * source + verdict) of the rows that no other row corrects.
   using AggregateKey = std::tuple<int, std::optional<std::string>, int>;
   std::map<AggregateKey, ExactStatistics> aggregates;
-  /// The values of a block as store::ValueBlock reads them; none where a row is a correction or of
-  /// another folder, and for other nodes.
+  /// Values of a block as store::ValueBlock reads them; none if a row is a correction or of another
+  /// folder, and for nodes above blocks.
   std::optional<std::string> values;
   PairIndex::Node pairs;
 };
@@ -39,15 +39,15 @@ class MeasurementIndexer {
  public:
   explicit MeasurementIndexer(sql::Connection& connection);
 
-  /// Makes what a stale node adds up anew, or indexes the next whole block with the nodes that it
-  /// completes, or makes what a node of an earlier release lacks.
+  /// Does one step: updates a stale node, or indexes the next whole block with the nodes that it
+  /// completes, or adds missing parts to a node of an earlier release.
   /// @returns whether there was something to do.
   bool step();
 
   /// A row was corrected: its nodes' aggregates are stale until a step has made them anew.
   void corrected(std::int64_t id);
 
-  /// Derives the whole index and calls `note` with each node that differs from what is stored.
+  /// Derives the whole index and calls `note` with each node that differs from the stored one.
   void verify(const std::function<void(std::string)>& note);
 
  private:

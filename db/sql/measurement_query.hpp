@@ -16,15 +16,15 @@
 
 namespace fitgauge::store {
 
-/// The end of what is indexed: rows up to this id are in blocks. 0 when none is.
+/// Last id in blocks of the index; 0 if there is none.
 std::int64_t indexed_to(sql::Statement& last_block);
 sql::Statement last_block_statement(sql::Connection& connection);
 
 /// The length that summaries and figures are of, in nm: at 20 °C if the row was corrected to it.
 inline constexpr std::string_view kSummedLength = "coalesce(m.corrected_nm, m.measured_nm)";
 
-/// The value of a field that aggregates are of, where the rows have none: NULL, or 0 in an engine
-/// whose keys cannot be NULL.
+/// Field value of aggregates over rows without that field: NULL, or 0 if the engine's keys cannot
+/// be NULL.
 struct AggregatedValue {
   std::string_view is_none;
   std::string_view parameter;
@@ -42,29 +42,28 @@ struct CurrentCondition {
   explicit CurrentCondition(std::string_view last);
 };
 
-/// Finds the measurements that match a filter, in either order: of the indexed blocks those that
-/// hold the values asked for, and in the newer rows all.
+/// Finds the measurements that match a filter, in either order: in indexed blocks only those with
+/// the requested values, and all newer rows.
 class MeasurementQuery {
  public:
-  /// @param columns what to select of the table `m`; the id comes behind them.
+  /// @param columns to select from the table `m`; the id follows them.
   MeasurementQuery(sql::Connection& connection, std::string columns);
 
   /// Called for each row; false ends the query.
   using Visitor = std::function<bool(const sql::Rows&)>;
 
   enum class BlockRead : std::uint8_t { Passed, Taken, Ended };
-  /// Offered an indexed block whose index says all but what was corrected: of its rows among `ids`
-  /// those in `rows` match. Passed: they are to be read and visited one by one; Ended ends the
-  /// query.
+  /// Receives an indexed block that the index answers except for corrections: of its rows among
+  /// `ids` those in `rows` match. Passed: read and visit them one by one; Ended: end the query.
   using BlockReader =
       std::function<BlockRead(std::int64_t block, const RowSet& rows, const IdSpan& ids)>;
 
-  /// Visits the matching rows among `ids`. @returns false when the visitor ended the query.
-  /// Where nothing was corrected yet, no row is asked whether it was.
+  /// Visits the matching rows among `ids`. @returns false if the visitor ended the query. Without
+  /// any correction, rows are not checked for corrections.
   bool run(const MeasurementFilter& filter, const IdSpan& ids, ListOrder order,
            const Visitor& visit, const BlockReader& read_block = {});
 
-  /// Visits those of these rows that match. @returns false when the visitor ended the query.
+  /// Visits the matching rows among these. @returns false if the visitor ended the query.
   bool run_each(const MeasurementFilter& filter, std::span<const std::int64_t> ids,
                 const Visitor& visit);
 
@@ -77,7 +76,7 @@ class MeasurementQuery {
     const MeasurementFilter& filter;
     ListOrder order;
     const Visitor& visit;
-    const BlockReader& read_block;  ///< empty where the index does not say all
+    const BlockReader& read_block;  ///< empty if the index is not sufficient
     bool is_current = false;        ///< only rows that no other corrects now are asked for
   };
   using SpanReader = std::function<bool(const IdSpan& ids)>;
@@ -122,7 +121,7 @@ struct LogQuery {
                                 "seq LIMIT ?",
                                 columns)) {}
 
-  /// @param alone up to this id all rows are of this folder. @returns how many there were.
+  /// @param alone up to this id all rows are of this folder. @returns the number of rows.
   template <class Visit>
   std::int64_t run(std::int64_t origin, std::int64_t alone, std::int64_t after, std::int64_t limit,
                    const Visit& visit) {

@@ -21,10 +21,10 @@
 
 namespace fitgauge::store {
 
-/// Sums measurements up by the values of one field. Where the filter allows, whole nodes of the
-/// index are added by what they add up: filters by verdict, source and times, by the field itself,
-/// and by other fields and the designation. Else, and in what is left at the ends, blocks are
-/// added by their columns, and only the newest rows and those of few blocks are read one by one.
+/// Summarises measurements by the values of one field. If the filter has only verdict, source,
+/// times, this field, other fields and the designation, whole nodes of the index are added. Other
+/// blocks are added by their columns, and only the newest rows and rows of few blocks are read one
+/// by one.
 class MeasurementSummary {
  public:
   MeasurementSummary(sql::Connection& connection, TextField group_by);
@@ -69,9 +69,9 @@ class MeasurementSummary {
   bool fits_ = true;
   bool is_additive_ = true;         ///< nodes answer the filter
   std::vector<FieldValue> others_;  ///< by other fields than the one grouped by
-  IdSpan left_;                     ///< rows to be read, as long as they go on
+  IdSpan left_;                     ///< adjacent rows to read
   std::map<std::optional<std::string>, Group, std::less<>> groups_;
-  std::vector<IdSpan> aggregated_;  ///< what was added by nodes, which leave corrected rows out
+  std::vector<IdSpan> aggregated_;  ///< sums of nodes, without corrected rows
   std::vector<std::uint8_t> matching_tuples_;
   std::vector<ExactStatistics> tuple_sums_;
   BlockColumns block_;

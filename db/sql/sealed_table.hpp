@@ -18,11 +18,11 @@ struct Migration {
   std::string_view sql;
 };
 
-/// Compares the steps a database has gone through with `known`. @returns how many there are
-/// @errors DatabaseNewer when it has more; DatabaseForeign when a step's text was another.
+/// Compares the migrations of a database with `known`. @returns their number
+/// @errors DatabaseNewer if it has more; DatabaseForeign if the text of a migration differs.
 Result<int> check_steps(Connection& connection, std::span<const Migration> known);
 
-/// Takes down that a step was gone.
+/// Records a migration.
 void record_step(Connection& connection, const Migration& step, std::int64_t now_ns);
 
 Error newer_database(std::int64_t found, std::size_t known);
@@ -41,11 +41,11 @@ std::span<const sql::Migration> migrations();
 
 namespace fitgauge::store {
 
-/// A table whose rows nothing else can tell: its column `seal` is `row_digest` of the others, where
-/// the engine has seals.
+/// A table whose rows are sealed: its column `seal` is `row_digest` of the other columns, if the
+/// engine has seals.
 struct SealedTable {
   std::string_view name;
-  std::string_view key;  ///< names a row in a finding; the primary key where there is one column
+  std::string_view key;       ///< names a row in a finding; the primary key if it has one column
   std::string_view columns;   ///< separated by ", "; without an id that the database gives
   std::string_view unique{};  ///< the columns that no two rows have alike, for replace()
 
@@ -54,9 +54,9 @@ struct SealedTable {
   /// The same in place of a row that is alike in `unique`; one that was there is deleted and
   /// inserted, as triggers see it.
   std::string replace(const sql::Connection& connection) const;
-  /// An expression of a SELECT: 0 where a row is not what was stored.
+  /// An expression of a SELECT: 0 if a row was altered.
   std::string is_sound(const sql::Connection& connection, std::string_view alias = {}) const;
-  /// The keys of the rows that are not what was stored. @pre the engine has seals.
+  /// Selects the keys of altered rows. @pre the engine has seals.
   std::string altered() const;
 };
 
@@ -101,7 +101,7 @@ inline constexpr SealedTable kEvents{"events", "id", "type, payload, created_at"
 
 std::span<const SealedTable> sealed_tables();
 
-/// Seals a changed row anew, where there are seals.
+/// Seals a changed row again, if the engine has seals.
 class Seal {
  public:
   Seal(sql::Connection& connection, const SealedTable& table);
@@ -112,7 +112,7 @@ class Seal {
   sql::Statement reseal_;
 };
 
-/// @throws StorageFailure (StorageCorrupt) unless the column holds 1.
+/// @throws StorageFailure (StorageCorrupt) unless the column is 1.
 void require_sound(const sql::Rows& rows, int column, const SealedTable& table);
 
 }  // namespace fitgauge::store

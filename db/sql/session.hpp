@@ -14,7 +14,7 @@
 
 namespace fitgauge::store {
 
-/// Collects what the writer, the readers and the checks find out, and reports each change of state
+/// Collects findings of the writer, the readers and the checks, and reports each change of state
 /// once. Thread-safe.
 class HealthMonitor {
  public:
@@ -60,17 +60,17 @@ class Session {
 
   /// All that follows sees the state of the first statement.
   virtual void begin_reading() = 0;
-  /// Nobody else writes until the commit: what is read here stays true, and ids follow each other
-  /// in the order of the commits.
+  /// Locks out other writers until the commit: reads stay valid, and ids follow the order of
+  /// commits.
   virtual void begin_writing() = 0;
   virtual void commit() = 0;
   /// Also after a commit() that failed.
   virtual void rollback() noexcept = 0;
 
-  /// Around each of several jobs of a transaction: undo() takes back what it has changed.
+  /// Encloses each of several jobs of a transaction: undo() reverts its changes.
   virtual void savepoint() = 0;
   virtual void undo() = 0;
-  /// Fails where something failed that the job has left to be done behind it.
+  /// Fails if a postponed statement of the job failed.
   virtual void settle() = 0;
   virtual void release() = 0;
 
@@ -86,7 +86,7 @@ using OpenSession = std::function<std::unique_ptr<Session>()>;
 
 namespace fitgauge::store {
 
-/// The reader threads with their connections. Destroying it runs what is queued.
+/// The reader threads with their connections. The destructor runs queued jobs.
 class ReadPool::Engine {
  public:
   using ReadJob = Job<const Stores>;
@@ -99,7 +99,7 @@ class ReadPool::Engine {
 
   std::size_t queued() const { return queue_.size(); }
 
-  /// Runs what is queued and ends the threads; what comes later is refused.
+  /// Runs queued jobs and ends the threads; later jobs are refused.
   void stop();
 
  private:

@@ -44,8 +44,8 @@ constexpr Kind kind_of_value() {
 /// Refuses what no enumerator has. @throws StorageFailure (StorageCorrupt)
 [[noreturn]] void refuse_code(std::int64_t stored);
 
-/// An enumeration is stored by its codes, from 1 to that of `last_of(Code)`, which stands beside
-/// it.
+/// An enumeration is stored by its codes, from 1 to the code of `last_of(Code)`, which is declared
+/// with it.
 template <class Code>
 Code code_of(std::int64_t stored) {
   if (stored < 1 || stored > static_cast<std::int64_t>(last_of(Code{}))) refuse_code(stored);
@@ -70,8 +70,8 @@ void bind_value(Statement& statement, int index, const T& value) {
   }
 }
 
-/// A statement of one connection: prepared at its first use and kept.
-/// Bound texts are not copied: they live until the statement has run, and every run binds all anew.
+/// A statement of one connection, prepared at its first use and kept. Bound texts are not copied:
+/// they must live until the statement has run, and every run binds all parameters again.
 class Statement {
  public:
   Statement(Connection& connection, std::string sql)
@@ -193,19 +193,19 @@ Rows Statement::query(const Values&... values) {
   return Rows(*this);
 }
 
-/// Inserts many rows: with few statements where each is a message to a server. A file takes a row
-/// at a time as quickly.
+/// Inserts many rows: in few statements if each is a message to a server; a file is equally fast
+/// row by row.
 class RowsInsert {
  public:
-  /// @param into what stands before the rows: `INSERT INTO t VALUES `. @param row `(?, ?)`.
+  /// @param into text before the rows: `INSERT INTO t VALUES `. @param row `(?, ?)`.
   RowsInsert(Connection& connection, std::string into, std::string row)
       : connection_(connection),
         into_(std::move(into)),
         row_(std::move(row)),
         most_rows_(connection.dialect().is_shared ? kMostRows : 1) {}
 
-  /// @param bind called with each row and a function that takes its values, as Statement::run does;
-  ///   texts live until all rows are inserted.
+  /// @param bind called with each row and a function for its values, as Statement::run; texts must
+  /// live until all rows are inserted.
   template <class Many, class Bind>
   void run(const Many& rows, const Bind& bind) {
     auto row = rows.begin();

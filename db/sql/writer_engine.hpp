@@ -23,14 +23,14 @@ namespace fitgauge::store {
 
 struct Stores;
 
-/// The time that runs and idempotency keys expire by, and a count of the deletions. A clock may be
-/// wrong (a dead battery, the first answer of NTP) and a deletion is for good: the time is never
-/// later than the newest record's `received_at`, and it moves only after the clock has held for a
-/// day of running time. Until then it is that of the start, or of the last look before a jump.
-/// Used by one thread.
+/// Time by which runs and idempotency keys expire, and a count of the deletions. A clock may be
+/// wrong (a dead battery, the first response of NTP) and a deletion is final: the time is never
+/// later than the newest record's `received_at`, and it advances only after the clock was steady
+/// for a day of running time. Until then it is the time of the start, or of the last check before a
+/// jump. Used by one thread.
 class Retention {
  public:
-  /// @returns none while nothing may expire: without a record, until the clock has held.
+  /// @returns none while nothing may expire: without a record, until the clock was steady.
   /// @throws StorageFailure
   std::optional<Timestamp> time(const SteadyTime& clock, const Stores& stores);
 
@@ -47,20 +47,20 @@ class Retention {
   std::optional<std::chrono::nanoseconds> reported_;
 };
 
-/// Does one step of what requests leave behind: deletes some expired answers, old runs and events,
-/// indexes the next blocks of measurements. One transaction of some milliseconds.
+/// Does one step of maintenance: deletes some expired responses, old runs and events, indexes the
+/// next blocks of measurements. One transaction of some milliseconds.
 /// @returns whether there is more to do.
 bool run_maintenance_step(sql::Session& session, const OpenOptions& options,
                           const SteadyTime& clock, Retention& retention);
 
-/// When the writer takes its next maintenance step: at once while it has nothing else to do, and
-/// under any load after kShare times what the last step took. Used by the writer's thread.
+/// Schedules the writer's maintenance steps: at once if it is idle, and under any load after kShare
+/// times the duration of the last step. Used by the writer's thread.
 class MaintenancePace {
  public:
   using Clock = std::chrono::steady_clock;
   using Time = Clock::time_point;
 
-  /// A step that took from `begin` to `end`. @param more whether it left work.
+  /// Records a step from `begin` to `end`. @param more whether work remains.
   void stepped(Time begin, Time end, bool more);
   /// Jobs were committed: there may be something to do before the next daily round.
   void committed(Time now);
@@ -76,14 +76,14 @@ class MaintenancePace {
   Time when_busy_{};
 };
 
-/// The writer's thread with its session. Destroying it runs what is queued and closes.
+/// The writer's thread with its session. The destructor runs queued jobs and closes.
 class Writer::Engine {
  public:
   using WriteJob = Job<Stores>;
 
-  /// Opens a session, so that a start on a database that cannot be opened fails.
-  /// @param check throws a StorageFailure when what the session writes to is not the database's any
-  /// more; called before each transaction and once a second.
+  /// Opens a session, so that a start fails if the database cannot be opened.
+  /// @param check throws a StorageFailure if the session writes to a replaced database; called
+  /// before each transaction and once a second.
   Engine(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
          sql::OpenSession open, std::function<void()> check = {});
   Engine& operator=(Engine&&) = delete;  // neither copied nor moved
@@ -94,7 +94,7 @@ class Writer::Engine {
   const WriterCounters& counters() const { return counters_; }
   std::size_t queued() const { return queue_.size(); }
 
-  /// Runs what is queued and closes; what comes later is refused.
+  /// Runs queued jobs and closes; later jobs are refused.
   void stop();
 
   /// @returns whether no request of the same scope and key is under way.

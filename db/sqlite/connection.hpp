@@ -68,8 +68,8 @@ enum class Mode {
   Create,  ///< a new file with a rollback journal: complete once it is closed
 };
 
-/// A connection to one file with fitgauge's settings. Used by one thread at a time. Every failure
-/// is thrown as sqlite/failure.hpp says; after one the connection is closed and opened again.
+/// A connection to one file with fitgauge's settings. Used by one thread at a time. Failures are
+/// thrown as in sqlite/failure.hpp; after a failure the connection is closed and opened again.
 class Connection final : public sql::Connection {
  public:
   Connection(const std::filesystem::path& file, Mode mode,
@@ -146,8 +146,8 @@ namespace fitgauge::store::sqlite {
 /// Lets the statements of a connection call `row_digest(value, …)`.
 void add_row_digest(sqlite3* handle);
 
-/// Inserts many rows a statement, and only the columns that
-/// one of them fills. A statement stepped for every row with every column takes half as long again.
+/// Inserts many rows a statement, and only the columns that one of them uses. A statement for every
+/// row with every column takes 1.5 times as long.
 class MeasurementTable final : public sql::MeasurementTable {
  public:
   explicit MeasurementTable(Connection& connection);

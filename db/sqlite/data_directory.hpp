@@ -25,7 +25,7 @@ inline void require_ok(sqlite3* handle, int code, std::string_view doing) {
 
 namespace fitgauge::store {
 
-/// `.` for a name alone.
+/// `.` for a name without a folder.
 std::filesystem::path folder_of(const std::filesystem::path& file);
 
 /// Which file a path named when it was opened.
@@ -49,8 +49,8 @@ class FileIdentity {
 /// kill.
 class DirectoryLock {
  public:
-  /// Creates the directory where there is none.
-  /// @errors DatabaseInUse; StorageUnavailable when the directory cannot be made or written.
+  /// Creates the directory if it does not exist.
+  /// @errors DatabaseInUse; StorageUnavailable if the directory cannot be created or written.
   static Result<DirectoryLock> acquire(const std::filesystem::path& directory);
 
   /// Whether the folder still has the file that is locked. @errors as FileIdentity::check().
@@ -64,14 +64,14 @@ class DirectoryLock {
   FileIdentity file_;
 };
 
-/// Looks at the first bytes of an existing database without opening it as one: SQLite would take an
-/// empty file for a new database. Called before any connection to the file is open (closing a
-/// descriptor releases the locks SQLite holds).
-/// @errors DatabaseForeign; StorageUnavailable when it cannot be read, nor written by who serves.
+/// Reads the first bytes of an existing database without opening it with SQLite, which would use an
+/// empty file as a new database. Called before any connection to the file is open (closing a
+/// descriptor releases the locks of SQLite).
+/// @errors DatabaseForeign; StorageUnavailable if it cannot be read, or not written by a service.
 Result<void> inspect_file(const std::filesystem::path& file, Access access);
 
-/// Takes a file and what SQLite keeps beside it from everybody but its owner and group: an older
-/// version made them with the umask alone. One that is another's stays as it is.
+/// Restricts a file and SQLite's files next to it to owner and group, because an older version made
+/// them with the umask. A file of another owner does not change.
 void close_to_others(const std::filesystem::path& database);
 
 /// Creates an empty file that its owner writes and its group reads (0640 less the umask). SQLite
@@ -79,7 +79,7 @@ void close_to_others(const std::filesystem::path& database);
 /// @errors StorageUnavailable, also when it exists.
 Result<void> reserve_name(const std::filesystem::path& file);
 
-/// Renames a file to a name that is free. @errors StorageUnavailable, also when it is taken.
+/// Renames a file to an unused name. @errors StorageUnavailable, also if the name exists.
 Result<void> rename_to_new(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Makes the file and its directory entry durable.

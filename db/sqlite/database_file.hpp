@@ -22,8 +22,8 @@ namespace fitgauge::store {
 /// @errors StorageCorrupt with the first damage found.
 Result<void> check_file(const std::filesystem::path& file, std::stop_token stop = {});
 
-/// Goes through a whole database and notes what is wrong. Reads long lists in pages, so that it
-/// does not hold up a running daemon's checkpoints.
+/// Checks a whole database and notes its faults. Reads long lists in pages, so that a running
+/// daemon can checkpoint.
 class Verifier {
  public:
   Verifier(sqlite::Session& session, const MeasurementCheck& check)
@@ -31,8 +31,8 @@ class Verifier {
 
   VerifyReport run();
 
-  /// Only rows, in pieces of some milliseconds, until one is not what was stored or `go_on`, called
-  /// after each piece, says false. No transaction is open when it is called.
+  /// Checks only rows, in pieces of some milliseconds, until an altered row, or until `go_on`,
+  /// called after each piece without an open transaction, returns false.
   std::optional<std::string> first_altered_row(const std::function<bool()>& go_on);
 
  private:
@@ -68,8 +68,8 @@ using sql::Migration;
 /// The number of the last step applied, which is SQLite's user_version.
 int schema_version(Connection& connection);
 
-/// Compares the steps a database has gone through with `known`.
-/// @errors DatabaseNewer when it has more; DatabaseForeign when a step's text was another.
+/// Compares the migrations of a database with `known`.
+/// @errors DatabaseNewer if it has more; DatabaseForeign if the text of a migration differs.
 Result<void> check_history(Connection& connection, std::span<const Migration> known);
 
 /// Applies the missing steps in one transaction.

@@ -13,12 +13,12 @@
 
 namespace fitgauge::store {
 
-/// Checkpoints the write-ahead log on a thread of its own, so that commits do not wait until
-/// thousands of pages are copied into the database. The log starts anew only when all of it is
-/// copied between two commits: the writer copies what was committed during the thread's checkpoint.
-/// A log that grows faster than the thread copies makes the writer wait for it, so its length is
-/// bounded: kForceFactor times checkpoint_pages and one transaction.
-/// A checkpoint that fails is tried again; that the log then grows is for the commits to report.
+/// Checkpoints the write-ahead log on its own thread, so that commits do not wait until thousands
+/// of pages are copied into the database. The log restarts only if all of it is copied between two
+/// commits: the writer copies the commits during the thread's checkpoint. If a log grows faster
+/// than the thread copies, the writer waits, so its length is bounded: kForceFactor times
+/// checkpoint_pages and one transaction. A failed checkpoint is tried again; commits report a log
+/// that grows.
 class Checkpointer {
  public:
   explicit Checkpointer(const OpenOptions& options);
@@ -27,7 +27,7 @@ class Checkpointer {
 
   // By the writer.
 
-  /// Takes checkpoints over from SQLite, which would make them at a commit.
+  /// Disables the automatic checkpoints of SQLite, which run at a commit.
   void install(sqlite::Connection& writer);
   /// Between two transactions; waits for the thread when the log is kForceFactor times too long.
   void after_commit(sqlite::Connection& writer);
@@ -49,10 +49,10 @@ class Checkpointer {
   Thread thread_;
 };
 
-/// Reads the whole database again and again, once each scrub_interval, so that damage is found
-/// before somebody needs the row: each measurement against the chain, each table revision and each
-/// sealed row against its digest. On a thread of its own, which rests fifteen times as long as each
-/// piece took. Tells the monitor the first finding. Destroying it stops it.
+/// Reads the whole database once each scrub_interval, so that damage is found before somebody needs
+/// the row: each measurement against the chain, each table revision and each sealed row against its
+/// digest. Runs on its own thread, which rests fifteen times as long as each piece took. Reports
+/// the first finding to the monitor. The destructor stops it.
 class Scrub {
  public:
   /// @param check_file_first whether SQLite's quick_check comes before: the file was too large to
@@ -64,7 +64,7 @@ class Scrub {
   void run(const std::stop_token& stop, bool check_file_first);
   void check_file(const std::stop_token& stop);
   void pass(const std::stop_token& stop);
-  /// @returns false when it was stopped meanwhile.
+  /// @returns false if it was stopped.
   bool rest(const std::stop_token& stop, std::chrono::nanoseconds time);
 
   const OpenOptions& options_;

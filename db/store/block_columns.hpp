@@ -17,9 +17,9 @@
 
 namespace fitgauge::store {
 
-// A block's rows as summaries need them: of each row what it is filtered and grouped by, its kind
-// and what was measured, column by column and a few bits each. Any row of any column is read
-// without the others, a hundred times as fast as from the table.
+// Rows of a block for summaries: fields of filters and groups, kind and value of each row, column
+// by column in a few bits. Any row of any column is read without the others, a hundred times as
+// fast as from the table.
 
 /// The summed columns by index_of(), then the designation.
 inline constexpr std::size_t kBlockColumns = kSummedColumns.size() + 1;
@@ -43,7 +43,7 @@ class BlockColumnsWriter {
   /// @param is_current no other row corrects it
   void add(int kind, bool is_current, std::int64_t measured_nm);
 
-  /// @returns none where the rows are not kBlock, or the lengths too far from each other.
+  /// @returns none if there are not kBlock rows, or the lengths differ too much.
   std::optional<std::string> encode() const;
 
  private:
@@ -61,17 +61,17 @@ class BlockColumnsWriter {
   std::vector<std::int64_t> measured_nm_;
 };
 
-/// Reads them. What it says are views of the bytes it has read.
+/// Reads them. Texts are views of the bytes.
 class BlockColumns {
  public:
-  /// @returns false where the bytes are not of kBlock rows.
+  /// @returns false if the bytes are not kBlock rows.
   bool read(std::string_view bytes);
 
   struct Column {
     std::vector<std::optional<std::string_view>> values{};
     NumberRow rows{};  ///< of each row the place of its value
   };
-  /// @returns false where the column has too many values.
+  /// @returns false if the column has too many values.
   bool read(std::size_t column, Column& into) const;
 
   std::size_t kinds() const { return kinds_.size(); }
@@ -86,14 +86,14 @@ class BlockColumns {
 
  private:
   std::array<std::string_view, kBlockColumns> columns_;
-  std::string_view kinds_;  ///< a byte each, the eighth bit set where the rows are not current
+  std::string_view kinds_;  ///< a byte each; the eighth bit marks rows that are not current
   NumberRow kind_rows_;
   std::int64_t least_nm_ = 0;
   NumberRow distances_;
 };
 
-/// Writes the values of a block one behind the other, each with its limits and its subgroup: three
-/// or four bytes a row, which are read a hundred times as fast as the rows.
+/// Writes the values of a block in order, each with its limits and its subgroup: three or four
+/// bytes a row, which are read a hundred times as fast as the rows.
 class ValueBlockWriter {
  public:
   void add(const MeasuredValue& value);
@@ -108,11 +108,10 @@ class ValueBlockWriter {
   std::string distances_;  // from the lower limits
 };
 
-/// Reads them again, for one block after the other. What it says of subgroups are views of the
-/// bytes it has read.
+/// Reads blocks one after the other. Subgroups are views of the bytes.
 class ValueBlock {
  public:
-  /// @returns false where the bytes are not of kBlock values; the rows have to be read then.
+  /// @returns false if the bytes are not kBlock values; then read the rows.
   bool read(std::string_view bytes);
 
   /// Calls `visit` with the runs of `rows` among `ids`, all of this folder, until it returns false.

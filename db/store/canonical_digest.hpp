@@ -41,7 +41,7 @@ class CanonicalDigest {
     size_ += digest.size();
   }
 
-  /// The digest of what was added since the last one.
+  /// Returns the digest of everything added since the last one.
   Digest finish() {
     hash_.update(std::string_view(buffer_.data(), size_));
     size_ = 0;
@@ -54,7 +54,7 @@ class CanonicalDigest {
     ++size_;
   }
 
-  // All eight bytes are stored, those that count first: a store of a variable size takes longer.
+  // Stores all eight bytes, significant ones first: a store of variable size takes longer.
   void add_integer(std::int64_t value) {
     const auto bits = static_cast<std::uint64_t>(value);
     // One bit more than the magnitude has, for the sign.
@@ -75,7 +75,7 @@ class CanonicalDigest {
     size_ += text.size();
   }
 
-  /// A file is hashed where it lies: the buffer would keep as much as the longest.
+  /// Hashes a file in place: a copy would need as much memory as the longest file.
   void add_long(std::string_view text) {
     hash_.update(std::string_view(buffer_.data(), size_)).update(text);
     size_ = 0;

@@ -36,8 +36,8 @@ struct WriterCounters {
   std::atomic<std::uint64_t> log_pages{0};  ///< in the write-ahead log after the last commit
 };
 
-/// A database of some engine, with its writer thread and its reader threads. Thread-safe.
-/// Destroying it runs what is queued, commits and closes. An engine's `open_database` opens it.
+/// A database of some engine, with its writer thread and its reader threads. Thread-safe. The
+/// destructor runs queued jobs, commits and closes. An engine's `open_database` opens it.
 class Database {
  public:
   Database& operator=(Database&&) = delete;  // neither copied nor moved
@@ -46,8 +46,8 @@ class Database {
   virtual Writer& writer() = 0;
   virtual ReadPool& readers() = 0;
 
-  /// Runs what is queued and ends the threads; what comes later is refused with ShuttingDown. When
-  /// it returns no completion runs any more: what the jobs refer to may be destroyed.
+  /// Runs queued jobs and ends the threads; later jobs are refused with ShuttingDown. After it
+  /// returns no completion runs, so data of the jobs may be destroyed.
   virtual void drain() = 0;
 
   virtual Health health() const = 0;
@@ -57,8 +57,8 @@ class Database {
   virtual std::size_t writer_queue() const = 0;
   /// Jobs that wait for a reader.
   virtual std::size_t reader_queue() const = 0;
-  /// The server's figures of a few seconds ago; absent if there is no server or it is away. Does
-  /// not wait.
+  /// State of the server, a few seconds old; absent if there is no server or it is unreachable.
+  /// Never blocks.
   virtual std::optional<ServerFigures> server_figures() const { return std::nullopt; }
 
   /// Writes a consistent copy of the live database to a new file, on disk when it returns.
@@ -78,13 +78,13 @@ class Database {
 namespace fitgauge::store::postgres {
 
 /// Opens the schema `fitgauge` of the database at OpenOptions::address, which several daemons
-/// share, and makes it where there is none. `clock` outlives the database.
+/// share; creates it if it does not exist. `clock` must outlive the database.
 /// @errors StorageUnavailable while the server cannot be reached, or has no such schema and access
 ///   is Attach; DatabaseForeign, DatabaseNewer.
 Result<std::unique_ptr<Database>> open_database(const OpenOptions& options, const Clock& clock);
 
-/// Whether a daemon could start on it: it takes connections and writes, and has this build's schema
-/// or none yet. Changes nothing. @errors StorageUnavailable, DatabaseNewer, DatabaseForeign.
+/// Checks if a daemon could start on it: it accepts connections and writes, and has this build's
+/// schema or none. Changes nothing. @errors StorageUnavailable, DatabaseNewer, DatabaseForeign.
 Result<void> check_server(const std::string& address);
 
 }  // namespace fitgauge::store::postgres

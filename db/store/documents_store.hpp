@@ -55,7 +55,7 @@ class DocumentsStore {
 
 /// A file of the control's disk without its content.
 struct FileEntry {
-  std::string path{};         ///< as it was last written, upper and lower case kept
+  std::string path{};         ///< as last written, with upper and lower case
   std::int64_t revision = 0;  ///< rises with every write and delete of any file
   std::int64_t size = 0;      ///< bytes
   std::int64_t modified_at_ns = 0;
@@ -116,7 +116,7 @@ struct Note {
   std::int64_t number = 0;  ///< in the id it got there
 };
 
-/// Notes beside measurements, kept for ever: the database refuses UPDATE and DELETE.
+/// Notes of measurements, kept for ever: the database refuses UPDATE and DELETE.
 class NotesStore {
  public:
   explicit NotesStore(sql::Connection& connection);
@@ -125,8 +125,8 @@ class NotesStore {
   std::int64_t append(const Note& note);                   ///< @returns its id
   std::vector<Note> list(std::int64_t measurement) const;  ///< oldest first
 
-  /// Up to `limit` notes of this folder behind the id `after`, beside its own records and what its
-  /// centre has corrected of them.
+  /// Returns up to `limit` notes of this folder after the id `after`, on its own records and on
+  /// corrections of its centre.
   std::vector<Note> own_after(std::int64_t after, std::int64_t limit) const;
   /// The greatest number of the notes that this origin has forwarded; 0 before the first.
   std::int64_t newest_of(std::int64_t origin) const;
@@ -152,8 +152,8 @@ class EventsStore {
   std::int64_t append(std::string_view type, std::string_view payload, std::int64_t now_ns);
 
   std::vector<Event> after(std::int64_t id, std::size_t limit) const;  ///< oldest first
-  /// The oldest and newest ids kept; 0 and 0 when there are none. A reader that stopped at an id
-  /// below `oldest - 1` has missed events.
+  /// Oldest and newest stored ids; 0 and 0 if there are none. A reader that stopped at an id below
+  /// `oldest - 1` has missed events.
   struct Kept {
     std::int64_t oldest = 0;
     std::int64_t newest = 0;

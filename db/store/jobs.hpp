@@ -15,23 +15,23 @@
 
 namespace fitgauge::store {
 
-/// Work on the stores of one connection together with what is to happen with its result. `prepare`
-/// and `run` are called at most once, then exactly one of `deliver` and `refuse`.
+/// Work on the stores of one connection with the handler of its result. `prepare` and `run` are
+/// called at most once, then exactly one of `deliver` and `refuse`.
 template <class Stores>
 class Job {
  public:
   Job& operator=(Job&&) = delete;  // neither copied nor moved
   virtual ~Job() = default;
 
-  /// Called by a reader before its transaction begins: what is committed from now on may be unseen.
+  /// Called by a reader before its transaction begins: later commits may be invisible to it.
   virtual void prepare() {}
-  /// @returns whether the work succeeded; its changes are kept only then.
+  /// @returns whether the work succeeded; otherwise its changes are reverted.
   virtual bool run(Stores& stores) = 0;
   virtual void deliver() = 0;
   virtual void refuse(Error error) = 0;
 };
 
-/// Tells a job its outcome. What its completion throws is a bug in that completion alone.
+/// Delivers the outcome to a job. An exception of its completion is a bug of only that completion.
 template <class Stores>
 void tell(Job<Stores>& job, std::optional<Error> error) noexcept {
   guarded("a storage job's completion", [&] {
@@ -66,7 +66,7 @@ class CallableJob final : public Job<Stores> {
 };
 
 /// Submits `work` to `queue` and waits for its outcome. Not for I/O threads, nor for the queue's
-/// own. What the outcome holds is counted as the calling thread's memory, the job itself is not.
+/// own thread. The outcome counts as memory of the calling thread, the job does not.
 template <class Queue, class Stores, class Work>
 auto wait_for(Queue& queue, Work work) {
   using Outcome = std::invoke_result_t<Work&, Stores&>;
@@ -104,9 +104,9 @@ void enqueue_or_refuse(JobQueue<Job>& queue, std::unique_ptr<Job> job) {
     job->refuse({ErrorCode::StorageBusy, "the storage is busy: try again soon"});
 }
 
-/// A few threads that read, each on a read-only connection of its own. A job sees one consistent
-/// state of the database. Long lists are read page by page, one job a page, so that a slow client
-/// holds neither a thread nor an old state of the file.
+/// A few threads that read, each on its own read-only connection. A job sees one consistent state
+/// of the database. Long lists are read page by page, one job a page, so that a slow client keeps
+/// neither a thread nor an old state of the file.
 ///
 /// Thread-safe. After a failed read the thread opens its connection again.
 class ReadPool {
@@ -135,9 +135,9 @@ class ReadPool {
   Engine& engine_;
 };
 
-/// The one thread that writes. It takes all jobs that arrived during the last commit, runs them in
-/// one transaction, each of several in a savepoint, commits once (durable when the commit returns)
-/// and then delivers the outcomes. There is no timer: a lone job is committed at once.
+/// The one thread that writes. It runs all jobs that arrived during the last commit in one
+/// transaction, each of several in a savepoint, commits once (durable when the commit returns) and
+/// then delivers the outcomes. There is no timer: a single job is committed at once.
 ///
 /// Thread-safe. After a failed commit every job of its batch is refused with StorageUnavailable;
 /// the connection is opened again, and nothing is delivered before a commit succeeded.
@@ -146,20 +146,20 @@ class Writer {
   class Engine;
   explicit Writer(Engine& engine) : engine_(engine) {}
 
-  /// Queues `work`: Result<T>(Stores&), called on the writer thread. An Error it returns undoes its
-  /// own changes and no other job's. `done`: void(Result<T>) is called exactly once: on the writer
-  /// thread after the commit, or on the calling thread when the job is refused at once.
-  /// @errors StorageBusy when the queue is full; ShuttingDown; StorageUnavailable; StorageCorrupt;
-  ///   Internal when the work threw.
+  /// Queues `work`: Result<T>(Stores&), called on the writer thread. If it returns an Error, only
+  /// its own changes are reverted. `done`: void(Result<T>) is called exactly once: on the writer
+  /// thread after the commit, or on the calling thread if the job is refused at once.
+  /// @errors StorageBusy if the queue is full; ShuttingDown; StorageUnavailable; StorageCorrupt;
+  ///   Internal if the work throws.
   template <class Work, class Done>
   void submit(Work work, Done done) {
     enqueue(std::make_unique<CallableJob<Stores, Work, Done>>(std::move(work), std::move(done)));
   }
 
-  /// The same with `work`: Result<StoredAnswer>(Stores&), made at most once for the request's key:
-  /// the answer is kept in the work's own transaction when its status is 2xx, and a repeat gets it
-  /// back with `replayed` set.
-  /// @errors IdempotencyKeyReused, IdempotencyInProgress, and those above.
+  /// Queues `work`: Result<StoredAnswer>(Stores&), run at most once for the request's key. A
+  /// response with a status 2xx is stored in the transaction of the work, and a repeat returns it
+  /// with `replayed` set.
+  /// @errors IdempotencyKeyReused, IdempotencyInProgress, and those of submit.
   template <class Work, class Done>
   void submit_once(IdempotentRequest request, Work work, Done done) {
     if (!begin(request)) {

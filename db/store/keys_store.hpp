@@ -31,7 +31,7 @@ struct IdempotentRequest {
   bool is_kept_for_ever = false;  ///< else for the retention
 };
 
-/// An answer as it is kept and replayed.
+/// A response that is stored and replayed.
 struct StoredAnswer {
   int status = 200;
   std::string content_type{};
@@ -47,30 +47,30 @@ class IdempotencyStore {
   IdempotencyStore(sql::Connection& connection, const Clock& clock, std::chrono::hours retention);
   ~IdempotencyStore();
 
-  /// The kept answer, none when the key is new. Looked at before the body is parsed: what was once
-  /// answered is answered so again, whatever the body would give now.
-  /// @errors IdempotencyKeyReused when the key was used with another body.
+  /// Returns the stored response; none if the key is new. Called before the body is parsed, so that
+  /// a repeat gets the same response in any case.
+  /// @errors IdempotencyKeyReused if the key was used with another body.
   Result<std::optional<StoredAnswer>> find(const IdempotentRequest& request) const;
 
-  /// The kept answer, or that of `work`, which is kept when its status is 2xx.
+  /// Returns the stored response, or the response of `work`, which is stored if its status is 2xx.
   /// @errors IdempotencyKeyReused; those of `work`.
   Result<StoredAnswer> once(const IdempotentRequest& request,
                             const std::function<Result<StoredAnswer>()>& work);
 
-  /// An answer that was kept where a row was stored, on its way with it.
+  /// A response that was stored with a row, and is forwarded with it.
   struct Forwarded {
     IdempotentRequest request{};
     StoredAnswer answer{};
     std::int64_t expires_at_ns = std::numeric_limits<std::int64_t>::max();
 
-    /// None if it is kept for ever.
+    /// None if it never expires.
     std::optional<Timestamp> expires_at() const {
       const bool for_ever = expires_at_ns == std::numeric_limits<std::int64_t>::max();
       return for_ever ? std::nullopt : std::optional(Timestamp{expires_at_ns});
     }
   };
-  /// Visits the answers of measurements (a path from `/v1/measurements` on) kept while the newest
-  /// one was one of these ids.
+  /// Visits the responses for measurements (a path from `/v1/measurements` on) that were stored
+  /// while the newest measurement had one of these ids.
   using Visitor = std::function<void(const Forwarded&)>;
   void visit_forwarded(std::int64_t first, std::int64_t last, const Visitor& visit) const;
   /// Keeps an answer from elsewhere, unless there is one of that key already.
@@ -112,7 +112,7 @@ class KeyRing {
  public:
   explicit KeyRing(std::vector<ApiKey> keys) : keys_(std::move(keys)) {}
 
-  /// The key of this token or none, in a time that depends on the number of keys alone.
+  /// Returns the key of this token or none, in a time that depends only on the number of keys.
   const ApiKey* find(std::string_view token) const;
   const ApiKey* find(std::int64_t id) const;
   const std::vector<ApiKey>& keys() const { return keys_; }

@@ -18,15 +18,15 @@ namespace sql {
 class Connection;
 }
 
-/// The log that the measurements of a data folder form: its origin, its keys, and those nodes of
-/// its tree that are kept. The leaves stand in the measurements (MeasurementsStore::log_hashes).
+/// The log of the measurements of a data folder: its origin, its keys, and the stored nodes of its
+/// tree. The leaves are in the measurements (MeasurementsStore::log_hashes).
 class LogStore {
  public:
   explicit LogStore(sql::Connection& connection);
   ~LogStore();
 
   struct State {
-    std::array<std::uint8_t, 16> origin{};  ///< random, made with the database, for ever its own
+    std::array<std::uint8_t, 16> origin{};  ///< random, made with the database, never changed
     std::optional<std::string> name{};      ///< what its checkpoints begin with; none yet
     std::int64_t size = 0;                  ///< rows that are in the tree
   };
@@ -35,7 +35,7 @@ class LogStore {
   /// Once, at the first start.
   void set_name(std::string_view name);
 
-  /// A history before the one that state() names, and what of it went on in the next.
+  /// A history before the current one of state(), and its part that continues in the next one.
   struct Branch {
     std::array<std::uint8_t, 16> origin{};
     std::string name{};
@@ -78,8 +78,8 @@ class LogStore {
   std::unique_ptr<Statements> statements_;
 };
 
-/// The other data folders whose records stand here, as their stations forward them; and how far
-/// this folder's own log was forwarded.
+/// The other data folders whose records their stations forward to this one; and the forwarded part
+/// of this folder's own log.
 class OriginsStore {
  public:
   explicit OriginsStore(sql::Connection& connection);
@@ -101,7 +101,7 @@ class OriginsStore {
   /// Its head after more rows came. `first_row` is set with the first of them.
   void set_head(const Origin& origin);
 
-  /// The public keys whose checkpoints are taken, the oldest first.
+  /// Public keys whose checkpoints are accepted, the oldest first.
   std::vector<std::string> keys(std::int64_t origin) const;
   void add_key(std::int64_t origin, std::string_view vkey, std::int64_t now_ns);
 
@@ -119,7 +119,7 @@ class OriginsStore {
   std::int64_t nodes(std::int64_t origin, int level, std::int64_t first, std::int64_t count,
                      const LogStore::Visitor& visit) const;
 
-  /// Signed heads that contradict its own: the folder was copied and started twice.
+  /// Signed heads that contradict the log: the folder was copied and started twice.
   std::vector<std::string> forks(std::int64_t origin) const;
   /// @returns false: this one is known.
   bool add_fork(std::int64_t origin, std::string_view checkpoint, std::int64_t now_ns);
@@ -145,8 +145,8 @@ class OriginsStore {
   std::unique_ptr<Statements> statements_;
 };
 
-/// The codes are stored: never change one, never use one again. Setup, Plan and
-/// Catalogue are those of documents.
+/// The codes are stored: never change or reuse one. Setup, Plan and Catalogue are those of
+/// documents.
 enum class RevisionKind : std::uint8_t {
   Tables = 1,
   Key = 2,
@@ -170,13 +170,14 @@ class RevisionsStore {
     RevisionKind kind = RevisionKind::Tables;
     std::string name{};  ///< of a correction: the id of its row
   };
-  /// Up to `limit` of those behind `after` that are for this station, the last of each thing alone.
+  /// Returns up to `limit` revisions for this station after `after`, only the last one of each
+  /// document.
   std::vector<Revision> list(std::int64_t after, std::int64_t station, std::int64_t limit) const;
 
   /// `17-5f0c9a3e77d21b40`, the number and its random tag; `0` before the first.
   std::string newest_position() const;
   std::string position(std::int64_t number) const;
-  /// The number of a position; none where this folder has not given it out.
+  /// Number of a position; none if this folder did not return it.
   std::optional<std::int64_t> number_of(std::string_view position) const;
 
   struct Received {
@@ -201,7 +202,7 @@ struct Change {
   std::string name{};
   std::string action{};
   std::optional<std::string> before{};  ///< JSON; none: it was not there
-  std::optional<std::string> after{};   ///< JSON; none: it is gone
+  std::optional<std::string> after{};   ///< JSON; none: deleted
 };
 
 struct ChangeFilter {
@@ -224,9 +225,10 @@ class ChangesStore {
     std::vector<Change> changes{};
     bool has_more = false;
   };
-  /// Those behind `after`, oldest first, at most `limit`, and no more behind 4 MiB of texts.
+  /// Returns the changes after `after`, oldest first, at most `limit`, and at most about 4 MiB of
+  /// texts.
   Page list(const ChangeFilter& filter, std::int64_t after, std::int64_t limit) const;
-  /// Visits the hashes of `count` changes behind `after`.
+  /// Visits the hashes of `count` changes after `after`.
   void leaves(std::int64_t after, std::int64_t count,
               const std::function<void(const Digest&)>& visit) const;
 

@@ -76,7 +76,7 @@ struct MeasurementFilter {
   std::optional<std::int64_t> to_ns{};             ///< measured_at < to
   std::optional<std::int64_t> received_from_ns{};  ///< from <= received_at
   std::optional<std::int64_t> received_to_ns{};    ///< received_at < to
-  // Of one note beside the row:
+  // Of one note of the row:
   std::optional<std::string> cause{};           ///< that it names, exactly so
   std::optional<std::int64_t> noted_from_ns{};  ///< from <= its received_at
   std::optional<std::int64_t> noted_to_ns{};    ///< its received_at < to
@@ -103,8 +103,8 @@ struct MeasurementFilter {
 /// The way a list goes through the measurements, which are numbered in the order of storing.
 enum class ListOrder : std::uint8_t { OldestFirst, NewestFirst };
 
-// The measurements are indexed in blocks of kBlock rows by their ids. Over the blocks stands a tree
-// of nodes: a block is a node of level 0, and a node of a higher level has kFanOut below it.
+// The measurements are indexed in blocks of kBlock rows by their ids. A tree of nodes is above the
+// blocks: a block is a node of level 0, and a higher node has kFanOut nodes below it.
 
 inline constexpr std::int64_t kBlock = 1024;
 inline constexpr std::int64_t kFanOut = 32;

@@ -83,8 +83,8 @@ struct MeasurementRow : app::MeasurementFields {
   std::optional<std::int64_t> conformance{};  ///< found, in 1e-9
   std::optional<std::int64_t> guard_band{};   ///< in fm
 
-  std::optional<std::int64_t> corrected_nm{};  ///< the size at 20 °C, where it decides
-  // Of rows that another folder has forwarded, and of those stored beside them:
+  std::optional<std::int64_t> corrected_nm{};  ///< the size at 20 °C, if the verdict uses it
+  // Of rows that another folder has forwarded, and of rows stored with them:
   std::optional<std::int64_t> origin{};  ///< OriginsStore::Origin::number; 0 is this folder
   std::optional<std::int64_t> seq{};     ///< in the log of its origin; none: it is the id
   std::optional<std::int64_t> number{};  ///< in the id it got there; none: it is the seq
@@ -95,7 +95,7 @@ struct MeasurementRow : app::MeasurementFields {
   Digest hash{};  ///< of its leaf in the log
 
   bool is_forwarded() const { return origin.value_or(0) > 0; }
-  /// Where it stands in the log of its origin, from 1 on.
+  /// Place in the log of its origin, from 1.
   std::int64_t place_in_log() const { return seq.value_or(id); }
   /// The number in its public id.
   std::int64_t public_number() const { return is_forwarded() ? number.value_or(*seq) : id; }
@@ -106,7 +106,7 @@ struct MeasurementRow : app::MeasurementFields {
 
 /// The input of figures: a measured value, its limits and its group.
 struct MeasuredValue {
-  std::int64_t measured_nm = 0;  ///< at 20 °C where it was corrected
+  std::int64_t measured_nm = 0;  ///< at 20 °C if it was corrected
   std::int64_t lower_limit_nm = 0;
   std::int64_t upper_limit_nm = 0;
   std::optional<std::string_view> subgroup{};  ///< the database's own while a visitor runs
@@ -138,8 +138,8 @@ struct SummaryGroup {
   std::int64_t max_nm = 0;
 };
 
-/// Calls `field(column, value)` for what a measurement says, all but its id and hash. The one place
-/// where rows and columns meet.
+/// Calls `field(column, value)` for every field of a measurement except its id and hash. The only
+/// place that maps rows to columns.
 template <class Row, class Field>
 constexpr void for_each_field(Row&& row, Field&& field) {
   field("source", row.source);

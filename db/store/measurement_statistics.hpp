@@ -11,9 +11,9 @@
 
 namespace fitgauge::store {
 
-// Numbers are written seven bits a byte, the lowest first, the eighth bit set where another
-// follows; of signed ones the sign is the lowest bit. A text that may be none is its length and
-// one, or 0, and its bytes.
+// Numbers are written seven bits a byte, the lowest first; the eighth bit is set if another byte
+// follows. The lowest bit of signed numbers is the sign. An optional text is its length plus one,
+// or 0 if absent, and its bytes.
 
 __extension__ using Unsigned128 = unsigned __int128;
 
@@ -33,7 +33,7 @@ void append_signed(std::string& out, Number number) {
   append_number<Number>(out, is_negative ? ~(number << 1U) : number << 1U);
 }
 
-/// Differences wrap around as unsigned ones do, and so come back whatever they are.
+/// Differences wrap around as unsigned numbers, so they are always reversible.
 inline void append_difference(std::string& out, std::int64_t of, std::int64_t from) {
   append_signed(out, static_cast<std::uint64_t>(of) - static_cast<std::uint64_t>(from));
 }
@@ -43,7 +43,7 @@ inline void append_text(std::string& out, std::optional<std::string_view> text) 
   out += text.value_or("");
 }
 
-/// Reads them in their order; what is read behind the end, or is no number, is 0.
+/// Reads them in their order; after the end, or if malformed, a number is 0.
 class PackedNumbers {
  public:
   explicit PackedNumbers(std::string_view bytes) : at_(bytes.data()), end_(at_ + bytes.size()) {}
@@ -95,7 +95,7 @@ class PackedNumbers {
 class NumberRow {
  public:
   static constexpr unsigned kMostBits = 57;
-  /// Bytes that have to stand behind the numbers.
+  /// Bytes that must follow the numbers.
   static constexpr std::size_t kPadding = 8;
 
   NumberRow() = default;
@@ -133,7 +133,7 @@ class NumberRow {
 class ExactStatistics {
  public:
   void add(std::int64_t value_nm);
-  /// As if every value of the other had been added.
+  /// Adds every value of the other.
   void add(const ExactStatistics& other);
 
   std::int64_t count() const { return count_; }

@@ -26,15 +26,14 @@ class MeasurementsStore {
   explicit MeasurementsStore(sql::Connection& connection);
   ~MeasurementsStore();
 
-  /// Appends rows, which have their hash and the ids from last_id() + 1 on. A row with
-  /// `correction_of` must name one that was not corrected yet; where that goes back to a record of
-  /// a station, it is numbered for that station (RevisionsStore).
-  /// @errors MeasurementUnknown when it names no row; MeasurementCorrected when that one was
-  ///   corrected before.
+  /// Appends rows, which have their hash and the ids from last_id() + 1 on. `correction_of` must
+  /// name a row without a correction; if that row is a record of a station, the correction is
+  /// numbered for that station (RevisionsStore).
+  /// @errors MeasurementUnknown if it names no row; MeasurementCorrected if that row was corrected.
   Result<void> append(std::span<const MeasurementRow> rows);
 
-  /// Appends rows that another folder has stored, which say whose they are and where they stand in
-  /// its log; else as append(). What they correct may have been corrected before.
+  /// Appends rows of another folder, with their origin and their place in its log; otherwise as
+  /// append(). Their targets may already have a correction.
   void append_forwarded(std::span<const MeasurementRow> rows);
 
   /// The id of the row that is called `number` at its origin, if it is here.
@@ -49,7 +48,7 @@ class MeasurementsStore {
   /// that was received last.
   std::optional<std::int64_t> corrected_by(std::int64_t id) const;
 
-  /// As corrected_by(); where `id` is a correction that has a later rival, that one.
+  /// As corrected_by(); if `id` is a correction with a later rival, the rival.
   std::optional<std::int64_t> replaced_by(std::int64_t id) const;
 
   /// Whether several corrections of that row were made apart from each other.
@@ -96,7 +95,7 @@ class MeasurementsStore {
   Result<std::vector<SummaryGroup>> summary(const MeasurementFilter& filter, TextField group_by,
                                             std::size_t max_groups = 10'000) const;
 
-  /// Takes the next block of rows into the index that makes filters and summaries fast, or mends a
+  /// Adds the next block of rows to the index that makes filters and summaries fast, or repairs a
   /// part of it that a correction has made stale. @returns whether there was something to do.
   bool index_step();
   /// Derives the index again. @param note called with what differs, a sentence each.

@@ -33,10 +33,10 @@ constexpr std::string_view word(HealthState state) {
 
 struct Health {
   HealthState state = HealthState::Ok;
-  std::string reason{};  ///< what is wrong, one sentence; empty when Ok
+  std::string reason{};  ///< the fault in one sentence; empty if Ok
 };
 
-/// Judges one measurement; says what is wrong with it (`was altered …`), or nothing.
+/// Judges one measurement; returns its fault (`was altered …`), or nothing.
 using MeasurementCheck = std::function<std::optional<std::string>(const MeasurementRow& row)>;
 
 struct VerifyReport {
@@ -65,10 +65,10 @@ struct OpenOptions {
   Synchronous synchronous =
       Synchronous::Full;  ///< less than Full only as a test's negative control
 
-  bool commit_each = false;  ///< every job its own commit: the benchmark's peer
+  bool commit_each = false;  ///< one commit for each job: the benchmark's peer
   std::size_t queue_limit =
       1024;              ///< write jobs and read jobs waiting, each; one more is StorageBusy
-  unsigned readers = 2;  ///< reader threads, each with a connection of its own
+  unsigned readers = 2;  ///< reader threads, each with its own connection
 
   int checkpoint_pages = 4000;  ///< of the log: from here on it is checkpointed
 
@@ -76,14 +76,14 @@ struct OpenOptions {
   std::chrono::milliseconds scrub_interval = std::chrono::hours(24);  ///< between two passes
   std::chrono::hours idempotency_retention{30 * 24};
   std::chrono::hours run_retention{90 * 24};  ///< finished runs with their files and traces
-  std::int64_t event_retention = 100'000;     ///< events kept for replay
+  std::int64_t event_retention = 100'000;     ///< events stored for replay
 
   /// The error of a stored measurement, for the scrub. Called on its thread; may wait for the
   /// application to be ready, and lives as long as the database.
   MeasurementCheck check_measurement{};
 
-  /// Called on the writer thread after each commit; calls its argument, which tells the jobs their
-  /// outcomes. Where it is not set, the writer does.
+  /// Called on the writer thread after each commit; calls its argument, which delivers the outcomes
+  /// to the jobs. If it is not set, the writer delivers them.
   std::function<void(const std::function<void()>&)> around_outcomes{};
 
   /// Called once for each change of health, on the thread that found out. Neither blocks nor throws
@@ -97,13 +97,13 @@ struct OpenOptions {
   /// Called on the writer thread with a sentence on runs and idempotency keys that were deleted.
   std::function<void(const std::string&)> purged{};
 
-  /// Another daemon has added what the application keeps in memory: table revisions, origins, keys
-  /// of the log. Called inside a transaction, before a job sees rows that need them. @returns
-  /// whether the application has taken them up.
+  /// Another daemon has added data that the application keeps in memory: table revisions, origins,
+  /// log keys. Called inside a transaction, before a job sees rows that need them.
+  /// @returns whether the application has loaded them.
   std::function<bool(const Stores&)> names_changed{};
 
   /// Called on the writer thread after each commit, when its jobs have their outcomes, and on
-  /// another one where others have committed; must not block. Lives as long as the database.
+  /// another thread for commits of others; must not block. Must outlive the database.
   std::function<void()> committed{};
 };
 

@@ -78,8 +78,8 @@ class RunsStore {
   Result<void> start(std::int64_t id);
   Result<void> finish(std::int64_t id, const RunOutcome& outcome, std::int64_t now_ns);
 
-  /// Asks the daemon that runs it to end it; where that one dies, who takes the run over ends it.
-  /// @errors RunUnknown; RunFinished when it is over.
+  /// Requests the daemon of the run to end it; if that daemon dies, its successor ends the run.
+  /// @errors RunUnknown; RunFinished if it is over.
   Result<void> ask_to_cancel(std::int64_t id);
   /// Runs that are to be ended and are not over. For a database that daemons share.
   std::vector<std::int64_t> to_be_cancelled() const;
@@ -99,8 +99,8 @@ class RunsStore {
   /// Newest first, those before the cursor.
   Page list(const RunFilter& filter, std::optional<std::int64_t> after, std::size_t limit) const;
 
-  /// Up to `limit` runs that are not over and whose daemon has ended: all that are not over, where
-  /// one daemon alone has the database.
+  /// Returns up to `limit` unfinished runs whose daemon has ended: all unfinished runs if only one
+  /// daemon uses the database.
   std::vector<Run> abandoned(std::size_t limit) const;
 
   /// Makes an abandoned run this daemon's, queued again. @returns whether it was abandoned still.
