@@ -7,11 +7,11 @@
 
 namespace fitgauge::http {
 
-// Values of header fields that are lists. Beast's token_list and ext_list know tokens alone, and
-// neither a media range (`text/html`) nor an entity tag (`"7"`) is one.
+// Values of header fields that are lists. Beast's token_list and ext_list accept only tokens, not a
+// media range (`text/html`) or an entity tag (`"7"`).
 
-/// Takes the part before the next `separator` off the front of `rest`, without blanks around it; a
-/// separator within a quoted string is none.
+/// Removes the part before the next `separator` from the front of `rest`, without surrounding
+/// blanks; separators in a quoted string do not count.
 std::string_view take_part(std::string_view& rest, char separator);
 
 /// The items between commas; empty ones count as none (RFC 9110 section 5.6.1).
@@ -21,10 +21,10 @@ struct NameValue {
   std::string_view name;
   std::string_view value;  ///< without the quotes of a quoted string; empty when there is none
 };
-/// `name=value` taken apart.
+/// The parts of `name=value`.
 NameValue split_parameter(std::string_view part);
 
-/// The weight `q` among the parameters behind an item, in thousandths: 1000 without one, 0 when it
+/// Returns the weight `q` in the parameters of an item, in thousandths: 1000 without one, 0 if it
 /// is malformed (RFC 9110 section 12.4.2).
 int quality(std::string_view parameters);
 
@@ -39,7 +39,7 @@ inline constexpr std::string_view kPackedEtagEnd = "-gzip";
 bool names_etag_weakly(std::string_view tags, std::string_view etag);
 bool names_etag_strongly(std::string_view tags, std::string_view etag);
 
-/// A Content-Type value taken apart; both in lower case.
+/// The parts of a Content-Type; both in lower case.
 struct MediaType {
   std::string type;     ///< `application/json`
   std::string charset;  ///< empty when absent

@@ -74,8 +74,8 @@ class Request {
   /// The one of the route's response media types that the client prefers.
   std::string_view response_type() const { return response_type_; }
 
-  /// Appends what names the answer of a route that depends on nothing else: the route, its
-  /// arguments as they were read (whatever their spelling), and the media type.
+  /// Appends a key for the response of a route without other inputs: the route, its arguments as
+  /// they were read (whatever their spelling), and the media type.
   void append_identity(std::string& out) const;
 
   /// Unique in this process and unlikely elsewhere.
@@ -95,15 +95,15 @@ class Request {
   bool is_http_1_0() const;
   /// Came by the listener for the service's own health check: see ListenAddress::health_only.
   bool is_health_only() const { return peer_->health_only; }
-  /// `https://host:port` or `http://…` as the client addressed it, for comparing Origin. A proxy
-  /// that ends TLS says so in X-Forwarded-Proto, which a page of another site cannot send unasked.
+  /// Origin that the client addressed, `https://host:port` or `http://…`, to compare with Origin. A
+  /// proxy that ends TLS sets X-Forwarded-Proto; a page of another site cannot send it unasked.
   std::string own_origin() const;
   /// The request's Origin if it is one of ServerOptions::allowed_origins; else empty.
   std::string_view allowed_origin() const { return allowed_origin_; }
   /// Whether Accept-Encoding prefers gzip to no coding.
   bool prefers_gzip() const;
 
-  /// The route found, or null where the request was refused before one was.
+  /// The matched route, or null if the request was refused before.
   const Route* route() const { return route_; }
 
   /// The sender, as the guard stored it, or null.

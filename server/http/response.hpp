@@ -27,13 +27,13 @@ struct StreamedBody {
   /// Sent whenever the source has been silent for `heartbeat_interval`; empty for none.
   std::string heartbeat{};
   std::chrono::milliseconds heartbeat_interval = std::chrono::seconds(15);
-  /// The body has no end that a reader waits for: it ends regularly where ServerHooks::may_continue
-  /// says so. Any other breaks off, so that nobody takes it for whole.
+  /// A body without an end: it ends regularly if ServerHooks::may_continue returns false. Any other
+  /// body breaks off, so that no client regards it as complete.
   bool is_endless = false;
   std::size_t held = 0;  ///< bytes that only the source keeps until the body has left
 };
 
-/// Bytes of its own, immutable bytes shared with others, or a stream.
+/// Owned bytes, immutable shared bytes, or a stream.
 using Body = std::variant<std::string, std::shared_ptr<const std::string>, StreamedBody>;
 
 /// The answer of a handler. The engine adds Date, Content-Length or Transfer-Encoding, Connection,
@@ -69,20 +69,20 @@ struct Response {
   }
 };
 
-/// The answer's bytes, made once, to be sent any number of times from any thread: handlers keep it
-/// in their cache and return it. The engine puts in the Date and handles HEAD, If-None-Match and
-/// closing connections. The gzip form is made when the first client asks for it.
-/// @param packed the body in gzip, where there is one already.
+/// Returns the response's bytes, made once, to be sent any number of times from any thread:
+/// handlers keep it in their cache. The engine adds the Date and handles HEAD, If-None-Match and
+/// closing connections. The gzip form is made when the first client requests it.
+/// @param packed the body in gzip, if it exists.
 /// @pre the body is not a stream.
 std::shared_ptr<const PreparedResponse> prepare(const Response& response, std::string packed = {});
 
-/// Bytes that a prepared answer takes, for those who keep many.
+/// Number of bytes of a prepared response, for caches.
 std::size_t size_in_memory(const PreparedResponse& answer);
 
 class Connection;
 
-/// Where a BodyStream puts its next piece: exactly one call, from any thread. Dropped without a
-/// call, or failed, the connection is closed, so that the client sees a truncated body as such.
+/// Receives the next piece of a BodyStream: exactly one call, from any thread. If it is dropped
+/// without a call, or fails, the connection is closed, so that the client detects a truncated body.
 class ChunkSink {
  public:
   explicit ChunkSink(std::shared_ptr<Connection> connection);
@@ -104,9 +104,9 @@ class ChunkSink {
   std::shared_ptr<Connection> connection_;
 };
 
-/// A body pulled piece by piece: the connection asks for the next one when the one before has left,
-/// so a slow reader slows its own producer and nobody else. A reader that takes nothing for the
-/// server's write timeout is dropped.
+/// A body in pieces: the connection requests the next piece when the previous one is sent, so a
+/// slow reader slows only its own producer. A reader that reads nothing during the server's write
+/// timeout is dropped.
 class BodyStream {
  public:
   BodyStream& operator=(BodyStream&&) = delete;  // neither copied nor moved
@@ -116,19 +116,19 @@ class BodyStream {
   /// thread. Pieces of 16 to 64 KiB serve best.
   virtual void next(ChunkSink sink) = 0;
 
-  /// Called on the I/O thread after each StreamedBody::heartbeat_interval in which the sink of
-  /// next() was kept: must not block.
+  /// Called on the I/O thread after each StreamedBody::heartbeat_interval while the sink of next()
+  /// waits: must not block.
   virtual void idle() {}
 
-  /// Called on the I/O thread when the connection has gone: next() is not called again and what a
-  /// kept sink receives is dropped. A stream that keeps its sink drops it here.
+  /// Called on the I/O thread when the connection is closed: next() is not called again and data
+  /// for a waiting sink is dropped. A stream must release its sink here.
   virtual void cancelled() {}
 };
 
-/// The obligation to answer one request: exactly one call, from any thread; the answer is posted to
-/// the request's I/O thread. Destroyed without a call, it answers 500. The Request stays valid as
-/// long as its Responder. A client that has gone meanwhile is no error.
-/// Every Responder must be gone before its Server is destroyed.
+/// The obligation to answer one request: exactly one call, from any thread; the response is posted
+/// to the request's I/O thread. Destroyed without a call, it responds 500. The Request stays valid
+/// as long as its Responder. A client that has disconnected is not an error.
+/// Every Responder must be destroyed before its Server.
 class Responder {
  public:
   explicit Responder(std::shared_ptr<Connection> connection);
@@ -147,10 +147,10 @@ class Responder {
 
 class Posts;
 
-/// While one lives, what its thread hands to I/O threads is kept; when it ends, each of them gets
-/// its share at once. For a thread that answers many requests together: an answer by itself wakes
-/// the I/O thread, which sends it and sleeps again before there is the next.
-/// At most one on a thread. The Responders used under it count as gone when it has ended.
+/// Collects what its thread posts to I/O threads, and posts it at the end, to each thread at once.
+/// For a thread that answers many requests together: single responses would wake the I/O thread
+/// each time. At most one on a thread. Responders used under it count as released when it has
+/// ended.
 class AnswerBatch {
  public:
   AnswerBatch();

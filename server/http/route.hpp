@@ -17,8 +17,8 @@ namespace fitgauge::http {
 
 class RouteTree;
 
-// Kinds of a parameter's text. Every kind is checked before the handler runs; a refused path or
-// query value names the parameter and what it takes.
+// Types of a parameter. Every type is checked before the handler runs; the error of a refused path
+// or query value names the parameter and the accepted values.
 
 struct Text {
   std::size_t max_length = 1024;  ///< bytes after decoding; may be empty in a query
@@ -59,7 +59,7 @@ struct Parameter {
 };
 
 enum class BodyUse : std::uint8_t {
-  None,      ///< a body is read and thrown away
+  None,      ///< a body is read and discarded
   Optional,  ///< may be absent; its media type is checked when there is one
   Required,  ///< 411 without a length, 415 without one of the route's media types
 };

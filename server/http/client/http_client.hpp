@@ -16,24 +16,24 @@
 
 namespace fitgauge {
 
-/// The wait that a line of an HTTP head asks for (RFC 9110, 10.2.3); none of another field, or
-/// where it is a date.
+/// Returns the wait that a line of an HTTP head requests (RFC 9110, 10.2.3); none for another field
+/// or a date.
 std::optional<std::chrono::seconds> retry_after(std::string_view line);
 
 }  // namespace fitgauge
 
 namespace fitgauge::http_client {
 
-/// A handle of libcurl, whose connection is kept between calls. For one thread.
+/// A handle of libcurl, which keeps its connection between calls. Used by one thread.
 class CurlHandle {
  public:
   CurlHandle() : curl_(curl_easy_init()) {}
   ~CurlHandle();
   CurlHandle& operator=(CurlHandle&&) = delete;  // neither copied nor moved
 
-  /// Begins a call with the options of a new handle: http and https alone, no redirection, no
-  /// question whether a large body is welcome. The body, sent with every method but GET, and what
-  /// set() is given stay where they are until perform() returns.
+  /// Begins a call with the options of a new handle: only http and https, no redirection, no Expect
+  /// for a large body. The body, sent with every method but GET, and the values of set() must stay
+  /// in place until perform() returns.
   /// @param headers `Name: value`
   void begin(const std::string& url, const std::string& method,
              std::span<const std::string> headers, std::string_view body);
@@ -61,9 +61,9 @@ class CurlHandle {
   std::array<char, CURL_ERROR_SIZE> error_{};
 };
 
-/// Whether an address leads no further than this machine, its networks or a provider's inside:
-/// loopback, private, link-local, shared, multicast, reserved, and IPv6 forms that hold one of IPv4
-/// (RFC 6890 with its registries). What is neither IPv4 nor IPv6 is private.
+/// Whether an address is of this machine, its networks or a provider's network: loopback, private,
+/// link-local, shared, multicast, reserved, and IPv6 forms with such an IPv4 address (RFC 6890 with
+/// its registries). An address that is neither IPv4 nor IPv6 is private.
 bool is_private_address(const sockaddr& address);
 
 struct HttpClientOptions {
@@ -84,20 +84,20 @@ struct HttpCall {
 
 struct HttpAnswer {
   long status = 0;        ///< 0: there was none
-  std::string body{};     ///< where some of it is taken
+  std::string body{};     ///< if a part is read
   std::string failure{};  ///< why there was no answer
   std::optional<std::chrono::seconds> retry_after{};
 };
 
-/// Calls others over a connection that is kept (libcurl). Follows no redirection and checks
-/// certificates. For one thread.
+/// Calls other servers over a connection that it keeps (libcurl). Follows no redirection and checks
+/// certificates. Used by one thread.
 class HttpClient {
  public:
   explicit HttpClient(HttpClientOptions options);
   ~HttpClient();
   HttpClient& operator=(HttpClient&&) = delete;  // neither copied nor moved
 
-  /// Waits. @param goes_on asked some times a second meanwhile; false gives up.
+  /// Blocks. @param goes_on called some times a second; false ends the call.
   HttpAnswer call(const HttpCall& call, const std::function<bool()>& goes_on);
 
  private:

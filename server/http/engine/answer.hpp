@@ -14,20 +14,19 @@
 
 namespace fitgauge::http {
 
-/// Bytes on their way to the socket: text, then at most one long body that is sent from where it
-/// lies. The text is appended to a string that all connections of a thread share, since most of it
-/// leaves at once; keep() takes what has not left into memory of its own. Between two callbacks of
-/// the thread the shared string is empty.
+/// Bytes to send on a socket: text, then at most one long body that is sent in place. The text is
+/// appended to a string that all connections of a thread share, since most of it is sent at once;
+/// keep() copies the rest. Between two callbacks of the thread the shared string is empty.
 class OutputQueue {
  public:
   static constexpr std::size_t kLongBody = std::size_t{64} << 10;
 
   explicit OutputQueue(std::string& shared) : shared_(shared) {}
 
-  /// Where answers are appended. @pre !has_long_body()
+  /// String for the next responses. @pre !has_long_body()
   std::string& text() { return shared_; }
 
-  /// A body that follows the text, kept alive by `owner`. @pre !has_long_body()
+  /// Adds a body after the text, kept alive by `owner`. @pre !has_long_body()
   void append_long(std::shared_ptr<const void> owner, std::string_view bytes) {
     owner_ = std::move(owner);
     long_body_ = bytes;
@@ -37,7 +36,7 @@ class OutputQueue {
   bool has_long_body() const { return !long_body_.empty(); }
   std::size_t long_body_size() const { return long_body_.size(); }
   std::size_t text_size() const { return shared_.size(); }
-  /// The bytes of memory that it alone keeps: they are free once all has left, or at discard().
+  /// Bytes of memory that only this output holds: freed when everything is sent, or at discard().
   std::size_t held() const {
     return kept_.size() + later_.size() + (owner_.use_count() == 1 ? owned_ : 0);
   }
@@ -65,8 +64,7 @@ class OutputQueue {
     }
   }
 
-  /// Takes what has not left out of the shared string; front() then stays where it is until
-  /// consume(), whatever is appended and kept.
+  /// Copies the rest out of the shared string; front() then stays in place until consume().
   void keep() {
     if (shared_.empty()) return;
     if (kept_.empty()) {
@@ -95,11 +93,11 @@ class OutputQueue {
 
   std::string& shared_;
   std::string kept_;      ///< before the shared text
-  std::string later_;     ///< behind kept_, which is being sent and must not move
+  std::string later_;     ///< after kept_, which is being sent and must not move
   std::size_t sent_ = 0;  ///< of kept_, or of the shared text when there is none
   std::shared_ptr<const void> owner_;
   std::string_view long_body_;
-  std::size_t owned_ = 0;  ///< bytes behind owner_
+  std::size_t owned_ = 0;  ///< bytes after owner_
 };
 
 /// A serialised head with the Date at a known place. It ends with the fields that differ between
@@ -188,7 +186,7 @@ void append_fields(std::string& out, const Response& response);
 /// The same, of those that a 304 repeats (RFC 9110 section 15.4.5).
 void append_not_modified_fields(std::string& out, const Response& response);
 
-/// The value of Vary: what the response names, and Accept-Encoding if there is a gzip form.
+/// Value of Vary: the fields of the response, and Accept-Encoding if there is a gzip form.
 std::string vary_of(const Response& response, bool has_packed_form);
 
 /// Appends the ETag, unless it is empty.

@@ -43,7 +43,7 @@ class ByteBudget {
   std::atomic<std::size_t> waiting_{0};
 };
 
-/// Bytes that were taken from a budget; the destructor gives them back.
+/// Bytes of a budget; the destructor returns them.
 class ByteShare {
  public:
   ByteShare() = default;
@@ -66,10 +66,9 @@ class ByteShare {
   std::size_t bytes_ = 0;
 };
 
-/// Two budgets, so that no body waits for bytes that a waiting body holds: a body whose length is
-/// unknown takes up to kPart from `parts`, then its whole limit from `wholes` at once. Whoever
-/// holds of `wholes` waits for nothing, so that all who wait for it are served in the end, and then
-/// those who wait for `parts`.
+/// Two budgets, so that no body waits for bytes of a waiting body: a body of unknown length uses up
+/// to kPart of `parts`, then its whole limit of `wholes` at once. A body with bytes of `wholes`
+/// never waits, so all waiting bodies are served in the end.
 struct BodyBudgets {
   static constexpr std::size_t kPart = std::size_t{1} << 20;
 
@@ -81,9 +80,9 @@ struct BodyBudgets {
   bool is_short() const { return wholes.is_short() || parts.is_short(); }
 };
 
-/// Gathers one request's body in memory, or on disk if it spools and has more than kPart: decodes
-/// gzip, holds the limit after decompression and takes what is more than kFree from the budgets.
-/// Used by one thread. After TooLarge, Malformed or DiskFull only clear() may follow.
+/// Collects one request's body in memory, or on disk if it spools and has more than kPart: decodes
+/// gzip, applies the limit after decompression and charges more than kFree to the budgets. Used by
+/// one thread. After TooLarge, Malformed or DiskFull only clear() is allowed.
 class BodyReader {
  public:
   /// Bytes that every body may use without a permission: small requests never wait.
@@ -100,7 +99,7 @@ class BodyReader {
     bool discard = false;  ///< count and decode only
     bool spools = false;
 
-    /// Whether what comes is kept as it is.
+    /// Whether the bytes are stored unchanged.
     bool is_verbatim() const { return !gzip && !discard; }
   };
   void start(const Plan& plan);
@@ -109,7 +108,7 @@ class BodyReader {
   /// Makes room for a body of `size` bytes; NoBudget leaves everything as it was.
   Outcome reserve(std::size_t size);
 
-  /// Takes bytes off the front of `piece`; NoBudget leaves the rest to be added later.
+  /// Consumes bytes from the front of `piece`; after NoBudget add the rest later.
   Outcome add(std::string_view& piece);
 
   /// Room for bytes that need no decoding, to be filled and then announced by `added`.
@@ -127,7 +126,7 @@ class BodyReader {
   FileText bytes() const { return {{data(), size_}, spooled_.bytes() != nullptr}; }
   /// After NoBudget: the budget that lacked the bytes.
   ByteBudget& lacking() const { return *lacking_; }
-  /// Another body waits for bytes that this one holds.
+  /// Another body waits for bytes of this body.
   bool is_wanted() const { return share_.is_wanted(); }
 
   void clear();

@@ -24,9 +24,9 @@
 
 namespace fitgauge::http {
 
-/// The bytes read from a connection: the head of the request in work, then what has not been parsed
-/// yet. Small while idle, grows with a long head. A head that is complete does not move: pin_head()
-/// puts it aside before its body is read.
+/// The bytes read from a connection: the head of the current request, then unparsed bytes. Small
+/// while idle, grows with a long head. A complete head does not move: pin_head() moves it aside
+/// before its body is read.
 class InputBuffer {
  public:
   static constexpr std::size_t kSmall = 4096;
@@ -41,7 +41,7 @@ class InputBuffer {
     pinned_.reset();
   }
 
-  /// Room to read into for a head that is not complete. What was read may move; `head` follows.
+  /// Returns room to read into for an incomplete head. Earlier bytes may move; `head` follows.
   std::span<char> room_for_head(RequestHead& head) {
     assert(!pinned_);
     if (begin_ == end_) {
@@ -56,22 +56,22 @@ class InputBuffer {
     return {data_.get() + end_, capacity_ - end_};
   }
 
-  /// The head is complete and its body has to be read: the head stays where it is until
-  /// next_request(), what is unread goes to memory of its own.
+  /// Prepares to read the body of a complete head: the head stays in place until next_request(),
+  /// unread bytes move to other memory.
   /// @pre nothing is being read into the buffer.
   void pin_head() {
     assert(!pinned_);
     pinned_ = grow(parsed_, kSmall);
   }
 
-  /// Room to read `size` bytes of a body into, behind what is unread. @pre pin_head()
+  /// Returns room for `size` bytes of a body after the unread bytes. @pre pin_head()
   std::span<char> room_for_body(std::size_t size) {
     assert(pinned_);
     if (capacity_ - end_ < size) grow(parsed_, size);
     return {data_.get() + end_, capacity_ - end_};
   }
 
-  /// Forgets everything: what is read from now on is thrown away.
+  /// Clears the buffer; later bytes are discarded.
   std::span<char> room_to_discard() {
     begin_ = parsed_ = end_ = 0;
     if (capacity_ == 0) resize(kSmall);
@@ -86,7 +86,7 @@ class InputBuffer {
     begin_ = 0;
   }
 
-  /// Copies what was read from `from` on to new memory with room for `size` more bytes.
+  /// Copies the bytes after `from` to new memory with room for `size` more bytes.
   /// @returns the old memory.
   std::unique_ptr<char[]> grow(std::size_t from, std::size_t size) {
     const std::size_t kept = end_ - from;
@@ -114,11 +114,10 @@ class InputBuffer {
   std::size_t end_ = 0;
 };
 
-/// One client's connection: reads requests one after the other, answers every complete one that the
-/// buffer holds and sends the answers in one write. Owns its buffers; the socket belongs to the
-/// transport that derives from it. Runs on its I/O thread alone; post_*() may be called from any.
-/// The thread keeps it until close(); then it only waits for its last owner (a Responder, an
-/// operation of the socket) to go.
+/// One client's connection: reads requests in turn, answers every complete one in the buffer and
+/// sends the responses in one write. Owns its buffers; the socket belongs to the derived transport.
+/// Runs only on its I/O thread; post_*() may be called from any. The thread keeps it until close();
+/// then it waits only for its last owner (a Responder, an operation of the socket).
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(IoThread& thread, Peer peer);
@@ -139,7 +138,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   /// Acts on a deadline that has passed.
   void check_deadline(Tick now);
-  /// The bytes of answers that the client has not taken yet, and since when it takes them.
+  /// Unsent bytes of responses, and the time since when the client reads them.
   std::size_t bytes_unsent() const { return output_.held() + (stream_ ? stream_->held : 0); }
   std::optional<Tick> unsent_since() const { return unsent_since_; }
 
@@ -147,8 +146,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::size_t bytes_waited_for() const;
   std::uint64_t request_id() const { return exchange_.request().id(); }
   void retry_budget();
-  /// For NextReads: reads what has come since the last answer, or waits for it.
-  /// @returns false when nothing had come.
+  /// Called by NextReads: reads the bytes after the last response, or waits for them.
+  /// @returns false if there were none.
   bool read_in_turn() noexcept;
   /// The server stops: ends now or after the request in flight.
   void drain();
@@ -167,10 +166,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Peer& peer() { return peer_; }
 
   virtual void read_some(std::span<char> room) = 0;  ///< then on_read
-  /// The bytes that have arrived; `error` is would_block if there are none, or the transport cannot
-  /// tell.
+  /// Reads the bytes that have arrived; `error` is would_block if there are none, or if the
+  /// transport does not know.
   virtual std::size_t read_now(std::span<char> room, error_code& error);
-  /// Whether bytes have come that no read has taken; false when the transport cannot tell.
+  /// Whether unread bytes have arrived; false if the transport does not know.
   virtual bool has_unread() const noexcept { return false; }
   /// Writes the bytes that the socket accepts at once; `broken` if it accepts none again.
   virtual std::size_t write_now(std::string_view bytes, bool& broken) = 0;
@@ -196,7 +195,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     Closed,
   };
 
-  /// Running out of memory, or a hook that throws, ends this connection alone.
+  /// An exception, also of memory or a hook, ends only this connection.
   template <class Function>
   void guarded(Function&& function) noexcept {
     if (!fitgauge::guarded("a connection", std::forward<Function>(function))) close();
@@ -204,7 +203,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   template <class Function>
   void post(Function function);
 
-  /// Goes on as far as possible: steps, sends, reads.
+  /// Advances as far as possible: steps, sends, reads.
   void advance();
   /// One step of the request in work. @returns false when it needs bytes, room or an answer.
   bool step();
@@ -242,7 +241,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool reading_ = false;  ///< also while it waits for its turn to
   bool writing_ = false;
   bool close_after_ = false;  ///< no further request on this connection
-  bool lingers_ = false;      ///< the client may still be sending what is not read any more
+  bool lingers_ = false;      ///< the client may still send bytes that are ignored
   Tick deadline_{};           ///< of the phase
   Tick request_deadline_{};
   Tick write_deadline_{};
@@ -258,7 +257,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Exchange exchange_;
   BodyReader body_;
   std::size_t body_left_ = 0;       ///< still to come of a body with a length
-  std::string_view pending_piece_;  ///< read, and not yet taken by body_
+  std::string_view pending_piece_;  ///< read, and not yet consumed by body_
   std::optional<StreamedBody> stream_;
   /// Used by the thread that has the sink of the stream, even while the connection closes.
   std::unique_ptr<GzipWriter> packer_;

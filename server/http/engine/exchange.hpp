@@ -26,18 +26,18 @@ class Exchange {
            const std::vector<std::string>& allowed_origins, const Peer& peer)
       : routes_(routes), hooks_(hooks), allowed_origins_(allowed_origins), peer_(peer) {}
 
-  /// Takes the head, which must stay until the next open().
-  /// @returns the answer when there is one already; otherwise the body is wanted, then run().
+  /// Reads the head, which must stay in place until the next open().
+  /// @returns the response if it is known; otherwise read the body, then call run().
   std::optional<Response> open(RequestHead& head, std::uint64_t id);
 
-  /// The answer to a request that cannot be taken, as far as it was read.
+  /// Returns the response to a refused request, as far as it was read.
   Response refuse(RequestHead& head, std::uint64_t id, const Refusal& refusal);
 
   BodyReader::Plan body_plan() const;
   Refusal body_too_large() const;
   /// The client waits for 100 (Continue) before it sends the body.
   bool wants_continue() const { return wants_continue_; }
-  /// @param body with what Request::kBodyPadding asks for behind it, unless it is empty.
+  /// @param body followed by Request::kBodyPadding bytes, unless it is empty.
   void set_body(const FileText& body) {
     static constexpr char kNothing[Request::kBodyPadding]{};
     request_.body_ = body.text.empty() ? FileText(std::string_view(kNothing, 0)) : body;
@@ -80,7 +80,7 @@ class Exchange {
   const Peer& peer_;
   RequestHead* head_ = nullptr;
   Request request_;
-  std::string decoded_;  ///< path and query where they were percent-encoded; does not move
+  std::string decoded_;  ///< decoded path and query; does not move
   bool wants_continue_ = false;
   bool gzip_ = false;  ///< the request's body
   Codings codings_{};  ///< of its answer

@@ -66,13 +66,12 @@ class Place {
 
 class Connection;
 
-/// Decides when the connections of one I/O thread read their next requests. Straight after an
-/// answer a read finds nothing, a system call in vain: the client has yet to see the answer. Behind
-/// the turn of all connections that are ready it mostly finds the next request while clients keep
-/// the thread busy; it then spares that call and Asio's wait for an event. So reads are put off to
-/// the end of the turn while at least half of them find something there. Otherwise, as with a
-/// client that is alone, connections wait for the event of their socket, and after a number of
-/// answers a turn tries again. Belongs to its thread.
+/// Decides when the connections of one I/O thread read their next requests. A read directly after a
+/// response finds nothing, because the client has not read it yet. After all ready connections are
+/// served, a read mostly finds the next request if the thread is busy, and saves Asio's wait for an
+/// event. So reads are postponed to the end of the turn while at least half of them find something.
+/// Otherwise connections wait for the event of their socket, and after a number of responses a turn
+/// tries again. Used only by its thread.
 class NextReads {
  public:
   explicit NextReads(asio::io_context& context) : context_(context) {}
@@ -110,9 +109,8 @@ struct ServerShared {
   std::atomic<bool> stopping{false};
 };
 
-/// One thread with one io_context and the connections dealt to it. A coarse timer sweeps over them
-/// for deadlines, so that no operation needs a timer of its own. Everything but post() and the
-/// counters belongs to the thread itself.
+/// One thread with one io_context and its connections. A coarse timer checks their deadlines, so
+/// that no operation needs a timer. Only post() and the counters may be used by other threads.
 class IoThread {
  public:
   IoThread(ServerShared& shared, std::uint64_t first_request_id);
@@ -120,7 +118,7 @@ class IoThread {
   IoThread& operator=(IoThread&&) = delete;  // neither copied nor moved
 
   void start();
-  /// Ends the loop and the thread; what was posted and has not run is dropped.
+  /// Ends the loop and the thread; posted handlers that have not run are dropped.
   void join();
 
   asio::io_context& context() { return context_; }
@@ -134,7 +132,7 @@ class IoThread {
   /// The time of the last sweep: good enough for deadlines.
   Tick now() const { return now_; }
   const HttpDate& date() const { return date_; }
-  /// Where the connections write their answers before these leave; see OutputQueue.
+  /// Output string of the connections; see OutputQueue.
   std::string& output() { return output_; }
   NextReads& next_reads() { return next_reads_; }
   std::uint64_t next_request_id() { return next_request_id_++; }
@@ -148,7 +146,7 @@ class IoThread {
   }
   std::uint64_t requests() const { return requests_.load(std::memory_order_relaxed); }
 
-  /// Tells every connection that the server stops.
+  /// Notifies every connection that the server stops.
   void drain();
   void close_all();
 
@@ -162,8 +160,7 @@ class IoThread {
   void bound_unsent();
 
   ServerShared& shared_;
-  /// Only its own thread touches its sockets, so that these need no locks. post() and the timer
-  /// have theirs.
+  /// Only its own thread uses its sockets, so they need no locks. post() and the timer have locks.
   asio::io_context context_{BOOST_ASIO_CONCURRENCY_HINT_UNSAFE_IO};
   Timer timer_{context_.get_executor()};
   NextReads next_reads_{context_};

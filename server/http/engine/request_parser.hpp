@@ -17,9 +17,8 @@ inline constexpr std::size_t kMaxFields = 100;
 /// A chunk line, a trailer section, or any run of framing that yields no byte of the body.
 inline constexpr std::size_t kMaxFraming = std::size_t{16} << 10;
 
-/// Beast's parser for one request, with what it lets through checked here (RFC 9112 sections 5 to
-/// 7). It collects views in a RequestHead and no copies. One object per request; after Refused it
-/// must not be used again.
+/// Beast's parser for one request, with additional checks (RFC 9112 sections 5 to 7). It collects
+/// views in a RequestHead and no copies. One object per request; unusable after Refused.
 class RequestParser final : private boost::beast::http::basic_parser<true> {
  public:
   enum class Step {
@@ -27,7 +26,7 @@ class RequestParser final : private boost::beast::http::basic_parser<true> {
     Head,       ///< the head is complete; more follows when it has a body
     BodyPiece,  ///< piece() is a part of the body, perhaps empty
     Complete,   ///< the chunked body has ended
-    Refused,    ///< refusal() says why; the connection cannot go on
+    Refused,    ///< see refusal(); the connection must end
   };
 
   explicit RequestParser(RequestHead& head);

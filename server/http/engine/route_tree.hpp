@@ -43,15 +43,15 @@ class PathSegments {
     }
   }
 
-  std::string_view path_;  ///< behind its first slash, decoded
+  std::string_view path_;  ///< after its first slash, decoded
   std::array<std::uint32_t, kMaxSegments + 1> begins_{};
   std::size_t count_ = 0;
   bool is_longer_ = false;
 };
 
-/// @param decoded receives the path where it differs from what was sent; its capacity must hold
-///   path.size() more bytes, so that it does not move. `out` views it or `path`.
-/// @returns false for a path that does not begin with a slash or cannot be decoded.
+/// @param decoded receives the path if it differs from the sent one; its capacity must have room
+/// for path.size() more bytes, so that it does not move. `out` views it or `path`.
+/// @returns false if the path does not begin with a slash or cannot be decoded.
 bool split_path(std::string_view path, std::string& decoded, PathSegments& out);
 
 /// The operations on one path shape.
@@ -105,9 +105,9 @@ class RouteTree {
   std::vector<Plan> plans_;
 };
 
-/// Reads the decoded text of a parameter as its type says; the value may view `text`.
+/// Reads the decoded text of a parameter as its type; the value may view `text`.
 /// @errors PathMalformed, QueryInvalid or RequestMalformed by the parameter's place, with its name
-///   and what it takes; LengthMalformed, LengthTooFine, LengthOutOfRange for lengths.
+///   and accepted values; LengthMalformed, LengthTooFine, LengthOutOfRange for lengths.
 Result<ArgumentValue> parse_argument(const Parameter& parameter, std::string_view text);
 
 }  // namespace fitgauge::http

@@ -18,8 +18,8 @@
 
 namespace fitgauge::http {
 
-/// A context with the certificate, the key and what is asked of clients.
-/// @errors ConfigInvalid naming the file that cannot be used.
+/// Makes a context with the certificate, the key and the checks of clients.
+/// @errors ConfigInvalid with the file that cannot be used.
 Result<std::shared_ptr<asio::ssl::context>> load_tls(const TlsOptions& options);
 
 /// A connection over TLS 1.2 or later. It has no session of OpenSSL (43 KB) before the client's
@@ -56,7 +56,7 @@ class TlsConnection final : public Connection {
   std::unique_ptr<SSL, decltype(&SSL_free)> session_{nullptr, &SSL_free};  ///< none before
 };
 
-/// A connection over TCP alone. Owns the socket, which is non-blocking.
+/// A connection over plain TCP. Owns the socket, which is non-blocking.
 class PlainConnection final : public Connection {
  public:
   PlainConnection(IoThread& thread, Peer peer, Socket socket)
@@ -80,7 +80,7 @@ class PlainConnection final : public Connection {
 /// in turn. Belongs to that thread after start().
 class Listener {
  public:
-  /// Called on the first I/O thread with a connected socket of its own, for the given thread.
+  /// Called on the first I/O thread with a new connected socket, for the given thread.
   using Deliver = std::function<void(IoThread&, Socket, Peer)>;
 
   /// Binds and listens.
