@@ -22,7 +22,7 @@ struct Line {
   std::string measured{};   ///< in mm
   std::string deviation{};  ///< in um, with its sign
   std::string verdict{};
-  std::string rule{};         ///< its number, with what it found
+  std::string rule{};         ///< its number, with its findings
   std::string uncertainty{};  ///< expanded, in um, with its factor and coverage
   std::string gauge{};        ///< with its calibration, the machine, the operator
   std::string measured_at{};
@@ -50,21 +50,22 @@ Result<Letterhead> read_letterhead(std::string_view address, const std::string& 
 struct Certificate {
   std::string title{};
   Letterhead letterhead{};
-  std::vector<std::string> facts{};  ///< lines below the title: what it is of, when it was made
+  std::vector<std::string> facts{};  ///< lines below the title: subject and time
   std::vector<std::string> summary{};
-  std::optional<Line> worst{};            ///< drawn large: its verdict stands for all
+  std::optional<Line> worst{};            ///< drawn large: the verdict on all values
   std::vector<std::string> statements{};  ///< how it was decided
   std::vector<Line> lines{};
-  std::vector<std::string> proof{};  ///< lines at the end: how what it says is checked
+  std::vector<std::string> proof{};  ///< lines at the end: how to check the report
   std::string code{};                ///< the text of a QR code; empty for none
   std::vector<std::string> signatures{};
-  std::span<const Column> columns{};  ///< empty: those of an inspection
+  std::span<const Column> columns{};  ///< empty: the texts of an inspection
 };
 
 enum class Paper { A4, Letter };
 
-/// The certificate as a tagged PDF with one embedded font: its text can be searched, copied and
-/// heard. A line that is too wide for its column goes on below, and none is torn between two pages.
+/// Writes the report as a tagged PDF with one embedded font: its text can be searched, copied and
+/// read aloud. A line that is too wide for its column continues below; no line is split between two
+/// pages.
 /// @throws std::runtime_error if the code is too long.
 std::string to_pdf(const Certificate& certificate, Paper paper);
 

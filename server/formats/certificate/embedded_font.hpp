@@ -9,7 +9,7 @@
 
 namespace fitgauge::certificate {
 
-/// The character that begins at `at`, which moves behind it. @pre at < text.size()
+/// Returns the character at `at`, and moves `at` behind it. @pre at < text.size()
 char32_t next_character(std::string_view text, std::size_t& at);
 
 /// The compiled-in font (TrueType) as one document uses it: characters get codes from 1 on as they
@@ -26,7 +26,7 @@ class EmbeddedFont {
   std::uint16_t code(char32_t character);
   std::size_t width(char32_t character) { return used_.at(code(character)).width; }
   const std::vector<Used>& used() const { return used_; }  ///< by code
-  /// The font as a file, with the glyphs that were used alone.
+  /// The font as a file with only the used glyphs.
   std::string file() const;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace fitgauge::certificate {
 
-/// A picture as a PNG file packs it: rows of 8-bit samples, each row behind its filter.
+/// A picture as packed in a PNG file: rows of 8-bit samples, each after its filter.
 struct Picture {
   std::string packed{};
   std::uint32_t width = 0;  ///< in pixels
@@ -26,9 +26,9 @@ struct Picture {
 /// @errors ConfigInvalid naming the file and what to do.
 Result<Picture> read_picture(const std::string& path);
 
-/// A PDF 1.7 whose structure a reader of screens follows (ISO 32000-1, 14.7 and 14.8), in one
-/// embedded font. What is written is packed at once, page by page. Lengths are points from the
-/// lower left. After a failure it is of no use.
+/// A PDF 1.7 with structure for screen readers (ISO 32000-1, 14.7 and 14.8), in one embedded font.
+/// Packs its text at once, page by page. Lengths are points from the lower left. Unusable after a
+/// failure.
 class TaggedPdf {
  public:
   TaggedPdf(std::string_view title, float width, float height);
@@ -47,7 +47,7 @@ class TaggedPdf {
   float width_of(std::string_view line, float size);
   /// The text in pieces no wider than `room`, at blanks, which end a piece.
   std::vector<std::string> wrapped(std::string_view text, float size, float room);
-  /// Takes the one picture of the document. @returns its operators
+  /// Adds the one picture of the document. @returns its operators
   std::string picture(const Picture& picture, float x, float y, float width, float height);
   /// A text as a string of PDF.
   static std::string string(std::string_view text);

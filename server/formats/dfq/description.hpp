@@ -18,7 +18,7 @@
 
 namespace fitgauge::aqdef {
 
-/// A field of the description and the line it stands in.
+/// A field of the description and its line.
 struct Described {
   int number = 0;
   std::uint32_t line = 0;
@@ -28,11 +28,11 @@ struct Described {
 /// The fields of a part, of a characteristic, or of all of them.
 class FieldList {
  public:
-  /// Null where there is none, or an empty one.
+  /// Returns null if the field is absent or empty.
   const Described* find(int number) const;
   std::string_view text(int number) const;
   const std::vector<Described>& all() const { return fields_; }
-  /// @errors kMalformed: it stands here with another text.
+  /// @errors kMalformed: it has another text here.
   Result<void> add(const FieldLine& field, std::uint32_t line, std::string text);
 
  private:
@@ -41,8 +41,8 @@ class FieldList {
 
 struct Characteristic {
   std::uint32_t index = 0;  ///< from 1, over all parts
-  std::uint32_t part = 0;   ///< 0: the file says nothing of a part
-  std::uint32_t line = 0;   ///< where it begins
+  std::uint32_t part = 0;   ///< 0: the file has no part
+  std::uint32_t line = 0;   ///< its first line
   FieldList fields{};
   bool has_values = false;
 };
@@ -55,17 +55,18 @@ class Description {
 
   explicit Description(sheet::Encoding encoding) : encoding_(encoding) {}
 
-  /// Takes a line that is no value. @errors kMalformed
+  /// Reads a line that is not a value. @errors kMalformed
   Result<void> add(const FieldLine& field, std::uint32_t line);
   /// Checks for missing lines at the end. @errors kMalformed
   Result<void> check() const;
 
   std::size_t count() const { return count_; }
-  /// Null where the file describes none of that index. @param index from 1
+  /// Returns null if the file has none of that index. @param index from 1
   Characteristic* characteristic(std::uint32_t index);
   const Characteristic* characteristic(std::uint32_t index) const;
 
-  /// Of a characteristic, else what is said of all (`/0`). Null where it is nowhere, or empty.
+  /// Returns the field of a characteristic, else the field of all (`/0`). Null if both are absent
+  /// or empty.
   const Described* find(const Characteristic& characteristic, int number) const;
   std::string_view text(const Characteristic& characteristic, int number) const;
   /// Of its part.
@@ -108,25 +109,25 @@ struct SizeLimits {
   friend bool operator==(const SizeLimits&, const SizeLimits&) = default;
 };
 
-/// The limits of a class for a nominal size, as the tables say.
+/// Limits of a class for a nominal size, from the tables.
 using LimitsOfClass = std::function<Result<SizeLimits>(Length nominal, const std::string& name)>;
 
 /// The size of a characteristic.
 struct Toleranced {
   LengthUnit unit = LengthUnit::Millimetre;
   Length nominal{};
-  std::string class_name{};  ///< `H7`; empty: the limits are those of the drawing
-  SizeLimits limits{};       ///< of a class too, as far as they are said
+  std::string class_name{};  ///< `H7`; empty: limits of a drawing
+  SizeLimits limits{};       ///< of a class too, if the file has them
 };
 
 /// The user field of fitgauge in a characteristic (K2800 to K2802): `name=…`, or nothing.
 std::string_view user_text(const Description& description, const Characteristic& characteristic,
                            std::string_view name);
 
-/// Reads K2101 to K2142 of a characteristic. A natural limit is none.
-/// @param fallback the unit where K2142 says none. @param limits_of may be null: then the limits of
-///   a class are not compared with those of the tables.
-/// @errors kMalformed with the line: it is no length, or its fields contradict each other.
+/// Reads K2101 to K2142 of a characteristic. A natural limit counts as no limit.
+/// @param fallback unit if K2142 is absent. @param limits_of may be null: then limits of a class
+/// are not compared with the tables.
+/// @errors kMalformed with the line: it is not a length, or its fields contradict each other.
 Result<Toleranced> read_tolerance(const Description& description,
                                   const Characteristic& characteristic,
                                   std::optional<LengthUnit> fallback,

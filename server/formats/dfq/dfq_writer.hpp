@@ -25,10 +25,10 @@ struct OutgoingValue {
   std::string_view origin{};  ///< of its id: 16 hexadecimal digits
   std::int64_t number = 0;    ///< of its id
   Timestamp measured_at{};
-  Length measured{};  ///< what was judged
+  Length measured{};  ///< the judged size
   std::optional<Length> nominal{};
   SizeLimits limits{};
-  std::string_view class_name{};  ///< empty: the limits are those of a drawing
+  std::string_view class_name{};  ///< empty: limits of a drawing
   std::string_view feature{};     ///< `hole` or `shaft`; empty: it is none
   std::string_view quantity{};    ///< empty: a diameter
   std::string_view rule{};        ///< `rule=guard_band;uncertainty_um=0.8`, or empty
@@ -45,7 +45,7 @@ struct OutgoingValue {
 };
 
 struct DfqOptions {
-  std::string part_number = "-";          ///< K1001 where none travels with the measurement
+  std::string part_number = "-";          ///< K1001 of measurements without one
   std::string part_description = "-";     ///< K1002 likewise
   std::optional<sheet::TimeZone> zone{};  ///< of the times; none: UTC
 };
@@ -54,10 +54,9 @@ struct DfqOptions {
 Result<void> check_text(int number, std::string_view text);
 
 /// Makes a DFQ: K0100, parts with their characteristics, catalogues of machines, operators and
-/// gauges, then the values in the order they came in, each with its K0097. Lines end with CR LF.
-/// The text is Windows-1252, or UTF-8 with a mark where it has other characters. Fractions of a
-/// second are left out, as the format has none. The same measurements give the same bytes, also
-/// after they came in again. Not thread-safe.
+/// gauges, then the values in their order, each with its K0097. Lines end with CR LF. The text is
+/// Windows-1252, or UTF-8 with a mark if it has other characters. The format has no fractions of a
+/// second. The same measurements give the same bytes, also after an import. Not thread-safe.
 class DfqWriter {
  public:
   explicit DfqWriter(DfqOptions options) : options_(std::move(options)) {}

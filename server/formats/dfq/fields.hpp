@@ -9,7 +9,7 @@
 
 namespace fitgauge::aqdef {
 
-/// Of what is wrong in a file: no answer over HTTP has it, only the text.
+/// Code of file errors: only their text is used, never a response over HTTP.
 inline constexpr ErrorCode kMalformed = ErrorCode::CsvMalformed;
 
 /// The subject of a field of the format.
@@ -28,7 +28,7 @@ struct FieldInfo {
 /// By its number: K0001, K1xxx, K2xxx and so on.
 Level level_of(int number);
 
-/// Of the fields that are read or written here; null for others, which are kept as they are.
+/// Returns a field that is read or written here; null for others, which are stored unchanged.
 const FieldInfo* field_info(int number);
 
 // Numbers of fields that measurements are made of.
@@ -82,7 +82,7 @@ inline constexpr int kOperatorName = 4092;
 inline constexpr int kOperatorFirstName = 4093;
 }  // namespace k
 
-/// A field of a value or of its part that a measurement has no field of its own for.
+/// A field of a value or its part without a field in measurements.
 struct CarriedField {
   int number = 0;
   std::string text;

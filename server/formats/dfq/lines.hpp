@@ -30,16 +30,16 @@ bool is_field_line(std::string_view line);
 /// @errors kMalformed, without a place: an index that is no number.
 Result<FieldLine> parse_field_line(std::string_view line);
 
-/// The 64 bits of the origin and those of the number: unique over all data folders.
+/// The 64 bits of the origin and of the number: unique over all data folders.
 std::string guid_of(std::string_view origin, std::int64_t number);
 
 /// An error of line `line`: "line 7 has …".
 Error at_line(std::uint32_t line, std::string_view what);
 
-/// Takes the lines of an input, in a bounded piece of memory. Not thread-safe.
+/// Reads the lines of an input in bounded memory. Not thread-safe.
 class Lines {
  public:
-  static constexpr std::size_t kRoom = std::size_t{1} << 20;  ///< of what is kept at a time
+  static constexpr std::size_t kRoom = std::size_t{1} << 20;  ///< of the buffer
 
   struct Line {
     std::string_view text;  ///< without its end; lives until a later line makes room
@@ -49,14 +49,14 @@ class Lines {
 
   explicit Lines(Read read);
 
-  /// Lines from another input, numbered anew. @pre next() has said that there is no more.
+  /// Continues with another input, with new line numbers. @pre next() has reached the end.
   void go_on_with(Read read);
 
   /// The next line that is not empty. @returns false at the end, and after a failure.
   bool next(Line& line);
   const std::optional<Error>& failure() const { return failure_; }
 
-  /// Gives back the line that next() has given last.
+  /// Returns the last line to the input, so that next() reads it again.
   void unread() {
     at_ = last_at_;
     number_ = last_number_;
@@ -66,7 +66,7 @@ class Lines {
     mark_ = at_;
     marked_number_ = number_;
   }
-  /// Back to the mark. What was read since may have moved.
+  /// Goes back to the mark. Views of lines read since then may be invalid.
   void rewind() {
     at_ = mark_;
     number_ = marked_number_;
@@ -75,7 +75,7 @@ class Lines {
   std::size_t moves() const { return moves_; }
 
  private:
-  /// More of the input behind what is kept. @returns false at the end, and after a failure.
+  /// Reads more of the input. @returns false at the end, and after a failure.
   bool fill();
   bool fail(std::string_view what);
 
@@ -98,16 +98,16 @@ class Lines {
 /// How much more room separate() needs than a text has bytes.
 inline constexpr std::size_t kSeparateRoom = 8;
 
-/// Behind what separate() has written.
+/// End of the output of separate().
 struct Separated {
   std::uint32_t* starts = nullptr;
   std::uint32_t* values = nullptr;
 };
 
-/// Takes a line of values apart.
-/// @param starts gets where each field begins but the first: behind each separator
-/// @param values gets for each separator of values how many separators there are up to it
-/// @pre both have room for as many as the text has bytes, and kSeparateRoom
+/// Splits a line of values.
+/// @param starts receives the begin of each field but the first: after each separator
+/// @param values receives for each separator of values the number of separators up to it
+/// @pre both have room for as many entries as the text has bytes, and kSeparateRoom
 Separated separate(std::string_view text, std::uint32_t* starts, std::uint32_t* values);
 
 }  // namespace fitgauge::aqdef

@@ -19,18 +19,18 @@ namespace fitgauge::aqdef {
 struct MeasurementOptions {
   sheet::Encoding encoding = sheet::Encoding::Detected;
   sheet::Words columns{};                   ///< `K0054` and the field of a measurement that it is
-  sheet::Words constants{};                 ///< a field and its value, where the file says none
+  sheet::Words constants{};                 ///< a field and its value, if the file has none
   std::optional<sheet::TimeZone> zone{};    ///< of the times, which have no offset
-  std::optional<LengthUnit> length_unit{};  ///< where K2142 says none
-  bool leaves_out_others = false;           ///< characteristics and values no measurement can hold
-  LimitsOfClass limits_of{};                ///< see read_tolerance
+  std::optional<LengthUnit> length_unit{};  ///< if K2142 is absent
+  bool leaves_out_others = false;  ///< characteristics and values that are not measurements
+  LimitsOfClass limits_of{};       ///< see read_tolerance
 };
 
-/// Turns a DFQ into the CSV that /v1/measurements takes: a header, and a line for each value.
-/// K0053 is order, K0014 part_id, K0009 comment, K0006 subgroup; machine, operator and gauge are
-/// the texts of the catalogues, else their numbers; K2002 is characteristic, K1086 operation, K1303
-/// unit. What else stands at a value, and K1001 and K1002, travel in the comment (carried.hpp).
-/// Values with attribute 255 or 256 are none. Not thread-safe; of no more use after an error.
+/// Converts a DFQ to CSV for /v1/measurements: a header, and a line for each value. K0053 is order,
+/// K0014 part_id, K0009 comment, K0006 subgroup; machine, operator and gauge are the texts of the
+/// catalogues, else their numbers; K2002 is characteristic, K1086 operation, K1303 unit. Other
+/// fields of a value, and K1001 and K1002, are stored in the comment (carried.hpp). Values with
+/// attribute 255 or 256 are skipped. Not thread-safe; unusable after an error.
 class MeasurementCsv {
  public:
   MeasurementCsv(Read read, MeasurementOptions options);
@@ -58,7 +58,7 @@ class MeasurementCsv {
 
   Result<const Prepared*> prepared(std::uint32_t index);
   Result<Prepared> prepare(const Characteristic& characteristic) const;
-  /// Why no measurement can hold it; empty where one can.
+  /// Returns why it is not a measurement; empty if it is one.
   std::string reason_against(const Characteristic& characteristic) const;
   Result<void> prepare_size(const Characteristic& characteristic, Prepared& made) const;
   std::string described_name(const Characteristic& characteristic) const;

@@ -16,8 +16,8 @@ inline constexpr std::array<int, 10> kCells = {
     k::kValue,  k::kAttribute, k::kTime,    k::kEvents,  k::kBatch,
     k::kCavity, k::kOperator,  k::kMachine, k::kProcess, k::kGauge};
 
-/// A value with the fields below it. Its texts are those of the file, and live until the next call
-/// of Reader::next.
+/// A value with the fields after it. Its texts are views of the file, valid until the next call of
+/// Reader::next.
 struct Value {
   std::uint32_t characteristic = 0;
   std::uint32_t line = 0;
@@ -50,7 +50,7 @@ class Row {
     *room_for(1) = thing;
     ++size_;
   }
-  /// Where the next ones go; they are of the row when add_up_to() has said where they end.
+  /// Room for the next cells; they belong to the row after add_up_to() with their end.
   Thing* room_for(std::size_t most) {
     if (room_.size() - size_ < most) room_.resize(size_ + most);
     return room_.data() + size_;
@@ -65,20 +65,19 @@ class Row {
 /// The values of one line, or of K0001 of one characteristic after the other.
 struct ValueSet {
   Row<Value> values{};
-  const char* text = nullptr;   ///< the line of values
-  Row<std::uint32_t> starts{};  ///< of its cells, in bytes, each behind the separator of the last
-  Row<std::string_view>
-      apart{};  ///< cells that a field of its own says, each value's as many as kCells, at least
+  const char* text = nullptr;     ///< the line of values
+  Row<std::uint32_t> starts{};    ///< of its cells, in bytes, each after the last separator
+  Row<std::string_view> apart{};  ///< cells with separate fields, at least kCells for each value
   std::vector<ValueField> fields{};
 
-  /// A text by its number of K0001 to K0012; empty where there is none.
+  /// Returns a text by its number of K0001 to K0012; empty if it is absent.
   std::string_view cell(const Value& value, std::size_t place) const {
     if (place >= value.cells) return {};
     const std::size_t index = value.first_cell + place;
     if (value.is_apart) return apart[index];
     return {text + starts[index], starts[index + 1] - starts[index] - 1};
   }
-  /// A field that stands below the values: of that one, else of all.
+  /// A field after the values: of the named value, else of all.
   std::string_view field(const Value& value, int number) const;
 };
 

@@ -23,7 +23,7 @@ enum class Role : std::uint8_t {
 /// nanometre.
 struct LogValue {
   std::string name;       ///< "Diameter", "Centre, main axis"; another one as the log has it
-  bool is_length = true;  ///< else degrees or a figure, of which only `printed` tells
+  bool is_length = true;  ///< else degrees or a figure, only in `printed`
   Role role = Role::Hole;
   std::optional<Length> nominal{};
   std::optional<Length> upper{};  ///< limits: both or none
@@ -39,7 +39,7 @@ struct MeasuringLog {
   std::optional<sheet::WallTime> time{};  ///< of the control's clock
   bool inch = false;
   std::vector<LogValue> values{};  ///< in the order of the log
-  std::string text{};              ///< of this log alone, as it was fetched
+  std::string text{};              ///< only of this log, as it was fetched
 };
 
 struct Unread {
@@ -47,26 +47,26 @@ struct Unread {
   std::string why{};
 };
 
-/// More are not told.
+/// Later ones are not reported.
 inline constexpr std::size_t kMostUnread = 100;
 
-/// All that a file tells.
+/// Content of a file.
 struct Reading {
   std::vector<MeasuringLog> logs{};
   std::vector<Unread> unread{};  ///< what no reader understands; the rest is read all the same
   bool is_unfinished = false;    ///< the last log has no end yet: the cycle may still write it
 };
 
-/// Logs of cycles 420 to 431 as text, one behind the other, in English or German, as HEIDENHAIN's
-/// manuals print them and as our simulation writes them; UTF-8 or Windows-1252. A whole file of
-/// something else is one Unread.
+/// Reads consecutive logs of cycles 420 to 431 as text, in English or German, as HEIDENHAIN's
+/// manuals print them and our simulation writes them; UTF-8 or Windows-1252. Another file is one
+/// Unread.
 Reading read_text_logs(std::string_view bytes);
 
 /// Logs of cycles 444, 451, 452 and 453 as HTML: a section a touched point, or a measurement.
 /// Of 444 the deviation along the normal is a value with limits; of the kinematics all figures.
 Reading read_html_logs(std::string_view bytes);
 
-/// By what it is: HTML or text.
+/// Reads HTML or text, by its content.
 Reading read_logs(std::string_view bytes);
 
 // The words of a log, in lower case.
@@ -76,7 +76,7 @@ enum class Section : std::uint8_t { Head, Nominal, Limits, Actual, Deviations, F
 /// Which section a title opens.
 std::optional<Section> section_of(std::string_view title);
 
-/// The number of the cycle where a line begins a log.
+/// Returns the number of the cycle if a line begins a log.
 std::optional<int> cycle_of_title(std::string_view line);
 bool ends_log(std::string_view line);
 

@@ -20,15 +20,15 @@
 namespace fitgauge::qif {
 
 struct QifOptions {
-  sheet::Words constants{};               ///< a field and its value, where the document says none
+  sheet::Words constants{};               ///< a field and its value, if the document has none
   std::optional<sheet::TimeZone> zone{};  ///< of times without an offset
-  std::optional<aqdef::LengthUnit> length_unit{};  ///< where FileUnits says none
+  std::optional<aqdef::LengthUnit> length_unit{};  ///< if FileUnits is absent
   bool leaves_out_others = false;  ///< characteristics that are no size, or have no value
   aqdef::LimitsOfClass limits_of{};
   std::size_t most_rows = 100'000;
 };
 
-/// Whether the name of a file says so: `.qif`.
+/// Whether a file name ends with `.qif`.
 bool is_qif(std::string_view file_name);
 
 /// Reads the sizes that a QIF 3 document has measured: diameters, widths, lengths, thicknesses and
@@ -58,7 +58,7 @@ class QifRows {
   std::unique_ptr<Converter> converter_;
 };
 
-/// As CharacteristicStatusEnum says it.
+/// Word of CharacteristicStatusEnum.
 enum class Status : std::uint8_t { Pass, Undefined, Rework, Indeterminate, Fail };
 std::string_view word(Status status);
 
@@ -71,8 +71,8 @@ struct OutgoingValue {
   std::optional<Length> nominal{};
   std::optional<Length> upper{};  ///< limits of size
   std::optional<Length> lower{};
-  std::string_view class_name{};  ///< empty: the limits are those of a drawing
-  bool is_iso286 = false;         ///< it is a class of ISO 286
+  std::string_view class_name{};  ///< empty: limits of a drawing
+  bool is_iso286 = false;         ///< a class of ISO 286
   gauging::Quantity quantity = gauging::Quantity::Diameter;
   std::string_view feature{};        ///< `hole` or `shaft`; empty: it is none
   std::string_view size_operator{};  ///< of ISO 14405-1; empty: none
@@ -85,15 +85,15 @@ struct OutgoingValue {
   std::vector<std::pair<std::string_view, std::string>> fields{};
 };
 
-/// Makes a QIF document of results: the characteristics with their limits, the measurements in the
-/// order they came in, and their parts. What QIF has no place for stands in an attribute by its
-/// name. The same measurements give the same bytes. Not thread-safe.
+/// Makes a QIF document of results: the characteristics with their limits, the measurements in
+/// their order, and their parts. Fields without a place in QIF become attributes with their name.
+/// The same measurements give the same bytes. Not thread-safe.
 class QifWriter {
  public:
-  /// @errors FieldInvalid: a text has a character that XML cannot hold; nothing is added.
+  /// @errors FieldInvalid: a text has a character that XML does not allow; nothing is added.
   Result<void> add(const OutgoingValue& value);
   bool is_empty() const { return measurements_ == 0; }
-  /// The element QIFDocument; nothing stands before it. @pre !is_empty()
+  /// Returns the element QIFDocument, the begin of the document. @pre !is_empty()
   std::string element() const;
   /// The whole file.
   std::string text() const;
@@ -104,7 +104,7 @@ class QifWriter {
     Status worst = Status::Pass;
   };
 
-  /// The item of a characteristic, made where there is none yet.
+  /// Returns the item of a characteristic, and makes it at the first call.
   std::uint32_t item_of(const OutgoingValue& value);
 
   std::string qpid_{};

@@ -20,7 +20,7 @@ class Element;
 /// The texts of a measurement by the places of sheet::kMeasurementFields.
 using Fields = std::array<std::string, sheet::kMeasurementFields.size()>;
 
-/// Gives the field of that name its text; what is no field is passed over.
+/// Sets the field of that name; other names are ignored.
 void set_field(Fields& fields, std::string_view name, std::string_view text);
 
 /// The characteristics, parts and devices of a document. Bounded in memory.
@@ -55,7 +55,7 @@ class Definitions {
   /// Reads all but the measurements. @errors CsvMalformed with the line
   static Result<Definitions> read(Read document, std::optional<aqdef::LengthUnit> fallback);
 
-  /// Null where there is none of that id.
+  /// Returns null if there is no such id.
   const Item* item(const std::string& id) const { return find(items_, id); }
   const Nominal* nominal(const std::string& id) const { return find(nominals_, id); }
   const Definition* definition(const std::string& id) const { return find(definitions_, id); }
@@ -63,7 +63,7 @@ class Definitions {
   std::string_view device(const std::string& id) const { return text(devices_, id); }
   /// `hole`, `shaft` or nothing, of the feature that a characteristic is of.
   std::string_view feature(const Item& item, const Nominal& nominal) const;
-  /// Nothing where the document names none, nor the caller.
+  /// None if neither the document nor the caller has one.
   std::optional<aqdef::LengthUnit> unit() const { return unit_; }
   const std::string& unit_name() const { return unit_name_; }
   const std::string& order() const { return order_; }

@@ -14,19 +14,19 @@
 
 namespace fitgauge::qif {
 
-/// An element with all below it. A view: lives until its reader goes on.
+/// An element with its children. A view: valid until its reader continues.
 class Element {
  public:
   struct Tree;
   Element(const Tree& tree, std::size_t place) : tree_(&tree), place_(place) {}
 
   const std::string& name() const;
-  /// Without blanks around it; empty where there is none.
+  /// Its text without surrounding blanks; empty if it has none.
   std::string attribute(std::string_view name) const;
-  /// Of the first element at the path `Tolerance/MaxValue` below, without blanks around it; empty
-  /// where there is none.
+  /// Text of the first element at the path `Tolerance/MaxValue` below, without surrounding blanks;
+  /// empty if it is absent.
   std::string text(std::string_view path) const;
-  /// Its own, likewise.
+  /// An attribute of the element, without surrounding blanks.
   std::string own_text() const;
   bool has(std::string_view path) const { return !find(path).empty(); }
   /// All elements at the path.
@@ -42,11 +42,10 @@ class Element {
   std::size_t place_;
 };
 
-/// Reads an XML document element by element: memory does not grow with it. Bounds: kLargestElement
-/// bytes an element that is taken, kLargestTag bytes a tag or comment, kMostAttributes a tag,
-/// kDeepest elements inside each other. A document type is refused, and with it every entity of
-/// its own. Reads UTF-8, UTF-16 and every encoding of one byte a character that iconv knows. Not
-/// thread-safe; of no more use after an error.
+/// Reads an XML document element by element in constant memory. Limits: kLargestElement bytes for
+/// an element, kLargestTag bytes for a tag or comment, kMostAttributes for a tag, kDeepest nested
+/// elements. Document types, and so own entities, are refused. Reads UTF-8, UTF-16 and every
+/// encoding of one byte a character in iconv. Not thread-safe; unusable after an error.
 class XmlReader {
  public:
   static constexpr std::size_t kLargestElement = std::size_t{4} << 20;
@@ -61,10 +60,10 @@ class XmlReader {
   /// Goes to the next element. @returns false at the end of the document.
   /// @errors CsvMalformed with the line
   Result<bool> next();
-  /// Its name, and that of the element it stands in; empty for the outermost.
+  /// Its name, and the name of its parent; empty for the outermost.
   const std::string& name() const { return names_.back(); }
   std::string_view parent() const;
-  /// How many elements it stands in.
+  /// Depth of the element.
   std::size_t depth() const { return names_.size() - 1; }
   std::string_view name_space() const { return name_space_; }
   std::uint32_t line() const { return line_; }

@@ -27,7 +27,7 @@ inline constexpr auto kMeasurementFields = [] {
 
 namespace fitgauge::aqdef {
 
-// Where the fields of a measurement stand in a row.
+// Columns of the fields of a measurement.
 
 inline constexpr auto& kNames = sheet::kMeasurementFields;
 
@@ -70,10 +70,9 @@ void append_row(std::string& rows, const Fields& fields) {
   rows += '\n';
 }
 
-/// Appends the next rows of a source; a source whose rows are not at their lines in its file tells
-/// those.
+/// Appends the next rows of a source, with their lines if these differ.
 /// @param source has append(rows), or append(rows, lines)
-/// @param lines of the file, one for each row that is appended
+/// @param lines of the file, one for each appended row
 /// @returns false at the end
 template <class Source>
 Result<bool> append_next(Source& source, std::string& rows, std::vector<std::uint32_t>& lines) {
@@ -84,7 +83,7 @@ Result<bool> append_next(Source& source, std::string& rows, std::vector<std::uin
   }
 }
 
-/// An error of a line of a table, which its `where` is.
+/// An error in a line of a table; `where` is the line.
 Error at_table_line(ErrorCode code, std::size_t line, std::string_view what);
 
 /// Without blanks, tabs and no-break spaces around it.
@@ -102,20 +101,20 @@ struct Record {
   }
 };
 
-/// Takes records from the front of a text, of which it keeps no more than one and a piece. Of no
-/// more use after an error.
+/// Takes records from the front of a text, and keeps at most one and a piece. Unusable after an
+/// error.
 class RecordReader {
  public:
   static constexpr std::size_t kMostCells = 1000;
   static constexpr std::size_t kLongestRecord = std::size_t{1} << 20;
-  static constexpr char kNone = '\n';  ///< separator of what is read by lines alone
+  static constexpr char kNone = '\n';  ///< separator if the text is read by lines
 
   explicit RecordReader(Utf8Input input) : input_(std::move(input)) {}
 
   void set_separator(char separator) { separator_ = separator; }
   std::size_t line() const { return line_; }
 
-  /// The next line without its end, until something is taken; empty at the end as well.
+  /// Returns the next line without its end, until it is taken; also empty at the end.
   /// @errors CsvMalformed, TextEncoding
   Result<std::string_view> peek_line();
   /// @param line what peek_line() has given
@@ -133,16 +132,16 @@ class RecordReader {
   bool take_line_end();
 
   Utf8Input input_;
-  std::string room_{};  ///< read, and taken up to `at_`
+  std::string room_{};  ///< read, and consumed up to `at_`
   std::size_t at_ = 0;
-  bool is_at_end_ = false;   ///< nothing comes behind `room_`
+  bool is_at_end_ = false;   ///< the input ends with `room_`
   std::string_view rest_{};  ///< of `room_`, while a record is read
   std::size_t line_ = 1;
   char separator_ = ';';
 };
 
-// Imports an export of fitgauge: computed fields are ignored, and limits of a class are those
-// of the class.
+// Imports an export of fitgauge: ignores computed fields, and the limits of a class are read as the
+// class.
 
 /// Names of the fields of explicit limits in an export; a class of the tables implies them too.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kLimitsOfExport = {
@@ -150,31 +149,30 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kL
      {"upper_deviation_um", "upper_um"},
      {"lower_deviation_um", "lower_um"}}};
 
-/// The field that a member was given as; empty if it was computed, or says another once more.
+/// Returns the field of a member; empty if it was computed or repeats another one.
 std::string_view field_of_export(std::string_view member, bool has_drawn_limits);
 
 /// Why a record of a simulation is none of a gauge.
 inline constexpr std::string_view kOfSimulation =
     "is simulated, and cannot be imported: export with source=gauge";
 
-/// Appends a line of NDJSON as /v1/measurements takes it: a record of a list with the fields it was
-/// recorded with, any other line as it is. @param line without its end
-/// @errors CsvMalformed, without a place: it is of a simulation.
+/// Appends a line of NDJSON for /v1/measurements: a record of a list with its original fields, any
+/// other line unchanged. @param line without its end
+/// @errors CsvMalformed, without a place: it is simulated.
 Result<void> append_as_given(std::string& out, std::string_view line);
 
-/// Whether the name of a file says that it has records: `.ndjson`, `.jsonl`.
+/// Whether a file name ends with `.ndjson` or `.jsonl`.
 bool is_ndjson(std::string_view file_name);
 
-/// Records of an NDJSON file of any size as /v1/measurements takes them, also those that it
-/// exported, line for line, so that errors name the lines of the file. Of no more use after an
-/// error.
+/// Reads an NDJSON file of any size for /v1/measurements, also exported records, line by line, so
+/// that errors have the lines of the file. Unusable after an error.
 class NdjsonRows {
  public:
   /// @param first and again as for Utf8Input. @errors TextEncoding
   static Result<NdjsonRows> open(const Read& first, Read again, Encoding encoding);
 
   /// Appends the next line. @returns false at the end.
-  /// @errors TextEncoding; CsvMalformed, whose `where` is the line.
+  /// @errors TextEncoding; CsvMalformed with the line in `where`.
   Result<bool> append(std::string& rows);
 
  private:

@@ -24,30 +24,29 @@ struct ShopCsvOptions {
   bool leaves_out_others = false;  ///< columns that are no field and that `columns` lacks
 };
 
-/// Turns a table as gauges and spreadsheets write it into CSV as /v1/measurements takes it: UTF-8,
-/// `;` between the cells, the fields by their names, one line for one line, so that errors name the
-/// lines of the shop's file.
+/// Converts a table of a gauge or a spreadsheet to CSV for /v1/measurements: UTF-8, `;` between the
+/// cells, field names, one output line for each input line, so that errors have the lines of the
+/// shop's file.
 ///
-/// Read are `sep=;` before the header, `;`, a tab or `,` between the cells, empty columns and rows
-/// without text, blanks around a text, names in either case, and times of a clock on the wall.
-/// The CSV of a list of measurements is taken back: what was computed is left out, and limits of a
-/// class are those of the class.
-/// A table may have `date` and `time` (by `columns`) instead of measured_at. It is read in a
-/// bounded piece of memory; a row has at most 1 MiB. Of no more use after an error.
+/// Accepts `sep=;` before the header, `;`, a tab or `,` between the cells, empty columns and rows,
+/// surrounding blanks, names in upper or lower case, and local times. An exported list of
+/// measurements is accepted too: computed fields are ignored, and the limits of a class are read as
+/// the class. A table may have `date` and `time` (by `columns`) instead of measured_at. Uses
+/// bounded memory; a row has at most 1 MiB. Unusable after an error.
 class ShopRows {
  public:
   /// @param first and again read the same table from its begin, one after the other; `first` only
-  ///   where the encoding is to be detected.
+  /// to detect the encoding.
   /// @errors TextEncoding, CsvMalformed
   static Result<ShopRows> open(const Read& first, Read again, ShopCsvOptions options);
   ShopRows(ShopRows&&) noexcept;
   ShopRows& operator=(ShopRows&&) noexcept;
   ~ShopRows();
 
-  /// As many lines as the table has up to the end of its own.
+  /// As many lines as the table has up to the end of its header.
   const std::string& header() const { return header_; }
   /// Appends the next row. @returns false at the end.
-  /// @errors TextEncoding; CsvMalformed and TimeMalformed, whose `where` is the line.
+  /// @errors TextEncoding; CsvMalformed and TimeMalformed with the line in `where`.
   Result<bool> append(std::string& rows);
 
  private:

@@ -37,7 +37,7 @@ std::optional<Encoding> encoding_from_word(std::string_view word);
 /// @param point a code point that is no surrogate
 void append_utf8(std::string& out, std::uint32_t point);
 
-/// Without blanks and line ends at its ends, and with one blank where there are several.
+/// Removes surrounding blanks and line ends, and joins several blanks to one.
 std::string squeezed(std::string_view text);
 /// The next line, without its end, from the front of a text.
 std::string_view take_text_line(std::string_view& text);
@@ -54,24 +54,24 @@ Result<Encoding> detected_encoding(const Read& read);
 /// more use after an error.
 class Utf8Input {
  public:
-  /// @param first and again read the same text from its begin, one after the other; `first` only
-  ///   where the encoding is to be detected.
+  /// @param first and again read the same text from its begin, one after the other; `first` only to
+  /// detect the encoding.
   static Result<Utf8Input> open(const Read& first, Read again, Encoding encoding);
 
   /// Appends the next piece. @returns false at the end. @errors TextEncoding with the byte, counted
-  /// behind the byte-order mark.
+  /// after the byte-order mark.
   Result<bool> append(std::string& out);
 
  private:
   Utf8Input(Read read, Encoding encoding) : read_(std::move(read)), encoding_(encoding) {}
 
-  /// Reads on behind what is not decoded yet.
+  /// Reads more after the bytes that are not decoded yet.
   Result<void> fill();
 
   Read read_;
   Encoding encoding_;
   std::string bytes_{};   ///< that are read and not decoded yet
-  std::uint64_t at_ = 0;  ///< where those stand in the text
+  std::uint64_t at_ = 0;  ///< their place in the text
   bool is_big_ = false;   ///< of UTF-16
   bool is_begun_ = false;
   bool is_at_end_ = false;

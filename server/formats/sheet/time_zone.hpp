@@ -35,7 +35,7 @@ class TimeZone {
   /// The instant. An hour that comes twice is the first, as it is before the clock goes back.
   /// @errors TimeMalformed: the clock has skipped it.
   Result<Timestamp> instant(const WallTime& time) const;
-  /// The time of its clock at an instant, as if it were UTC.
+  /// Returns the local time at an instant, as if it were UTC.
   Timestamp shown(Timestamp time) const;
 
  private:

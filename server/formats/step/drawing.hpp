@@ -12,14 +12,14 @@
 #include "metrology/gauging/gauge.hpp"
 #include "tables/iso286/tolerance_tables.hpp"
 
-// The sizes of a drawing: what a STEP file with product manufacturing information (AP242, AP203,
-// AP214) says of dimensions and their limits, and what of it is not gauged here.
+// The sizes of a drawing: dimensions and limits in a STEP file with product manufacturing
+// information (AP242, AP203, AP214), and its content that is not a size.
 
 namespace fitgauge::step {
 
 /// A size that a characteristic of a plan is made of: with a class or with deviations.
 struct DrawnSize {
-  std::string name{};  ///< of its callout, else of what it is; unique in the drawing
+  std::string name{};  ///< of its callout, else of its kind; unique in the drawing
   Length nominal{};
   std::optional<std::string> tolerance_class{};
   std::optional<Length> upper{};
@@ -32,7 +32,7 @@ struct DrawnSize {
   std::vector<std::string> remarks{};
 };
 
-/// An entry of the file that is not gauged here, or cannot be as it stands.
+/// An entry of the file that is not a size, or an incomplete size.
 struct NotRead {
   std::string entity{};
   std::string name{};

@@ -20,10 +20,10 @@ struct Face {
   std::array<double, 3> axis{0, 0, 1};
 };
 
-/// @param id instance of a face, or of what is none
+/// @param id instance of a face, or any other instance
 std::optional<Face> read_face(const Part21& file, std::uint32_t id);
 
-/// Opens a face; a cylinder gets the side of those cylinders of solids that it lies on, if they
+/// Opens a face; a cylinder gets the side of the cylinders of solids that it lies on, if they
 /// agree.
 void lay_on(Face& face, std::span<const Face> solids);
 

@@ -12,9 +12,8 @@
 #include "base/mapped_file.hpp"
 #include "base/result.hpp"
 
-// A STEP file as text: ISO 10303-21, editions 2 and 3, read strictly and in one pass. What stands
-// in memory is eight bytes an instance; an instance is read again from the text when it is asked
-// for.
+// A STEP file as text: ISO 10303-21, editions 2 and 3, read strictly and in one pass. Needs eight
+// bytes of memory an instance; an instance is read again from the text at each request.
 
 namespace fitgauge::step {
 
@@ -40,8 +39,8 @@ std::string text_of(const Parameter& parameter);
 /// The nearest double of a number, or infinity; 0 of another parameter.
 double number_of(const Parameter& parameter);
 
-/// Reads what is known to be well-formed, since Part21::read has seen it. Refers to the text, which
-/// outlives it. After the first failure every reading is empty and error() says which. One thread.
+/// Reads text that Part21::read has checked. The text must outlive it. After the first failure
+/// every result is empty and error() has the failure. Used by one thread.
 class Part21 {
  public:
   static constexpr std::size_t kMostInstances = std::size_t{8} << 20;
@@ -49,15 +48,15 @@ class Part21 {
   static constexpr int kDeepest = 32;                                ///< lists within lists
   static constexpr std::size_t kMostItems = std::size_t{1} << 16;    ///< of a list that is read
 
-  /// @param names of the records that of_name() gives
-  /// @errors DrawingMalformed with the line, what is wrong there and what to do.
+  /// @param names of the records for of_name()
+  /// @errors DrawingMalformed with the line, the fault and its remedy.
   static Result<Part21> read(const FileText& text, std::span<const std::string_view> names,
                              std::size_t most_instances = kMostInstances);
 
   /// The instances with a record of that name, in the order of the file.
   std::span<const std::uint32_t> of_name(std::size_t name) const { return by_name_[name]; }
 
-  /// One record, or those of a complex instance. A missing instance is a failure at `from`.
+  /// One record, or the records of a complex instance. A missing instance is a failure at `from`.
   std::vector<Record> records(std::uint32_t id, std::uint32_t from) const;
   /// The parameters of a list; of a typed parameter the one in it.
   std::vector<Parameter> parameters(std::string_view list) const;
@@ -69,7 +68,7 @@ class Part21 {
  private:
   struct Instance {
     std::uint32_t id;
-    std::uint32_t at;  ///< of what stands behind the `=`
+    std::uint32_t at;  ///< of the text after the `=`
   };
   friend class Part21Scanner;
 

@@ -33,16 +33,16 @@ class Lexer {
 
   /// Passes white space and comments.
   void skip();
-  /// Passes the character and what is white behind it.
+  /// Skips the character and white space after it.
   bool take(char c) {
     if (peek() != c || is_at_end()) return false;
     ++at_;
     skip();
     return true;
   }
-  /// `ADVANCED_FACE`, `!OWN`, `END-ISO-10303-21`; empty where none stands.
+  /// `ADVANCED_FACE`, `!OWN`, `END-ISO-10303-21`; empty if there is none.
   std::string_view keyword();
-  /// Any parameter, with what stands in it. @param deep how many lists may still be opened
+  /// Any parameter with its content. @param deep number of lists that may still be opened
   bool parameter(Parameter& to, int deep);
   /// `(…)`; @param each gets every parameter
   template <class Each>

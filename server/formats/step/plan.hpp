@@ -25,9 +25,8 @@ void members(auto& v, const DrawnPlan& plan) {
   v.member("not_read", plan.not_read, "Content of the file that is not in the plan");
 }
 
-/// Each size becomes the characteristic of its name. What people gave that one (gauge, rule,
-/// sample, reaction) stays; characteristics that came from no drawing stay behind those of the
-/// drawing.
+/// Makes each size a characteristic with its name. Settings of people for that name (gauge, rule,
+/// sample, reaction) stay; characteristics without a drawing stay after the drawing's.
 /// @param before the plan of the part; null if there is none
 /// @errors DrawingNoSizes.
 Result<DrawnPlan> plan_of(const Drawing& drawing, std::string_view part, const JsonValue* before);

@@ -18,7 +18,7 @@ namespace fitgauge::step {
 /// @param from the instance that refers to it, which an error names; 0: itself
 std::vector<Parameter> record_of(const Part21& file, std::uint32_t id, std::string_view name,
                                  std::uint32_t from = 0);
-/// The text at a place of that record, trimmed; empty where there is none.
+/// Returns the text at a place of that record, trimmed; empty if there is none.
 std::string text_in(const Part21& file, std::uint32_t id, std::string_view name, std::size_t at,
                     std::uint32_t from = 0);
 /// The instances that a parameter refers to, in lists too.
@@ -29,13 +29,13 @@ struct Value {
   std::string name{};
   std::string qualifier{};
   std::optional<Length> length{};  ///< as its format shows it
-  std::optional<Length> exact{};   ///< as it stands
-  std::optional<int> decimals{};   ///< of its format, in its own unit
-  double number = 0;               ///< in its own unit
+  std::optional<Length> exact{};   ///< as in the file
+  std::optional<int> decimals{};   ///< of its format, in the unit of the value
+  double number = 0;               ///< in the unit of the value
   double unit = 0;                 ///< mm; 0: no length
 };
 
-/// Reads values, each by its own unit. Not thread-safe.
+/// Reads values with their units. Not thread-safe.
 class Values {
  public:
   /// @param file outlives it, and keeps the first error

@@ -12,15 +12,15 @@
 
 namespace fitgauge::workbook {
 
-/// An XLSX of one sheet, written cell by cell, each row to disk as it ends: memory does not grow
-/// with the rows. Lengths are numbers with their unit, times are times, and a text is a text
-/// whatever it begins with. Not thread-safe; of no more use after an error.
+/// An XLSX of one sheet, written cell by cell, each row to disk at its end, in constant memory.
+/// Lengths are numbers with their unit, times are times, and a text is always a text. Not
+/// thread-safe; unusable after an error.
 class Workbook {
  public:
-  static constexpr std::size_t kMostRows = 1'048'575;  ///< what a sheet holds below its header
+  static constexpr std::size_t kMostRows = 1'048'575;  ///< rows of a sheet below its header
 
-  /// Begins the sheet with its header, which stays in sight.
-  /// @errors StorageUnavailable: the folder of temporary files (TMPDIR, else /tmp) takes none.
+  /// Begins the sheet with its header, which stays visible.
+  /// @errors StorageUnavailable: the folder of temporary files (TMPDIR, else /tmp) is full.
   static Result<Workbook> make(std::string_view sheet, std::span<const std::string> header);
   Workbook(Workbook&&) noexcept;
   Workbook& operator=(Workbook&&) noexcept;
