@@ -53,18 +53,18 @@ struct StorageFigures {
   std::size_t readers_queued = 0;  ///< jobs that wait for a reader
   bool is_on_server = false;       ///< not in files of the data folder
 
-  // Figures of the database server; absent if there is none or it is away.
+  // State of the database server; absent if there is none or it is unreachable.
   std::optional<std::int64_t> server_bytes{};
   std::optional<std::int64_t> standbys{};
   std::optional<std::int64_t> standby_behind_bytes{};  ///< of the last of them
 };
 
 struct ApplicationOptions {
-  std::filesystem::path directory;  ///< of the database; on a server, of the log's key alone
+  std::filesystem::path directory;  ///< of the database; with a server, only of the log's key
   std::string address{};            ///< `postgresql://…`: a server that several daemons share
-  bool attach = false;              ///< beside a running daemon: nothing is created or upgraded
+  bool attach = false;              ///< next to a running daemon: nothing is created or upgraded
   bool durable = true;              ///< false only as a test's negative control
-  bool commit_each = false;         ///< every write its own commit: the benchmark's peer
+  bool commit_each = false;         ///< one commit for each write: the benchmark's peer
   std::size_t write_queue = 4096;
   unsigned readers = 2;
   unsigned run_workers = 2;
@@ -74,9 +74,9 @@ struct ApplicationOptions {
   std::int64_t event_retention = 100'000;
   /// As LogOptions.
   std::function<std::optional<AtCentre>(std::string_view digits)> ask_centre{};
-  bool has_centre = false;              ///< what came from a centre is changed there alone
+  bool has_centre = false;              ///< documents of a centre can only be changed there
   std::string origin_name = "station";  ///< of the log of a new data folder
-  /// Calls what it is given, on the writer thread: the `done` of everything a commit has stored.
+  /// Calls its argument on the writer thread: the `done` of everything a commit has stored.
   std::function<void(const std::function<void()>&)> around_outcomes{};
   /// The time that runs and idempotency keys expire by; without it the clock, as it is.
   std::function<SteadyTime()> steady_time{};
@@ -89,12 +89,12 @@ struct ApplicationOptions {
   std::function<void(std::string_view event, const std::string& detail)> log_told{};
 };
 
-/// The service without its network: the database and one object per use case. Thread-safe once
-/// open. Destroying it finishes what is queued, commits, checkpoints and closes.
+/// The service without its network: the database and one object per use case. Thread-safe after
+/// open(). The destructor finishes queued work, commits, checkpoints and closes.
 class Application {
  public:
   /// @errors those of the database's opening (DatabaseInUse, DatabaseForeign, DatabaseNewer,
-  ///   StorageCorrupt, StorageUnavailable). Tables that fail their audit are no error here.
+  ///   StorageCorrupt, StorageUnavailable). Tables that fail their audit are not an error here.
   static Result<std::unique_ptr<Application>> open(const ApplicationOptions& options,
                                                    const Clock& clock);
   ~Application();
@@ -103,7 +103,7 @@ class Application {
   LogService& log() { return *log_; }
   LogIntake& intake() { return *intake_; }
   RevisionFeed& revisions() { return *revisions_; }
-  /// Takes what the centre hands on. @param tell as that of the log.
+  /// Stores revisions from the centre. @param tell as for the log.
   RevisionIntake revision_intake(RevisionIntake::Tell tell);
   LogOutbox outbox() { return {*database_, *tables_, *log_}; }
   MeasurementService& measurements() { return *measurements_; }
@@ -124,8 +124,8 @@ class Application {
   /// When the newest measurement was received; none before the first. @errors StorageUnavailable.
   Result<std::optional<Timestamp>> newest_measurement() const;
 
-  /// A consistent copy of the live database, and beside it (`FILE.checkpoint`) the newest
-  /// checkpoint, which the copy covers. @errors StorageUnavailable, also when the file exists.
+  /// Writes a consistent copy of the database, and next to it (`FILE.checkpoint`) the newest
+  /// checkpoint, which the copy contains. @errors StorageUnavailable, also if the file exists.
   Result<void> backup(const std::filesystem::path& file) const;
 
   struct Verification {
@@ -133,9 +133,9 @@ class Application {
     std::vector<std::string> findings;  ///< empty: all is well
     std::string head;  ///< the logs as they were found: name, size and root of each
   };
-  /// Checks the file, the schema, every table revision, the log against what this folder and
-  /// `checkpoints` (notes by what they are called) have signed, and that each verdict follows from
-  /// the stored limits.
+  /// Checks the file, the schema, every table revision, the log against the signatures of this
+  /// folder and `checkpoints` (notes by their names), and that each verdict follows from the stored
+  /// limits.
   Result<Verification> verify(const std::map<std::string, std::string>& checkpoints = {}) const;
 
  private:

@@ -20,7 +20,7 @@ struct Jobs {
   /// Records that stations forward to this centre.
   JobPool intake{"intake", 2, 256};
 
-  /// Refuses orders and figures that wait and ends figures under way; bodies go on to their end.
+  /// Refuses waiting orders and figures, and ends running figures; bodies run to their end.
   void call_off() {
     orders.call_off();
     figures.call_off();

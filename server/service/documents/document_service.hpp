@@ -28,7 +28,7 @@ std::string_view gauge_of_calibration(std::string_view name);
 /// feature or fixture of the workpiece names something. Used inside a job.
 void add_users(std::vector<std::string>& users, const store::Stores& stores, DocumentKind kind,
                const std::function<bool(const JsonValue&)>& names_it);
-/// @errors DocumentInUse, where there are users.
+/// @errors DocumentInUse, if there are users.
 Result<void> check_unused(std::string_view what, const std::vector<std::string>& users);
 
 /// A document as it was written.
@@ -39,16 +39,16 @@ struct NamedDocument {
 };
 
 /// Uncertainty budgets, gauges in use, their studies, machine setups, plans, connections and
-/// catalogues. Nothing blocks but what says so; `done` comes exactly once, on a storage thread or,
-/// when refused at once, on the caller's. Thread-safe. A name that is not there is
+/// catalogues. Functions do not block unless documented; `done` is called exactly once, on a
+/// storage thread or, if refused at once, on the caller's. Thread-safe. An unknown name is
 /// UncertaintyUnknown, GaugeUnknown, StudyUnknown, SetupUnknown, PlanUnknown, ConnectionUnknown or
 /// CatalogueUnknown.
 class DocumentService {
  public:
   template <class T>
   using Done = std::function<void(Result<T>)>;
-  /// Decides on the current text, none where there is no document, whether a change is made; called
-  /// in the transaction that makes it. An empty one allows every change.
+  /// Decides from the current text, none if there is no document, whether a change is made; called
+  /// in the transaction of the change. An empty one allows every change.
   using Precondition = std::function<bool(std::optional<std::string_view> text)>;
 
   /// The new text and its precondition.
@@ -62,15 +62,14 @@ class DocumentService {
     Precondition precondition{};
   };
 
-  /// @param has_centre whether setups, plans and catalogues that came from a centre are changed
-  /// there alone.
+  /// @param has_centre whether setups, plans and catalogues of a centre can only be changed there.
   DocumentService(store::Database& database, const Clock& clock, bool has_centre = false)
       : database_(database), clock_(clock), has_centre_(has_centre) {}
 
   /// Gives whether the name is new. @errors UncertaintyUnknown: of `uncertainty`; GaugeUnknown;
   ///   PreconditionFailed, Forbidden (the centre's), StorageUnavailable, StorageBusy.
   void write(Change change, Done<bool> done);
-  /// @errors what is said of a name that is not there, StorageUnavailable.
+  /// @errors those of an unknown name, StorageUnavailable.
   void read(DocumentKind kind, std::string name, Done<NamedDocument> done);
   /// @param users that are not documents: RunService::queued().
   /// @errors as read; DocumentInUse (with the names of those that name it) and then

@@ -30,8 +30,8 @@ class CommitListener {
   virtual void committed() = 0;
 };
 
-/// Tells its listeners of commits, on a thread of its own: the writer only raises a flag, however
-/// many listen. Commits that follow each other closely are told as one. Thread-safe.
+/// Notifies its listeners of commits, on its own thread: the writer only sets a flag, whatever the
+/// number of listeners. Commits in quick succession are one notification. Thread-safe.
 class CommitSignal {
  public:
   CommitSignal();
@@ -39,7 +39,7 @@ class CommitSignal {
 
   void raise();
 
-  /// Ends the thread: no listener is called any more. Not for the listeners.
+  /// Ends the thread; then no listener is called. Listeners must not call it.
   void stop();
 
   void add(std::shared_ptr<CommitListener> listener);
@@ -67,20 +67,20 @@ namespace fitgauge::app {
 
 class TableCatalog;
 
-/// How far a reader of events has come. The measurements themselves are the log of what was
-/// recorded; only events that are in no other table are stored as such.
+/// Position of a reader of events. The measurements are the log of recorded events; only events
+/// that are in no other table are stored as such.
 struct EventPosition {
   std::int64_t measurement = 0;
-  bool reject_is_due = false;  ///< this measurement was told as recorded, not yet as rejected
+  bool reject_is_due = false;  ///< this measurement was sent as recorded, not yet as rejected
   std::int64_t stored = 0;
 
   friend auto operator<=>(const EventPosition&, const EventPosition&) = default;
 };
 
-/// The id of an event, opaque to the outside: a reader that stopped there goes on with the next.
-/// @param history what the ids of the folder end with
+/// The opaque id of an event: a reader that stopped there continues after it.
+/// @param history ending of the ids of the folder
 std::string event_id_text(const EventPosition& position, std::string_view history);
-/// None where the id is none, or is of a history that ended before it.
+/// None if it is not an id, or of a history that ended before it.
 std::optional<EventPosition> parse_event_id(std::string_view text, const Origins& origins);
 
 /// One event, with a measurement or a payload; views, valid during the call it is given to.
@@ -89,7 +89,7 @@ struct Event {
   /// `note.added`
   std::string_view type;
   EventPosition id;
-  std::string_view history;  ///< as event_id_text() takes it
+  std::string_view history;  ///< as for event_id_text()
   const Measurement* measurement = nullptr;
   std::string_view payload{};  ///< JSON
 };
@@ -97,8 +97,8 @@ struct Event {
 /// Events in order, for readers that reconnect. Thread-safe; nothing here blocks.
 class EventService {
  public:
-  /// @param retention how many measurements and how many stored events a reader may be behind.
-  /// @param origins outlive the service.
+  /// @param retention number of measurements and of stored events that a reader may be behind.
+  /// @param origins must outlive the service.
   EventService(store::Database& database, const TableCatalog& tables, const Origins& origins,
                CommitSignal& signal, std::int64_t retention)
       : database_(database),
@@ -115,8 +115,8 @@ class EventService {
     friend auto operator<=>(const Place&, const Place&) = default;
   };
   struct Page {
-    EventPosition position;  ///< where the reader is now
-    bool gap = false;        ///< what came next is gone; the position is the newest
+    EventPosition position;  ///< new position of the reader
+    bool gap = false;        ///< the next events are deleted; the position is the newest
     bool more = false;       ///< than fits into a page
     std::string text{};
   };
@@ -129,7 +129,7 @@ class EventService {
   /// @param write the same for all. @errors StorageUnavailable, StorageBusy.
   void read(const Place& place, Write write, PageDone done);
 
-  /// Where a reader stopped that had this event; none: it is told as a gap.
+  /// Position of a reader after this event; none: it is reported as a gap.
   std::optional<EventPosition> position_of(std::string_view event_id) const {
     return parse_event_id(event_id, origins_);
   }
@@ -138,7 +138,7 @@ class EventService {
     return event_id_text(position, origins_.own());
   }
 
-  /// An event that is in no other table, on its own.
+  /// A single event that is in no other table.
   struct Stored {
     std::int64_t id = 0;
     std::string_view history{};  ///< in which it was given its id
@@ -149,14 +149,14 @@ class EventService {
   struct StoredPage {
     std::vector<Stored> events{};  ///< oldest first
     std::int64_t newest = 0;       ///< of all that there are
-    bool gap = false;              ///< some that came next are gone
+    bool gap = false;              ///< some of the next events are deleted
   };
-  /// Reads up to `limit` stored events behind `after`, on a reader thread.
+  /// Reads up to `limit` stored events after `after`, on a reader thread.
   /// @errors StorageUnavailable, StorageBusy.
   void read_stored(std::int64_t after, std::size_t limit,
                    std::function<void(Result<StoredPage>)> done);
 
-  /// A listener is told when there may be new events.
+  /// Adds a listener, which is called if there may be new events.
   void add(std::shared_ptr<CommitListener> listener) { signal_.add(std::move(listener)); }
   void remove(const std::shared_ptr<CommitListener>& listener) { signal_.remove(listener); }
   std::size_t readers() const { return signal_.listeners(); }

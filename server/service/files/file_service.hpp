@@ -20,12 +20,12 @@ namespace fitgauge::app {
 inline constexpr std::string_view kDrive = "TNC:\\";
 inline constexpr std::string_view kFiles = "/v1/files/";
 
-/// A file of the control's disk in either form: `TNC:\nc_prog\8255.h`, or as under /v1/files,
-/// `nc_prog/8255.h`, with or without that in front. @errors those of ControlPath::parse.
+/// Path of a file on the control's disk: `TNC:\nc_prog\8255.h`, or as under /v1/files,
+/// `nc_prog/8255.h`, with or without this prefix. @errors those of ControlPath::parse.
 Result<interpreter::ControlPath> parse_file_path(std::string_view text);
 
-/// The uploaded files as a control's disk. Thread-safe. Every call reads the database and waits for
-/// it, so it is for worker threads alone. Throws when the storage fails.
+/// The uploaded files as a control's disk. Thread-safe. Every call waits for the database, so it is
+/// only for worker threads. Throws if the storage fails.
 class StoredDisk final : public interpreter::ControlDisk {
  public:
   /// @param database outlives the disk.

@@ -12,7 +12,7 @@
 
 namespace fitgauge::api {
 
-/// A batch and the texts its rows have views of, beside those of the body.
+/// A batch with the texts that its rows view, in addition to those of the body.
 struct ReadBatch {
   app::ForwardedBatch batch;
   TextArena texts;
@@ -20,7 +20,7 @@ struct ReadBatch {
 
 /// The body of `PUT /v1/log/{origin}/{from}`.
 std::string batch_text(const app::LogOutbox::Batch& batch);
-/// Reads such a body, which outlives the batch.
+/// Reads such a body, which must outlive the batch.
 /// @errors LogRecordInvalid and those of JSON, each with the line; RequestInvalid.
 Result<std::unique_ptr<ReadBatch>> read_batch(std::string_view origin, std::int64_t from,
                                               std::string_view body);

@@ -7,13 +7,13 @@
 #include "base/json/json_value.hpp"
 #include "db/store/stores.hpp"
 
-// Changes of what decides: tables, plans, budgets, gauges, calibrations, studies, setups,
-// catalogues, connections and keys. Each stands in the job that makes it.
+// Changes of configuration: tables, plans, budgets, gauges, calibrations, studies, setups,
+// catalogues, connections and keys. Each is logged in the job that makes it.
 
 namespace fitgauge::app {
 
 /// Logs a change under the next id, as created, replaced, deleted or (a key) revoked.
-/// @param change without id and action; its texts are JSON. Nothing is logged where they are alike.
+/// @param change without id and action; its texts are JSON. Nothing is logged if they are equal.
 void log_change(store::Stores& stores, store::Change change);
 
 /// Stores or removes a document and logs it, a connection without its secrets.
@@ -29,8 +29,8 @@ JsonValue without_secrets(JsonValue settings);
 /// A change as /v1/changes answers it.
 std::string change_json(const store::Change& change);
 
-/// The data of a leaf of the tree of changes: the change, with the SHA-256 of the texts where
-/// it would be longer than an entry of a tile.
+/// Returns the leaf of a change in the tree of changes: the change, with the SHA-256 of its texts
+/// if it would be longer than an entry of a tile.
 std::string change_entry(const store::Change& change);
 
 }  // namespace fitgauge::app

@@ -22,7 +22,7 @@ class LeafMaker {
   }
   /// The records of the last call, with commas between them; valid until the next.
   std::string_view records() const { return records_; }
-  /// Those of some of its measurements.
+  /// Leaves of some of its measurements.
   std::string_view records(std::size_t first, std::size_t count) const {
     return records().substr(begins_[first], begins_[first + count] - 1 - begins_[first]);
   }
@@ -34,9 +34,9 @@ class LeafMaker {
   tlog::TreeHasher hasher_;
 };
 
-/// Why a record of another folder cannot be stored as this one; empty: it can. It is taken only if
-/// this version reads all of it: it has to give its own text again.
-/// @param text the record, of which `measurement` was read.
+/// Returns why a record of another folder cannot be stored; empty: it can. This version must read
+/// all of it and write the same text again.
+/// @param text the record of `measurement`.
 std::string_view finding_in(const Measurement& measurement, std::string_view text);
 
 }  // namespace fitgauge::app

@@ -19,12 +19,12 @@ namespace fitgauge::app {
 /// The finding for a measurement whose record does not match its leaf.
 std::string altered_finding();
 
-/// Makes a log again, that of this folder or one that was forwarded, from its records while they
-/// are read in their order, and holds it against what was stored and what was signed.
+/// Rebuilds a log of this folder or of a station from its records in their order, and compares it
+/// with stored hashes and signatures.
 class LogCheck {
  public:
-  /// Gives the kept hash of a node of level 8, 16, …; none where there is none. Not set: no node
-  /// is kept.
+  /// Returns the stored hash of a node of level 8, 16, …; none if it is absent. Not set: no nodes
+  /// are stored.
   using KeptNodes = std::function<std::optional<tlog::Hash>(const tlog::Node&)>;
 
   LogCheck(LogService::Facts facts, RowNames names, KeptNodes kept)
@@ -33,20 +33,20 @@ class LogCheck {
         kept_(std::move(kept)),
         frontier_(facts_.base) {}
 
-  /// Takes a checkpoint to compare with. @param place what a finding calls it.
+  /// Adds a checkpoint to compare with. @param place its name in findings.
   void expect(const std::string& place, std::string_view note);
 
   /// The finding for the next measurement of this log, if any.
   std::optional<std::string> add(const store::MeasurementRow& row);
 
-  /// Takes all changes, in place of measurements: each has to give its leaf.
-  /// @returns whether it could read them all, and there are some.
+  /// Adds all changes instead of measurements: each must have its leaf.
+  /// @returns whether it could read all of them, and there are some.
   bool add_changes(store::Database& database);
 
   /// The finding for the whole log, after the last measurement.
   std::vector<std::string> finish();
 
-  /// The size and the root of what was read, for people; and which checkpoints say nothing of it.
+  /// Size and root of the log, for people; and the checkpoints that cover none of it.
   std::string head_text();
 
  private:

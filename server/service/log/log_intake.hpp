@@ -28,13 +28,13 @@ class TableCatalog;
 /// Texts are views of memory that outlives the batch.
 struct ForwardedBatch {
   struct Row {
-    /// As its station has answered it. What it corrects is named by `correction_of` and the digits
-    /// of `corrected_elsewhere`.
+    /// As stored by its station. The corrected measurement is in `correction_of` and the digits of
+    /// `corrected_elsewhere`.
     Measurement measurement;
     std::string_view record;  ///< its text, which is the leaf
   };
   std::string origin;  ///< 16 hexadecimal digits
-  /// The log that it is a branch of, and how many of its rows lie below; no digits: it is none.
+  /// The log below this branch and its number of rows there; no digits: it is not a branch.
   struct Base {
     std::string origin{};
     std::int64_t size = 0;
@@ -45,14 +45,14 @@ struct ForwardedBatch {
   std::string checkpoint;
   std::vector<std::string> hand_overs;  ///< checkpoints that hand over from a key to the next
   std::vector<Row> rows;
-  /// Kept for idempotency keys when the rows were stored.
+  /// Stored for idempotency keys with the rows.
   std::vector<store::IdempotencyStore::Forwarded> answers;
   std::vector<Note> notes;  ///< with the ids that they got there, in their order
   std::string notes_after;  ///< the id of the note before the first; empty: there is none
 };
 
-/// Takes what stations forward: each batch that continues exactly where its log ends here, whole or
-/// not at all. Thread-safe.
+/// Stores batches of stations: each batch must continue exactly at the end of its log here, and is
+/// stored whole or not at all. Thread-safe.
 class LogIntake {
  public:
   /// Most rows of a batch.
@@ -76,13 +76,13 @@ class LogIntake {
   };
   enum class Outcome { Taken, Elsewhere, Forked };
   struct Answer {
-    /// Elsewhere: the batch does not begin where the log ends here, and nothing was taken. Forked:
-    /// its checkpoint contradicts what is here; it is kept, and named from then on.
+    /// Elsewhere: the batch does not begin at the end of the log here, and nothing was stored.
+    /// Forked: its checkpoint contradicts the log here; it is stored and reported from then on.
     Outcome outcome = Outcome::Taken;
     Head head;
   };
 
-  /// Blocks: for threads that may.
+  /// Blocks.
   /// @errors LogKeyUnknown, NoteMalformed, NoteUnverified, KeyMalformed, LogRootMismatch,
   ///   LogRecordInvalid, RequestInvalid; those of storage.
   Result<Answer> take(const ForwardedBatch& batch);

@@ -20,12 +20,12 @@ inline constexpr std::string_view kCheckpointFile = "fitgauge.checkpoint";
 /// A tree of the folder.
 struct TreeNames {
   std::string_view file;    ///< of its newest head
-  std::string_view suffix;  ///< of its name, behind that of the log
+  std::string_view suffix;  ///< of its name, after the name of the log
   std::string_view leaves;
 
   std::string name(const std::string& log) const { return log + std::string(suffix); }
-  /// The keys of a log under the name of this tree. A text that was altered is left out: it does
-  /// not fit its seal, which verify tells.
+  /// Keys of a log under the name of this tree. Altered texts are left out; verify reports them by
+  /// their seal.
   std::vector<tlog::VerifierKey> keys(const std::vector<std::string>& texts) const;
 };
 inline constexpr TreeNames kTreeOfMeasurements{kCheckpointFile, "", "measurements"};
@@ -37,8 +37,8 @@ std::string digits_of_origin(const std::array<std::uint8_t, 16>& origin);
 /// Whether a log may have this name: `[a-z0-9][a-z0-9./-]{0,63}`.
 bool is_origin_name(std::string_view name);
 
-/// The private keys of the file, one a line, the one in use first; none where there is no file.
-/// @errors KeyMalformed; StorageUnavailable when it cannot be read.
+/// Reads the private keys of the file, one a line, the current one first; none if there is no file.
+/// @errors KeyMalformed; StorageUnavailable if it cannot be read.
 Result<std::vector<tlog::SigningKey>> read_log_keys(const std::filesystem::path& folder);
 
 /// Replaces the file in one step; only its owner may read it.
@@ -60,7 +60,7 @@ std::optional<tlog::VerifierKey> next_key_of(std::string_view text);
 Result<void> replace_file(const std::filesystem::path& file, std::string_view content,
                           bool durably);
 
-/// @errors StorageUnavailable when it is there and cannot be read. None where there is no file.
+/// @errors StorageUnavailable if it exists and cannot be read. None if there is no file.
 Result<std::optional<std::string>> read_small_file(const std::filesystem::path& file);
 
 }  // namespace fitgauge::app

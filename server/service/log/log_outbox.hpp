@@ -18,8 +18,8 @@ namespace fitgauge::app {
 
 class TableCatalog;
 
-/// The part of this folder's log that a centre does not have yet. The log itself is the outbox:
-/// kept beside it is only how far the centre has confirmed it. Everything here blocks. Thread-safe.
+/// The part of this folder's log that a centre does not have yet. The log itself is the outbox;
+/// only the confirmed position is stored with it. Functions block. Thread-safe.
 class LogOutbox {
  public:
   static constexpr std::int64_t kMostRows = 10'000;
@@ -45,10 +45,10 @@ class LogOutbox {
     std::string notes_after{};   ///< the id of the note before the first; empty: there is none
     std::int64_t last_note = 0;  ///< the number in the id of the last of them
   };
-  /// The rows behind the first `after` records, at most `most`, of one history; no record where
-  /// nothing does.
-  /// @param noted the notes behind this number come too, as far as their records are at the centre
-  ///   then; none: it accepts no notes.
+  /// Returns the rows after the first `after` records, at most `most`, of one history; no record if
+  /// there is none.
+  /// @param noted include the notes after this number whose records are then at the centre; none:
+  /// the centre accepts no notes.
   /// @errors those of storage.
   Result<Batch> next(std::int64_t after, std::int64_t most,
                      std::optional<std::int64_t> noted) const;
@@ -56,7 +56,7 @@ class LogOutbox {
   /// Whether the first `size` records of this folder have that root; none while it has fewer.
   Result<std::optional<bool>> begins_with(std::int64_t size, const tlog::Hash& root) const;
 
-  /// How many records this centre has confirmed. @errors those of storage.
+  /// Number of records that this centre has confirmed. @errors those of storage.
   Result<std::int64_t> confirmed(std::string_view centre) const;
   Result<void> confirm(std::string_view centre, std::int64_t size) const;
 

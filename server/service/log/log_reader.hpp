@@ -13,11 +13,11 @@
 
 namespace fitgauge::app {
 
-/// Reads the log of this folder, that of its changes, or that of one whose records were forwarded,
-/// in one state of the database: records, leaves and nodes. Used inside a read job.
+/// Reads a log in one state of the database: the log of this folder, of its changes, or of a
+/// station: records, leaves and nodes. Used inside a read job.
 class LogReader {
  public:
-  /// In place of an origin, behind all of them: the changes of this folder.
+  /// Stands for the changes of this folder, instead of an origin.
   static constexpr std::int64_t kChanges = std::numeric_limits<std::int64_t>::max();
 
   /// @param origin 0: this folder.

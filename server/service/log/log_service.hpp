@@ -39,25 +39,24 @@ struct AtCentre {
 };
 
 struct LogOptions {
-  std::filesystem::path
-      directory;                 ///< of the database; the key and the newest checkpoint lie there
-  std::string name = "station";  ///< of the log, if this is its first start
-  bool shares = false;           ///< one of several daemons that sign the same log
-  bool attach = false;           ///< beside a running daemon: nothing is signed and nothing written
-  /// The centre's answer about the history with these digits; none where it does not say.
-  /// Asked once, when the log is opened; not set where there is no centre. May block.
+  std::filesystem::path directory;  ///< of the database, with the key and the newest checkpoint
+  std::string name = "station";     ///< of the log, if this is its first start
+  bool shares = false;              ///< one of several daemons that sign the same log
+  bool attach = false;              ///< next to a running daemon: nothing is signed or written
+  /// Returns the centre's state of the history with these digits; none if it does not respond.
+  /// Called once, when the log is opened; not set without a centre. May block.
   std::function<std::optional<AtCentre>(std::string_view digits)> ask_centre{};
   /// The event's name and a sentence, for the log of the service; called on any thread.
   std::function<void(std::string_view event, const std::string& detail)> tell{};
 };
 
-/// The log of the data folder: a Merkle tree over its measurements that grows behind the commits,
+/// The log of the data folder: a Merkle tree over its measurements that grows after the commits,
 /// and its head, signed at most once a second. Writers never wait for it. Thread-safe.
 class LogService {
  public:
-  /// Reads the log's name and keys, makes them at the first start, and signs what the tree has.
-  /// Rows that were stored and are not in it follow in the background. Where the database may be an
-  /// older copy of what has given out ids, a branch begins: another origin, name and key.
+  /// Reads the log's name and keys, creates them at the first start, and signs the tree. Stored
+  /// rows that are not in the tree follow in the background. If the database may be an older copy
+  /// of one with more ids, a branch begins: another origin, name and key.
   /// @errors StorageUnavailable, StorageCorrupt, KeyMalformed.
   static Result<std::unique_ptr<LogService>> open(store::Database& database,
                                                   const TableCatalog& tables, const Clock& clock,
@@ -66,13 +65,13 @@ class LogService {
 
   /// The end of new ids of this folder: the first 16 hexadecimal digits of its origin.
   std::string_view origin() const { return origins_.own(); }
-  /// Of all folders whose records stand here.
+  /// Origins of all folders with records here.
   Origins& origins() { return origins_; }
 
-  /// Starts the thread that lets the tree grow, and tells the head once a day from then on.
+  /// Starts the thread that extends the tree, and logs the head once a day.
   void start();
-  /// Signs once more before it returns, so that the folder knows what was stored last: no id of it
-  /// is given out again above an older copy.
+  /// Signs once more before it returns, so that the folder knows the last stored row: none of its
+  /// ids is given out again over an older copy.
   void stop();
   /// There may be new measurements. Called after each commit; does not block.
   void committed();
@@ -85,12 +84,12 @@ class LogService {
   std::shared_ptr<const Head> head() const { return head_.get(); }
   std::string head_text() const;  ///< for people
 
-  /// Two folders go on under this history: no measurement is recorded until the centre takes the
-  /// rows here. @param why none: it does. Blocks. @errors those of storage.
+  /// Reports that two folders continue this history: no measurement is stored until the centre
+  /// accepts the rows again. @param why none: it accepts them. Blocks. @errors those of storage.
   Result<void> set_forked(const std::optional<std::string>& why);
   std::optional<Error> forked() const;
 
-  /// The rows of this log under one name, from behind `begin` to `end`.
+  /// The rows of this log under one name, after `begin` up to `end`.
   struct History {
     std::string digits;  ///< what their ids end with
     std::string name;    ///< in checkpoints
@@ -98,14 +97,14 @@ class LogService {
     std::optional<std::int64_t> end{};         ///< none: the present one
     std::optional<tlog::SigningKey> signer{};  ///< none: the key was lost
   };
-  /// That of a place in the log.
+  /// Origin of a place in the log.
   const History& history_of(std::int64_t place) const;
   /// @pre it is one of this folder
   const History& history_of(std::string_view digits) const;
 
-  /// Takes note of origins and keys that other daemons have added. Used inside a job.
-  /// @throws store::StorageFailure where one of them has begun a branch: this one goes on under the
-  ///   history below it, and is to be started again.
+  /// Loads origins and keys that other daemons have added. Used inside a job.
+  /// @throws store::StorageFailure if one of them has begun a branch: this daemon continues the
+  /// history below it, and must be restarted.
   void take_names(const store::Stores& stores);
 
   /// The public keys, one a line, the newest first.
@@ -120,8 +119,8 @@ class LogService {
     std::vector<tlog::Hash> path;
     std::shared_ptr<const Head> head;
   };
-  /// That a measurement stands in the tree of a signed head: its station's, countersigned here,
-  /// where it was forwarded. Waits up to 1.1 s for a head that has it.
+  /// Proves that a measurement is in the tree of a signed head: of its station, countersigned here,
+  /// if it was forwarded. Waits up to 1.1 s for such a head.
   /// @errors MeasurementUnknown, StorageUnavailable, StorageBusy.
   void prove(const RecordName& name, Done<Proof> done);
 
@@ -129,17 +128,16 @@ class LogService {
     std::string bytes;
     bool is_full = false;  ///< it never changes
   };
-  /// @param path what stands behind `tile/`. @param of_changes of the tree of changes instead.
+  /// @param path after `tile/`. @param of_changes of the tree of changes instead.
   /// @errors NotFound; those of storage.
   void tile(std::string_view path, bool of_changes, Done<TileBytes> done);
 
-  /// The changes behind `after`, a page, oldest first.
-  /// @errors CursorInvalid behind the newest; those of storage.
+  /// Returns a page of changes after `after`, oldest first.
+  /// @errors CursorInvalid after the newest; those of storage.
   void changes(store::ChangeFilter filter, std::int64_t after, std::int64_t limit,
                Done<store::ChangesStore::Page> done) const;
-  /// The signed head of the tree of changes, of all that there are, which the folder keeps first.
-  /// Its name is that of the log with `/changes` behind it, so that nobody takes it for a head of
-  /// the measurements.
+  /// Returns the signed head of the tree of all changes, after storing it in the folder. Its name
+  /// is the log's name with `/changes`, to distinguish it from heads of the measurements.
   /// @errors those of storage.
   void changes_head(Done<std::string> done);
   /// The keys of that name: verifier_keys() under it.
@@ -150,9 +148,9 @@ class LogService {
     std::string name;
     std::int64_t size = 0;
     std::vector<tlog::VerifierKey> keys;
-    std::string checkpoint{};  ///< the newest that is kept in the database; of forwarded logs
+    std::string checkpoint{};  ///< the newest one in the database; of forwarded logs
     tlog::Frontier base{};     ///< of a branch that was forwarded: the rows below it
-    /// Names it had before, and how many rows of each it goes on behind.
+    /// Its earlier names, and the number of rows of each that it continues.
     std::map<std::string, std::uint64_t> former{};
     /// Of a centre: only its corrections of this folder's records are here.
     bool is_partial = false;
@@ -162,13 +160,13 @@ class LogService {
   using Logs = std::map<std::int64_t, Facts>;
   static Result<Logs> logs(store::Database& database);
 
-  /// The head of the first `size` measurements of this folder, signed for a history that has its
-  /// signer. It is not told to others as the newest one is. @pre there are so many in the tree.
-  /// Used inside a read job.
+  /// Returns the head of the first `size` measurements of this folder, signed for a history that
+  /// has its signer. It is not published as the newest one. @pre the tree has so many. Used inside
+  /// a read job.
   std::string sign_at(const store::Stores& stores, const History& history,
                       std::uint64_t size) const;
 
-  /// The checkpoints that hand over from a key to the next, as they are kept in the folder.
+  /// Checkpoints that two consecutive keys signed, as stored in the folder.
   std::vector<std::string> hand_overs() const;
 
  private:
@@ -216,8 +214,8 @@ class LogService {
   std::string name_;
   std::vector<History> histories_;          ///< the oldest first, the present one last
   Snapshot<std::string> forked_;            ///< why nothing is recorded; empty: it is
-  std::vector<tlog::SigningKey> signers_;   ///< the key in use, and once the one before
-  std::vector<tlog::SigningKey> older_;     ///< those of former histories
+  std::vector<tlog::SigningKey> signers_;   ///< the current key, and once its predecessor
+  std::vector<tlog::SigningKey> older_;     ///< keys of former histories
   std::optional<tlog::SigningKey> signer_;  ///< the key in use
   Snapshot<std::string> verifier_keys_;
   Snapshot<Head> head_;

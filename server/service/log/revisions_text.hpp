@@ -18,7 +18,7 @@ struct ReadRevisions {
 
 /// The answer of `GET /v1/log/revisions`.
 std::string revisions_text(const app::RevisionPage& page);
-/// Reads that. A kind that is not known here is left out.
+/// Reads it. Unknown kinds are left out.
 /// @errors those of JSON; RequestInvalid, LogRecordInvalid.
 Result<std::unique_ptr<ReadRevisions>> read_revisions(std::string_view body);
 

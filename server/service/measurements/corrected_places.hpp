@@ -6,22 +6,22 @@
 
 namespace fitgauge::app {
 
-/// A value that belongs elsewhere than where it was read: before the one read as number `to`, which
-/// is at most `from`. Both count from 0, in the order of reading.
+/// A value to move: before the value that was read as number `to`, which is at most `from`. Both
+/// count from 0, in the order of reading.
 struct MovedValue {
   std::size_t from = 0;
   std::size_t to = 0;
 };
 
-/// Finds the places of corrections among values that are read in storage order: a correction
-/// belongs where the value stood that it replaces, which of a correction's correction is the first.
+/// Finds the places of corrections among values in storage order: a correction belongs to the place
+/// of the value that it replaces, of the first value in a chain of corrections.
 class CorrectedPlaces {
  public:
-  /// Corrections and what they correct, in any order; all of them before the first value.
+  /// Adds a correction and its target, in any order; all of them before the first value.
   void add(std::int64_t id, std::int64_t correction_of);
   void finish_adding();
 
-  /// The id of the next value, larger than that of the one before.
+  /// Adds the id of the next value, which must be larger than the previous id.
   void pass(std::int64_t id);
 
   /// In the order of their places.

@@ -45,10 +45,10 @@ struct MeasurementQuery : store::MeasurementFilter {
   bool newest_first = false;
   bool shows_notes = false;
   std::optional<std::size_t> last;  ///< only so many of the newest that match, on one page
-  std::optional<RecordName> after;  ///< begins behind this one, instead of a cursor
+  std::optional<RecordName> after;  ///< begins after this one, instead of a cursor
 };
 
-/// How a list goes on after a page.
+/// Continuation of a list after a page.
 struct ListPage {
   std::optional<std::int64_t> next;  ///< the last row of the page; none when nothing follows
   std::int64_t as_of = 0;            ///< the state all pages of the list are read in
@@ -61,7 +61,7 @@ struct MeasuredRun {
     Length measured;
   };
 
-  std::string_view origin{};  ///< where they were stored; outlives the run
+  std::string_view origin{};  ///< their origins; must outlive the run
   std::optional<Length> lower_limit;
   std::optional<Length> upper_limit;
   std::optional<std::string_view> subgroup;
@@ -71,14 +71,14 @@ struct MeasuredRun {
 /// Facts of values after all of them are read.
 struct ReadValues {
   std::string as_of;              ///< the id of the newest measurement there was
-  std::vector<MovedValue> moves;  ///< of corrections, to the places of what they replace
+  std::vector<MovedValue> moves;  ///< moves corrections to the places of their targets
 };
 
 /// How many there are of each verdict, by gauging::Verdict.
 using VerdictTally = std::array<std::int64_t, gauging::kVerdicts>;
 using MeasurementGroup = store::SummaryGroup;
 
-/// Enumerations of the store count from 1, in the order of those of the service.
+/// Enumerations of the store count from 1, in the order of the service's.
 template <class Code, class Value>
 constexpr Code code_of(Value value) {
   return static_cast<Code>(static_cast<int>(value) + 1);
@@ -90,7 +90,7 @@ constexpr Value value_of(Code code) {
 
 struct MeasurementServiceOptions {
   std::size_t most_waiting = 4096;  ///< requests; one more is StorageBusy
-  bool commit_each = false;         ///< every request its own commit: the benchmark's peer
+  bool commit_each = false;         ///< one commit for each request: the benchmark's peer
 };
 
 /// Makes the answer to a request from its measurements, which may come in pieces. Used by one
@@ -100,14 +100,14 @@ class Rendering {
   Rendering& operator=(Rendering&&) = delete;  // neither copied nor moved
   virtual ~Rendering() = default;
 
-  /// The next measurements, with their ids.
-  /// @param records what is stored of them: their JSON, with commas between them.
+  /// Adds measurements with their ids.
+  /// @param records their stored JSON, separated by commas.
   virtual void add(std::span<const Measurement> measurements, std::string_view records) = 0;
   virtual Answer finish() = 0;
 };
 
-/// Stores and reads measurements. Nothing here blocks but what says so; `done` comes exactly once,
-/// on a storage thread or, when refused at once, on the caller's. Thread-safe.
+/// Stores and reads measurements. Functions do not block unless documented; `done` is called
+/// exactly once, on a storage thread or, if refused at once, on the caller's. Thread-safe.
 class MeasurementService {
  public:
   /// @param origins outlive the service.
@@ -126,7 +126,8 @@ class MeasurementService {
   /// Begins an answer; called on the writer thread, and again if the storing is tried again.
   using Render = std::function<std::unique_ptr<Rendering>()>;
 
-  /// The answer kept for this request, or none. @errors IdempotencyKeyReused, StorageUnavailable.
+  /// Returns the stored response to this request, or none. @errors IdempotencyKeyReused,
+  /// StorageUnavailable.
   void find_answer(const IdempotencyScope& scope, Done<std::optional<Answer>> done);
 
   /// Stores judged measurements, all or none; `done` comes when they are durable. The texts of the
@@ -137,14 +138,14 @@ class MeasurementService {
   void record(std::vector<Measurement> measurements, const std::optional<IdempotencyScope>& scope,
               Render render, Done<Answer> done);
 
-  /// Takes the next measurements of a request.
+  /// Receives the next measurements of a request.
   using Take = std::function<void(std::vector<Measurement>)>;
-  /// Reads a request to its end, at least one measurement or an error. What was taken stays unkept
-  /// when there is one.
+  /// Reads a request to its end, at least one measurement or an error. After an error nothing is
+  /// stored.
   using Read = std::function<Result<void>(const Take&)>;
 
-  /// Stores judged measurements while `read` goes on reading, all or none. Blocks until they are
-  /// durable. The texts of the measurements stay alive until it returns.
+  /// Stores judged measurements while `read` continues, all or none. Blocks until they are durable.
+  /// The texts of the measurements must live until it returns.
   /// @errors those of `read` and of record().
   Result<Answer> record_while_reading(const Read& read,
                                       const std::optional<IdempotencyScope>& scope,
@@ -153,22 +154,21 @@ class MeasurementService {
   /// Called on a reader thread; the measurement's texts are valid during the call.
   using Visitor = std::function<void(const Measurement&)>;
 
-  /// Visits one measurement; `corrected_by` is set if it was. @returns where it stands in this
+  /// Visits one measurement; `corrected_by` is set if it was corrected. @returns its place in this
   /// folder. @errors MeasurementUnknown.
   void find(const RecordName& name, Visitor visit, Done<std::int64_t> done);
 
-  /// Keeps a note beside a measurement. @param note has its time
+  /// Stores a note on a measurement. @param note has its time
   /// @errors MeasurementUnknown, and those of record().
   void add_note(const RecordName& name, Note note, const std::optional<IdempotencyScope>& scope,
                 Done<Answer> done);
 
-  /// The notes beside a measurement, oldest first. @errors MeasurementUnknown.
+  /// Returns the notes on a measurement, oldest first. @errors MeasurementUnknown.
   void list_notes(const RecordName& name, Done<std::vector<Note>> done);
 
-  /// Visits up to `limit` matching measurements that come after the cursor `after`, in storage
-  /// order or the other way round. A query without `as_of_id` is read in the newest state; the
-  /// pages that follow name the one it gives, so that the list is of one piece however much is
-  /// recorded and corrected meanwhile.
+  /// Visits up to `limit` matching measurements after the cursor `after`, in storage order or
+  /// reversed. A query without `as_of_id` reads the newest state and returns its id; later pages
+  /// name it, so that the whole list shows one state, whatever is stored in between.
   void list(const MeasurementQuery& query, std::int64_t after, std::size_t limit, Visitor visit,
             Done<ListPage> done);
 

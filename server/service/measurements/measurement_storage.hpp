@@ -33,7 +33,7 @@ void append_rows(std::vector<store::MeasurementRow>& rows,
                  std::span<const Measurement> measurements, LeafMaker& leaves);
 
 /// Numbers and stores measurements.
-/// @param rendering takes them, if there is one. @returns the id of the first.
+/// @param rendering receives them, if there is one. @returns the id of the first.
 /// @errors MeasurementUnknown and MeasurementCorrected of a correction.
 Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measurements,
                             std::string_view origin, Rendering* rendering = nullptr);
@@ -41,7 +41,7 @@ Result<std::int64_t> append(store::Stores& stores, std::span<Measurement> measur
 /// The row of a measurement in this folder; none when there is no such measurement.
 std::optional<std::int64_t> row_of(const store::Stores& stores, const RecordName& name);
 
-/// The same, where it must be there. @errors MeasurementUnknown.
+/// Finds a row that must exist. @errors MeasurementUnknown.
 Result<std::int64_t> existing_row_of(const store::Stores& stores, const RecordName& name,
                                      const Origins& origins);
 
@@ -52,8 +52,8 @@ Error too_much_work();
 
 // Notes as rows of this folder; the service calls these in its jobs.
 
-/// Keeps a note beside a row, gives it its id, and stores the event.
-/// @param there the name of a note that a station has forwarded, with its id in it
+/// Stores a note on a row with a new id, and its event.
+/// @param there name and id of a note that a station has forwarded
 void append_note(store::Stores& stores, std::int64_t row, const Origins& origins, Note& note,
                  std::int64_t now_ns, const RecordName& there = {});
 

@@ -27,7 +27,7 @@ struct References {
   std::map<std::string, std::string> files;
 };
 
-/// One figure of the product beside what it has to be.
+/// One figure of the product and its reference.
 struct Check {
   std::string id;        ///< `gum.h1.combined`
   std::string source;    ///< who published the expected figure, or how it was computed
@@ -45,7 +45,7 @@ struct Check {
 struct Figures {
   std::map<std::string, long double> values;
 
-  /// @param names of the figures, behind the prefix: `ev av grr`
+  /// @param names of the figures, after the prefix: `ev av grr`
   void add(const std::string& prefix, const std::string& names,
            std::initializer_list<long double> figures);
 };
@@ -70,7 +70,7 @@ struct Qualification {
   std::vector<Check> checks;
 };
 
-/// Compares every figure with its reference. Takes some seconds; no network, no files.
+/// Compares every figure with its reference. Needs some seconds; no network, no files.
 Qualification qualify(std::string version, Timestamp at, const References& references = {},
                       const iso286::TableData& data = iso286::compiled_in_tables());
 

@@ -30,7 +30,8 @@ using store::RevisionKind;
 std::string_view word(RevisionKind kind);
 std::optional<RevisionKind> revision_kind_from_word(std::string_view text);
 
-/// Change `number` of a centre: what it sets or removes. Members of other kinds are empty.
+/// Change `number` of a centre: a document that it sets or removes. Members of other kinds are
+/// empty.
 struct Revision {
   std::int64_t number = 0;
   RevisionKind kind = RevisionKind::Tables;
@@ -46,7 +47,7 @@ struct Revision {
   std::optional<Timestamp> expires_at{};
 
   std::int64_t place = 0;                    ///< of the correction in the centre's log
-  std::optional<Measurement> measurement{};  ///< what `text` says, where it was read
+  std::optional<Measurement> measurement{};  ///< content of `text`, if it was read
 };
 
 /// Revisions in the order of their numbers.
@@ -84,9 +85,9 @@ class RevisionFeed {
   RevisionFeed(store::Database& database, const TableCatalog& tables, const Origins& origins)
       : database_(database), tables_(tables), origins_(origins) {}
 
-  /// Changes after a position; all changes if this folder did not give the position out.
-  /// Of each thing its last revision alone.
-  /// @param station the digits of its origin: whose corrections are meant.
+  /// Returns the changes after a position; all changes if this folder did not give the position
+  /// out. Of each document only the last revision.
+  /// @param station digits of its origin, for its corrections.
   /// @errors those of storage.
   void read(std::string_view station, std::string position, Done done) const;
 

@@ -17,9 +17,9 @@ namespace fitgauge::app {
 class Origins;
 class TableCatalog;
 
-/// Takes at a station what its centre hands on. What the centre gives takes the place of what is
-/// here under its name; what this folder has made itself is kept under another name, and a key of
-/// this folder stays. What the centre does not name stays as it is. For one thread.
+/// Stores revisions of the centre at a station. They replace documents of the same name here;
+/// documents that this folder has made are renamed, and a key of this folder stays. Other documents
+/// do not change. Used by one thread.
 class RevisionIntake {
  public:
   /// The event's name and a sentence, for the log of the service.
@@ -35,9 +35,9 @@ class RevisionIntake {
 
   struct Outcome {
     int taken = 0;    ///< that were new here
-    int refused = 0;  ///< that cannot be taken as things are here; told, each once
+    int refused = 0;  ///< that cannot be stored here; reported, each once
   };
-  /// All of a page, in one transaction. The same again changes nothing. Blocks.
+  /// Stores all of a page in one transaction. A repeated page changes nothing. Blocks.
   /// @errors those of storage.
   Result<Outcome> take(const RevisionPage& page);
 

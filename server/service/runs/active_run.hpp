@@ -27,7 +27,8 @@ namespace fitgauge::app {
 struct LiveState {
   std::string program{};    ///< the one that runs now, called or main
   std::uint32_t block = 0;  ///< its number, as written or counted
-  /// Of the tool tip in the active coordinate system, mm and degrees; the machine's axes alone.
+  /// Position of the tool tip in the active coordinate system, mm and degrees; only the machine's
+  /// axes.
   std::vector<std::pair<machine::Axis, double>> axes{};
   int tool = 0;
   machine::Axis tool_axis = machine::Axis::Z;
@@ -47,9 +48,9 @@ struct FinishedRun {
   std::string report;  ///< as it is stored
 };
 
-/// A run that is queued or under way: what it has printed so far, who follows it, and the way to
-/// cancel it. Thread-safe. Callbacks come on the run's thread, without a lock held;
-/// what one throws is reported and stops neither the run nor the others.
+/// A queued or running run: its output until now, its followers, and its cancellation. Thread-safe.
+/// Callbacks run on the run's thread without a lock; an exception of one is reported and stops
+/// neither the run nor other callbacks.
 class ActiveRun {
  public:
   ActiveRun(std::int64_t id, std::string_view origin, std::shared_ptr<const RunOrder> order,
@@ -86,15 +87,15 @@ class ActiveRun {
   using Ticket = std::uint64_t;
   /// Calls `wake` once, as soon as the version differs from `seen`; at once if it does already.
   Ticket await(std::uint64_t seen, std::function<void()> wake);
-  /// `wake` is no longer wanted.
+  /// Removes `wake`.
   void forget(Ticket ticket);
 
   /// Calls `done` once when the run is over; at once if it is.
   void on_end(std::function<void(const Result<FinishedRun>&)> done);
 
-  /// The state of the machine now, as far as the run tells it within `patience`; else the last one
-  /// it told, as are the files where they are not asked for. A run that is over has told its last.
-  /// Waits.
+  /// Returns the state of the machine, as reported within `patience`; else the last reported one,
+  /// and the files likewise if they are not requested. A finished run has reported its last state.
+  /// Blocks.
   LiveState look(Look what, std::chrono::milliseconds patience);
 
   // For the thread that runs or ends it.
@@ -146,26 +147,26 @@ class Database;
 
 namespace fitgauge::app {
 
-/// Messages about runs between daemons that share a database, through it: which are to be
-/// cancelled, and how those stand that somebody follows at another daemon than the one that runs
-/// them. Looks four times a second, and only while there is such a run. Thread-safe.
+/// Messages about runs between daemons with a shared database: cancellations, and states of runs
+/// that are followed at another daemon. Polls four times a second, only while there is such a run.
+/// Thread-safe.
 class SharedRuns {
  public:
   /// Runs of this daemon.
   struct Own {
     std::function<bool()> has_any;
-    std::function<void(std::int64_t id)> cancel;  ///< where it is this daemon's
+    std::function<void(std::int64_t id)> cancel;  ///< if it is of this daemon
   };
 
   SharedRuns(store::Database& database, Own own);
   SharedRuns& operator=(SharedRuns&&) = delete;  // neither copied nor moved
   ~SharedRuns();
 
-  /// Ends what is followed with ShuttingDown, also what comes later. Blocks.
+  /// Ends all following with ShuttingDown, also later requests. Blocks.
   void stop();
 
-  /// A run of another daemon for those who follow it: its state, and at once after its end all
-  /// that it has printed. It ends with an Error where the database cannot be read meanwhile.
+  /// A run of another daemon for its followers here: its state, and after its end all its output.
+  /// It ends with an Error if the database cannot be read.
   std::shared_ptr<ActiveRun> follow(const StoredRun& run);
 
  private:

@@ -17,8 +17,8 @@ namespace fitgauge::app {
 /// The treatment of a missing file: a setup may be stored before its parts are.
 enum class MissingFiles : std::uint8_t { Allowed, Refused };
 
-/// The STL files of one disk: a mesh that some order still holds is not read again, so that orders
-/// of one part share it. For one thread.
+/// The STL files of one disk: a mesh that an order holds is not read again, so that orders of one
+/// part share it. Used by one thread.
 class MeshFiles {
  public:
   /// The most triangles of one workpiece, in about 25 MB.
@@ -27,10 +27,10 @@ class MeshFiles {
   /// @param disk outlives this.
   explicit MeshFiles(const interpreter::ControlDisk& disk) : disk_(disk) {}
 
-  /// Gives the meshes of the setup their bodies.
+  /// Loads the meshes of the setup.
   /// @param pointer of the setup in its request
-  /// @errors RequestInvalid with one detail for each file: FileUnknown, or FieldInvalid where it is
-  ///   no closed mesh or makes too many triangles.
+  /// @errors RequestInvalid with one detail for each file: FileUnknown, or FieldInvalid if it is
+  ///   not a closed mesh or has too many triangles.
   Result<void> load(machine::Setup& setup, std::string_view pointer, MissingFiles missing);
 
  private:
@@ -53,7 +53,7 @@ class LiveTables {
   /// @param catalog outlives this.
   explicit LiveTables(const TableCatalog& catalog) : catalog_(catalog) {}
 
-  /// Both tables of one revision; none where the tables failed their audit.
+  /// Both tables of one revision; none if the tables failed their audit.
   std::vector<interpreter::ProjectingDisk::Projection> projections();
 
  private:

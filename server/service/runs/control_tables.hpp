@@ -17,16 +17,15 @@ struct ControlTables {
   std::vector<machine::Preset> presets;
 };
 
-/// Reads `tool.t`, `tchprobe.tp` and `preset.pr` of the control's disk, each where it exists: in
-/// `TNC:\table\`, else in `TNC:\`. A column that a table lacks and a blank cell have the value of a
-/// new row; lengths of a table in inches become millimetres. Indexed tools (5.1) are left out, as
-/// no tool call reaches them.
-/// @errors TableFileMalformed, which names the file and its line or row.
+/// Reads `tool.t`, `tchprobe.tp` and `preset.pr` of the control's disk, if they exist: in
+/// `TNC:\table\`, else in `TNC:\`. Missing columns and blank cells have the value of a new row;
+/// lengths of a table in inches become millimetres. Indexed tools (5.1) are left out, because no
+/// tool call reaches them.
+/// @errors TableFileMalformed with the file and its line or row.
 Result<ControlTables> read_control_tables(const interpreter::ControlDisk& disk,
                                           Allowance& allowance);
 
-/// The tables of one disk as they were read last: read again only where a file has changed. For one
-/// thread.
+/// The last read tables of one disk: read again only if a file has changed. Used by one thread.
 class ControlTablesCache {
  public:
   /// @param disk outlives the cache
@@ -47,8 +46,8 @@ struct GivenTables {
   bool presets = false;
 };
 
-/// Adds the control's rows to those of a setup. Of two with the same number the setup's counts,
-/// unless it is a default row.
+/// Adds the control's rows to those of a setup. For the same number the setup's row counts, unless
+/// it is a default row.
 void add_rows(const ControlTables& tables, const GivenTables& given, machine::MachineSetup& setup);
 
 }  // namespace fitgauge::app

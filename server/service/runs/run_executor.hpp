@@ -22,9 +22,9 @@ struct ExecutedRun {
   std::string trace;  ///< packed: TraceReader reads it
 };
 
-/// Builds the machine of the run's setup and runs its program on it, on the calling thread;
-/// `active` is told of the progress. Whatever the program does is in the result.
-/// @throws when the storage fails, or for a bug.
+/// Builds the machine of the run's setup and runs its program on the calling thread; reports the
+/// progress to `active`. Errors of the program are in the result.
+/// @throws if the storage fails, or for a bug.
 ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active);
 
 /// The result of a run that did not come to its first block.

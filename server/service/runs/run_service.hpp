@@ -35,9 +35,9 @@ struct RunQuery {
   std::optional<std::string> program;  ///< the whole path, without regard to case
 };
 
-/// Checks programs, runs them on workers of its own and keeps what they leave. Thread-safe.
-/// Functions with `done` do not block: it comes exactly once, on a storage thread or, when refused
-/// at once, on the caller's.
+/// Checks programs, runs them on its workers and stores the results. Thread-safe. Functions with
+/// `done` do not block: it is called exactly once, on a storage thread or, if refused at once, on
+/// the caller's.
 class RunService {
  public:
   template <class T>
@@ -50,24 +50,24 @@ class RunService {
   RunService& operator=(RunService&&) = delete;  // neither copied nor moved
   ~RunService();
 
-  /// Marks as failed what an earlier process left queued or running, and from then on takes orders.
-  /// Where daemons share the database, the runs of one that ended are run again by another: the
-  /// seed of each makes it the same.
+  /// Marks unfinished runs of an earlier process as failed, then accepts orders. If daemons share
+  /// the database, another daemon repeats the runs of one that ended: the seed of each gives the
+  /// same run.
   /// @errors StorageUnavailable.
   Result<void> open(RunFormat format);
 
-  /// Cancels every run and stores what they left. Blocks. @pre the orders are called off.
+  /// Cancels every run and stores the results. Blocks. @pre the orders are called off.
   void stop();
 
   // These block.
 
   using Diagnostics = std::vector<klartext::Diagnostic>;
-  /// Everything there is to say about a file, by its kind: program, mask or table.
-  /// @param draft its text as it is being written; without it the stored file.
+  /// Returns all findings in a file, by its kind: program, mask or table.
+  /// @param draft its text in an editor; without it the stored file.
   /// @errors ProgramUnknown, StorageUnavailable.
   Result<Diagnostics> check(const interpreter::ControlPath& path,
                             std::optional<std::string> draft = std::nullopt);
-  /// The same of a file that is to be run, whatever it is called.
+  /// Returns the findings in a file as a program, whatever its name.
   Result<Diagnostics> check_program(const interpreter::ControlPath& path);
 
   /// Whether the program has the block in which the order starts. @errors RequestInvalid.
@@ -84,7 +84,7 @@ class RunService {
   /// @errors RequestInvalid with a detail for each file that cannot be used, StorageUnavailable.
   Result<void> load_meshes(machine::Setup& setup, std::string_view pointer, MissingFiles missing);
 
-  /// The answer that was kept for a request, if any. @errors IdempotencyKeyReused,
+  /// Returns the stored response to a request, if any. @errors IdempotencyKeyReused,
   /// StorageUnavailable.
   Result<std::optional<Answer>> kept_answer(const IdempotencyScope& scope);
 
@@ -99,7 +99,7 @@ class RunService {
   // From any thread.
 
   /// @errors RunUnknown.
-  /// Where a list goes on behind this run.
+  /// Position of a list after this run.
   std::string cursor(std::int64_t id) const { return run_id_text(id, origin_of(id)); }
   Result<std::int64_t> parse_id(std::string_view text) const {
     return parse_own_run_id(text, origins_);
@@ -112,8 +112,8 @@ class RunService {
   /// Queued runs, as `queued run r7`, whose order names something.
   std::vector<std::string> queued(const std::function<bool(const RunOrder&)>& names_it) const;
 
-  /// The run that began last, under way or over; null before the first. It is kept only where
-  /// RunServiceOptions::keeps_newest says so.
+  /// The run that began last, running or finished; null before the first. Only available with
+  /// RunServiceOptions::keeps_newest.
   std::shared_ptr<ActiveRun> newest() const;
 
   /// Runs by state, for metrics: those queued and running now, the others ended since the start.
@@ -122,14 +122,14 @@ class RunService {
 
   /// Ends a run that is queued or under way soon; a queued one without waiting for a worker.
   void cancel(const std::shared_ptr<ActiveRun>& active);
-  /// The same of a run by its id, also of one that another daemon of the database runs. `done`
-  /// comes when it is cancelled. @errors RunUnknown; RunFinished where it came to another end.
+  /// Cancels a run by its id, also of another daemon of the database. `done` is called when it is
+  /// cancelled. @errors RunUnknown; RunFinished if it ended otherwise.
   void cancel(std::int64_t id, Done<void> done);
 
   /// A run for those who wait for its end.
   struct Followed {
     std::shared_ptr<ActiveRun> active;  ///< here or at another daemon; null for one that is over
-    StoredRun stored;                   ///< where it is over
+    StoredRun stored;                   ///< if it is over
   };
   /// @errors RunUnknown, StorageUnavailable.
   void follow(std::int64_t id, Done<Followed> done);
@@ -187,7 +187,7 @@ class RunService {
   interpreter::ProgramCache programs_;
   RunFormat format_;
   JobPool& orders_;
-  std::mutex starting_;  ///< held while a run is added, so that its place stays free
+  std::mutex starting_;  ///< held while a run is added, to reserve its place
   mutable std::mutex mutex_;
   struct Entry {
     std::shared_ptr<ActiveRun> run;
@@ -196,10 +196,10 @@ class RunService {
   std::map<std::int64_t, Entry> active_;  ///< queued or under way: the one count of runs
   Counts ended_{};
   std::shared_ptr<ActiveRun> newest_;
-  // The workers end before what they use.
+  // The workers must end before the members that they use.
   WorkerPool running_;
   Thread looking_;                      ///< for abandoned runs
-  std::unique_ptr<SharedRuns> shared_;  ///< where daemons share the database
+  std::unique_ptr<SharedRuns> shared_;  ///< if daemons share the database
 };
 
 }  // namespace fitgauge::app

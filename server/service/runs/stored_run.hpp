@@ -34,13 +34,13 @@ struct RunOrder {
   interpreter::ControlPath program;
   machine::Setup setup;  ///< validated
   interpreter::RunOptions options;
-  std::string request;  ///< kept with the run, so that it can be repeated
+  std::string request;  ///< stored with the run, so that it can be repeated
   /// Contacts of each probing move of a real machine, in order; absent: the machine is simulated.
   std::optional<std::vector<machine::ScriptedContact>> contacts{};
   RunSubject subject{};
   std::optional<std::string> caller{};
-  std::string setup_name{};  ///< of the stored setup it was ordered with; empty: its own
-  /// Parameters whose values after each block stand in the trace.
+  std::string setup_name{};  ///< name of its stored setup; empty: a setup in the request
+  /// Parameters whose values after each block are in the trace.
   std::vector<klartext::QRef> watch{};
 
   /// Whether the file is its program or a mesh of its setup.
@@ -101,7 +101,7 @@ struct TraceFormat {
   std::function<void(std::string& out, const machine::TracedMove&, const TracePlace&,
                      std::span<const machine::Axis> axes)>
       move{};
-  /// A block that has run, with those of the watched parameters that are defined then.
+  /// A block that has run, with the defined watched parameters.
   /// @param moves of the run until then
   std::function<void(std::string& out, const TracePlace&, std::size_t moves,
                      std::span<const interpreter::ParameterValue> values)>
@@ -154,8 +154,8 @@ RunState run_state(store::RunStatus status);
 /// @param origin of the data folder
 StoredRun stored_run(store::Run run, std::string_view origin);
 
-/// Writes the trace of a run, packed as it comes: the text of a long one is 50 MB, packed a
-/// twentieth of it, and a run holds no more than that.
+/// Writes the trace of a run, packed at once: the text of a long trace has 50 MB, packed a
+/// twentieth of it.
 class TraceWriter {
  public:
   /// @param format outlives the writer.
@@ -164,7 +164,7 @@ class TraceWriter {
   void add(const machine::TracedMove& move, const TracePlace& place);
   /// A block of a run that is watched.
   void add(const TracePlace& place, std::span<const interpreter::ParameterValue> values);
-  /// The whole trace, for TraceReader. Nothing can be added any more.
+  /// Returns the whole trace, for TraceReader. Then nothing can be added.
   std::string finish(std::size_t dropped);
 
  private:
@@ -184,8 +184,8 @@ class TraceReader {
  public:
   explicit TraceReader(std::string stored);
 
-  /// The bytes as they are stored, for who reads gzip; none where they are text.
-  /// @pre next() was not called; nothing else is called any more.
+  /// Returns the stored bytes, for readers of gzip; none if they are text.
+  /// @pre next() was not called; nothing else is called afterwards.
   std::optional<std::string> take_packed();
 
   /// The next piece of the text; empty at its end. @errors StorageCorrupt.

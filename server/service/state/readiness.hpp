@@ -14,7 +14,7 @@ namespace fitgauge::app {
 class LogService;
 class TableCatalog;
 
-/// Whether the service may be used, and what the database is doing.
+/// Whether the service may be used, and the activity of the database.
 struct Readiness {
   std::vector<Error> findings;  ///< empty: ready
   std::string database;         ///< `ok`, or `checking` while a large file is still being read

@@ -23,11 +23,11 @@ struct Stores;
 
 namespace fitgauge::app {
 
-/// The tolerance tables in use. Every reader takes them from here, so all see one revision.
+/// The current tolerance tables. Every reader gets them here, so all see one revision.
 struct TableState {
-  std::shared_ptr<const iso286::ToleranceTables> tables;  ///< null where the audit found something
+  std::shared_ptr<const iso286::ToleranceTables> tables;  ///< null if the audit has findings
   std::int64_t number = 0;                                ///< of the revision, as the store counts
-  std::vector<Error> findings;  ///< what the audit found: table, range and column each
+  std::vector<Error> findings;  ///< findings of the audit: table, range and column each
 };
 
 /// Keeps the tables: imports the compiled-in ones as the first revision, audits and loads the
@@ -39,15 +39,15 @@ class TableCatalog {
   template <class T>
   using Callback = std::function<void(Result<T>)>;
 
-  /// Loads the latest revision, importing the compiled-in tables into a new database. Tables that
-  /// fail their audit are no error here: state() says so.
-  /// @param has_centre whether tables that came from a centre are changed there alone.
+  /// Loads the latest revision, or imports the compiled-in tables into a new database. Tables that
+  /// fail their audit are not an error here: see state().
+  /// @param has_centre whether tables of a centre can only be changed there.
   /// @errors StorageUnavailable, StorageCorrupt.
   static Result<std::unique_ptr<TableCatalog>> open(store::Database& database, const Clock& clock,
                                                     bool has_centre = false);
 
   std::shared_ptr<const TableState> state() const { return state_.get(); }
-  /// Whether `kept`, a state the caller keeps, is still in use.
+  /// Whether `kept`, a state of the caller, is still in use.
   bool is_in_use(const TableState* kept) const { return state_.is(kept); }
 
   /// The tables in use. @errors TablesInconsistent with the audit's findings.
@@ -62,16 +62,16 @@ class TableCatalog {
     std::string name;
   };
   struct ColumnStored {
-    bool created = false;  ///< no custom column of that name stood there before
+    bool created = false;  ///< there was no custom column of that name
     std::string revision;
   };
   /// Decides whether a change may follow a revision, in which the column is custom or is not.
   using Condition = std::function<bool(std::string_view revision, bool exists)>;
-  /// Stores the column in a new revision; from then on every reader sees it, and the event
-  /// `table.changed` says so.
-  /// @param caller who changes them.
+  /// Stores the column in a new revision, which every reader then sees, and the event
+  /// `table.changed`.
+  /// @param caller of the change.
   /// @errors TableRowsInvalid, PreconditionFailed, Forbidden (the centre's), StorageUnavailable,
-  /// StorageBusy.
+  ///   StorageBusy.
   void put_column(iso286::CustomColumn column, Condition condition,
                   std::optional<std::string> caller, Callback<ColumnStored> done);
 
@@ -85,33 +85,31 @@ class TableCatalog {
     std::string replaced_id{};
     Digest replaced_digest{};
   };
-  /// Stores the tables of a centre under its id. Used inside a write job, whose transaction goes
-  /// on.
-  /// @errors TablesInconsistent: the standard's tables are others there, or the columns break a
-  ///   rule.
+  /// Stores the tables of a centre under its id. Used inside a write job, whose transaction
+  /// continues.
+  /// @errors TablesInconsistent: the standard's tables differ there, or the columns break a rule.
   Result<Received> receive(store::Stores& stores, const std::string& id,
                            const std::vector<iso286::CustomColumn>& columns, std::int64_t now_ns);
   /// After the commit: every reader sees them.
   void put_in_force(const Received& received);
 
-  /// Takes note of revisions that other daemons have stored; the newest is in force. Used inside a
-  /// job.
+  /// Loads revisions that other daemons have stored; the newest becomes current. Used inside a job.
   void take(const store::Stores& stores);
 
   /// The id of a revision by its number, for reading stored rows; valid as long as the catalog.
   /// Empty for a number that was never given.
   std::string_view revision_id(std::int64_t number) const;
-  /// Takes note of a revision of another folder, under a number below 0.
+  /// Loads a revision of another folder, under a number below 0.
   void remember(std::int64_t number, std::string_view id);
 
-  /// Numbers the editions of the other standards that measurements are judged by, where they have
-  /// no number yet. @errors StorageUnavailable.
+  /// Numbers the editions of the other standards that measurements use, if they have no number yet.
+  /// @errors StorageUnavailable.
   Result<void> number_standards();
 
   /// The number of a revision that revision_id knows.
   std::optional<std::int64_t> revision_number(std::string_view id) const;
 
-  /// Back to the standard. @errors ClassUnknown when the class is not custom; those of put_column.
+  /// Returns to the standard. @errors ClassUnknown if the class is not custom; those of put_column.
   void remove_column(iso286::Feature feature, std::string name, Condition condition,
                      std::optional<std::string> caller, Callback<ColumnStored> done);
 
