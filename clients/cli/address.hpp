@@ -14,8 +14,8 @@ Outcome<std::string> service_url(std::string_view text);
 /// Whether the address is one of this machine: no proxy leads there.
 bool is_loopback(std::string_view url);
 
-/// `text` as one segment of a path or one value of a query (RFC 3986: all but the unreserved
-/// characters is encoded).
+/// Encodes `text` as one segment of a path or one value of a query (RFC 3986: every character that
+/// is not unreserved).
 /// @param kept further characters that are not encoded
 std::string percent_encoded(std::string_view text, std::string_view kept = {});
 
@@ -25,7 +25,7 @@ std::string file_target(std::string_view path);
 /// The same as the control writes it.
 std::string control_path(std::string_view path);
 
-/// The part behind the last stroke of either kind.
+/// Returns the part after the last slash or backslash.
 std::string_view base_name(std::string_view path);
 
 }  // namespace fitgauge::cli

@@ -48,8 +48,8 @@ struct Context {
   }
 };
 
-/// Prints what the service answered: as it came where JSON is asked for, else by `print`, which
-/// gets the document. @errors those of the answer, and of a document that cannot be read.
+/// Prints the response of the service: unchanged with --json, else by `print` with the document.
+/// @errors those of the response, and of an unreadable document.
 template <class Print>
 Outcome<ExitCode> show(const Context& context, const Outcome<Answer>& answer, const Print& print) {
   if (!answer) return answer.error();

@@ -30,7 +30,7 @@ struct ControlPutOptions {
 };
 
 /// `control put`: programs and tables as lines, other files as bytes.
-/// @errors Refused where the control has a file of that name and `force` is not set.
+/// @errors Refused if the control has a file of that name and `force` is not set.
 Outcome<ExitCode> run_control_put(const Context& context, const ControlPutOptions& options);
 
 /// `control run ADDRESS PROGRAM`: starts a program of a virtual control and waits for its end.

@@ -37,7 +37,7 @@ struct CsvPosition {
   friend bool operator==(const CsvPosition&, const CsvPosition&) = default;
 };
 
-/// Some rows with the header line before them: a CSV text of its own.
+/// Some rows after the header line: a complete CSV text.
 struct CsvChunk {
   std::string body;
   std::size_t rows = 0;
@@ -45,15 +45,15 @@ struct CsvChunk {
   CsvPosition end;
 };
 
-/// The state of an input at the place where an earlier run stopped.
+/// State of an input at the end of an earlier run.
 enum class CsvMatch : std::uint8_t {
   Same,
   Different,   ///< it is shorter, or has other bytes before the place
-  RowHasGrown  ///< the same bytes, and no line end where the input had ended
+  RowHasGrown  ///< the same bytes, but now without the line end of the old end
 };
 
-/// Cuts a CSV input of any size into texts the service takes, reading it once from front to back.
-/// After a failure it is of no more use.
+/// Splits a CSV input of any size into texts for the service, in one pass. Unusable after a
+/// failure.
 class CsvChunks {
  public:
   /// Fills the span from its front; 0 at the end of the input.
@@ -69,13 +69,13 @@ class CsvChunks {
   /// To be called first. @errors LocalFile when the input is empty or cannot be read.
   Outcome<void> read_header();
 
-  /// Instead, where each line is a record and none a header: NDJSON.
+  /// Reads NDJSON instead: each line is a record, without a header.
   void begin_with_rows();
 
-  /// Behind what was taken last: the header at first.
+  /// Position after the last chunk: after the header at first.
   const CsvPosition& position() const { return position_; }
 
-  /// Passes over what lies before `place`, unless the input is another one. @errors LocalFile
+  /// Skips the input before `place`, unless it is another input. @errors LocalFile
   Outcome<CsvMatch> skip_to(const CsvPosition& place);
 
   /// The next rows, as many as the limits allow; none at the end. @errors LocalFile, also for a row
@@ -91,10 +91,10 @@ class CsvChunks {
 
  private:
   Outcome<void> fill();
-  /// Reads on where nothing is left of what was read.
+  /// Reads more if the buffer is empty.
   Outcome<void> fill_empty();
   CsvChunk take(std::size_t size, std::size_t rows, std::uint64_t lines);
-  /// Takes the front of the buffer away.
+  /// Removes the front of the buffer.
   void pass(std::size_t size);
 
   Read read_;

@@ -17,9 +17,9 @@ std::string relative_of(std::string_view path);
 std::optional<std::filesystem::path> find_below(const std::filesystem::path& folder,
                                                 std::string_view path);
 
-/// The folder of a file as the disk of a control, each file read when it is asked for: what a
-/// program names beside it is found, and the folder TNC:\ is that one. 82553_hole.tab and
-/// 82553_shaft.tab are those of ISO 286 unless the folder has them.
+/// The folder of a file as the disk of a control; each file is read when it is requested. Programs
+/// find files in this folder, which is TNC:\. Without own files, 82553_hole.tab and 82553_shaft.tab
+/// are those of ISO 286.
 class FolderDisk final : public interpreter::ControlDisk {
  public:
   explicit FolderDisk(const std::string& file);

@@ -16,7 +16,7 @@ class CurlHandle;
 
 namespace fitgauge::cli {
 
-/// Where the service is and how one shows who one is.
+/// Address of the service and credentials.
 struct Connection {
   std::string url;                 ///< as service_url() gives it
   std::string key{};               ///< API key; empty sends none
@@ -28,7 +28,7 @@ struct Connection {
 /// One request. The body is not copied: it outlives the call.
 struct Request {
   std::string method = "GET";
-  std::string target;                  ///< path and query, behind the address of the service
+  std::string target;                  ///< path and query, after the address of the service
   std::vector<std::string> headers{};  ///< `Name: value`
   std::string content_type{};          ///< of the body; none is sent when empty
   std::string_view body{};
@@ -43,8 +43,8 @@ struct Answer {
   bool ok() const { return status >= 200 && status < 300; }
 };
 
-/// One connection to the service, kept alive between requests (libcurl; proxies as its environment
-/// variables say, but none to this machine). Not for several threads. After a failure the next
+/// One connection to the service, kept alive between requests (libcurl; proxies from its
+/// environment variables, but none to this machine). Used by one thread. After a failure the next
 /// request connects again.
 class HttpClient {
  public:
@@ -58,11 +58,11 @@ class HttpClient {
   /// @errors NoAnswer: not reached, cut off, or silent for two minutes.
   Outcome<Answer> send(const Request& request);
 
-  /// Takes a piece of a body; false ends the stream.
+  /// Receives a piece of a body; returns false to end the stream.
   using Sink = std::function<bool(std::string_view)>;
 
-  /// Gives the body of a good answer to `sink` as it comes, however long that takes; any other
-  /// answer has its body. @errors NoAnswer: also when nothing came for 45 seconds.
+  /// Passes the body of a successful response to `sink` as it arrives, without a time limit; any
+  /// other response has its body. @errors NoAnswer: also if nothing arrived for 45 seconds.
   Outcome<Answer> stream(const Request& request, const Sink& sink);
 
  private:
@@ -72,15 +72,15 @@ class HttpClient {
   std::unique_ptr<http_client::CurlHandle> handle_;
 };
 
-/// How long to wait before a request is sent again: 0.2 s, then twice as long each time up to 10 s,
-/// or as long as the service says, until the waiting adds up to the budget.
+/// Delays before a request is sent again: 0.2 s, doubled each time up to 10 s, or as long as the
+/// service requests, until the sum exceeds the budget.
 class Backoff {
  public:
   using Milliseconds = std::chrono::milliseconds;
 
   explicit Backoff(std::chrono::seconds budget) : left_(budget) {}
 
-  /// @param retry_after what the answer said. @returns nothing when the budget is used up.
+  /// @param retry_after of the response. @returns nothing if the budget is used up.
   std::optional<Milliseconds> next(std::optional<std::chrono::seconds> retry_after);
 
  private:
@@ -91,7 +91,7 @@ class Backoff {
   Milliseconds delay_ = kFirst;
 };
 
-/// Told before each wait: why, and for how long.
+/// Called before each delay with its reason and length.
 using RetryNotice = std::function<void(const Failure&, std::chrono::milliseconds)>;
 
 /// A new idempotency key.

@@ -17,7 +17,7 @@ std::string json_quoted(std::string_view text);
 class JsonObject {
  public:
   JsonObject& add(std::string_view name, std::string_view value);
-  /// Nothing is added where the value is empty: an option that was not given.
+  /// An empty value, of an option that was not given, is not added.
   JsonObject& add_given(std::string_view name, std::string_view value);
   /// @param json a value that is JSON already
   JsonObject& add_raw(std::string_view name, std::string_view json);

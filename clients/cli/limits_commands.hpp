@@ -29,7 +29,7 @@ struct FitSearch {
   std::string max_clearance_um{};
   int limit = 20;
 };
-/// `fitgauge fits 25 --min-um 5 --max-um 45`: the fits whose clearances lie between the two.
+/// `fitgauge fits 25 --min-um 5 --max-um 45`: the fits with clearances between two bounds.
 Outcome<ExitCode> run_fits(const Context& context, const FitSearch& search);
 
 struct StandardQuery {

@@ -25,7 +25,7 @@ class InputFile {
   /// 0 at the end. @errors LocalFile
   Outcome<std::size_t> read(std::span<char> into);
 
-  /// Where it is a regular file.
+  /// Size of a regular file.
   std::optional<std::uint64_t> size() const;
 
   /// To be read from its begin again. @errors LocalFile
@@ -40,20 +40,20 @@ class InputFile {
   int descriptor_;
 };
 
-/// A file, or what a pipe has to its end, kept in a file without a name: to be read more than once.
+/// Opens a file, or copies a pipe to a file without a name, to read it more than once.
 /// @errors LocalFile
 Outcome<InputFile> open_to_read_again(const std::string& path);
 
 /// The whole of a file, or of standard input for `-`. @errors LocalFile
 Outcome<std::string> read_file(const std::string& path);
 
-/// Nothing here is replaced without a yes: of the one who looks on, or by `force`.
-/// @errors LocalFile when nobody says yes.
+/// Replaces no file without consent: of the user, or by `force`.
+/// @errors LocalFile without consent.
 Outcome<void> may_replace(const std::string& path, bool force);
 
-/// A file to be written, or standard output. A file is written beside its name (`.NAME.XXXXXX`) and
-/// renamed by finish(): until then, and when anything fails, an earlier file of that name stays as
-/// it is. A device or a pipe is written to directly.
+/// An output file, or standard output. A file is written to a temporary name (`.NAME.XXXXXX`) and
+/// renamed by finish(): until then, and after a failure, an earlier file of that name is unchanged.
+/// A device or a pipe is written to directly.
 class OutputFile {
  public:
   /// @param path empty or `-` is standard output. Nothing is opened before the first write.
@@ -70,7 +70,7 @@ class OutputFile {
   bool open();
 
   const std::string path_;
-  std::string target_;  ///< behind a link
+  std::string target_;  ///< target of a link
   std::string draft_;   ///< empty: written to directly
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, &std::fclose};
   std::string failure_;

@@ -20,15 +20,15 @@ struct MeasureOptions {
   std::vector<std::string> columns{};    ///< `Istwert=measured_mm`
   std::vector<std::string> constants{};  ///< `machine=M3`
   std::string time_zone{};
-  std::string length_unit{};  ///< of a DFQ that says none
+  std::string length_unit{};  ///< of a DFQ without a unit
   bool leave_out_others = false;
   bool again = false;
   bool exit_verdict = false;  ///< the exit code is the worst verdict
 };
 
-/// `fitgauge import`: stores the rows of a CSV, chunk by chunk, each with an idempotency key of
-/// its own. What is stored, and what was sent last, is in the journal before it is needed: a run
-/// that was stopped at any moment goes on where it was and stores nothing twice.
+/// `fitgauge import`: stores the rows of a CSV in chunks, each with an idempotency key. The journal
+/// has the stored rows and the last chunk before they are needed: a stopped run can continue at any
+/// point and stores no row twice.
 Outcome<ExitCode> run_measure(const Context& context, const MeasureOptions& options);
 
 /// One line for each bad field of a chunk, with the line of the input: `night.csv:17: measured_mm:

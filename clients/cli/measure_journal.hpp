@@ -54,7 +54,7 @@ class MeasureJournal {
   MeasureJournal& operator=(MeasureJournal&&) = delete;
   ~MeasureJournal();
 
-  /// Empty where there is no file.
+  /// Empty if there is no file.
   const std::string& path() const { return path_; }
   const std::optional<MeasureState>& state() const { return state_; }
 
@@ -74,8 +74,8 @@ class MeasureJournal {
   std::optional<MeasureState> state_;
 };
 
-/// Where the journal of an input is: `fitgauge/<digest>.state` below XDG_STATE_HOME, or below
-/// ~/.local/state. @errors LocalFile when there is no such place.
+/// Path of the journal of an input: `fitgauge/<digest>.state` in XDG_STATE_HOME, or in
+/// ~/.local/state. @errors LocalFile if both are unknown.
 Outcome<std::string> journal_path(const std::string& input, const std::string& server);
 
 }  // namespace fitgauge::cli

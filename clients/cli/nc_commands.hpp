@@ -57,7 +57,7 @@ struct GetOptions {
   bool force = false;  ///< replace a file that is there
 };
 
-/// `nc get PATH [FILE]`: asks before it replaces a file. @errors LocalFile when nobody says yes.
+/// `nc get PATH [FILE]`: asks before it replaces a file. @errors LocalFile without consent.
 Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options);
 
 /// The messages of a run, on standard error.
@@ -68,14 +68,14 @@ struct RunOptions {
   std::vector<std::string> programs{};
   bool from_control = false;              ///< they are programs of the service
   std::string setup{};                    ///< the name of a stored one; here a file
-  std::string setup_file{};               ///< or a file that holds one
+  std::string setup_file{};               ///< or a file with a setup
   std::vector<std::string> parameters{};  ///< `Q1=25`, `QS1=H7`
   std::string on_stop{};
   std::string language{};
   std::string part_id{};
   std::string order{};
   bool block_skip = false;
-  std::string files_to{};  ///< here: the folder that gets what the run writes
+  std::string files_to{};  ///< local: the folder for files of the run
   bool force = false;      ///< replace files that are there
 };
 
@@ -83,27 +83,27 @@ struct RunOptions {
 /// Good without one, ProgramFailed when the program did not complete.
 Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options);
 
-/// Runs a program of this machine here, on the setup of a file, with what it calls in its folder
-/// and the tool tables there or in its folder `table`.
-/// @returns the document of the run as the service writes it, with places of this machine.
+/// Runs a local program on the setup of a file, with the programs and tool tables in its folder or
+/// its folder `table`.
+/// @returns the document of the run as the service writes it, with local paths.
 /// @errors LocalFile, Usage, Refused for the setup, ProgramFailed for a program with errors, which
 ///   are printed.
 Outcome<std::string> run_here(const Context& context, RunOptions options);
 
 struct CheckOptions {
   std::vector<std::string> files;
-  bool from_control = false;  ///< the files are those of the service
+  bool from_control = false;  ///< use files of the service
   std::string format{};       ///< text, json or sarif; text when empty, json with --json
   std::vector<std::string> levels{};
   RunOptions run{};  ///< with a setup_file the programs also run on it
 };
 
-/// `nc check FILE…`, of files here without a service or of those of the service: programs and what
-/// they call. Exit code 0: nothing or notes, 1: warnings, 2: errors. @errors LocalFile, Refused for
-/// the setup, Usage for a level or a parameter that cannot be read.
+/// `nc check FILE…`: checks local programs without a service, or programs of the service, and the
+/// programs they call. Exit code 0: nothing or notes, 1: warnings, 2: errors. @errors LocalFile,
+/// Refused for the setup, Usage for a malformed level or parameter.
 Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options);
 
-/// The findings of the check of a local program, and with a setup those of its run.
+/// Returns the findings in a local program, and with a setup those of its run.
 /// @errors as of run_here, but for a program with errors.
 Outcome<std::vector<klartext::Diagnostic>> found_here(const RunOptions& options);
 
@@ -124,8 +124,8 @@ Outcome<ExitCode> run_replay(const Context& context, const ReplayOptions& option
 
 /// `nc lsp`: a language server (LSP 3.17) on standard input and output, for both dialects, without
 /// a service: diagnostics, hover, completion, definition, rename, formatting and remedies. Single
-/// thread; what it cannot read is answered with an error of JSON-RPC. Good when it ends after
-/// `shutdown`. @errors LocalFile when the input ends before, Usage for a level that cannot be read.
+/// thread; unreadable input returns an error of JSON-RPC. Good if it ends after `shutdown`. @errors
+/// LocalFile if the input ends before, Usage for a malformed level.
 /// @param levels as of `nc check`
 Outcome<ExitCode> run_nc_lsp(const Context& context, const std::vector<std::string>& levels);
 

@@ -64,30 +64,30 @@ struct WrittenParameter {
   std::size_t begin = 0;
   std::size_t end = 0;
   klartext::QRef parameter{};
-  bool is_cycles = false;  ///< a cycle's own: it stands left of `=` in its block
+  bool is_cycles = false;  ///< of a cycle: it is left of `=` in its block
 };
 
 /// A program as an editor has it.
 struct OpenProgram {
   std::string uri;
   std::filesystem::path path;     ///< empty when no file has it
-  interpreter::ControlPath name;  ///< as if its folder were TNC:\.
+  interpreter::ControlPath name;  ///< with its folder as TNC:\.
   EditedText text;
-  std::optional<std::size_t> version{};  ///< that of the editor
-  bool is_stale = true;                  ///< `found` is not that of the text
+  std::optional<std::size_t> version{};  ///< version number of the editor
+  bool is_stale = true;                  ///< `found` is out of date
   std::vector<klartext::Diagnostic> found{};
 
   bool is_iso() const;
 };
 
-/// The programs of an editor, and the files beside them. Single-threaded.
+/// The programs of an editor, and the files in their folders. Single-threaded.
 class OpenPrograms {
  public:
   /// By URI.
   std::map<std::string, OpenProgram>& all() { return all_; }
   OpenProgram& open(const std::string& uri, std::string text);
 
-  /// Fills `found` with what a check says about this program.
+  /// Fills `found` with the findings of a check.
   void check(OpenProgram& program);
 
   /// Of a line: URI and line of the label that it calls or jumps to, or of the file that it names.

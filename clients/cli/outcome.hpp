@@ -15,14 +15,14 @@ enum class ExitCode : std::uint8_t {
   Indeterminate = 3,  ///< within the guard band
   Usage = 4,          ///< the command line cannot be read
   LocalFile = 5,      ///< a file or folder of this machine
-  NoAnswer = 6,       ///< the service is not reached, or says to try later
+  NoAnswer = 6,       ///< the service cannot be reached, or is busy
   Refused = 7,        ///< the service refuses the request
   KeyNeeded = 8,      ///< the service wants a key, or another one
   ProgramFailed = 9,  ///< the NC program has errors or did not complete
   Defect = 10,        ///< a bug in fitgauge
 };
 
-/// An expected failure: where it ends the program, and one line for the user.
+/// An expected failure: the exit code, and one line for the user.
 struct Failure {
   Failure() = default;
   /// Not an aggregate: boost::system::result refuses a value that an error could be made of.
@@ -30,8 +30,8 @@ struct Failure {
       : exit_code(code), message(std::move(text)), document(std::move(problem)) {}
 
   ExitCode exit_code = ExitCode::Defect;
-  std::string message;   ///< what is wrong and how to put it right
-  std::string document;  ///< the service's problem document, where it sent one
+  std::string message;   ///< the fault and its remedy
+  std::string document;  ///< the service's problem document, if it sent one
 };
 
 template <class T>

@@ -13,7 +13,7 @@ namespace fitgauge::cli {
 /// The error in one field of a body.
 struct FieldProblem {
   std::string pointer;                ///< JSON pointer: `/3/measured_mm`
-  std::optional<std::size_t> line{};  ///< of the body, from 1, where the format has lines
+  std::optional<std::size_t> line{};  ///< of the body, from 1, if the format has lines
   std::string detail;
 };
 

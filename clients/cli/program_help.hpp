@@ -10,7 +10,7 @@
 /// The knowledge of the language server about a place of a program, in either dialect.
 namespace fitgauge::cli {
 
-/// The parameters of a line of a program or mask; not those of comments, texts and names of files.
+/// Parameters in a line of a program or mask; not in comments, texts and file names.
 std::vector<WrittenParameter> parameters_of(const EditedText& text, std::size_t line);
 std::optional<WrittenParameter> parameter_at(const EditedText& text, Place place);
 

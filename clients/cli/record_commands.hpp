@@ -37,14 +37,14 @@ inline constexpr auto kRecordFilters = [] {
 struct RecordQuery {
   std::array<std::string, kRecordFilters.size()> filters{};
   std::uint64_t limit = 100;  ///< of list
-  std::string after{};        ///< of list: where the page before ended
+  std::string after{};        ///< of list: end of the previous page
   std::string format{};       ///< of export: csv, ndjson, dfq, qif or xlsx
   std::string time_zone{};    ///< of export: of the times of dfq and xlsx
   std::string output{};       ///< of export: a file; - or empty is standard output
   std::string group_by{};     ///< of summary
 };
 
-/// A path with the filters that were given and whatever else is not empty.
+/// Returns a path with the given filters and the other values that are not empty.
 std::string record_target(
     std::string path, const RecordQuery& query,
     std::initializer_list<std::pair<std::string_view, std::string>> others = {});
@@ -79,8 +79,8 @@ struct NoteOptions {
   std::string operator_name;
 };
 
-/// `fitgauge note m17 --cause … --measure …`: adds a note beside a record; without any shows those
-/// that stand there.
+/// `fitgauge note m17 --cause … --measure …`: adds a note to a measurement; without options prints
+/// its notes.
 Outcome<ExitCode> run_note(const Context& context, const NoteOptions& options);
 
 struct PlanOptions {
@@ -88,9 +88,9 @@ struct PlanOptions {
   std::string part{};  ///< the part whose plan it becomes; empty: it is printed
 };
 
-/// `fitgauge plan from FILE`: reads a STEP file of any size here, without the service, and prints
-/// what was read beside what was not, or with `--part` stores the plan. Classes are those of the
-/// standard. @errors LocalFile for a file that cannot be read, with its line.
+/// `fitgauge plan from FILE`: reads a STEP file of any size without the service, and prints its
+/// sizes and its other content, or with `--part` stores the plan. Classes are those of the
+/// standard. @errors LocalFile for an unreadable file, with its line.
 Outcome<ExitCode> run_plan_from(const Context& context, const PlanOptions& options);
 
 struct StatisticsOptions {
@@ -102,9 +102,9 @@ struct StatisticsOptions {
   std::string tolerance{};  ///< likewise
 };
 
-/// `fitgauge statistics summary values.txt`: what the service computes from what it is sent;
-/// nothing is stored. A file that begins with a brace is sent as it is; of any other each line is a
-/// value, or a subgroup of values apart by blanks, tabs, commas or semicolons (of anova a group).
+/// `fitgauge statistics summary values.txt`: prints figures that the service computes; nothing is
+/// stored. A file that begins with a brace is sent unchanged; in other files each line is a value,
+/// or a subgroup of values separated by blanks, tabs, commas or semicolons (for anova a group).
 Outcome<ExitCode> run_statistics(const Context& context, const StatisticsOptions& options);
 
 // `fitgauge capability` and `fitgauge chart`: figures of stored measurements.

@@ -13,11 +13,12 @@ namespace fitgauge::cli {
 
 // How a subject registers its commands; add_commands() calls each of them.
 
-void add_gauging(CLI::App& app, Action& chosen);   ///< limits, fits, gauge, measure, statistics
-void add_records(CLI::App& app, Action& chosen);   ///< what is stored: lists, corrections, figures
+void add_gauging(CLI::App& app, Action& chosen);  ///< limits, fits, gauge, measure, statistics
+void add_records(CLI::App& app,
+                 Action& chosen);  ///< stored measurements: lists, corrections, figures
 void add_programs(CLI::App& app, Action& chosen);  ///< NC files and programs, runs, a control
 
-/// Registers one command whose options outlive the parsing; `chosen` becomes what it does.
+/// Registers one command whose options outlive the parsing; sets `chosen` to its action.
 template <class Options>
 CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& help,
                       Action& chosen, const std::shared_ptr<Options>& options,

@@ -10,13 +10,13 @@
 
 namespace fitgauge::cli {
 
-/// A DFQ, a QIF, NDJSON or a table of the shop as the service takes it, read from front to back in
-/// a bounded piece of memory.
+/// Converts a DFQ, a QIF, NDJSON or a table of the shop for the service, from front to back in
+/// bounded memory.
 class RowInput {
  public:
-  /// Whether the input is one of them, by its name and by what the options say of a table.
+  /// Whether the input is one of them, by its name and the options for tables.
   static bool is_one(const MeasureOptions& options);
-  /// Whether what is read has the lines of the file.
+  /// Whether line numbers are those of the file.
   static bool keeps_lines(const MeasureOptions& options);
 
   /// @param context and options outlive it. @errors Usage, LocalFile
@@ -44,7 +44,7 @@ class RowInput {
   std::shared_ptr<State> state_;
 };
 
-/// Whether the options say that a table is the shop's own.
+/// Whether the options are for a table of the shop.
 bool is_converted(const MeasureOptions& options);
 
 /// Settings of a table or a DFQ from the options. @errors Usage

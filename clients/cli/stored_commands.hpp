@@ -8,8 +8,8 @@
 
 namespace fitgauge::cli {
 
-// `fitgauge setups …`, `budgets …`, `gauges …`, `studies …` and `runs …`: what lies in the service
-// beside the control's files.
+// `fitgauge setups …`, `budgets …`, `gauges …`, `studies …` and `runs …`: documents and runs in the
+// service.
 
 /// Documents that are stored under a name.
 struct StoredKind {

@@ -16,10 +16,10 @@ struct Terminal {
   bool unicode = false;      ///< its locale is UTF-8
   bool colour = false;
 
-  /// `text` in a colour, or as it is where there are none.
+  /// `text` in a colour, or unchanged without colours.
   std::string painted(std::string_view text, Colour colour) const;
 
-  /// µm, or um where there is no µ.
+  /// µm, or um if the terminal has no µ.
   std::string_view micrometre() const { return unicode ? "µm" : "um"; }
 };
 
@@ -28,11 +28,11 @@ using Environment = std::function<std::string(const char* name)>;
 
 std::string environment_variable(const char* name);
 
-/// UTF-8 by LC_ALL, LC_CTYPE or LANG, the first that says anything (POSIX, 8.2); colour on a
-/// terminal that is not dumb, unless NO_COLOR is set (no-color.org).
+/// UTF-8 by LC_ALL, LC_CTYPE or LANG, the first that is set (POSIX, 8.2); colour on a terminal that
+/// is not dumb, unless NO_COLOR is set (no-color.org).
 Terminal terminal_of(bool interactive, const Environment& environment);
 
-/// The terminal behind a file descriptor of this process.
+/// The terminal of a file descriptor of this process.
 Terminal terminal_of(int descriptor);
 
 /// How far a long upload is.
@@ -50,7 +50,7 @@ std::string format_progress(const Progress& progress, const Terminal& terminal);
 /// `1234567` as `1,234,567`.
 std::string grouped(std::uint64_t number);
 
-/// A line of standard error that is written over again; nothing where nobody looks.
+/// A line of standard error that is overwritten; nothing without a terminal.
 class ProgressLine {
  public:
   explicit ProgressLine(const Terminal& terminal) : terminal_(terminal) {}

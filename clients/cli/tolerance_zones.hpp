@@ -19,10 +19,10 @@ struct ToleranceZone {
   Colour colour = Colour::Cyan;
 };
 
-/// Draws the zones beside each other, the larger sizes above, each with its deviations in µm.
-/// Every zone shows, however thin; with block characters the edges are drawn to half a line.
-/// @param zero_line what stands at the end of the zero line: the nominal size
-/// @param rows about how many lines the zones take
+/// Draws the zones next to each other, larger sizes above, each with its deviations in µm. Every
+/// zone is visible, however thin; with block characters the edges are drawn to half a line.
+/// @param zero_line label at the end of the zero line: the nominal size
+/// @param rows approximate number of lines for the zones
 std::string draw_zones(std::span<const ToleranceZone> zones, const std::string& zero_line,
                        const Terminal& terminal, std::size_t rows = 14);
 

@@ -17,11 +17,11 @@ struct Event {
   std::string data;
 };
 
-/// Reads a stream of events in pieces of any size. One reader serves one connection after the
-/// other: last_id() is what the next one names.
+/// Reads a stream of events in pieces of any size, over several connections: last_id() is for the
+/// next one.
 class EventReader {
  public:
-  /// Takes an event; false ends the reading.
+  /// Receives an event; returns false to end the reading.
   using Sink = std::function<bool(const Event&)>;
 
   explicit EventReader(Sink sink) : sink_(std::move(sink)) {}
@@ -29,7 +29,7 @@ class EventReader {
   /// @returns false when the sink wanted no more.
   bool feed(std::string_view piece);
 
-  /// Forgets what a connection left unfinished.
+  /// Discards the incomplete event of a connection.
   void reconnect();
 
   const std::string& last_id() const { return last_id_; }
@@ -50,15 +50,14 @@ struct WatchOptions {
   std::uint64_t count = 0;  ///< ends after so many; 0 never does
 };
 
-/// A record in one line: when, id, size, value, verdict, and what it is of.
+/// A record in one line: time, id, size, value, verdict, and labels.
 std::string record_line(const JsonValue& record, const Terminal& terminal);
 
-/// `fitgauge watch`: prints what happens as it happens. When the connection is lost it comes back
-/// and goes on with the next event. @errors NoAnswer, Refused, KeyNeeded at the first connection.
+/// `fitgauge watch`: prints events as they happen. It reconnects and continues with the next event.
+/// @errors NoAnswer, Refused, KeyNeeded at the first connection.
 Outcome<ExitCode> run_watch(const Context& context, const WatchOptions& options);
 
-/// One line for an event; empty for one that another line tells already (a reject is recorded,
-/// too).
+/// One line for an event; empty if another event has the same content (a reject is recorded, too).
 std::string format_event(const Event& event, const Terminal& terminal);
 
 /// `{"event":…,"id":…,"data":{…}}`
