@@ -14,7 +14,7 @@ inline SharedResponder share(http::Responder responder) {
   return std::make_shared<http::Responder>(std::move(responder));
 }
 
-/// Answers a request with what was made for it, or why nothing was.
+/// Responds with a result, or with its error.
 inline auto answer_by(SharedResponder shared) {
   return [shared = std::move(shared)](Result<http::Response> made) {
     made ? shared->answer(*std::move(made)) : shared->fail(made.error());

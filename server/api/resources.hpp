@@ -11,7 +11,8 @@
 
 namespace fitgauge::api {
 
-/// The routes of all resources; one function adds those of each. Services outlive them.
+/// The routes of all resources; one function adds the routes of each. The services must outlive
+/// them.
 class Routes {
  public:
   using Handler = void (*)(const Services&, const http::Request&, http::Responder);
@@ -27,7 +28,7 @@ class Routes {
   /// @throws std::logic_error for another number of words
   void operator()(std::string_view head, http::Handler handler, http::Route route);
   void operator()(std::string_view head, Handler handler, http::Route route);
-  /// The routes added since the last call stand in a group of operations.
+  /// Groups the operations that were added since the last call.
   void group(std::string_view name);
 };
 
@@ -53,7 +54,7 @@ void add_fits_routes(Routes& add);
 void add_gauges_routes(Routes& add);
 /// /v1/press-fits: the pressure of an interference.
 void add_press_fits_routes(Routes& add);
-/// GET /v1/standards and /v1/standards/{name}: the numbers of the standards beside ISO 286.
+/// GET /v1/standards and /v1/standards/{name}: tables of other standards than ISO 286.
 void add_standards_routes(Routes& add);
 /// /v1/tables: the tables by feature as JSON, CSV and in the control's form, and a shop's own
 /// columns.
@@ -62,19 +63,19 @@ void add_tables_routes(Routes& add);
 void add_verdicts_routes(Routes& add);
 /// /v1/measurements: judges and stores, reads one, lists, sums up.
 void add_measurements_routes(Routes& add);
-/// /v1/measurements/{id}/notes: what was found and done about a measurement, beside its record.
+/// /v1/measurements/{id}/notes: causes and actions of a measurement.
 void add_notes_routes(Routes& add);
 /// /v1/catalogues: which causes and measures there are to choose from.
 void add_catalogues_routes(Routes& add);
 /// /v1/log and the proof of a measurement.
 void add_log_routes(Routes& add);
-/// /v1/changes: what was changed of all that decides.
+/// /v1/changes: changes of tables, documents and keys.
 void add_changes_routes(Routes& add);
 /// /v1/log/{origin}/{from}: what stations forward.
 void add_intake_routes(Routes& add);
 /// Revisions of a centre for its stations.
 void add_revisions_routes(Routes& add);
-/// GET /v1/certificates: what was measured at an order or a part, on paper or as JSON.
+/// GET /v1/certificates: the measurements of an order or a part, on paper or as JSON.
 void add_certificates_routes(Routes& add);
 /// /v1/statistics: figures of values that are sent; nothing is stored.
 void add_statistics_routes(Routes& add);
@@ -84,7 +85,7 @@ void add_stored_statistics_routes(Routes& add);
 void add_compensation_routes(Routes& add);
 /// /v1/uncertainty: an uncertainty budget, computed and not stored.
 void add_uncertainty_routes(Routes& add);
-/// /v1/uncertainties, /v1/gauges-in-use and /v1/studies: what is kept under a name.
+/// /v1/uncertainties, /v1/gauges-in-use and /v1/studies: named documents.
 void add_documents_routes(Routes& add);
 /// /v1/plans: inspection plans.
 void add_plans_routes(Routes& add);
@@ -133,16 +134,16 @@ void add_diagnostic_schemas(Schemas& schemas);
 void add_cycle_schemas(Schemas& schemas);
 void add_service_schemas(Schemas& schemas);
 
-/// @param of_plant those of the rooms above
+/// @param of_plant resources of the rooms above
 Schemas make_schemas(const Schemas& of_plant = {});
 
 // Texts that several rooms share.
 
 /// The limits of a class; with explicit limits the fields of the tables are absent.
 schema::Fields limits_fields();
-/// Beside the limits: the measured value and what follows from it.
+/// In addition to the limits: the measured value and its verdict.
 schema::Fields verdict_fields();
-/// The warnings beside a verdict.
+/// Warnings of a verdict.
 schema::Fields warnings_field();
 
 /// The formula of an answer.
@@ -158,8 +159,8 @@ inline std::string source_words() { return schema::words({"gauge", "simulation"}
 
 /// The content of examples.json.
 extern const std::string_view kExamples;
-/// Gives each schema its example: that of examples.json, else one of its members and of the
-/// examples it names.
+/// Gives each schema its example: from examples.json, else from its members and the examples of
+/// their schemas.
 void add_examples(Schemas& schemas);
 
 /// The OpenAPI 3.1 document of the routes. @param of_plant as make_schemas

@@ -29,7 +29,7 @@ class GaugesInUse;
 class Metrics;
 class VerdictCounts;
 
-/// Services behind the resources; owned by the daemon, alive as long as the server.
+/// Services of the resources; owned by the daemon, alive as long as the server.
 struct Services {
   app::TableCatalog& tables;
   app::LogService& log;

@@ -15,7 +15,7 @@ namespace fitgauge::api {
 
 /// The request for a certificate.
 struct CertificateOrder {
-  std::vector<std::pair<std::string, std::string>> of{};  ///< order, part_id: what it is of
+  std::vector<std::pair<std::string, std::string>> of{};  ///< order, part_id: its subject
   std::string title{};
   std::string company{};
   std::string customer{};

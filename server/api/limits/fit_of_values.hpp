@@ -20,10 +20,11 @@ std::vector<http::Parameter> fit_filter_parameters();
 using WriteStored = std::function<void(JsonWriter&)>;
 std::string stored_clearance_schema();
 
-/// Reads the values that the filters of a request choose, for the probability of interference from
+/// Reads the values that the filters of a request select, for the probability of interference from
 /// their location and spread.
-/// @param done gets what writes it; QueryInvalid where holes or shafts are not chosen; LimitsMixed
-///   where their limits are not the fit's; the errors of a capability, which say whose they are
+/// @param done receives the writer of the result; QueryInvalid if holes or shafts are not selected;
+/// LimitsMixed if their limits are not the fit's; the errors of a capability with the name of the
+/// side
 void read_fit_of_values(const Services& services, const http::Request& request,
                         const iso286::Fit& fit, std::function<void(Result<WriteStored>)> done);
 

@@ -10,12 +10,11 @@
 
 namespace fitgauge::api {
 
-/// Reads a designation of ISO 286, or of another standard that there are numbers of.
+/// Reads a designation of ISO 286, or of another standard with tables here.
 /// @errors those of iso286::parse_designation and standards::limits_of.
 Result<store::DesignationFilter> parse_designation(std::string_view text);
 
-/// Writes the members of the limits object, without its braces, so that a verdict can go on after
-/// them.
+/// Writes the members of the limits object without its braces, so that a verdict can follow.
 void write_limits_members(JsonWriter& json, const iso286::LimitsOfSize& limits,
                           const iso286::ToleranceTables& tables);
 
@@ -27,7 +26,7 @@ std::string designation_text(Length nominal_size, std::string_view class_name);
 /// 200 with a JSON text and its entity tag.
 http::Response tagged_json(std::string body, std::string etag);
 
-/// The entity tag of what is derived from the tables: it changes with their revision.
+/// Entity tag of results from the tables: it changes with their revision.
 std::string etag_of(const iso286::ToleranceTables& tables);
 std::string etag_of(const standards::Standard& standard);
 

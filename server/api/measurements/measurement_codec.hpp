@@ -13,7 +13,7 @@ namespace fitgauge::api {
 std::string measurement_csv_header();
 void append_measurement_csv(std::string& out, const app::Measurement& measurement);
 
-/// Writes `"verdicts":{…}`; `unjudged` where there are any.
+/// Writes `"verdicts":{…}`, with `unjudged` if there are any.
 void write_verdict_counts(JsonWriter& json, const app::VerdictTally& verdicts);
 
 /// `{"groups":[…]}`, each named by the field it is grouped by.

@@ -17,13 +17,13 @@ class MeasurementFile {
  public:
   /// So many rows a file has at most: it is made in memory.
   static constexpr std::size_t kMostRows = 100'000;
-  /// And so many bytes their records have, which bounds what is made of them.
+  /// Maximum number of bytes of their records, which bounds the file.
   static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
   MeasurementFile& operator=(MeasurementFile&&) = delete;  // neither copied nor moved
   virtual ~MeasurementFile() = default;
 
-  /// @errors QueryInvalid: the format cannot hold it.
+  /// @errors QueryInvalid: the format cannot express it.
   virtual Result<void> add(const app::Measurement& measurement) = 0;
   /// The whole file. @errors StorageUnavailable
   virtual Result<std::string> finish() = 0;
@@ -39,10 +39,10 @@ std::unique_ptr<MeasurementFile> make_qif_file();
 /// @errors StorageUnavailable
 Result<std::unique_ptr<MeasurementFile>> make_xlsx_file(std::optional<sheet::TimeZone> zone);
 
-/// Adds a measurement. @errors those of aqdef::DfqWriter::add; FieldInvalid: it is of a simulation.
+/// Adds a measurement. @errors those of aqdef::DfqWriter::add; FieldInvalid: it is simulated.
 Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& measurement);
 
-/// Adds a measurement. @errors those of qif::QifWriter::add; FieldInvalid: it is of a simulation.
+/// Adds a measurement. @errors those of qif::QifWriter::add; FieldInvalid: it is simulated.
 Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& measurement);
 
 }  // namespace fitgauge::api

@@ -9,8 +9,8 @@
 
 namespace fitgauge::api {
 
-/// The parameters of a list and of a summary that choose measurements.
-/// @param prefix of their names, where a request chooses more than once: `hole_`
+/// Parameters of a list and of a summary that select measurements.
+/// @param prefix of their names, if a request has several selections: `hole_`
 std::vector<http::Parameter> measurement_filter_parameters(std::string_view prefix = {});
 
 /// The query of a request to a route with these parameters.
@@ -29,7 +29,7 @@ inline constexpr std::string_view kQifType = "application/xml";
 inline constexpr std::string_view kXlsxType =
     "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet";
 
-/// The parameters that a file takes beside those of a list.
+/// Parameters of a file in addition to those of a list.
 std::vector<http::Parameter> download_parameters();
 
 /// Answers with a file of the measurements that match, whole or, with a `limit`, a page of them.

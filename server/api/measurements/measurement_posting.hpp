@@ -17,8 +17,8 @@
 
 namespace fitgauge::api {
 
-/// Answers a repeat of an idempotent request from the store; otherwise goes on with `first_time`,
-/// on this thread or on a reader's.
+/// Responds to a repeat of an idempotent request from the store; otherwise continues with
+/// `first_time`, on this thread or on a reader's.
 void post_once(const Services& services, const http::Request& request, http::Responder responder,
                std::function<void(const SharedPosting&)> first_time);
 
@@ -42,7 +42,7 @@ class MeasurementAnswer final : public app::Rendering {
 
   /// Before add(): whether the body was one object, not a list.
   void set_single(bool single) { single_ = single; }
-  /// Takes room for the answer to a list of so many bytes.
+  /// Reserves memory for a response of so many bytes.
   void expect(std::size_t body_size);
 
   void add(std::span<const app::Measurement> measurements, std::string_view records) override;
@@ -64,8 +64,8 @@ class MeasurementAnswer final : public app::Rendering {
   std::vector<Warning> warnings_;
 };
 
-/// POST /v1/measurements/{id}/corrections: stores a measurement that takes the place of another and
-/// says why. What the body leaves open is taken over, limits as they were applied.
+/// POST /v1/measurements/{id}/corrections: stores a measurement that replaces another one, with a
+/// reason. Missing fields are copied, limits as they were applied.
 void post_correction(const Services& services, const http::Request& request,
                      http::Responder responder);
 

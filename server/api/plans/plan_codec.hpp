@@ -6,15 +6,15 @@
 #include "base/json/json_value.hpp"
 #include "record/measurement_batch.hpp"
 
-// A plan: what is measured at a part, in order.
+// A plan: the characteristics of a part in their order.
 
 namespace fitgauge::api {
 
 inline constexpr std::size_t kMostCharacteristics = 500;
 
-/// Checks a plan and gives the text it is stored and answered as: `part` first, the rest as
-/// written. Every characteristic is one a measurement could have: its limits exist, its rule has
-/// what it needs, its name is its own.
+/// Checks a plan and returns its stored text: `part` first, the rest as written. Every
+/// characteristic must be valid for a measurement: its limits exist, its rule has its numbers, its
+/// name is unique.
 /// @errors RequestInvalid with every bad field.
 Result<std::string> read_plan(const JsonValue& body, std::string_view part,
                               const BatchContext& context);

@@ -26,7 +26,7 @@ void write_parameters(JsonWriter& json, std::span<const interpreter::ParameterVa
 
 /// The run object of a run that is not over yet.
 std::string unfinished_run_json(const app::ActiveRun& run);
-/// The same of a run that is known to the store alone.
+/// Writes a run that only the store knows.
 std::string unfinished_run_json(const app::StoredRun& run);
 
 /// `{"runs":[{"id","status","program","created_at","finished_at"},...],"next"}`
@@ -39,14 +39,14 @@ void write_diagnostics(JsonWriter& json, const std::vector<klartext::Diagnostic>
 
 inline constexpr std::int64_t kMostBlocks = 100'000'000;
 inline constexpr double kMostSeconds = 60;
-/// Bytes of a part and of an order, as a record takes them.
+/// Bytes of a part and of an order, as in a record.
 inline constexpr std::size_t kLongestSubject = 200;
 
 /// Finds a named setup; may wait.
 using FindSetup = std::function<Result<app::NamedDocument>(const std::string& name)>;
 
-/// Reads the body of POST /v1/runs. The order's request is the body with a named setup put in
-/// place, so that it can be sent again.
+/// Reads the body of POST /v1/runs. The order's request is the body with a named setup in full, so
+/// that it can be sent again.
 /// @param tables of the control: their rows are added to those of the setup
 /// @errors RequestInvalid with every bad field; those of `find_setup` but SetupUnknown.
 Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_setup,
@@ -58,7 +58,7 @@ NamedSchema run_order_schema();
 /// `{"moves":[...],"dropped":0}`, one move a line; lengths in mm to the tenth of a nanometre.
 app::TraceFormat trace_json();
 
-/// Turns the JSON of a trace into CSV, whatever the pieces it comes in.
+/// Converts the JSON of a trace to CSV, from pieces of any size.
 class TraceCsv {
  public:
   /// The rows that end in this piece. @errors StorageCorrupt when a line is no move.

@@ -22,22 +22,21 @@ namespace fitgauge::api {
 /// StorageUnavailable.
 Result<machine::Setup> machine_of_setup(const Services& services, const std::string& name);
 
-/// Starts a stored program on that machine as POST /v1/runs does, with the most that a run may
-/// take.
+/// Starts a stored program on that machine like POST /v1/runs, with the largest limits of a run.
 /// @errors as POST /v1/runs.
 Result<std::shared_ptr<app::ActiveRun>> start_program(const Services& services,
                                                       const interpreter::ControlPath& program,
                                                       const std::string& setup);
 
-/// POST /v1/runs: checks the order, starts the run and answers with its end, or at once where
-/// `Prefer: respond-async` asks for it.
+/// POST /v1/runs: checks the order, starts the run and responds at its end, or at once with
+/// `Prefer: respond-async`.
 void post_run(const Services& services, const http::Request& request, http::Responder responder);
 
-/// Server-Sent Events of a run that is queued or under way: `progress` (status and blocks so far),
-/// `output` (a line of the screen), `end` (the run object). The id of an event is the number of
-/// lines told so far, or `end`.
-/// @param last the id of the last event the reader had: it gets the lines that follow, and 204
-///   after `end`, upon which a browser asks no more.
+/// Server-Sent Events of a queued or running run: `progress` (status and blocks so far), `output`
+/// (a line of the screen), `end` (the run object). The id of an event is the number of lines sent
+/// so far, or `end`.
+/// @param last id of the last event that the reader has: it gets the lines that follow, and 204
+/// after `end`, so that a browser stops.
 http::Response run_events(std::shared_ptr<app::ActiveRun> run,
                           std::optional<std::string_view> last);
 

@@ -133,14 +133,13 @@ void printing_members(auto& v) {
 
 /// The part of a setup that belongs to the run and not to the machine: `m_functions` and `cycles`
 /// of the machine builder, the `decimal_separator` of FN 15, the `fn16_default_path` and the
-/// `active_datum_table`. The tables stand in the setup, or below its `machine`. What cannot be
-/// accepted goes to `errors`.
+/// `active_datum_table`. The tables are in the setup, or in its `machine`. Errors go to `errors`.
 void decode_builder(const JsonValue& setup, const std::string& pointer,
                     interpreter::RunOptions& options, FieldErrors& errors);
 
-/// Reads a machine setup and adds the rows of the control's tables to it; what it leaves out has
-/// the default of the contract. What cannot be accepted goes to `errors` with its JSON pointer
-/// below `pointer`; the setup is then not to be used.
+/// Reads a machine setup and adds the rows of the control's tables; missing members have the
+/// default of the contract. Errors go to `errors` with their JSON pointer below `pointer`; the
+/// setup is then unusable.
 machine::Setup decode_setup(const JsonValue& body, const std::string& pointer,
                             const app::ControlTables& tables, FieldErrors& errors);
 

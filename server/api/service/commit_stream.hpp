@@ -10,8 +10,8 @@
 
 namespace fitgauge::api {
 
-/// The news after each commit, for one reader, until it goes. Owns no more than one piece, so a
-/// slow reader costs nothing and falls behind; the connection drops one that takes nothing.
+/// Streams the news after each commit to one reader. Owns at most one piece, so a slow reader needs
+/// no memory and falls behind; the connection drops a reader that reads nothing.
 class CommitStream : public http::BodyStream,
                      public app::CommitListener,
                      public std::enable_shared_from_this<CommitStream> {
@@ -34,7 +34,7 @@ class CommitStream : public http::BodyStream,
  private:
   bool begun_ = false;  // of the connection's thread
   std::mutex mutex_;
-  std::optional<http::ChunkSink> sink_;  ///< where the next piece goes; none while one is sent
+  std::optional<http::ChunkSink> sink_;  ///< receiver of the next piece; none while one is sent
   bool reading_ = false;
   bool missed_ = true;  ///< there may be more than was read: a commit came during the read
 };

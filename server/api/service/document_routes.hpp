@@ -17,14 +17,14 @@ namespace fitgauge::api {
 
 /// A body that was read.
 struct CheckedDocument {
-  std::string text{};                        ///< what is kept, and what a GET answers
+  std::string text{};                        ///< the stored text, which a GET returns
   std::string answer{};                      ///< to its PUT; empty: nothing
   std::optional<std::string> uncertainty{};  ///< a budget that must be there
   std::optional<std::string> gauge{};        ///< the same of a gauge in use
   std::optional<std::string> before{};       ///< the text it was made from; another refuses it
 };
 
-/// Writes what a list says of a document, but for its time.
+/// Writes the entry of a document in a list, without its time.
 /// @errors StorageCorrupt.
 using DescribeDocument = Result<void> (*)(JsonWriter& json, const app::NamedDocument& document);
 Result<void> describe_by_name(JsonWriter& json, const app::NamedDocument& document);
@@ -35,20 +35,20 @@ struct KindOfDocument {
   std::string_view path{};              ///< of the list
   std::string_view parameter = "name";  ///< of a document's path
   std::string_view one{};               ///< as a sentence names it
-  std::string_view contents{};          ///< what stands in it
+  std::string_view contents{};          ///< its content
   std::string_view many{};
   std::string_view member{};              ///< of the list's answer
   std::string_view operation{};           ///< after get, put, delete
   std::string_view operations{};          ///< after list
-  std::string_view schema = operation;    ///< of what is stored
-  std::string_view body_schema = schema;  ///< of what is sent
+  std::string_view schema = operation;    ///< of the stored document
+  std::string_view body_schema = schema;  ///< of the request
   std::string_view list_schema = operations;
-  std::string_view answered{};  ///< schema of what a PUT answers; empty: nothing
+  std::string_view answered{};  ///< schema of the response to a PUT; empty: none
   std::size_t longest_name = 200;
   bool names_with_slashes = true;
   DescribeDocument describe = describe_by_name;
-  bool is_figure = false;  ///< its check computes, which may take long
-  /// Runs on a thread that may wait. @errors whatever is wrong with the body.
+  bool is_figure = false;  ///< its check computes, which may be slow
+  /// Runs on a thread that may block. @errors those of the body.
   using Check = Result<CheckedDocument> (*)(const Services& services, const std::string& name,
                                             std::string_view body);
   Check check{};
@@ -61,7 +61,7 @@ struct KindOfDocument {
   void (*changed)(const Services& services, std::function<void(Result<void>)> done) = nullptr;
 };
 
-/// The refusal of a write: of its member `uncertainty` where its budget is not there.
+/// The refusal of a write: of its member `uncertainty` if its budget does not exist.
 Error at_budget(const Error& error);
 
 /// The schema of a list of names and times.

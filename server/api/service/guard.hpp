@@ -21,14 +21,14 @@ enum class AuthMode {
   Keys,      ///< everybody, but for the health checks
 };
 
-/// Decides on the head of a request whether it may go on: 401 without a key that is needed, 403
-/// with one that is not enough or for a write that another site's page sent. Pages of an allowed
-/// origin may write with a key, in each mode.
+/// Checks the head of a request: 401 without a required key, 403 with an insufficient one or for a
+/// write that another site's page sent. Pages of an allowed origin may write with a key, in each
+/// mode.
 class Guard {
  public:
-  /// @param proxy_seen is told once of a proxy that hides its clients, where that opens the service
-  ///   to all of them.
-  /// @param closed why nothing is stored at present, if it is so: refuses every write of data.
+  /// @param proxy_seen called once for a proxy that hides its clients and so opens the service to
+  /// all of them.
+  /// @param closed reason why nothing can be stored now, if any: refuses every write of data.
   Guard(const app::KeyService& keys, AuthMode mode,
         std::function<void(std::string_view)> proxy_seen = {},
         std::function<std::optional<Error>()> closed = {})

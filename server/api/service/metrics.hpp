@@ -58,9 +58,9 @@ class Exposition {
   std::string_view family_;
 };
 
-/// Metrics of /metrics: requests and problems, which are counted here, and the lines that its
-/// sources write when somebody asks. docs/reference/metrics.md lists it. Thread-safe; counting a
-/// request takes one short lock and no allocation once its route and status were seen.
+/// Metrics of /metrics: requests and problems, which are counted here, and the lines of its sources
+/// at each request. docs/reference/metrics.md lists them. Thread-safe; counting a request needs one
+/// short lock and no allocation after the first one of its route and status.
 class Metrics {
  public:
   Metrics();
@@ -70,7 +70,7 @@ class Metrics {
   /// A problem document was answered.
   void count(ErrorCode code);
 
-  /// Writes families of its own; called on any thread, must not block. What it uses lives as long
+  /// Writes metrics of a source; called on any thread, must not block. Its data must live as long
   /// as the server.
   using Source = std::function<void(Exposition&)>;
   void add(Source source);
@@ -83,15 +83,14 @@ class Metrics {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Counts what was recorded since the start by source and verdict, for metrics: reads the rows that
-/// are new when somebody asks, so that recording costs nothing more. Thread-safe.
+/// Counts the measurements since the start by source and verdict, for metrics: reads new rows at
+/// each request, so that storing has no overhead. Thread-safe.
 class VerdictCounts : public std::enable_shared_from_this<VerdictCounts> {
  public:
   explicit VerdictCounts(app::MeasurementService& measurements) : measurements_(measurements) {}
 
-  /// Reads what is new, the first time only where the log ends, and calls `done`, on a storage
-  /// thread or at once; also when the storage cannot be read. One that comes while another reads
-  /// does not wait.
+  /// Reads new rows, the first time only the end of the log, and calls `done`, on a storage thread
+  /// or at once; also if the storage cannot be read. A call during another one does not wait.
   void refresh(std::function<void()> done);
 
   void write(Exposition& out) const;

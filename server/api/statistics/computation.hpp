@@ -14,7 +14,7 @@ namespace fitgauge::api {
 // Decimals of a body, exactly: JSON numbers and strings with one. What cannot be read goes to the
 // FieldErrors with its pointer.
 
-/// One decimal to the end of `to`; also reports what is neither a number nor a string.
+/// Appends one decimal to `to`; reports a value that is neither a number nor a string.
 void add_exact(const JsonValue& value, const std::string& pointer, metrology::Decimals& to,
                FieldErrors& errors);
 
@@ -70,7 +70,7 @@ struct ExactSubgroups {
   bool read(FieldReader& fields, std::string_view name, metrology::Subgroups& to) const;
 };
 
-/// Single values, where no subgroups are given.
+/// Single values, if there are no subgroups.
 struct SingleValues : ExactNumbers {
   bool read(FieldReader& fields, std::string_view name, metrology::Subgroups& to) const {
     return fields.has("subgroups") ? fields.optional(name) != nullptr
@@ -100,10 +100,10 @@ struct Computation {
   std::string description{};
 };
 
-/// Adds its route. It is computed where it may take long, not on an I/O thread.
+/// Adds its route. It is computed on a thread that may be slow, not on an I/O thread.
 void add_computation(Routes& add, const Computation& computation);
 
-/// Bodies of values are as large as those of measurements.
+/// Bodies of values have the limit of measurements.
 inline constexpr std::size_t kLargestValuesBody = std::size_t{32} << 20;
 /// The remedy for more values than a body may have.
 inline constexpr std::string_view kOfManyValues =

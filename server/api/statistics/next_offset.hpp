@@ -26,7 +26,7 @@ struct OffsetOrder {
   std::optional<Length> target{};  ///< none: the middle of the limits
   double cost = 0.1;               ///< of a correction, in parts
 
-  /// @param done is called on a storage thread. @errors those of storage.
+  /// @param done called on a storage thread. @errors those of storage.
   void find_news(app::MeasurementService& measurements, const GaugesInUse& gauges,
                  std::function<void(Result<OffsetNews>)> done) const;
 };

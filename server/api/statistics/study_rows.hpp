@@ -10,7 +10,7 @@
 
 namespace fitgauge::api {
 
-/// StudyLabels as small numbers, in the order they first stand.
+/// StudyLabels as numbers, in the order of their first use.
 class StudyLabels {
  public:
   std::size_t number(const std::string& label) {

@@ -33,7 +33,7 @@ class MeasurementIds {
  private:
   struct Part {
     std::size_t begin = 0;  ///< its first index
-    std::int64_t base = 0;  ///< what the offsets of its numbers are from
+    std::int64_t base = 0;  ///< base of the offsets of its numbers
     std::string_view origin;
   };
 
@@ -49,10 +49,10 @@ struct SelectedValues {
   metrology::SpecificationLimits limits{};
   std::optional<Length> lower_limit;
   std::optional<Length> upper_limit;
-  MeasurementIds ids{};                  ///< of the values, where they come one by one
+  MeasurementIds ids{};                  ///< of single values
   std::vector<std::string> subgroups{};  ///< the names of the subgroups, else
   std::size_t count = 0;
-  std::string first_id{};  ///< as they stand in a chart
+  std::string first_id{};  ///< in the order of a chart
   std::string last_id{};
 };
 
@@ -64,19 +64,19 @@ class ValueSelection {
 
   explicit ValueSelection(std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
 
-  /// Takes all that a query chooses, a correction in the place of what it replaces. Blocks.
-  /// @returns the id of the newest measurement there was. @errors those of add() and of reading
+  /// Adds all values of a query, a correction in the place of its target. Blocks.
+  /// @returns the id of the newest measurement. @errors those of add() and of reading
   Result<std::string> read(app::MeasurementService& measurements,
                            const app::MeasurementQuery& query);
 
-  /// @errors LimitsMixed: other limits than those of the first; StatisticsTooMany; FiguresLimit.
+  /// @errors LimitsMixed: other limits than the first value; StatisticsTooMany; FiguresLimit.
   Result<void> add(const app::MeasuredRun& run);
 
-  /// Puts values where they belong, when all are added.
+  /// Moves values to their places, after all are added.
   void move(const std::vector<app::MovedValue>& moves);
 
-  /// The values by the subgroup they name: the subgroups in the order they begin in, the values of
-  /// each in their order; one by one where none is named, or they are ignored.
+  /// Returns the values by subgroup: subgroups in the order of their first value, the values of
+  /// each in their order; single values if there are no subgroups, or they are ignored.
   /// @errors StatisticsTooFew: none, or subgroups of one value; StatisticsUnbalanced: a value
   ///   without subgroup, or subgroups of different sizes.
   Result<SelectedValues> selected(bool ignores_subgroups) &&;
@@ -88,7 +88,7 @@ class ValueSelection {
     friend bool operator==(const Limits&, const Limits&) = default;
   };
 
-  /// `25 to 25.021 mm`, as an error says them.
+  /// `25 to 25.021 mm`, for errors.
   static std::string text_of(const Limits& limits);
   Result<SelectedValues> one_by_one() &&;
   Result<SelectedValues> by_subgroup() &&;

@@ -17,7 +17,7 @@ namespace fitgauge::api {
 
 inline constexpr std::string_view kEventStreamType = "text/event-stream";
 
-/// A comment line, so that both ends notice a connection that is gone.
+/// A comment line, so that both ends detect a lost connection.
 inline constexpr std::string_view kEventHeartbeat = ":\n\n";
 
 /// @param data one line of JSON.
@@ -32,7 +32,7 @@ inline void append_event_id(std::string& out, std::string_view id) {
   out.append("id: ").append(id).append("\n\n");
 }
 
-/// The answer that carries events: kept by no cache, held back by no proxy.
+/// A response for events: never cached, never delayed by a proxy.
 inline http::Response event_response(http::Body events) {
   return http::Response(200, std::string(kEventStreamType), std::move(events))
       .with("Cache-Control", "no-store")

@@ -11,9 +11,9 @@ namespace fitgauge::api {
 /// The status an error has when a handler returns it (RFC 9110 section 15).
 int status_of(ErrorCode code);
 
-/// The problem document (RFC 9457) of an error: type, title, status, detail, instance, code and,
-/// where there are several, every bad field with its pointer.
-/// @param status the one the HTTP engine refuses with; absent, the error's code decides.
+/// The problem document (RFC 9457) of an error: type, title, status, detail, instance, code and, if
+/// there are several, every bad field with its pointer.
+/// @param status of a refusal by the HTTP engine; absent: by the error's code.
 http::Response problem(const Error& error, std::optional<int> status, const http::Request& request);
 
 }  // namespace fitgauge::api

@@ -29,7 +29,7 @@ Preference preference_of(const http::Request& request);
 /// Whether `Prefer: respond-async` asks for an answer before the work is done.
 bool prefers_async(const http::Request& request);
 
-/// Whether CSV is wanted where there is JSON too: `format` decides, else Accept.
+/// Whether CSV is requested instead of JSON, by `format`, else by Accept.
 bool wants_csv(const http::Request& request);
 /// The query parameter of such a route.
 http::Parameter csv_or_json();
@@ -45,26 +45,26 @@ struct Preconditions {
   std::optional<std::string> if_none_match{};
 
   bool any() const { return if_match || if_none_match; }
-  /// @param etag of the current representation; none where there is none.
+  /// @param etag of the current representation; none if there is none.
   bool hold(std::optional<std::string_view> etag) const;
 };
 Preconditions preconditions_of(const http::Request& request);
 
 /// Strong: texts that differ in a byte have different tags.
 std::string etag_of_text(std::string_view text);
-/// Decides on the current text, none where there is none; empty when the request has no condition.
+/// Decides from the current text, none if there is none; empty if the request has no condition.
 using TextPrecondition = std::function<bool(std::optional<std::string_view> text)>;
 TextPrecondition text_precondition_of(const http::Request& request);
 
 /// The Link of a page that is not the last (RFC 8288): the same filters, this cursor.
 std::string next_link(const http::Request& request, std::string_view cursor);
 
-/// The parameter of a path, and those of the preconditions that its route honours.
+/// Parameter of a path, and the preconditions that its route supports.
 std::vector<http::Parameter> with_preconditions(http::Parameter path);
 
 /// The name of the key that sent the request, if one did.
 std::optional<std::string_view> caller_name(const http::Request& request);
-/// The same as a text of its own.
+/// The same as an owned text.
 std::optional<std::string> caller_text(const http::Request& request);
 
 /// Everything one POST needs until it is answered. The request lives as long as its responder.
@@ -84,7 +84,7 @@ SharedPosting begin_posting(const Services& services, const http::Request& reque
                             http::Responder responder);
 
 http::Response response_of(app::Answer answer);
-/// The same for a repeat, from what was kept.
+/// Responds to a repeat with the stored response.
 http::Response replayed(app::Answer kept);
 
 }  // namespace fitgauge::api

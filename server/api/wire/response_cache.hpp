@@ -11,7 +11,7 @@
 
 namespace fitgauge::api {
 
-/// Gives the tables in use, or those of the revision that the request asks for.
+/// Returns the current tables, or the revision of the request.
 /// @errors RevisionUnknown, TablesInconsistent, StorageUnavailable.
 void tables_of(app::TableCatalog& catalog, const http::Request& request,
                app::TableCatalog::Callback<app::TableCatalog::Tables> done);
@@ -31,13 +31,12 @@ class ResponseCache {
   using TableHandler =
       std::function<Result<http::Response>(const http::Request&, const iso286::ToleranceTables&)>;
 
-  /// A handler that answers from the cache, or from `make` with the tables in use. Only 200 is
-  /// kept.
-  /// @errors TablesInconsistent where the tables fail their audit; those of `make`.
+  /// A handler that responds from the cache, or from `make` with the current tables. Only 200 is
+  /// cached.
+  /// @errors TablesInconsistent if the tables fail their audit; those of `make`.
   static http::SyncHandler cached(std::shared_ptr<ResponseCache> cache, TableHandler make);
 
-  /// The same; the parameter `revision` of a request asks for older tables, of which nothing is
-  /// kept.
+  /// The same; with the parameter `revision` uses older tables, without the cache.
   /// @errors RevisionUnknown too.
   static http::AsyncHandler of_revision(std::shared_ptr<ResponseCache> cache, TableHandler make);
 
