@@ -11,13 +11,12 @@
 
 namespace fitgauge::daemon {
 
-// The commands beside a running service, or without one. Each prints its result and gives the exit
-// code; an error is printed by the caller.
+// The commands of fitgauged, with or without a running service. Each prints its result and returns
+// the exit code; the caller prints an error.
 
 /// `fitgauged backup FILE`
 Result<int> run_backup(const Config& config, const std::string& file);
-/// `fitgauged verify`: 1 when there are findings. @param checkpoints files that were kept
-/// elsewhere.
+/// `fitgauged verify`: 1 if there are findings. @param checkpoints files from another place.
 Result<int> run_verify(const Config& config, const std::vector<std::string>& checkpoints);
 /// `fitgauged qualify`: compares the figures of this program with published ones, and writes
 /// qualification.json and qualification.pdf to the folder; 1 when one differs.
@@ -31,8 +30,8 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
 Result<int> run_key_revoke(const Config& config, const std::string& name);
 Result<int> run_key_list(const Config& config);
 
-/// Where a service that wants client certificates writes the port on 127.0.0.1 that answers health
-/// checks without TLS, and nothing else.
+/// File with the port on 127.0.0.1 that answers only health checks without TLS, if the service
+/// requires client certificates.
 std::filesystem::path health_port_file(const Config& config);
 
 /// Asks the service that runs with this configuration for /readyz, as a container's health check
@@ -42,12 +41,12 @@ std::filesystem::path health_port_file(const Config& config);
 Result<void> healthcheck(const Config& config);
 
 /// fitgauged: reads flags, environment and file, then serves or runs a command.
-/// @returns the exit code: 0, 1 when the service cannot run or a check found something, 2 when the
-///   command line or the configuration is wrong. One line on stderr says why.
+/// @returns the exit code: 0, 1 if the service cannot run or a check has findings, 2 if the command
+/// line or the configuration is wrong. One line on stderr has the reason.
 int run_command_line(int argc, char** argv);
 
 /// Runs the service until SIGTERM or SIGINT; SIGHUP reads the certificates again.
-/// @param port_file receives the first port, in decimal, once the socket listens; may be empty.
+/// @param port_file receives the first port, in decimal, when the socket listens; may be empty.
 /// @errors those of opening the database and of listening.
 Result<void> serve(const Config& config, const std::string& port_file);
 

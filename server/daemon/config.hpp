@@ -95,7 +95,7 @@ Result<void> read_toml(const std::string& path, Config& config);
 /// @errors ConfigInvalid for an unknown name or a value out of range.
 Result<void> read_environment(const std::vector<std::string>& environment, Config& config);
 
-/// Sets one setting from text; a list takes comma-separated items.
+/// Sets one setting from text; a list has comma-separated items.
 Result<void> assign(const Setting& setting, std::string_view text, Config& config);
 
 /// Checks across settings, such as a certificate without a key.

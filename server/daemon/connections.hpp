@@ -21,7 +21,8 @@ namespace fitgauge::daemon {
 /// to its folder. @errors ConfigInvalid with file, line and key.
 Result<std::vector<connections::Definition>> read_connections(const std::string& path);
 
-/// Starts the connections; they go before `app`. @errors as read_connections; those of the storage.
+/// Starts the connections; they must be destroyed before `app`. @errors as read_connections; those
+/// of the storage.
 Result<std::unique_ptr<connections::Connections>> start_connections(const Config& config,
                                                                     app::Application& app,
                                                                     const Clock& clock,
@@ -35,7 +36,7 @@ Result<void> check_forwarding(const Config& config);
 /// As the log of the service has it: the event's name and a sentence.
 using Tell = std::function<void(std::string_view event, const std::string& detail)>;
 
-/// The centre's answer about a history; none where it does not say within some seconds.
+/// Returns the centre's state of a history; none without a response within some seconds.
 std::optional<app::AtCentre> ask_centre(const Config& config, std::string_view digits);
 
 /// Starts to forward the log to the centre; null when there is none.

@@ -22,12 +22,12 @@ LogLevel log_level_named(std::string_view word);
 /// happened.
 void append_event_line(std::string& out, LogLevel level, std::string_view event,
                        std::string_view detail);
-/// With the caller's name where the request had a key, and what a proxy says it asks for.
+/// Logs it with the caller's name if the request had a key, and with the client of a proxy.
 void append_request_line(std::string& out, LogLevel level, const http::FinishedRequest& finished);
 
-// JSON lines on stderr, one an event; docs/reference/log.md lists them. Thread-safe, and nobody
-// waits: the lines go through a bounded queue, and what its reader is too slow for is counted and
-// said. Without an open log nothing is written.
+// JSON lines on stderr, one an event; docs/reference/log.md lists them. Thread-safe and never
+// blocks: the lines go through a bounded queue, and lines that its reader is too slow for are
+// counted and reported. Without an open log nothing is written.
 
 void open_log(const std::string& level);
 
@@ -40,21 +40,19 @@ void log_error(std::string_view event, std::string_view detail);
 /// Lines lost since the start.
 std::uint64_t log_lines_lost();
 
-/// Writes what is queued, for a second at most; before the process ends. No thread may log any
-/// more.
+/// Writes queued lines before the process ends, at most for a second. Then no thread may log.
 void close_log();
 
-/// A bounded queue of lines with one thread that writes them to a file descriptor. Whoever logs
-/// never waits for whoever reads: a line that finds no room is lost, counted, and the count is
-/// written as an event of its own once there is room again. Thread-safe.
+/// A bounded queue of lines with one thread that writes them to a file descriptor. Logging never
+/// waits for the reader: a line without room is lost and counted, and the count is logged when
+/// there is room again. Thread-safe.
 class LogQueue {
  public:
-  /// @param descriptor stays open as long as the process: a reader that has stalled may still hold
-  /// the
-  ///   thread in a write when the queue is gone.
-  /// @param room bytes of lines that may wait.
+  /// @param descriptor stays open as long as the process: a reader that has stalled may still block
+  /// the thread in a write when the queue is gone.
+  /// @param room bytes of waiting lines.
   explicit LogQueue(int descriptor, std::size_t room = std::size_t{1} << 20);
-  /// Writes what is queued for as long as `kPatience`, then gives up.
+  /// Writes queued lines for at most `kPatience`.
   ~LogQueue();
   LogQueue& operator=(LogQueue&&) = delete;  // neither copied nor moved
 
@@ -71,7 +69,7 @@ class LogQueue {
  private:
   struct State;
 
-  std::shared_ptr<State> state_;  ///< the thread's, too: it may have to be left behind
+  std::shared_ptr<State> state_;  ///< shared with the thread, which may outlive the queue
   Thread thread_;
 };
 
