@@ -35,12 +35,12 @@ Result<void> check_name(std::string_view name);
 /// Whether a setting is never shown.
 bool is_secret(std::string_view setting);
 
-/// Adds what `before` knows and `body` leaves out: its secrets, a password for the same broker and
-/// user alone.
+/// Adds the values of `before` that `body` leaves out: its secrets, and a password for the same
+/// broker and user.
 void keep_secrets(JsonValue& body, const Definition& before);
 
-/// @param body an object with `kind` and what its kind takes.
-/// @param allowed which folders it may name.
+/// @param body an object with `kind` and the settings of its kind.
+/// @param allowed folders that it may use.
 /// @errors PathMalformed; RequestInvalid with every bad field.
 Result<Definition> read_definition(std::string name, const JsonValue& body,
                                    const FolderPermissions& allowed);
@@ -48,12 +48,12 @@ Result<Definition> read_definition(std::string name, const JsonValue& body,
 /// The most connections there may be.
 inline constexpr std::size_t kMostConnections = 100;
 
-/// All connections: those of the configuration file and those that are stored, each at work.
-/// Changes and tests are made one after the other on a thread of their own. Thread-safe.
+/// All running connections: those of the configuration file and the stored ones. Changes and tests
+/// run in turn on their own thread. Thread-safe.
 class Connections {
  public:
-  /// Starts what `configured` and the storage have. A stored one that cannot be read, or that has
-  /// the name of one of the file, is told to the log and not started.
+  /// Starts the connections of `configured` and the storage. A stored one that cannot be read, or
+  /// that has the name of one in the file, is logged and not started.
   /// @errors those of the storage.
   static Result<std::unique_ptr<Connections>> start(std::vector<Definition> configured,
                                                     Plant plant);
@@ -66,21 +66,21 @@ class Connections {
   std::vector<ConnectionState> states() const;  ///< by name
   std::optional<ConnectionState> state(std::string_view name) const;
 
-  /// Runs what it is given on the one thread that changes connections. Does not wait. @returns
-  /// whether it will: not when too many wait.
+  /// Queues a task for the one thread that changes connections. Does not block. @returns false if
+  /// too many tasks wait.
   bool run(std::function<void()> work);
 
   // These wait, `test` up to half a minute for the other side, and are called inside of `run`.
 
   /// Stores a connection and starts it. @returns whether it is new. @errors RequestInvalid,
-  ///   PathMalformed, ConnectionReadOnly, those of JSON and storage.
+  /// PathMalformed, ConnectionReadOnly, those of JSON and storage.
   Result<bool> put(const std::string& name, std::string_view body,
                    const std::optional<std::string>& caller);
-  /// Ends a connection and forgets how far it came. @errors ConnectionUnknown,
-  ///   ConnectionReadOnly, those of storage.
+  /// Ends a connection and deletes its position. @errors ConnectionUnknown, ConnectionReadOnly,
+  /// those of storage.
   Result<void> remove(const std::string& name, const std::optional<std::string>& caller);
-  /// Sends again from a place: what goes out has its ids as before. @errors ConnectionUnknown;
-  ///   RequestInvalid, also of a connection that brings measurements; those of JSON and storage.
+  /// Sends again from a place, with the same ids. @errors ConnectionUnknown; RequestInvalid, also
+  /// of an incoming connection; those of JSON and storage.
   Result<void> replay(const std::string& name, std::string_view body);
   /// @errors ConnectionUnknown.
   Result<ConnectionTest> test(const std::string& name);
@@ -98,7 +98,7 @@ class Connections {
   explicit Connections(Plant plant);
 
   void begin(Definition definition, bool is_read_only);
-  /// Takes a connection out and waits until it has ended.
+  /// Removes a connection and waits until it has ended.
   void end(const std::string& key);
   std::optional<Known> find(std::string_view name) const;
   static ConnectionState state_of(const Entry& entry);
@@ -110,7 +110,7 @@ class Connections {
   WorkerPool changes_;  // last: it uses all above
 };
 
-/// /v1/connections: what is connected to the world outside. @param all outlives the routes.
+/// /v1/connections: connections to other systems. @param all must outlive the routes.
 void add_connections_routes(api::Routes& add, Connections& all);
 /// Their components of /openapi.json.
 void add_connection_schemas(api::Schemas& schemas);

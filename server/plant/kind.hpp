@@ -46,7 +46,7 @@ class Settings {
 
   /// Starts the connection. @param plant must outlive it.
   virtual std::unique_ptr<Worker> start(const Plant& plant) const = 0;
-  /// Tries the other side once, beside the worker. Waits up to half a minute.
+  /// Tests the other side once, independently of the worker. Blocks up to half a minute.
   virtual ConnectionTest test(const Plant& plant, const std::stop_token& stop) const = 0;
   /// Of an outgoing connection; else null.
   virtual const FollowerOptions* follower() const = 0;

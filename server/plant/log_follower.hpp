@@ -22,10 +22,10 @@
 
 namespace fitgauge::connections {
 
-/// How far an outgoing connection has come. Kept in the database beside what it follows.
+/// Position of an outgoing connection, stored in the database.
 struct Progress {
-  std::int64_t position = 0;  ///< the last measurement that is dealt with
-  std::int64_t planned = 0;   ///< what goes out together next ends there; up to `position`: nothing
+  std::int64_t position = 0;            ///< the last measurement that is dealt with
+  std::int64_t planned = 0;             ///< end of the next delivery; up to `position`: none
   std::optional<std::int64_t> event{};  ///< the last stored event that is dealt with
   std::uint64_t refused = 0;
   std::vector<DeadLetter> dead_letters{};  ///< the newest first
@@ -34,18 +34,18 @@ struct Progress {
   void refuse(DeadLetter letter);
 };
 
-/// None where the connection has not begun. Waits. @errors those of storage.
+/// None if the connection has not begun. Blocks. @errors those of storage.
 Result<std::optional<Progress>> load_progress(app::DocumentService& documents,
                                               const std::string& name);
 Result<void> save_progress(app::DocumentService& documents, const std::string& name,
                            const Progress& progress);
-/// The number of a new session with the other side: 0 at first, one more each time, 0 after 255;
-/// kept before it is given. Waits. @errors those of storage.
+/// Number of a new session with the other side: 0 at first, then one more each time, 0 after 255;
+/// stored before it is returned. Blocks. @errors those of storage.
 Result<std::uint8_t> next_session(app::DocumentService& documents, const std::string& name);
-/// Forgets both, also where there is none.
+/// Deletes both, if they exist.
 Result<void> forget_progress(app::DocumentService& documents, const std::string& name);
 
-/// Where an outgoing connection sends again from: `{"from": …}`.
+/// Start of a replay: `{"from": …}`.
 struct ReplayOrder {
   std::string from{};
 };
@@ -56,10 +56,9 @@ void members(V& v, ReplayOrder& order) {
            "The id of a measurement or of an event (e17-…), or an RFC 3339 time");
 }
 
-/// Moves the progress back to the place, which goes out again with all that follows: from the id of
-/// a measurement the measurements, from that of an event the events, from a time both. Waits.
-/// @errors RequestInvalid naming `/from`, also for a place that has not gone out yet; those of
-///   storage.
+/// Moves the position back, so that everything after it is sent again: from the id of a measurement
+/// the measurements, from an event the events, from a time both. Blocks.
+/// @errors RequestInvalid with `/from`, also for a place that was not sent yet; those of storage.
 Result<void> move_back(Progress& progress, const ReplayOrder& order, const Plant& plant);
 
 /// A measurement on its way out.
@@ -75,7 +74,7 @@ std::string event_text(const OutgoingEvent& event);
 
 /// How far a delivery has come.
 struct Delivery {
-  std::size_t dealt_with = 0;         ///< of what was to go, from the first on
+  std::size_t dealt_with = 0;         ///< of the pending ones, from the first
   std::vector<DeadLetter> refused{};  ///< among these: for good
   std::uint64_t files = 0;
   std::uint64_t bytes = 0;
@@ -84,7 +83,7 @@ struct Delivery {
   bool wants_no_more = false;                  ///< for ever
 };
 
-/// Of one delivery, so that how far it came is kept soon.
+/// Maximum of one delivery, so that the position is stored soon.
 inline constexpr std::chrono::milliseconds kLongestStretch{500};
 
 /// The other side of an outgoing connection. Used by one thread.
@@ -95,8 +94,8 @@ class Outlet {
   Outlet& operator=(const Outlet&) = delete;
   virtual ~Outlet() = default;
 
-  /// Delivers in order as much as it will, at least one or a failure; waits, and ends soon after a
-  /// stop. What is not dealt with comes again.
+  /// Delivers some of them in order, at least one or a failure; blocks, and ends soon after a stop.
+  /// The rest is delivered again.
   virtual Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) = 0;
 
   /// The same of events, for outlets whose options ask for some.
@@ -104,8 +103,8 @@ class Outlet {
     return {.dealt_with = events.size()};
   }
 
-  /// When there is nothing to go: at least every 30 s, and soon after `wake`. For what stays
-  /// connected. @returns an attempt, or none where there was nothing to do.
+  /// Called without data to deliver: at least every 30 s, and soon after `wake`. For connections
+  /// that stay open. @returns an attempt, or none if there was nothing to do.
   virtual std::optional<Delivery> idle(const std::stop_token&) { return std::nullopt; }
   /// Before anything else. @param wake may be called on any thread, as long as the outlet is there.
   virtual void wake_by(std::function<void()>) {}
@@ -117,17 +116,17 @@ inline constexpr std::string_view kRecorded = "measurement.recorded";
 struct FollowerOptions {
   std::string name{};
   LogFilter filter{};
-  /// That go out beside measurements; while settings are read, with those.
+  /// Events that are sent in addition to measurements; while settings are read, with measurements.
   std::set<std::string, std::less<>> events{std::string(kRecorded)};
   bool from_beginning = false;             ///< of the log; else from now on
   std::chrono::seconds longest_wait{300};  ///< between two attempts in vain
-  std::chrono::seconds gather{0};          ///< what is younger waits for more
+  std::chrono::seconds gather{0};          ///< younger data waits for more
   /// A batch is decided before it is sent, so that the same batch is sent after a kill.
   bool plans = false;
 };
 
-/// Decides where a connection that has not begun begins, so that it misses nothing from now on.
-/// Waits. @errors those of storage.
+/// Stores the start of a new connection, so that it misses nothing from now on. Blocks. @errors
+/// those of storage.
 Result<Progress> begin_progress(const FollowerOptions& options, const Plant& plant);
 
 /// Follows the log of measurements and gives what passes the filter to an outlet, in order and at
@@ -136,7 +135,7 @@ Result<Progress> begin_progress(const FollowerOptions& options, const Plant& pla
 /// by a writer.
 class LogFollower final : public Worker {
  public:
-  /// Waits for the storage, which says where it begins. @param plant outlives it.
+  /// Reads its start from the storage; blocks. @param plant must outlive it.
   LogFollower(FollowerOptions options, std::unique_ptr<Outlet> outlet, const Plant& plant);
   ~LogFollower() override;
 
@@ -148,11 +147,11 @@ class LogFollower final : public Worker {
 
   void run(bool& has_begun, const std::stop_token& stop);
   bool begin();
-  /// Reads what comes next, if there is room. @errors those of storage.
+  /// Reads the next data, if there is room. @errors those of storage.
   Result<void> read();
   /// Reads the events that come next, if there is room.
   Result<void> read_events();
-  /// Finds what is new of the offsets of the values that were read, when these are dealt with.
+  /// Finds the new offsets after the values that were delivered.
   void find_offsets(const std::stop_token& stop);
   void take_log_end(std::int64_t end);
   void deliver(const std::stop_token& stop);
@@ -161,7 +160,7 @@ class LogFollower final : public Worker {
   void deliver_events(const std::stop_token& stop);
   /// How many of those that are pending go out now.
   std::size_t ripe() const;
-  /// @returns how many go out together; none while that cannot be kept.
+  /// @returns the number of the next delivery; none while it cannot be stored.
   std::size_t planned(std::size_t count);
   /// @param measurements of it that went out
   void take(const Delivery& delivery, std::size_t measurements);
@@ -184,7 +183,7 @@ class LogFollower final : public Worker {
   using Made = std::pair<std::optional<std::string>, std::optional<std::string>>;
   std::set<Made> made_;               ///< of the values since their offsets were found
   std::map<Made, std::string> told_;  ///< of these offsets
-  std::int64_t events_behind_ = 0;    ///< the measurement they come behind; 0: none is pending
+  std::int64_t events_behind_ = 0;    ///< the measurement before them; 0: none is pending
   std::chrono::seconds pause_{0};     ///< before the next attempt; 0: the last went well
   bool repeats_at_once_ = false;      ///< a refusal: the last attempt went well
   bool is_dirty_ = false;

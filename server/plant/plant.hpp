@@ -22,13 +22,13 @@ struct DeadLetter {
   Timestamp at{};
 };
 
-/// A connection to the world outside, and what it has done since the start.
+/// A connection to another system, and its activity since the start.
 struct ConnectionState {
   std::string name{};
   std::string kind{};
   std::string settings{};     ///< JSON object: all but its secrets
   bool is_outgoing = false;   ///< follows the log; else it brings measurements
-  bool is_read_only = false;  ///< stands in the configuration file
+  bool is_read_only = false;  ///< belongs to the configuration file
 
   bool is_failing = false;   ///< its last attempt was in vain
   bool is_stopped = false;   ///< for good: the other side wants no more
@@ -41,28 +41,28 @@ struct ConnectionState {
   // Of outgoing ones.
   std::optional<std::int64_t> position{};  ///< how many measurements of the log are dealt with
   std::int64_t behind = 0;                 ///< how many are not
-  std::optional<Timestamp> waits_since{};  ///< when what is to go next was received
+  std::optional<Timestamp> waits_since{};  ///< time of receipt of the next one to send
   std::vector<DeadLetter> dead_letters{};  ///< the newest first; a bounded number
 
   std::uint64_t attempts = 0;
   std::uint64_t failures = 0;      ///< of those
-  std::uint64_t files = 0;         ///< taken or written
+  std::uint64_t files = 0;         ///< read or written
   std::uint64_t bytes = 0;         ///< of those
   std::uint64_t logs = 0;          ///< read in them, whether new or not
-  std::uint64_t measurements = 0;  ///< stored, or told to the other side
+  std::uint64_t measurements = 0;  ///< stored, or sent to the other side
   std::uint64_t values_kept = 0;   ///< angles and figures of axes, which stay in their file
   std::uint64_t unreadable = 0;    ///< places that no reader understood, files that were refused
   std::uint64_t refused = 0;       ///< dead letters, with those that are no more listed
 };
 
-/// Since when nothing was dealt with, in nanoseconds; none before the first success.
-/// Of an outgoing connection the age of what is to go next, of another since its last success.
+/// Nanoseconds since the last progress; none before the first success. Outgoing: age of the next
+/// measurement to send; incoming: time since the last success.
 std::optional<std::int64_t> lag(const ConnectionState& state, Timestamp now);
 
-/// No step of an attempt takes longer, unless the other side or a file holds it up.
+/// Maximum duration of a step, unless the other side or a file blocks it.
 inline constexpr std::chrono::seconds kLongestStep{60};
 
-/// Whether the attempt under way stands still.
+/// Whether the current attempt makes no progress.
 bool hangs(const ConnectionState& state, std::chrono::steady_clock::time_point now);
 
 /// A counter of all connections, by the name it has in JSON.
@@ -112,7 +112,7 @@ namespace fitgauge::connections {
 struct Plant {
   app::MeasurementService& measurements;  ///< the log that is followed and recorded into
   app::EventService& events;
-  app::DocumentService& documents;  ///< where connections and their progress are kept
+  app::DocumentService& documents;  ///< store of connections and their positions
   app::FileService& files;
   const app::TableCatalog& tables;
   const api::GaugesInUse& gauges;
@@ -120,12 +120,12 @@ struct Plant {
   std::string origin{};                          ///< of the data folder: 16 hexadecimal digits
   std::vector<std::filesystem::path> folders{};  ///< that connections made over HTTP may name
   bool may_reach_private = false;                ///< addresses of this machine and its networks
-  bool is_shared = false;  ///< daemons with one database would each do what a connection does
+  bool is_shared = false;  ///< with one database, each daemon would repeat the work of a connection
   /// The event's name and a sentence, for the log of the service; called on any thread.
   std::function<void(std::string_view event, const std::string& detail)> tell{};
 };
 
-/// A connection at work, on a thread of its own that ends with it.
+/// A running connection, on its own thread that ends with it.
 class Worker {
  public:
   /// @param name of the connection. @param plant outlives it.

@@ -18,8 +18,8 @@
 
 namespace fitgauge::connections {
 
-// The forms of settings, beside those of base/json/body_forms.hpp. A form here only reads: the
-// meaning of a setting names its default.
+// Forms of settings, in addition to base/json/body_forms.hpp. They only read: the meaning of a
+// setting has its default.
 
 /// A text that `parse` converts to a value, or refuses with a message.
 template <class Parse>
@@ -119,8 +119,8 @@ Each(std::size_t, std::size_t, std::string_view, std::string, Take) -> Each<Take
 
 /// Which files and folders of this machine a connection may name.
 struct FolderPermissions {
-  bool all = false;                            ///< it stands in the configuration file
-  std::vector<std::filesystem::path> roots{};  ///< else these and what is below them
+  bool all = false;                            ///< it belongs to the configuration file
+  std::vector<std::filesystem::path> roots{};  ///< else these folders and those below them
 };
 
 /// An absolute path of this machine.

@@ -23,7 +23,7 @@ struct CentreOptions {
   std::string authorities{};  ///< PEM file; the system's when empty
 };
 
-/// One connection to the centre, kept between requests. For one thread.
+/// One connection to the centre, kept between requests. Used by one thread.
 class CentreLink {
  public:
   using HttpAnswer = http_client::HttpAnswer;
@@ -46,23 +46,23 @@ class CentreLink {
   http_client::HttpClient client_;
 };
 
-/// Asks the centre every few seconds what it hands on, and takes it. What it was last answered is
-/// known to it alone: after a start it takes all again, which changes nothing. For one thread.
+/// Requests revisions from the centre every few seconds and stores them. Its position is only in
+/// memory: after a start it stores all again, which changes nothing. Used by one thread.
 class Follower {
  public:
-  /// @param tell the event's name and a sentence, for the log of the service.
-  /// @param station what the ids of this folder end with, when it is asked.
+  /// @param tell name of the event and a sentence, for the service log.
+  /// @param station returns the ending of the ids of this folder.
   Follower(app::RevisionIntake intake, std::function<std::string_view()> station,
            std::function<void(std::string_view event, const std::string& detail)> tell)
       : intake_(std::move(intake)), station_(std::move(station)), tell_(std::move(tell)) {}
 
   struct Heard {
     std::string_view history{};           ///< of this folder
-    std::string centre{};                 ///< the digits of its own history
+    std::string centre{};                 ///< digits of its current history
     std::int64_t size = 0;                ///< its records that the centre has
     std::optional<std::int64_t> notes{};  ///< as RevisionPage
   };
-  /// Does what is due, if anything. Blocks as CentreLink. @returns none where it was not asked now.
+  /// Polls the centre if it is due. Blocks as CentreLink. @returns none if it did not poll.
   std::optional<Heard> look(CentreLink& link, const CentreLink::GoesOn& goes_on);
 
  private:
@@ -88,12 +88,11 @@ struct ForwarderOptions {
   std::function<void(std::string_view event, const std::string& detail)> tell{};
 };
 
-/// Sends this folder's log to its centre, batch by batch, and takes what the centre hands on, on a
-/// thread of its own that no writer waits for. After a failure it waits, twice as long each time,
-/// up to half a minute.
+/// Sends this folder's log to its centre in batches and stores the centre's revisions, on its own
+/// thread that no writer waits for. After a failure it waits, doubling up to half a minute.
 class Forwarder {
  public:
-  /// Asks the centre first, for some seconds at most, what it hands on.
+  /// First requests the centre's revisions, for at most some seconds.
   Forwarder(app::LogOutbox outbox, app::RevisionIntake intake, ForwarderOptions options);
   ~Forwarder();
   Forwarder(const Forwarder&) = delete;
@@ -130,12 +129,12 @@ class Forwarder {
   const ForwarderOptions options_;
   CentreLink link_;
   Follower follower_;
-  bool lacks_records_ = false;  ///< the centre said so of records that were taken as its own
+  bool lacks_records_ = false;  ///< the centre refused records that it accepted before
   std::atomic<std::int64_t> confirmed_{0};
   std::atomic<std::int64_t> seen_{0};    ///< records there were at the last look
   std::optional<std::int64_t> noted_{};  ///< the last note there; none: the centre accepts none
-  /// The last note there, said the centre, and it has not got it: once all came again, it has left
-  /// it out, as its record is not there.
+  /// Number of a note that the centre confirmed but lacks: after a complete repeat the centre has
+  /// skipped it, because its record is missing there.
   std::optional<std::int64_t> refused_note_{};
   std::int64_t most_rows_ = app::LogOutbox::kMostRows;
   std::chrono::milliseconds pause_{0};

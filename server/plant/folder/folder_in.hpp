@@ -30,16 +30,16 @@ struct FolderInOptions {
   std::filesystem::path folder{};
   std::vector<std::string> names{"*.csv", "*.txt", "*.ndjson", "*.jsonl",
                                  "*.dfq", "*.dfd", "*.dfx",    "*.qif"};  ///< in either case
-  sheet::ShopCsvOptions csv{};                     ///< of what is no NDJSON by its name
-  std::optional<aqdef::LengthUnit> length_unit{};  ///< of a DFQ or QIF that says none
-  std::chrono::seconds interval{10};  ///< between two looks; the kernel tells changes at once
+  sheet::ShopCsvOptions csv{};                     ///< of files that are not NDJSON by their name
+  std::optional<aqdef::LengthUnit> length_unit{};  ///< of a DFQ or QIF without a unit
+  std::chrono::seconds interval{10};  ///< between two scans; the kernel reports changes at once
   std::chrono::seconds rest{2};       ///< size and time must have been the same for so long
   std::size_t most_file_bytes = std::size_t{32} << 20;
   std::size_t most_entries = 100'000;  ///< of one look
 };
 
-/// Takes the files of a folder, each once, and moves them to its folder `done`, or with a text that
-/// names line and remedy to `failed`. @param plant outlives it.
+/// Stores the files of a folder, each once, and moves them to its folder `done`, or with a text
+/// that has line and remedy to `failed`. @param plant must outlive it.
 std::unique_ptr<Worker> make(const FolderInOptions& options, const Plant& plant);
 
 /// Whether the folder can be read, and files moved in it.
@@ -60,8 +60,7 @@ Look look_of(const struct stat& status);
 /// The content counts only if it is_unchanged() afterwards.
 class RestingFile {
  public:
-  /// @returns nothing when it is gone, or another kind of entry. @errors StorageUnavailable: it
-  /// cannot be read.
+  /// @returns nothing if it is gone, or not a file. @errors StorageUnavailable: it cannot be read.
   static Result<std::optional<RestingFile>> open(const Folder& folder, const std::string& name,
                                                  const Look& look);
 
@@ -86,8 +85,8 @@ bool is_values_alone(std::string_view file_name);
 /// Whether it is the description of such a file: a DFD.
 bool is_description(std::string_view file_name);
 
-/// The measurements of a file as /v1/measurements takes them. What is behind the text up to its
-/// capacity is at least http::Request::kBodyPadding bytes.
+/// Measurements of a file in the form of /v1/measurements. The capacity after the text is at least
+/// http::Request::kBodyPadding bytes.
 struct FileRows {
   static constexpr std::size_t kMostBytes = std::size_t{48} << 20;
 
@@ -96,8 +95,7 @@ struct FileRows {
   std::vector<std::uint32_t> lines{};  ///< of the file, for each row; empty: they are the same
 };
 
-/// Reads a table, NDJSON, DFQ or QIF by its name, a piece at a time: what is kept of it are its
-/// rows.
+/// Reads a table, NDJSON, DFQ or QIF by its name, piece by piece, and keeps only its rows.
 /// @param description of a DFX: its DFD; else null.
 /// @errors BodyTooLarge; those of sheet::ShopRows, sheet::NdjsonRows, aqdef::MeasurementCsv and
 ///   qif::QifRows
@@ -114,10 +112,10 @@ struct TakenFile {
   std::size_t measurements = 0;
 };
 
-/// Stores what a file says, all rows or none. The same bytes are stored once for a connection:
-/// their digest is kept for ever in the transaction that stores the rows. Waits.
+/// Stores the measurements of a file, all rows or none. The same bytes are stored once for a
+/// connection: the transaction of the rows stores their digest for ever. Blocks.
 /// @param description of a DFX: its DFD; else null.
-/// @returns nothing when the file has changed meanwhile.
+/// @returns nothing if the file has changed.
 /// @errors StorageBusy, StorageUnavailable, ShuttingDown: try again; any other: the file is wrong.
 Result<std::optional<TakenFile>> take_file(const FolderInOptions& options, const Plant& plant,
                                            std::string_view file_name, const RestingFile& file,

@@ -24,7 +24,7 @@ struct WatchedPath {
   std::string name{};    ///< TCHPR*.TXT; letters count in either case
 };
 
-/// A pattern of FN 16 files and the file that says it.
+/// A pattern of FN 16 files and its file.
 struct NamedPattern {
   std::string file{};
   log_reader::Pattern pattern;
@@ -47,16 +47,16 @@ struct MachineOptions {
   const std::string& machine_name() const { return machine && !machine->empty() ? *machine : name; }
 };
 
-/// Reads measuring logs from a control over LSV-2. It logs in as INSPECT and FILE, and only lists
-/// and reads. A machine that is away is asked again after twice the time, up to ten minutes.
-/// @param plant outlives it.
+/// Reads probing logs from a control over LSV-2. It logs in as INSPECT and FILE, and only lists and
+/// reads. An unreachable machine is tried again after twice the time, up to ten minutes.
+/// @param plant must outlive it.
 std::unique_ptr<Worker> make(const MachineOptions& machine, const Plant& plant);
 
 /// Logs in and lists the watched folders once. Waits.
 ConnectionTest test_of(const MachineOptions& machine, const Plant&, const std::stop_token& stop);
 
-/// One log, or one result of an FN 16 file, as it is to be stored. Owns what its measurements look
-/// at, so it stays where it is.
+/// One log, or one result of an FN 16 file, ready to store. Owns the texts of its measurements, so
+/// it must not move.
 struct CollectedLog {
   CollectedLog() = default;
   CollectedLog(const CollectedLog&) = delete;
@@ -78,12 +78,12 @@ struct Collected {
   std::vector<std::string> unread{};  ///< `line 5: …`
 };
 
-/// Where a file comes from and by what it is judged.
+/// Source of a file and its limits.
 struct Origin {
   const MachineOptions& machine;
   const std::string& path;  ///< on the control
   const app::TableCatalog& tables;
-  Timestamp now;  ///< of results that tell no time
+  Timestamp now;  ///< of results without a time
 };
 
 /// Reads the logs of touch-probe cycles, or else by the first pattern that finds a result. Of
@@ -99,12 +99,11 @@ struct Taken {
   std::vector<std::string> unread{};
 };
 
-/// Stores what a file of a machine says, then the file itself, below `TNC:\collected\MACHINE\`.
-/// However often and however far it came before, each log is stored once: its key is kept for ever
-/// in the transaction that stores its measurements. Waits; at most sixteen jobs of it wait for the
-/// writer. Thread-safe.
-/// @errors FilePathInvalid: the path is too long to keep; StorageBusy, StorageUnavailable: try
-///   again, nothing is lost.
+/// Stores the measurements of a machine's file, then the file itself, in `TNC:\collected\MACHINE\`.
+/// Each log is stored once, however often it is read: the transaction of its measurements stores
+/// its key for ever. Blocks; at most sixteen of its jobs wait for the writer. Thread-safe.
+/// @errors FilePathInvalid: the path is too long; StorageBusy, StorageUnavailable: try again,
+///   nothing is lost.
 Result<Taken> take_logs(const Plant& plant, const MachineOptions& machine, const std::string& path,
                         const std::string& bytes);
 

@@ -38,16 +38,15 @@ struct MqttMessage {
   bool retain = false;
 };
 
-/// One connection to a broker, from CONNECT to its end, on a thread of its own (libmosquitto). One
-/// that is lost stays lost: a new client begins anew, and knows of nothing that was not settled.
-/// Thread-safe.
+/// One connection to a broker, from CONNECT to its end, on its own thread (libmosquitto). A lost
+/// connection stays lost: a new client begins without the unsettled messages. Thread-safe.
 class MqttClient {
  public:
-  using Ticket = std::uint64_t;  ///< of what was sent, from 1 on
+  using Ticket = std::uint64_t;  ///< of the sent messages, from 1
 
   /// Begins to connect.
-  /// @param will what the broker publishes when the connection ends without `leave`.
-  /// @param wake called on its thread when the connection is lost or a message has come.
+  /// @param will message that the broker publishes if the connection ends without `leave`.
+  /// @param wake called on its thread when the connection is lost or a message has arrived.
   MqttClient(Broker broker, std::optional<MqttMessage> will, std::function<void()> wake);
   /// Ends the connection without a word.
   ~MqttClient();
@@ -60,13 +59,13 @@ class MqttClient {
   /// Why it was lost or never was.
   std::string failure() const;
 
-  /// Sends in this order. What is sent over a connection that is lost is never settled.
+  /// Sends in this order. Messages on a lost connection are never settled.
   Ticket publish(MqttMessage message);
   Ticket subscribe(std::string topic, int qos);
   Ticket unsubscribe(std::string topic);
 
-  /// The broker has acknowledged (of QoS 0: it went out). 0, a reason code of MQTT 5 from 128 on,
-  /// or kCannotBeSent; forgotten once it was told.
+  /// The broker has acknowledged it (QoS 0: it was sent). 0, a reason code of MQTT 5 from 128 on,
+  /// or kCannotBeSent; removed after it was returned.
   std::optional<int> settled(Ticket ticket);
   /// The same, waited for. None: it was lost, the time is over, or a stop was asked for.
   std::optional<int> wait_settled(Ticket ticket, std::chrono::milliseconds most,

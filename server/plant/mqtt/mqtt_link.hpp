@@ -26,7 +26,7 @@ class TopicTemplate {
  public:
   /// @errors FieldInvalid: no topic, an unknown name, a `{` without its end.
   static Result<TopicTemplate> parse(std::string_view text);
-  /// The same for one level that stands behind others: without `/`, and it may begin with a name.
+  /// The same for one level after others: without `/`, and it may begin with a name.
   static Result<TopicTemplate> parse_level(std::string_view text);
 
   /// A text that the measurement lacks is `-`. @returns at most 65,535 bytes: the fields are short.
@@ -55,13 +55,13 @@ class MqttLink {
       : broker_(std::move(broker)), will_(std::move(will)) {}
 
   void wake_by(std::function<void()> wake) { wake_ = std::move(wake); }
-  /// The broker is told at the next connection.
+  /// Takes effect at the next connection.
   void set_will(MqttMessage will) { will_ = std::move(will); }
   bool is_up() const { return client_ && client_->is_connected(); }
   /// Begins anew and waits until the broker has accepted. @returns why it has not.
   std::optional<std::string> connect(const std::stop_token& stop);
   /// Ends the connection; the broker publishes the will.
-  /// @returns why it was lost or, where it is not, `why` with the broker's name.
+  /// @returns why it was lost or, if it was not, `why` with the broker's name.
   std::string give_up(std::string_view why);
   /// @pre connect went well
   MqttClient& client() { return *client_; }
@@ -114,11 +114,11 @@ void broker_members(V& v, Broker& broker) {
   });
 }
 
-/// The broker with a client id: one that is not given is the same at each start, and of this data
-/// folder and connection alone. @param origin of the data folder: 16 hexadecimal digits.
+/// The broker with a client id: the default is the same at each start, and unique to this data
+/// folder and connection. @param origin of the data folder: 16 hexadecimal digits.
 Broker named(Broker broker, std::string_view origin, std::string_view connection);
 
-/// Connects under a client id of its own and says nothing.
+/// Connects under a separate client id without sending.
 ConnectionTest test_broker(const Broker& broker, std::string_view connection, const Plant& plant,
                            const std::stop_token& stop);
 

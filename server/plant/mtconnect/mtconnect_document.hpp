@@ -42,11 +42,11 @@ inline constexpr std::array<DataItem, 10> kDataItems = {{
 using Selection = std::bitset<kDataItems.size()>;
 inline const Selection kEverything = Selection().set();
 
-/// The data items that a path names. Of XPath it takes paths with `|` between them, whose steps are
-/// names or `*` behind `/` or `//`, and conditions `[@name="text"]` joined by `and` or `or`: enough
-/// for `//Device[@name="Gauge"]//DataItem[@type="PART_ID" or @id="feature"]`. A step that names the
-/// device or its list of data items chooses all that it holds.
-/// @errors QueryInvalid: it is no such path, or names nothing that is there.
+/// The data items of a path. Supports XPath paths with `|` between them, whose steps are names or
+/// `*` after `/` or `//`, and conditions `[@name="text"]` joined by `and` or `or`: enough for
+/// `//Device[@name="Gauge"]//DataItem[@type="PART_ID" or @id="feature"]`. A step to the device or
+/// its list of data items selects all of them.
+/// @errors QueryInvalid: it is not such a path, or selects nothing.
 Result<Selection> select(std::string_view path);
 
 // MTConnect 2.4: a device `Gauge` whose observations are the measurements of the log.

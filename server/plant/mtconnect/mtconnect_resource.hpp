@@ -7,7 +7,7 @@ namespace fitgauge::api {
 /// /mtconnect/probe, current, sample, assets and asset. Nothing runs for them: they read the log.
 void add_mtconnect_routes(Routes& add);
 
-/// Whether an error of the request is told as a document of MTConnect.
+/// Whether an error of the request is returned as an MTConnect document.
 bool is_of_mtconnect(const http::Request& request);
 /// The same answer as an MTConnectError document. @param problem as others get it
 http::Response mtconnect_error(const Services& services, const Error& error,

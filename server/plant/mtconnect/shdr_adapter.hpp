@@ -37,7 +37,7 @@ class AgentSession : public std::enable_shared_from_this<AgentSession> {
   AgentSession(const AgentSession&) = delete;
   AgentSession& operator=(const AgentSession&) = delete;
 
-  /// Begins to read what the agent says: `* PING` gets its `* PONG`, anything else is passed over.
+  /// Reads the agent's lines: `* PING` gets its `* PONG`, other lines are ignored.
   void start();
   /// A line with its end, or several.
   void send(std::shared_ptr<const std::string> lines);
@@ -49,7 +49,7 @@ class AgentSession : public std::enable_shared_from_this<AgentSession> {
 
  private:
   void read();
-  /// Takes whole lines from what was read.
+  /// Removes whole lines from the input.
   void take_lines();
   void write();
   void written(std::size_t bytes);
@@ -71,8 +71,8 @@ class AgentSession : public std::enable_shared_from_this<AgentSession> {
 
 namespace fitgauge::app {
 
-// SHDR, which an adapter tells an agent: `time|data item|value|data item|value` and a line end. The
-// data items are those of the device Gauge, by their ids.
+// SHDR, which an adapter sends to an agent: `time|data item|value|data item|value` and a line end.
+// The data items are those of the device Gauge, by their ids.
 
 class EventService;
 class MeasurementService;
@@ -86,21 +86,22 @@ std::string shdr_availability(Timestamp at);
 std::string shdr_line(const app::Measurement& measurement);
 std::string shdr_line(const Counts& counts, Timestamp at);
 
-/// A text as a value between `|`: in quotes where it has one or begins with a quote, without
-/// control characters, and UNAVAILABLE where there is none.
+/// A text as a value between `|`: quoted if it has one or begins with a quote, without control
+/// characters; UNAVAILABLE if it is absent.
 std::string shdr_text(std::string_view text);
 
 struct AdapterOptions {
   http::ListenAddress listen{};
   std::size_t most_agents = 16;  ///< beyond it one is closed at once
   SessionOptions session{};
-  /// An agent was refused or sent away: its address and why. On the adapter's thread.
+  /// Reports an agent that was refused or disconnected: its address and the reason. On the
+  /// adapter's thread.
   std::function<void(std::string_view peer, std::string_view why)> sent_away{};
 };
 
-/// Tells agents of MTConnect what is measured, as lines of SHDR. An agent that connects gets the
-/// newest measurement and the counts, and from then on what is stored, in order. It reads the log
-/// while an agent is there, on a thread of its own; no writer waits for it.
+/// Sends measurements to MTConnect agents as lines of SHDR. A new agent gets the newest measurement
+/// and the counts, and then all stored measurements in order. It reads the log on its own thread
+/// while an agent is connected; no writer waits for it.
 class ShdrAdapter {
  public:
   /// @param measurements, events, clock outlive it. @errors ListenFailed
@@ -112,7 +113,7 @@ class ShdrAdapter {
   ShdrAdapter(const ShdrAdapter&) = delete;
   ShdrAdapter& operator=(const ShdrAdapter&) = delete;
 
-  /// The actual one where 0 was asked for.
+  /// The actual port if 0 was requested.
   std::uint16_t port() const;
 
  private:

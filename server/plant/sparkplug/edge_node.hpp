@@ -53,7 +53,7 @@ struct SparkplugMetric {
   SparkplugValue value{};
 };
 
-/// Since 1970; what was before is 0: the payload has no sign for times.
+/// Milliseconds since 1970; earlier times are 0, because the payload has no sign for times.
 std::int64_t milliseconds(Timestamp time);
 
 /// The bytes of a payload. @param seq none in a death of the node.
@@ -62,7 +62,7 @@ std::string sparkplug_payload(Timestamp sent_at, std::optional<std::uint8_t> seq
 
 inline constexpr std::string_view kRebirth = "Node Control/Rebirth";
 
-/// Whether a command asks for all births. What is no payload asks for nothing.
+/// Whether a command requests all births. A malformed payload requests nothing.
 bool asks_for_rebirth(std::string_view payload);
 
 /// Metrics of a device's last measurement: the same metrics for every quantity, so
@@ -81,7 +81,7 @@ class EdgeNode {
  public:
   using Send = std::function<void(MqttMessage)>;
 
-  /// @param send takes the messages in their order; outlives it, as `clock` does.
+  /// @param send receives the messages in their order; it and `clock` must outlive this.
   EdgeNode(const SparkplugOptions& options, const Clock& clock, Send send);
 
   /// A session, numbered as its CONNECT is: 0 to 255.
@@ -90,10 +90,10 @@ class EdgeNode {
   MqttMessage death() const;
   /// The births of the node and of all its devices.
   void give_birth();
-  /// Data of the measurement's device, which is born first if it is new; the device that was silent
-  /// longest dies where there would be too many. @pre give_birth
+  /// Data of the measurement's device, with a birth if it is new; the device that was silent
+  /// longest dies if there are too many. @pre give_birth
   void tell(const app::Measurement& measurement);
-  /// How many measurements of the log are told. @pre give_birth
+  /// Number of measurements of the log to report. @pre give_birth
   void tell_position(std::int64_t position);
 
   std::string topic(std::string_view type, std::string_view device = {}) const;
@@ -102,7 +102,7 @@ class EdgeNode {
   struct Device {
     std::string id{};
     std::uint64_t first_alias = 0;
-    std::vector<SparkplugMetric> metrics{};  ///< as they were last told
+    std::vector<SparkplugMetric> metrics{};  ///< as last reported
   };
   using Devices = std::list<Device>;  ///< the one that was silent longest first
 
@@ -117,7 +117,7 @@ class EdgeNode {
   const Send send_;
   std::uint8_t session_ = 0;
   std::uint8_t seq_ = 0;       ///< of the next message
-  SparkplugValue position_{};  ///< null until one is told
+  SparkplugValue position_{};  ///< null before the first
   std::uint64_t next_alias_;
   Devices devices_;
   std::map<std::string, Devices::iterator> by_id_;
@@ -128,7 +128,7 @@ class HostState {
  public:
   /// One that is older than the last, or no STATE at all, changes nothing.
   void take(std::string_view payload);
-  /// A new connection: what the broker has kept of it comes anew.
+  /// Begins a new connection: everything is sent to the broker again.
   void forget() { is_online_ = false; }
   bool is_online() const { return is_online_; }
 

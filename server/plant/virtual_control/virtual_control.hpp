@@ -23,7 +23,7 @@ namespace fitgauge::virtual_control {
 
 /// Differences between controls.
 struct ControlModel {
-  std::string_view name;  ///< as `control-model` and R_VR say it
+  std::string_view name;  ///< as in `control-model` and R_VR
   std::string_view nc_software;
   bool is_itnc = false;
   bool asks_plc_password = true;  ///< of login FILEPLC
@@ -33,7 +33,7 @@ struct ControlModel {
     return is_itnc ? "TNC:\\$MDI.H" : "TNC:\\nc_prog\\$mdi.h";
   }
   std::string_view tool_table() const { return is_itnc ? "TNC:\\TOOL.T" : "TNC:\\table\\tool.t"; }
-  /// The machine parameter of the dialog language, and what it says.
+  /// The machine parameter of the dialog language, and its value.
   std::string_view language_parameter() const {
     return is_itnc ? "7230.0" : "CfgDisplayLanguage.ncLanguage";
   }
@@ -41,7 +41,7 @@ struct ControlModel {
 };
 
 std::span<const ControlModel> control_models();
-/// Null where there is none of that name.
+/// Null if there is none of that name.
 const ControlModel* find_model(std::string_view name);
 
 }  // namespace fitgauge::virtual_control
@@ -61,11 +61,11 @@ struct VirtualControlOptions {
   std::function<void(std::string_view peer, std::string_view why)> sent_away{};
 };
 
-/// The simulated machine behind an LSV-2 port. It brings the files of every control: an MDI
-/// program, a tool table and the example programs, each where none is stored.
+/// The simulated machine at an LSV-2 port. It adds the files of every control: an MDI program, a
+/// tool table and the example programs, unless they are stored.
 class VirtualControl {
  public:
-  /// @param files, runs outlive it.
+  /// @param files, runs must outlive it.
   /// @errors ListenFailed; ConfigInvalid: no such model; those of the storage.
   static Result<std::unique_ptr<VirtualControl>> start(VirtualControlOptions options,
                                                        app::FileService& files,
@@ -90,7 +90,7 @@ struct ExampleProgram {
 
 std::span<const ExampleProgram> example_programs();
 
-/// Bytes that all clients' transfers may hold together. For one thread.
+/// Maximum bytes of all clients' transfers together. Used by one thread.
 class ByteBudget {
  public:
   explicit ByteBudget(std::size_t bytes) : left_(bytes) {}
@@ -113,7 +113,7 @@ class ByteShare {
   }
   ~ByteShare() { budget_->left_ += taken_; }
 
-  /// @returns false when there are not so many left; nothing is taken then.
+  /// @returns false if there are not so many left; then nothing is reserved.
   bool take(std::size_t bytes) {
     if (bytes > budget_->left_) return false;
     budget_->left_ -= bytes;
@@ -148,7 +148,7 @@ class ControlConversation final : public control_link::Conversation {
   std::size_t buffer() const override { return buffer_; }
 
  private:
-  /// Nothing where the protocol has no answer.
+  /// None if the protocol has no response.
   using Reply = control_link::ControlResult<std::optional<control_link::Telegram>>;
   /// C_FL, until T_FD.
   struct Receiving {
@@ -157,7 +157,7 @@ class ControlConversation final : public control_link::Conversation {
     std::string bytes;
     ByteShare share;
   };
-  /// R_FL and R_DR, until T_FD: what is sent for each T_OK.
+  /// R_FL and R_DR, until T_FD: the data for each T_OK.
   struct Sending {
     std::string bytes{};  ///< of a file
     std::size_t sent = 0;

@@ -26,11 +26,11 @@ inline constexpr std::string_view kRoot = "TNC:\\";
 control_link::ControlResult<interpreter::ControlPath> file_path(std::string_view text,
                                                                 std::string_view directory);
 
-/// A directory, with its last `\`; whether it is there is the disk's to say. @errors BadFileName.
+/// A directory with its last `\`; the disk decides if it exists. @errors BadFileName.
 control_link::ControlResult<std::string> directory_path(std::string_view text,
                                                         std::string_view directory);
 
-/// The directory that a directory lies in; of the root the root.
+/// The parent of a directory; of the root the root.
 std::string_view parent_of(std::string_view directory);
 
 /// A file or a directory as the control lists it.
@@ -41,10 +41,10 @@ struct DiskEntry {
   Timestamp modified_at{};
 };
 
-/// The control's disk: the files of `/v1/files`, and over them what the newest run has written so
-/// far. Directories are those that files lie in, those of every control (`nc_prog`, `table`), and
-/// those that clients have made, which last as long as the service runs. For one thread, which
-/// waits for the storage.
+/// The control's disk: the files of `/v1/files`, and over them the files of the newest run.
+/// Directories are those of files, those of every control (`nc_prog`, `table`), and those that
+/// clients have made, which exist until the service ends. Used by one thread, which waits for the
+/// storage.
 class VirtualDisk {
  public:
   using Path = interpreter::ControlPath;
@@ -97,8 +97,8 @@ class VirtualDisk {
 using StartProgram =
     std::function<Result<std::shared_ptr<app::ActiveRun>>(const interpreter::ControlPath&)>;
 
-/// The machine as the DNC telegrams show it: that of the newest run, under way or over; before the
-/// first one, at rest as its setup places it. For one thread.
+/// The machine for DNC telegrams: the machine of the newest run, running or finished; before the
+/// first run, at rest as in its setup. Used by one thread.
 class MachineView {
  public:
   MachineView(app::RunService& runs, machine::Setup setup, StartProgram start)
@@ -140,12 +140,12 @@ control_link::Parameters control_parameters();
 control_link::ControlResult<control_link::Memory> read_memory(std::uint32_t address,
                                                               std::uint8_t count);
 
-/// A value by its data path, `\PLC\memory\W\2`: the type that the path stands for, and 0.
+/// A value by its data path, `\PLC\memory\W\2`: the type of the path, and 0.
 /// @errors WrongParameter: a path of another tree.
 control_link::ControlResult<control_link::DataValue> read_data_path(std::string_view path);
 
-/// A bitmap (BMP) of 640 by 480: the simulation has no screen, so it is one colour, that of the
-/// program's state: green runs, red failed, grey else.
+/// A bitmap (BMP) of 640 by 480 in the colour of the program's state, because the simulation has no
+/// screen: green runs, red failed, grey else.
 std::string screen_dump(control_link::ProgramState state);
 
 }  // namespace fitgauge::virtual_control

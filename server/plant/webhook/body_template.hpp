@@ -14,13 +14,13 @@ struct JsonValue;
 namespace fitgauge::connections {
 
 /// A JSON text with `{{field}}` of an event in it: a member of its data, or `type`, `timestamp`,
-/// `id`, `data`; a path of members has dots. Inside a longer text a field is its text. A text that
-/// is a field alone becomes the value as it is: a number, an object, null where there is none.
+/// `id`, `data`; a path of members has dots. In a longer text a field is its text. A text of only a
+/// field becomes the value: a number, an object, null if it is absent.
 class BodyTemplate {
  public:
   static constexpr std::size_t kLongest = 16'384;
 
-  /// @param body the template as a JSON value, or as a string that holds its text.
+  /// @param body the template as a JSON value, or as a string with its text.
   /// @errors FieldInvalid
   static Result<BodyTemplate> read(const JsonValue& body);
 

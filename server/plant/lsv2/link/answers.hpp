@@ -26,7 +26,7 @@ struct Version {
   std::string text{};
   FITGAUGE_TELEGRAM("S_VR", m.text)
 };
-/// Where the PLC's memory lies, and what this control speaks.
+/// Layout of the PLC's memory, and the protocol of this control.
 struct Parameters {
   /// Start and count of marker, input, output, counter, timer, word, string.
   std::array<std::uint32_t, 14> memory{};
@@ -88,7 +88,7 @@ struct DataValue {
   FITGAUGE_TELEGRAM("S_DP", m.type, m.value)
 };
 
-// The answers to ReadRunInformation: S_RI says not which it is, the request does.
+// The responses to ReadRunInformation: the request determines the kind, S_RI does not name it.
 
 struct Axes {
   std::uint8_t unknown = 0;

@@ -23,10 +23,10 @@ std::string_view refusal_text(std::uint8_t code);
 /// How a file travels: its bytes, or its lines as the control keeps programs and tables.
 enum class Transfer : bool { Lines, Binary };
 
-/// One talk with a control: each call sends a telegram and waits for its answer. For one thread.
-/// Without agree_buffer() no telegram is longer than 256 bytes. Paths are the control's.
-/// Every call fails with Broken or Stopped as the socket does, and with Refused; after a refusal
-/// the talk goes on, after anything else it is over.
+/// One session with a control: each call sends a telegram and waits for its response. Used by one
+/// thread. Without agree_buffer() telegrams have at most 256 bytes. Paths are the control's. Every
+/// call fails with Broken or Stopped like the socket, and with Refused; only after a refusal the
+/// session continues.
 class LinkClient {
  public:
   /// @errors NotReached, Stopped
@@ -45,7 +45,7 @@ class LinkClient {
   LinkResult<FileInformation> file_information(const std::string& path);
   /// @errors Unfit beyond `most` bytes. Lines end with LF.
   LinkResult<std::string> download(const std::string& path, Transfer transfer, std::size_t most);
-  /// Returns when the control has said that the file is whole. @errors Unfit: lines with a NUL.
+  /// Returns after the control has confirmed the whole file. @errors Unfit: lines with a NUL.
   LinkResult<void> upload(const std::string& path, std::string_view bytes, Transfer transfer);
 
   /// Sends a request and reads its answer as a message.

@@ -21,8 +21,8 @@ class Conversation {
   Conversation& operator=(const Conversation&) = delete;
   virtual ~Conversation() = default;
 
-  /// The answer to a telegram; absent if the protocol has no answer. May wait for the disk:
-  /// the other clients wait meanwhile, as at a control.
+  /// The response to a telegram; absent if the protocol has none. May wait for the disk: the other
+  /// clients wait too, as at a control.
   virtual std::optional<Telegram> answer(const Telegram& telegram) = 0;
   /// The agreed size; telegrams of both sides are shorter.
   virtual std::size_t buffer() const = 0;
@@ -34,18 +34,17 @@ struct LinkServerOptions {
   std::size_t most_connections = 100;  ///< beyond it a client is closed at once
   std::chrono::milliseconds telegram_timeout = std::chrono::seconds(60);  ///< begun, not whole
   std::chrono::milliseconds idle_timeout = std::chrono::minutes(10);
-  std::chrono::milliseconds write_timeout = std::chrono::seconds(60);  ///< a reader takes nothing
+  std::chrono::milliseconds write_timeout = std::chrono::seconds(60);  ///< a client reads nothing
 };
 
 struct LinkServerHooks {
   std::function<std::unique_ptr<Conversation>()> converse;
-  /// A client was refused or sent away: its address and why.
+  /// Reports a client that was refused or disconnected: its address and the reason.
   std::function<void(std::string_view peer, std::string_view why)> sent_away{};
 };
 
-/// Serves LSV-2 on one thread of its own, which polls: a hundred connections of a protocol that
-/// answers one telegram at a time need no more. Each holds at most two buffers of 4096 bytes and
-/// what its conversation keeps.
+/// Serves LSV-2 on one polling thread: enough for a hundred connections with one telegram at a
+/// time. Each uses at most two buffers of 4096 bytes and the state of its session.
 class LinkServer {
  public:
   /// Binds, listens and starts the thread. @errors ListenFailed.
@@ -56,7 +55,7 @@ class LinkServer {
   LinkServer(const LinkServer&) = delete;
   LinkServer& operator=(const LinkServer&) = delete;
 
-  /// The actual one where 0 was asked for.
+  /// The actual port if 0 was requested.
   std::uint16_t port() const;
 
  private:

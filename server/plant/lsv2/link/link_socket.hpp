@@ -15,13 +15,13 @@
 
 namespace fitgauge::control_link {
 
-/// Why a client did not get what it asked a control for.
+/// Reason of a failed request to a control.
 struct LinkFailure {
   enum class Kind : std::uint8_t {
     NotReached,  ///< no connection was made
-    Broken,      ///< the connection ended, took too long, or what came is no answer
-    Refused,     ///< the control said no; the connection goes on
-    Unfit,       ///< a file or a directory that the caller, or this way to travel, does not take
+    Broken,      ///< the connection ended, was too slow, or sent no valid response
+    Refused,     ///< the control refused it; the connection continues
+    Unfit,       ///< a file or a directory that the caller or the transfer does not support
     Stopped,     ///< the caller's stop token
   };
 
@@ -35,8 +35,8 @@ struct LinkFailure {
   }
 
   Kind kind = Kind::Broken;
-  std::uint8_t code = 0;  ///< of T_ER where it was refused
-  std::string message;    ///< what is wrong and what to do
+  std::uint8_t code = 0;  ///< of T_ER if it was refused
+  std::string message;    ///< the fault and its remedy
 };
 
 /// Reading the value of a failed request is a bug.
@@ -55,7 +55,7 @@ struct ControlAddress {
   std::uint16_t port = kControlPort;
 };
 
-/// `10.0.0.7`, `tnc.local:19000`, `[fe80::1]:19000`. Nothing where it cannot be read.
+/// `10.0.0.7`, `tnc.local:19000`, `[fe80::1]:19000`. None if it is malformed.
 std::optional<ControlAddress> parse_control_address(std::string_view text);
 /// As parse_control_address reads it.
 std::string to_text(const ControlAddress& address);
@@ -67,8 +67,8 @@ struct LinkClientOptions {
   std::stop_token stop{};  ///< ends every wait within a tenth of a second
 };
 
-/// A connection to a control that sends and receives whole telegrams; waits, for one thread.
-/// After a failure it has no meaning any more.
+/// A connection to a control that sends and receives whole telegrams; blocks, used by one thread.
+/// Unusable after a failure.
 class LinkSocket {
  public:
   /// @errors NotReached, Stopped

@@ -94,8 +94,8 @@ class PayloadWriter {
   std::string bytes_;
 };
 
-/// Takes the fields of a telegram one after the other. A field that is not there, or not whole,
-/// makes the reader fail for good; `ended` is true only where every byte was taken.
+/// Reads the fields of a telegram in order. After a missing or incomplete field every read fails;
+/// `ended` is true only if every byte was read.
 class PayloadReader {
  public:
   explicit PayloadReader(std::string_view bytes) : rest_(bytes) {}
@@ -161,8 +161,8 @@ inline constexpr std::size_t kLargestBuffer = 4096;
 /// The telegram as it travels: u32 length of the payload (big-endian), the name, the payload.
 std::string framed(const Telegram& telegram);
 
-/// Cuts what arrives into telegrams. It holds no more bytes than it was fed, whatever length a
-/// telegram announces; after an error the connection has no meaning any more.
+/// Splits received bytes into telegrams. It stores at most the received bytes, whatever length a
+/// telegram announces; after an error the connection is unusable.
 class TelegramReader {
  public:
   /// Telegrams of `bytes` and more, head included, are refused from now on.

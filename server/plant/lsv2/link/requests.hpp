@@ -15,8 +15,8 @@ namespace fitgauge::control_link {
 
 /// The text in place of a PLC's version.
 inline constexpr std::string_view kVirtualPlc = "fitgauge";
-/// The machine parameter that stands for the NC start key, which LSV-2 does not have: a program's
-/// path written to it starts the program, an empty text stops it.
+/// The machine parameter in place of the NC start key, which LSV-2 does not have: writing a
+/// program's path starts the program, writing an empty text stops it.
 inline constexpr std::string_view kRunParameter = "Fitgauge.program";
 
 /// A message is a struct with the name of its telegram, `kName`, and its fields in the order of the
@@ -46,7 +46,7 @@ ControlResult<Message> decode(const Telegram& telegram) {
   static constexpr TelegramName kName = telegram_name(letters); \
   static auto fields([[maybe_unused]] auto& m) { return std::tie(__VA_ARGS__); }
 
-/// A request that has a path alone.
+/// A request with only a path.
 template <TelegramName letters>
 struct OnPath {
   static constexpr TelegramName kName = letters;
