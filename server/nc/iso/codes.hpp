@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-/// The codes of DIN/ISO blocks and what they are in Klartext.
+/// The codes of DIN/ISO blocks and their Klartext.
 namespace fitgauge::iso {
 
 enum class CodeKind : std::uint8_t {
@@ -13,14 +13,14 @@ enum class CodeKind : std::uint8_t {
   Compensation,  ///< of the tool's radius
   Plane,         ///< the tool axis of the block
   Dimension,     ///< absolute or incremental
-  Block,         ///< a block of its own, by its pattern
+  Block,         ///< a separate block, by its pattern
   Cycle,         ///< a cycle in Q-form
   Absent         ///< a code of real controls that is not available here
 };
 
-/// A pattern is Klartext with `|` between blocks. `$F` is the value of the word F, `$1` that of
-/// P01, `$p` those of all P joined by `/`, `$w` all words left over, `$t` the text behind the code,
-/// `$q` the parameter behind the code, `$r` P01 as a parameter, `$a` the tool axis.
+/// A pattern is Klartext with `|` between blocks. `$F` is the value of the word F, `$1` of P01,
+/// `$p` all P values joined by `/`, `$w` all other words, `$t` the text after the code, `$q` the
+/// parameter after the code, `$r` P01 as a parameter, `$a` the tool axis.
 struct Code {
   unsigned number;
   CodeKind kind;
@@ -30,11 +30,10 @@ struct Code {
 
 /// @returns nullptr if there is no such code.
 const Code* find_code(unsigned number);
-/// All but those of cycles in Q-form, in the order of their numbers.
+/// All codes except cycles in Q-form, in the order of their numbers.
 std::span<const Code> codes();
 
-/// The pattern of a D function with P words; empty if the text of the Klartext function stands
-/// behind D.
+/// Pattern of a D function with P words; empty if the text of the Klartext function follows D.
 std::string function_pattern(unsigned number);
 
 /// The first words of a cycle in Q-form: `TCH PROBE` and 421. G120 to G128 are the cycles 20 to 28.

@@ -11,8 +11,8 @@ namespace fitgauge::iso {
 /// does not begin with BEGIN PGM.
 bool is_iso(std::string_view text, std::string_view name);
 
-/// Reads a program of either dialect. One of DIN/ISO gives the blocks of its Klartext, whose places
-/// and findings are those of the DIN/ISO text. Never throws on bad input.
+/// Reads a program of either dialect. DIN/ISO gives the blocks of its Klartext, with places and
+/// findings of the DIN/ISO text. Never throws on bad input.
 /// @param name the file's name, for diagnostics.
 klartext::ParsedProgram parse_program(std::string bytes, std::string name);
 

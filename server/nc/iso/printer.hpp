@@ -16,9 +16,9 @@ struct Conversion {
   std::vector<klartext::Diagnostic> findings{};
 };
 
-/// A program as DIN/ISO: reading it back gives the same blocks. A block without G codes stays
-/// Klartext if its first word has more than one letter.
-/// @param extension `.H` of a Klartext program: what a program gets that it calls without one
+/// Writes a program as DIN/ISO: reading it back gives the same blocks. A block without G codes
+/// stays Klartext if its first word has more than one letter.
+/// @param extension `.H` of a Klartext program, for called programs without an extension
 /// @pre the program has no errors
 Conversion to_iso(const klartext::Program& program, std::string_view extension);
 

@@ -34,10 +34,10 @@ class LineWriter {
  public:
   explicit LineWriter(Translation& out) : out_(out) {}
 
-  /// The block that the next lines belong to, with what stands before their statements.
+  /// The block of the next lines, with the part before its statements.
   void begin_block(klartext::Slice<char> place, std::string prefix);
   void start_line();
-  /// A line that goes on with the last one's block.
+  /// A line that continues the last block.
   void continue_line(klartext::Slice<char> place);
   /// A piece of a statement; its wraps become blanks.
   LineWriter& put(std::string_view piece);
@@ -46,7 +46,7 @@ class LineWriter {
   void comment(std::string_view comment);
   bool is_written() const { return is_written_; }
 
-  /// The blocks of a pattern. @returns what is wrong with the words, or nothing.
+  /// Makes the blocks of a pattern. @returns the fault of the words, or nothing.
   std::string pattern(std::string_view pattern, BlockWords& words, char tool_axis);
 
  private:

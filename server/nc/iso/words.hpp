@@ -37,11 +37,11 @@ struct Modes {
 struct BlockWords {
   std::vector<Word> words;
   std::vector<std::string_view> p;  ///< the values of P01, P02, ...
-  const Code* block = nullptr;      ///< a code that makes a block of its own
+  const Code* block = nullptr;      ///< a code with a separate block
   bool has_path = false;
   bool has_plane = false;
   std::string_view compensation;
-  std::string_view text;  ///< behind G39; of a D function the parameter behind it
+  std::string_view text;  ///< after G39; of a D function the parameter after it
 
   /// The first word of that name that is not used, or nullptr.
   Word* find(std::string_view name);

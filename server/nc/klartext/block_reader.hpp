@@ -11,18 +11,18 @@
 
 namespace fitgauge::klartext {
 
-/// Reads one block: the lexer's characters, and the pools that what is read goes to. A list may be
-/// started only after the lists before it are finished. Single-threaded.
+/// Reads one block: the lexer's characters, and the pools for its content. Finish a list before
+/// starting the next. Used by one thread.
 class BlockReader : public Lexer {
  public:
   explicit BlockReader(ProgramParts& parts) : Lexer(parts.source), parts_(parts) {}
 
-  /// Starts a block; `drop_block` takes back all that went to the pools since.
+  /// Starts a block; `drop_block` removes everything that it has added to the pools.
   void open(std::size_t begin, std::size_t end);
   void drop_block();
 
   // --- texts
-  /// The comment of the block's first line, where a cycle has read it.
+  /// Comment of the block's first line, if a cycle has read it.
   Text& block_comment() { return comment_; }
   /// An empty text is always the same one.
   Text add_text(std::string_view text);
@@ -53,7 +53,7 @@ class BlockReader : public Lexer {
   // --- cycle parameters
   std::vector<CycleParameter>& cycle_parameters() { return parts_.cycle_parameters; }
 
-  /// One more level of parentheses or functions; leave() takes it back.
+  /// Enters a level of parentheses or functions; leave() ends it.
   void enter();
   void leave() { --depth_; }
 

@@ -25,7 +25,7 @@ class BlockWriter {
   BlockWriter& value(const Expr& expr);
   /// A formula with the parentheses it needs.
   void formula(const Expr& expr);
-  /// A file: bare where that reads back as the same.
+  /// Writes a file name, without quotes if that reads back the same.
   void path(const Expr& expr);
   void label(const Label& label);
   /// Items separated by `/`.

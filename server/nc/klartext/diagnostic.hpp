@@ -44,12 +44,12 @@ struct DiagnosticNote {
 struct Diagnostic {
   Severity severity = Severity::Error;
   DiagnosticCode code = DiagnosticCode::SyntaxError;
-  std::string message{};                 ///< what is wrong and how to put it right
+  std::string message{};                 ///< the fault and its remedy
   std::string program{};                 ///< the file's name
   SourceRange range{};                   ///< columns in characters; within one physical line
   std::optional<std::uint32_t> block{};  ///< its number as written
   std::string source{};                  ///< the physical line
-  bool is_unreadable = false;            ///< the line is no Klartext and is kept as an ERROR block
+  bool is_unreadable = false;            ///< the line is not Klartext and becomes an ERROR block
   std::vector<DiagnosticNote> notes{};
 };
 
@@ -71,8 +71,8 @@ class DiagnosticList {
   void add(Severity severity, DiagnosticCode code, Slice<char> place, std::string message,
            std::optional<std::uint32_t> block = std::nullopt, bool is_unreadable = false);
 
-  /// The findings; when there were too many, the last says how many are missing, and is an error
-  /// when one of those is.
+  /// The findings; if there were too many, the last one has the number of missing findings, and is
+  /// an error if one of them is.
   std::vector<Diagnostic> take();
 
  private:

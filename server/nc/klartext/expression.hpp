@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <variant>
 
-/// Expressions as values: leaves are held in place, inner nodes and texts lie in pools of the
-/// Program, so that an expression costs no allocation of its own and can be copied freely.
+/// Expressions as values: leaves are stored in place, inner nodes and texts in pools of the
+/// Program, so that an expression needs no allocation and can be copied freely.
 namespace fitgauge::klartext {
 
 /// A run of elements in one of the Program's pools; `Program::view` gives the elements.
@@ -55,8 +55,8 @@ struct NodeIndex {
 
 using Absent = std::monostate;
 
-/// A value that is computed when its block runs. Absent where the block leaves an optional value
-/// out. A literal's sign is part of its number; `-Q5` is a Node.
+/// A value that is computed when its block runs. Absent if the block omits an optional value. A
+/// literal's sign is part of its number; `-Q5` is a Node.
 using Expr = std::variant<Absent, double, QRef, Text, NodeIndex>;
 
 inline bool is_absent(const Expr& expr) { return std::holds_alternative<Absent>(expr); }

@@ -10,12 +10,12 @@
 /// and the printer writes it along the same one. `io` is a FormReader or a FormWriter.
 namespace fitgauge::klartext {
 
-/// Reads what a form names, behind the words that told which form it is.
+/// Reads the members of a form, after its first words.
 class FormReader {
  public:
   explicit FormReader(BlockReader& in) : in_(in) {}
 
-  /// The words that tell which form it is.
+  /// The first words, which identify the form.
   FormReader& head(std::string_view) { return *this; }
   FormReader& fn(unsigned) { return *this; }
   FormReader& word(std::string_view word) { return in_.expect_word(word), *this; }
@@ -58,7 +58,7 @@ class FormReader {
   BlockReader& in_;
 };
 
-/// Writes what a form names, with a blank before each piece.
+/// Writes the members of a form, each after a blank.
 class FormWriter {
  public:
   explicit FormWriter(BlockWriter& out) : out_(out) {}

@@ -39,10 +39,10 @@ inline DigitRun scan_digits(const char* at) {
   return {bytes, count};
 }
 
-/// Scans a number of one to seven digits with at most seven decimals, as nearly all are. The digits
-/// are gathered in an integer, which a double holds exactly as it does the power of ten: their
-/// quotient is the double nearest to the literal.
-/// @returns the end of the number, or nullptr when it is none of this form or near the end.
+/// Scans a number of one to seven digits with at most seven decimals, the usual form. The digits
+/// and the power of ten are exact in a double, so their quotient is the double nearest to the
+/// literal.
+/// @returns the end of the number, or nullptr if it has another form or is near the end.
 inline const char* scan_plain_number(const char* at, const char* end, double& value) {
   constexpr std::ptrdiff_t kLongest = 7 + 1 + 8;
   constexpr unsigned kMostDigits = 7;
@@ -76,19 +76,19 @@ struct Failure {
   std::string message;  ///< of Unsupported: the feature's name
 };
 
-/// Reads the characters of one block at a time. Holds a reference to the source, which ends with a
-/// NUL as every std::string does.
+/// Reads the characters of one block at a time. Refers to the source, which must end with a NUL
+/// like every std::string.
 ///
-/// After `fail` or `refuse` the lexer stands at the end of the block and reads nothing more, so
-/// callers need not check each step: loops end, and what they built is dropped with the block. Only
-/// the first failure of a block counts.
+/// After `fail` or `refuse` the lexer is at the end of the block and reads nothing more, so callers
+/// need not check each step: loops end, and their results are dropped with the block. Only the
+/// first failure of a block counts.
 class Lexer {
  public:
   explicit Lexer(const std::string& source) : source_(source) {}
 
   /// Starts on the block of these offsets; its last line end is not part of it.
   void open(std::size_t begin, std::size_t end);
-  /// The block goes on up to this offset.
+  /// Extends the block to this offset.
   void extend(std::size_t end) { end_ = source_.data() + end; }
 
   const std::optional<Failure>& failure() const { return failure_; }
@@ -150,8 +150,8 @@ class Lexer {
   /// The characters between double quotes, in one physical line.
   std::string_view quoted();
 
-  /// The code from here to its end, without blanks and wraps at either side; the lexer stands at
-  /// the end then. May contain wraps.
+  /// Returns the code from here to its end, without surrounding blanks and wraps, and moves to the
+  /// end. May contain wraps.
   std::string_view rest();
 
   /// As rest(), but up to the first of `stop` (which is left) when there is one.

@@ -38,7 +38,7 @@ enum class MaskLanguage : std::uint8_t {
   All
 };
 
-/// Values a mask takes from the control instead of a parameter.
+/// Values of a mask from the control instead of a parameter.
 enum class MaskKeyword : std::uint8_t {
   CallPath,
   Hour,
@@ -111,7 +111,7 @@ struct MaskFile {
   std::vector<MaskLine> lines{};
 };
 
-/// A larger file is refused with ProgramTooLarge: its lines take thirty times what they are as
+/// A larger file is refused with ProgramTooLarge: its lines need thirty times the memory of the
 /// text.
 inline constexpr std::size_t kLargestMask = std::size_t{1} << 20;
 

@@ -93,7 +93,7 @@ inline constexpr FunctionName kComparisons[] = {{Operator::Equal, "EQU"},
                                                 {Operator::Greater, "GT"},
                                                 {Operator::Less, "LT"}};
 
-/// FN 1 to 8 and 13: the function and what stands between or before its operands.
+/// FN 1 to 8 and 13: the function and the words between or before its operands.
 struct ArithmeticFn {
   unsigned fn;
   Operator op;

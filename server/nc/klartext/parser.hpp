@@ -12,10 +12,9 @@ namespace fitgauge::klartext {
 /// Beyond these the text is refused with ProgramTooLarge; they bound the memory of a parse.
 inline constexpr std::size_t kLargestSource = std::size_t{64} << 20;
 inline constexpr std::size_t kMostBlocks = 500'000;
-/// Empty ones, those of comments and those that a `~` continues among them.
+/// Maximum number of lines, with empty ones, comments and lines that a `~` continues.
 inline constexpr std::size_t kMostLines = 1'000'000;
-/// Bytes of a program with its source, blocks, words and formulas, its code included. No run holds
-/// more.
+/// Maximum bytes of a program: its source, blocks, words, formulas and code. No run may use more.
 inline constexpr std::size_t kMostMemory = std::size_t{48} << 20;
 
 /// The message of a program beyond kMostMemory.
@@ -30,14 +29,14 @@ struct ParsedProgram {
   const Diagnostic* not_printed() const;
 };
 
-/// Reads a Klartext program: UTF-8 with or without byte order mark, or Windows-1252 when it is not
-/// valid UTF-8; lines end with CRLF, LF or CR. Goes on at the next block after an error, so that
-/// all findings of a file are reported at once. Never throws on bad input.
+/// Reads a Klartext program: UTF-8 with or without byte order mark, or Windows-1252 if it is not
+/// valid UTF-8; lines end with CRLF, LF or CR. Continues with the next block after an error, so
+/// that all findings of a file are reported at once. Never throws on bad input.
 /// @param name the file's name, for diagnostics.
 ParsedProgram parse_program(std::string bytes, std::string name);
 
-/// The words that blocks begin with, those of features that are not available too; axes, `*` and
-/// parameters begin blocks as well.
+/// The first words of blocks, also of unavailable features; axes, `*` and parameters begin blocks
+/// as well.
 std::vector<std::string_view> block_keywords();
 
 }  // namespace fitgauge::klartext

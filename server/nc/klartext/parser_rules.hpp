@@ -4,8 +4,8 @@
 
 #include "nc/klartext/block_reader.hpp"
 
-/// The grammar: one function per family of blocks, each starting behind the block's first keyword
-/// and reading to the end of its code. After a failure what they return is dropped.
+/// The grammar: one function for each family of blocks, which begins after the block's first
+/// keyword and reads to the end of its code. After a failure their results are dropped.
 namespace fitgauge::klartext {
 
 // parser_expression.cpp
@@ -26,8 +26,8 @@ bool parse_string_function(BlockReader& in, Expr& value);
 /// QS parameters inside (`TNC:\:'QS1'.H`).
 Expr parse_path(BlockReader& in, char stop = ';');
 Label parse_label(BlockReader& in);
-/// `REP 2`, `REPQ106`, and the older listings' `REP 2/2`, `REP Q3/Q3`: what is behind the stroke is
-/// the control's own count of what remains. Starts behind REP.
+/// `REP 2`, `REPQ106`, and the older listings' `REP 2/2`, `REP Q3/Q3`: the value after the slash is
+/// the control's count of remaining repetitions. Starts after REP.
 Expr parse_repeat(BlockReader& in);
 Statement parse_label_definition(BlockReader& in);
 Statement parse_call(BlockReader& in);
@@ -43,7 +43,7 @@ Statement parse_structure(BlockReader& in);
 Statement parse_assignment(BlockReader& in);
 Statement parse_declare(BlockReader& in);
 Statement parse_fn(BlockReader& in);
-/// The parameter of a number that takes a result.
+/// The parameter of a number that receives a result.
 QRef parse_target(BlockReader& in);
 /// Values separated by `/`, texts in double quotes among them.
 Slice<Expr> parse_items(BlockReader& in);
@@ -59,7 +59,7 @@ Statement parse_global(BlockReader& in);
 /// `Q200 =`, `QS400 =`: a parameter of a cycle starts here.
 bool at_cycle_parameter(const char* at, const char* end);
 // parser_dotted_cycle.cpp
-/// `.0` behind the number of a cycle, perhaps after blanks (`DEF 9 .0`). Stays in place.
+/// `.0` after the number of a cycle, perhaps after blanks (`DEF 9 .0`). Does not advance.
 bool at_cycle_part(BlockReader& in);
 Statement parse_cycle_part(BlockReader& in, CycleFamily family, std::uint16_t number);
 
@@ -77,7 +77,7 @@ Statement parse_plane(BlockReader& in);
 Statement parse_function(BlockReader& in);
 
 // parser_block.cpp
-/// The word that is next makes, with `first` before it, a feature of real controls alone.
+/// Whether `first` and the next word are a feature that only real controls have.
 void refuse_word(BlockReader& in, std::string_view first);
 /// The statement of a block that is not empty.
 Statement parse_statement(BlockReader& in);

@@ -10,19 +10,19 @@ inline constexpr LetterSet kAxes(Letter::X, Letter::Y, Letter::Z, Letter::A, Let
 inline constexpr LetterSet kFeeds(Letter::F, Letter::FMax, Letter::FAuto, Letter::Fu, Letter::Fz,
                                   Letter::Ft, Letter::FMaxT);
 
-/// The words that may count from where the last block ended: `IX+5`.
+/// Words that may count from the end of the last block: `IX+5`.
 inline constexpr LetterSet kIncremental = kAxes | LetterSet(Letter::Pr, Letter::Pa, Letter::Rot);
 
 /// Reads words of one block into the Program's pool, one at a time.
 class WordReader {
  public:
-  /// @param allowed the words this block may hold.
-  /// @param bare those that may stand without a value: the axes of `CYCL DEF 8.1 X Y`.
-  /// @param incremental those that take I: the run reads it.
+  /// @param allowed words of this block.
+  /// @param bare words without a value: the axes of `CYCL DEF 8.1 X Y`.
+  /// @param incremental words with I, which the run reads.
   WordReader(BlockReader& in, LetterSet allowed, LetterSet bare = LetterSet(),
              LetterSet incremental = kIncremental);
 
-  /// The next word, or several; fails when one is none of the allowed ones or stands there twice.
+  /// Reads the next word, or several; fails if one is not allowed or is repeated.
   void read();
   Slice<Word> words() const { return in_.words_since(first_); }
 

@@ -20,7 +20,7 @@ std::size_t count_characters(std::string_view utf8);
 /// One more than the line ends.
 std::size_t count_lines(std::string_view source);
 
-/// The place of an offset; `line_starts` holds the offset of each line's first byte.
+/// Returns the place of an offset; `line_starts` has the offset of each line's first byte.
 SourcePosition position_of(std::string_view source, const std::vector<std::uint32_t>& line_starts,
                            std::size_t offset);
 

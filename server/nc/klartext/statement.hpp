@@ -8,8 +8,8 @@
 #include "nc/klartext/expression.hpp"
 #include "nc/klartext/word_names.hpp"
 
-/// The content of a block, one small struct per kind of block. All are trivially copyable: texts,
-/// words and lists lie in the Program's pools.
+/// The content of a block, one small struct for each kind of block. All are trivially copyable:
+/// texts, words and lists are in the Program's pools.
 namespace fitgauge::klartext {
 
 enum class Unit : std::uint8_t { Millimetre, Inch };
@@ -42,8 +42,8 @@ struct Structure {
   friend bool operator==(const Structure&, const Structure&) = default;
 };
 
-/// `ERROR = raw text`: what the control stores for a line it could not read. The parser makes one
-/// of every block it reports an error in.
+/// `ERROR = raw text`: the control stores it for an unreadable line. The parser makes one for every
+/// block with an error.
 struct ErrorBlock {
   Text text{};
   friend bool operator==(const ErrorBlock&, const ErrorBlock&) = default;
@@ -104,7 +104,7 @@ struct Motion {
   friend bool operator==(const Motion&, const Motion&) = default;
 };
 
-/// A block of M functions alone: `M3`, `M140 MB MAX`.
+/// A block with only M functions: `M3`, `M140 MB MAX`.
 struct MFunctions {
   Slice<Word> words{};
   friend bool operator==(const MFunctions&, const MFunctions&) = default;
@@ -306,7 +306,7 @@ struct ExternalFunction {
   friend bool operator==(const ExternalFunction&, const ExternalFunction&) = default;
 };
 
-/// FN 20: `WAIT FOR SYNC`, or for a condition of the PLC that is kept as written.
+/// FN 20: `WAIT FOR SYNC`, or for a condition of the PLC, stored as written.
 struct WaitFor {
   Text condition{};
   friend bool operator==(const WaitFor&, const WaitFor&) = default;

@@ -4,7 +4,7 @@
 
 #include "nc/klartext/block_writer.hpp"
 
-/// Writes one kind of statement each; those of a plain form are in forms.hpp.
+/// Each writes one kind of statement; plain forms are in forms.hpp.
 namespace fitgauge::klartext {
 
 // statement_writer.cpp

@@ -18,7 +18,7 @@ namespace fitgauge::klartext {
 
 /// One logical line: optional skip mark `/`, optional block number, statement, optional comment.
 struct Block {
-  [[no_unique_address]] Statement statement{};  ///< what follows lies in its last bytes
+  [[no_unique_address]] Statement statement{};  ///< its last bytes are used by derived data
   bool has_number = false;                      ///< it is written
   bool skip = false;          ///< `/`: passed over while the operator's block skip is on
   bool comment_mark = false;  ///< a `;` is there, perhaps with an empty comment
@@ -26,7 +26,7 @@ struct Block {
   /// before it, from 0, as the control numbers it.
   std::uint32_t number = 0;
   Slice<char> written{};  ///< its place in the source, all physical lines of it
-  Text comment{};         ///< after `;` as written; of a cycle, that of its first line
+  Text comment{};         ///< after `;` as written; of a cycle, of its first line
 
   /// The place does not count.
   friend bool operator==(const Block& a, const Block& b) {
@@ -66,8 +66,8 @@ class Program {
   std::string_view source() const { return parts_.source; }
   std::size_t memory_bytes() const { return parts_.memory_bytes(); }
 
-  /// The program as one of the text that its source was made of; `place` gives the place there of
-  /// one here, while this source stands.
+  /// Moves the program to the text that its source was made of; `place` maps places here to places
+  /// there, while this source exists.
   Program translated(std::string&& source, const std::function<Slice<char>(Slice<char>)>& place) &&;
 
   /// All blocks in order. Without errors, BEGIN PGM comes first but for comments, and

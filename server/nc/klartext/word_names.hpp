@@ -25,8 +25,8 @@ inline Letter letter_of(Axis axis) { return static_cast<Letter>(axis); }
 
 /// One word of a block: `X+10`, `IZ-Q5`, `FMAX`, `M91`. Words keep the order written.
 struct Word {
-  /// Absent where the letter stands alone: `CYCL DEF 8.1 X Y`, `M118 X`. A probing direction `X-`
-  /// of TCH PROBE 0.0 is +1 or -1. What follows lies in its last bytes.
+  /// Absent if the letter has no value: `CYCL DEF 8.1 X Y`, `M118 X`. A probing direction `X-` of
+  /// TCH PROBE 0.0 is +1 or -1. Derived data uses its last bytes.
   [[no_unique_address]] Expr value{};
   Letter letter = Letter::X;
   bool incremental = false;  ///< `IX`, `IPA`, `IROT`
@@ -37,7 +37,7 @@ struct Word {
 
 static_assert(sizeof(Word) == 16, "a long program has three words a block");
 
-/// A set of letters: which words a block may hold.
+/// A set of letters: the allowed words of a block.
 class LetterSet {
  public:
   constexpr LetterSet() = default;
@@ -69,13 +69,13 @@ class LetterSet {
   std::uint64_t bits_[2] = {0, 0};
 };
 
-/// From `A`; Letter::Value where no word has this one letter.
+/// From `A`; Letter::Value if no word has this single letter.
 extern const std::array<Letter, 26> kSingleLetters;
 
-/// The letter of a word's letters, without regard to case; nothing when no word is called so. Words
-/// that are not made of letters alone (`DR2`, `P1X`, `#`) are not found here.
+/// Returns the letter of a word, in upper or lower case; none if there is no such word. Words with
+/// other characters (`DR2`, `P1X`, `#`) are not found here.
 std::optional<Letter> find_letter(std::string_view letters);
-/// As find_letter, for the word of one letter; Letter::Value where there is none.
+/// As find_letter, for a word of one letter; Letter::Value if there is none.
 inline Letter single_letter(char c) {
   const auto i = static_cast<unsigned char>((c | 0x20) - 'a');
   return i < 26 ? kSingleLetters[i] : Letter::Value;

@@ -25,7 +25,7 @@ struct Motion {
   SpindleTool tool;
   /// Looked at while the move lasts: its stop ends the move. Outlives the call.
   Allowance& allowance;
-  /// Back along the way that the probe has just come: nothing stands there.
+  /// Moves back along the last way of the probe, which is free.
   bool is_retract = false;
 };
 
@@ -35,16 +35,16 @@ struct AxesCapabilities {
   bool probes = true;
 };
 
-/// The narrow waist below the control: linear and rotary axes that follow a path of the spindle
-/// nose, in machine coordinates, and a probe input. Frames, tools, tables and cycles are the
-/// control's. A real driver is one such class. Lengths in mm, angles in degrees.
+/// The narrow interface below the control: linear and rotary axes that follow a path of the spindle
+/// nose, in machine coordinates, and a probe input. Frames, tools, tables and cycles belong to the
+/// control. A real driver is one such class. Lengths in mm, angles in degrees.
 ///
-/// Each function returns when its motion is over. After a fault the axes stand still, wherever that
-/// is, and may be commanded again. Not thread-safe; one Control owns them.
+/// Each function returns at the end of its motion. After a fault the axes stop where they are, and
+/// accept commands again. Not thread-safe; one Control owns them.
 ///
-/// Faults of every motion: Interrupted when its allowance was spent; and of what a machine alone
-/// can say: EmergencyStop, FeedHold (it was held for longer than the driver waits), Aborted (by the
-/// operator), ConnectionLost.
+/// Faults of every motion: Interrupted if its allowance was spent; and faults that only a machine
+/// can report: EmergencyStop, FeedHold (longer than the driver waits), Aborted (by the operator),
+/// ConnectionLost.
 class Axes {
  public:
   Axes& operator=(Axes&&) = delete;  // neither copied nor moved
@@ -52,23 +52,23 @@ class Axes {
 
   virtual AxesCapabilities capabilities() const { return {}; }
 
-  /// Where the axes stand now.
+  /// Returns the position of the axes.
   virtual Position nose() const = 0;
 
-  /// Goes along the path, which begins at `nose()` and lies in the ranges of the axes.
-  /// @return the part of it that was gone: less than 1 when the probe touched something.
+  /// Moves along the path, which begins at `nose()` and is in the ranges of the axes.
+  /// @return the completed part: less than 1 if the probe touched something.
   virtual MachineResult<double> follow(const Path& path, const Motion& motion) = 0;
 
-  /// Goes along the unit vector `direction` until the probe touches, at most `distance` mm.
-  /// @return where the nose was at the contact; the axes may have come to rest beyond it.
-  /// @faults NoContact (stands at the end), StylusDeflected (nothing has moved).
+  /// Moves along the unit vector `direction` until the probe touches, at most `distance` mm.
+  /// @return position of the nose at the contact; the axes may stop beyond it.
+  /// @faults NoContact (at the end), StylusDeflected (nothing has moved).
   virtual MachineResult<Position> probe(const Vec3& direction, double distance,
                                         const Motion& motion) = 0;
 
-  /// The normal of what the last contact touched, where the axes can know it.
+  /// Normal of the surface at the last contact, if the axes know it.
   virtual std::optional<Vec3> contact_normal() const { return std::nullopt; }
 
-  /// Stands still.
+  /// Waits without motion.
   virtual MachineResult<void> dwell(double seconds, Allowance& allowance) = 0;
 
   /// A programmed stop: waits for NC Start.

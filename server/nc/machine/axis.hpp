@@ -22,7 +22,7 @@ std::string_view name(Axis axis);
 /// The unit vector of a linear axis, and for a rotary one the vector it turns around.
 Vec3 unit_vector(Axis axis);
 
-/// Where the six axes stand: X, Y, Z in mm and A, B, C in degrees.
+/// Position of the six axes: X, Y, Z in mm and A, B, C in degrees.
 struct Position {
   Vec3 linear;
   Vec3 rotary;
@@ -36,7 +36,7 @@ struct Position {
   friend bool operator==(const Position&, const Position&) = default;
 };
 
-/// The axes a positioning block names, absolute; an axis without a value stays where it is.
+/// Axis values of a positioning block, absolute; axes without a value do not move.
 struct AxisWords {
   std::array<std::optional<double>, kAxes> values{};
 

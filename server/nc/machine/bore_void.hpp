@@ -21,15 +21,14 @@ class BoreVoid {
   /// The largest error of `wall_bound`, in mm: 0 for a bore without lobes.
   double roughness() const { return 2 * amplitude_; }
 
-  /// How far a ball that lies in the void can move along the unit vector `direction` before it
-  /// touches wall or bottom: of a cylinder the solution of a quadratic. 0 where the ball does not
-  /// lie in the void with room around it, or the bore has lobes or taper.
+  /// Returns how far a ball in the void can move along the unit vector `direction` until it touches
+  /// wall or bottom: of a cylinder the solution of a quadratic. 0 if the ball is not in the void
+  /// with room around it, or the bore has lobes or taper.
   /// @param with_floor whether there is material below the bottom
   double way_inside(const Vec3& centre, const Vec3& direction, double radius,
                     bool with_floor) const;
 
-  /// Holds the void, however far up and down it is thought to go; everything where it is tilted
-  /// or tapered.
+  /// Box around the void, extended up and down without end; everything if it is tilted or tapered.
   Box box() const;
   /// The highest z of the bottom.
   double floor_top() const;

@@ -15,7 +15,7 @@ struct BallPath {
   Vec3 start;      ///< of its centre
   Vec3 direction;  ///< of length 1
   double radius = 0;
-  double longest = 0;  ///< where the path ends
+  double longest = 0;  ///< end of the path
 
   Vec3 at(double way) const { return start + direction * way; }
   /// The rest of the path from `way` on.
@@ -43,8 +43,8 @@ struct Box {
   std::optional<double> way_to(const BallPath& ball) const;
 };
 
-/// Boxes in a tree. It orders what they hold, and its owner keeps it in that order: a leaf is a
-/// range of places. Immutable: thread-safe.
+/// A tree of boxes. The owner keeps its items in the order of the tree: a leaf is a range of
+/// places. Immutable: thread-safe.
 class BoxTree {
  public:
   BoxTree() = default;
@@ -55,8 +55,8 @@ class BoxTree {
   /// The box of all. @pre not empty.
   const Box& all() const { return nodes_.front().box; }
 
-  /// Calls visit(begin, end) for the leaves whose boxes are less than the root of `squared` away,
-  /// which it may lessen, the nearer child first.
+  /// Calls visit(begin, end) for leaves with boxes nearer than the root of `squared`, which it may
+  /// reduce, the nearer child first.
   template <class Visit>
   void near(const Vec3& at, const double& squared, const Visit& visit) const {
     if (is_empty()) return;
@@ -107,7 +107,7 @@ class BoxTree {
     }
   }
 
-  /// Calls visit(begin, end) for the leaves of which `holds(box)` is true, until one returns true.
+  /// Calls visit(begin, end) for the leaves with `holds(box)`, until one returns true.
   /// @returns whether one did.
   template <class Holds, class Visit>
   bool any(const Holds& holds, const Visit& visit) const {

@@ -10,11 +10,10 @@
 
 namespace fitgauge::machine {
 
-/// The control above the axes: tables, frames, modes, tool calls, where a move leads, axis ranges,
-/// machining time. What is met on the way is told by the axes.
-/// Its three files are the tables and frames, the motion, and the probing.
-/// Owns its state and its axes. Not thread-safe; after a fault the state is what the finished part
-/// has made it.
+/// The control above the axes: tables, frames, modes, tool calls, targets of moves, axis ranges,
+/// machining time. The axes report contacts on the way. Its three files are the tables and frames,
+/// the motion, and the probing. Owns its state and its axes. Not thread-safe; after a fault the
+/// state is that of the finished part.
 class Control : public Machine {
  public:
   /// @param allowance what its moves look at while they last; null: nothing interrupts them

@@ -11,7 +11,7 @@ enum class FaultKind : std::uint8_t {
   NoContact,          ///< 1014: nothing touched within the probing distance
   StylusDeflected,    ///< the stylus touches before the probing move begins
   Collision,          ///< the probe touched outside a probing move
-  FixtureCollision,   ///< a tool touched what holds the workpiece
+  FixtureCollision,   ///< a tool touched a fixture
   AxisLimit,          ///< the spindle nose or a rotary axis would leave its range
   AxisMissing,        ///< the machine has no such axis
   HirthGrid,          ///< a rotary axis with a Hirth grid would stop between two teeth
@@ -27,19 +27,19 @@ enum class FaultKind : std::uint8_t {
   ValueInvalid,       ///< 1011: a coordinate, direction or time is not a finite number in range
   Interrupted,        ///< the allowance of the run is spent, or the run was called off
   EmergencyStop,      ///< the machine was stopped by its emergency stop
-  FeedHold,           ///< the feed was held for longer than the driver waits
+  FeedHold,           ///< the feed was on hold for longer than the driver waits
   Aborted,            ///< the operator has aborted the motion
-  ConnectionLost,     ///< nobody knows where the machine stands
+  ConnectionLost,     ///< the position of the machine is unknown
   ScriptExhausted,    ///< a scripted machine has no contact left
   ScriptedDifferent,  ///< a scripted machine met a command its log does not have
 };
 
-/// Why the machine could not do what it was told. A value of the run, never an exception.
-/// The enum class stays first: see fitgauge::Error.
+/// Why the machine could not execute a command. A value of the run, never an exception. The enum
+/// class stays first: see fitgauge::Error.
 struct MachineFault {
   FaultKind kind{};
-  int number = 0;    ///< the control's error number (1001 to 1199), 0 where it shows only text
-  std::string text;  ///< the control's text, then what happened and where, in mm
+  int number = 0;    ///< the control's error number (1001 to 1199), 0 if it shows only text
+  std::string text;  ///< the control's text, then the event and its place in mm
 
   friend bool operator==(const MachineFault&, const MachineFault&) = default;
 };

@@ -36,7 +36,7 @@ struct PlaneRotation {
 /// Cycles 11 (all factors equal, centre 0) and 26.
 struct Scaling {
   Vec3 factor{1, 1, 1};
-  Vec3 centre;  ///< stays where it is; in input coordinates
+  Vec3 centre;  ///< does not move; in input coordinates
 
   friend bool operator==(const Scaling&, const Scaling&) = default;
 };
@@ -82,7 +82,7 @@ class Frames {
   Vec3 to_machine(const Vec3& point, CoordinateSystem system = CoordinateSystem::Input) const;
   Vec3 from_machine(const Vec3& point, CoordinateSystem system = CoordinateSystem::Input) const;
 
-  /// Directions; the length changes where scaling is active.
+  /// Directions; active scaling changes their length.
   Vec3 direction_to_machine(const Vec3& direction,
                             CoordinateSystem system = CoordinateSystem::Input) const;
   Vec3 direction_from_machine(const Vec3& direction,

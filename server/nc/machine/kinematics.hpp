@@ -19,12 +19,12 @@ struct RotaryAxis {
   Vec3 centre;  ///< a point of the axis in mm: of a table in machine coordinates, of a head from
                 ///< the spindle nose
   Vec3 direction{0, 0, 1};  ///< unit vector
-  double zero_deg = 0;      ///< by how much it is turned where it shows 0
+  double zero_deg = 0;      ///< its real angle at the indicated angle 0
 
   friend bool operator==(const RotaryAxis&, const RotaryAxis&) = default;
 };
 
-/// How far off its place what A, B and C carry came to rest, in mm.
+/// Position errors after the rotation of A, B and C, in mm.
 using Displacements = std::array<Vec3, 3>;
 
 /// The rotary axes and their order: a table is stacked A, B, C from the bed to the workpiece, a
@@ -36,8 +36,8 @@ class Kinematics {
   explicit Kinematics(std::vector<RotaryAxis> axes, const Vec3& offset = {});
 
   const std::vector<RotaryAxis>& axes() const { return axes_; }
-  /// How far the spindle nose stands from where the linear axes show it, in mm: what preset
-  /// compensation (cycle 452) corrects when a head was exchanged or the machine has drifted.
+  /// Distance of the spindle nose from its indicated position, in mm: preset compensation (cycle
+  /// 452) corrects it after a head was exchanged or the machine has drifted.
   const Vec3& offset() const { return offset_; }
   const RotaryAxis* find(Axis axis) const;
 
@@ -45,18 +45,18 @@ class Kinematics {
   /// axis carries is displaced along the directions of what carries the axis.
   Transform table(const Vec3& rotary, const Displacements& rest = {}) const;
 
-  /// From where the linear axes show the spindle nose to the point of the tool `length` mm from it,
-  /// in machine coordinates.
+  /// Vector from the indicated position of the spindle nose to the point of the tool at `length`
+  /// mm, in machine coordinates.
   Vec3 tool_vector(const Vec3& rotary, Axis tool_axis, double length,
                    const Displacements& rest = {}) const;
 
   /// The unit vector from the tool tip to the spindle nose, in machine coordinates.
   Vec3 tool_direction(const Vec3& rotary, Axis tool_axis) const;
 
-  /// The rotary positions at which the tool stands along `normal`, a unit vector fixed to the
-  /// table: `current` if it does already, else turning one axis, else two; axes that need not turn
-  /// keep their position. Angles that turn are in -180 < angle <= 180; ranges are not looked at.
-  /// The nearest to `current` comes first; none when the machine cannot stand so.
+  /// Returns rotary positions at which the tool is along `normal`, a unit vector fixed to the
+  /// table: `current` if it is already, else by one axis, else by two; other axes keep their
+  /// position. Turned angles are in -180 < angle <= 180; ranges are not checked. The nearest to
+  /// `current` is first; none if the machine cannot reach it.
   std::vector<Vec3> orientations(const Vec3& normal, const Vec3& current, Axis tool_axis) const;
 
   friend bool operator==(const Kinematics&, const Kinematics&) = default;

@@ -60,10 +60,10 @@ struct ToolCall {
   double dr2 = 0;
 };
 
-/// The narrow waist between NC programs and a machine tool. Lengths in mm, angles in degrees, feeds
-/// in mm/min, times in seconds; directions as ISO 841 (the tool moves, +Z away from the workpiece).
-/// A command either does all of what it says or returns the fault; after a fault the machine stands
-/// where it stopped and may be commanded again. Not thread-safe; one run owns a machine.
+/// The narrow interface between NC programs and a machine tool. Lengths in mm, angles in degrees,
+/// feeds in mm/min, times in seconds; directions as ISO 841 (the tool moves, +Z away from the
+/// workpiece). A command is executed completely or returns the fault; after a fault the machine
+/// stops where it is and accepts commands again. Not thread-safe; one run owns a machine.
 class Machine {
  public:
   Machine& operator=(Machine&&) = delete;  // neither copied nor moved
@@ -77,24 +77,23 @@ class Machine {
   }
 
   /// @faults AxisLimit and AxisMissing (nothing has moved), HirthGrid, FeedMissing, ValueInvalid;
-  ///   Collision (stands at the contact).
+  /// Collision (stops at the contact).
   virtual MachineResult<void> move(const LinearMove& move) = 0;
 
   /// @faults as move.
   virtual MachineResult<void> move_arc(const ArcMove& arc) = 0;
 
-  /// The normal of what the last contact touched, away from the material, in Machine coordinates;
-  /// nothing where the machine cannot know it, as a real one cannot.
+  /// Normal of the surface at the last contact, away from the material, in Machine coordinates;
+  /// none if the machine does not know it, like a real one.
   virtual std::optional<Vec3> contact_normal() const { return std::nullopt; }
 
   /// Moves a touch probe towards the workpiece, or another tool towards the tool touch probe TT.
   /// @faults ToolAxisMissing, NoTool, FeedMissing, ValueInvalid (nothing has moved);
-  /// StylusDeflected
-  ///   (touches at the start); NoContact (stands at the end of the travel); AxisLimit (stands at
-  ///   the limit, without contact); Collision (on the way back beyond the start).
+  /// StylusDeflected (touches at the start); NoContact (at the end of the travel); AxisLimit (at
+  /// the limit, without contact); Collision (on the way back beyond the start).
   virtual MachineResult<ContactPoint> probe(const ProbeMove& move) = 0;
 
-  /// Changes the tool where the spindle stands: the nose does not move.
+  /// Changes the tool in place: the nose does not move.
   /// @faults ToolUnknown, ToolLocked, ToolAxisMissing (no axis now or before).
   virtual MachineResult<void> call_tool(const ToolCall& call) = 0;
 
@@ -123,7 +122,7 @@ class Machine {
   /// Replaces the control's kinematic model (cycles 450 to 452). @faults AxisMissing, ValueInvalid.
   virtual MachineResult<void> set_kinematics(const Kinematics& kinematics) = 0;
 
-  /// Stands still. @faults ValueInvalid (negative).
+  /// Waits without motion. @faults ValueInvalid (negative).
   virtual MachineResult<void> dwell(double seconds) = 0;
 
   /// A programmed stop (STOP, M0, M1): the machine waits for NC Start.

@@ -17,7 +17,7 @@
 namespace fitgauge::machine {
 
 /// The setup of a simulated run: machine, workpiece, seed. Plain values with the defaults of the
-/// HTTP contract; `validate` says whether they make sense together.
+/// HTTP contract; `validate` checks them together.
 
 /// An axis, and of a rotary one its kinematics as drawn and as really built.
 struct AxisSetup {
@@ -29,11 +29,12 @@ struct AxisSetup {
   Vec3 direction{0, 0, 1};    ///< any length; the tool turns around it relative to the workpiece
   Vec3 centre_error;          ///< center_error_mm: real centre minus modelled centre
   Vec3 tilt_error_deg;        ///< spatial angles by which the real direction differs
-  double zero_error_deg = 0;  ///< by how much it is turned where it shows 0
+  double zero_error_deg = 0;  ///< its real angle at the indicated angle 0
   double backlash_deg = 0;    ///< lost motion when the direction of turning changes
-  double scatter_um = 0;      ///< standard deviation, each way, of where what it carries rests
+  double scatter_um = 0;      ///< standard deviation of the position after a rotation, each way
 
-  /// X, Y, Z: -500 to 500 mm. A, B: -120 to 120 degrees, C: -360 to 360, each around its own axis.
+  /// X, Y, Z: -500 to 500 mm. A, B: -120 to 120 degrees, C: -360 to 360, each around its machine
+  /// axis.
   static AxisSetup of(Axis axis);
 
   /// As the control's kinematic model has the rotary axis, and as it really is.
@@ -41,7 +42,7 @@ struct AxisSetup {
   RotaryAxis built(Axis axis) const;
 };
 
-/// A row of tool.t together with the real tool, where that is not what the table says.
+/// A row of tool.t with the real tool, if it differs from the table.
 struct ToolSetup {
   Tool row;
   std::optional<double> actual_length;  ///< actual_length_mm: nose to tip; default L + DL
@@ -63,7 +64,7 @@ enum class ContactPlate : std::uint8_t { Disc, Cube };
 /// The tool touch probe as the control's parameters have it, together with the real one.
 struct ToolTouchProbeSetup {
   ToolTouchProbe known;                     ///< center_mm, radius_mm
-  ContactPlate shape = ContactPlate::Disc;  ///< the edges of a cube lie along X and Y
+  ContactPlate shape = ContactPlate::Disc;  ///< the edges of a cube are along X and Y
   std::optional<Vec3> actual_centre;        ///< actual_center_mm; default: as known
   std::optional<double> actual_radius;      ///< actual_radius_mm; default: as known
   double repeatability_um = 0;  ///< standard deviation of a contact along the probing direction
@@ -114,7 +115,7 @@ struct MachineSetup {
   std::vector<Preset> presets{default_preset()};
   int active_preset = 1;
 
-  /// Where the axes stand at first: Z at the top of its range, the others at 0.
+  /// Start position of the axes: Z at the top of its range, the others at 0.
   Position start_position() const;
   static ToolSetup default_probe_tool();  ///< 30, PROBE, 120 mm, ball radius 2 mm, probe 1
   static Preset default_preset();         ///< row 1, zero
@@ -140,7 +141,7 @@ struct Bore {
   std::array<double, 2> tilt_deg{};  ///< around X, then around Y, at the centre of the opening
 };
 
-/// Material everywhere behind the plane.
+/// Material on one side of the plane.
 struct Plane {
   Vec3 point;
   Vec3 normal{0, 0, 1};  ///< away from the material, any length
@@ -163,7 +164,7 @@ class TriangleTree;
 struct Mesh {
   std::string file;         ///< TNC:\parts\flange.stl
   double unit = 1;          ///< of the file's figures, in mm
-  Vec3 origin;              ///< origin_mm: where the file's zero lies
+  Vec3 origin;              ///< origin_mm: position of the file's zero
   Vec3 spatial_angles_deg;  ///< how the file's axes are turned
   /// In mm, from the file's zero. Null until the file is read; no machine is made before.
   std::shared_ptr<const TriangleTree> body = nullptr;

@@ -60,17 +60,17 @@ struct KinematicsOptions {
   /// maxModification: a larger correction waits for NC Start; mm.
   std::optional<double> max_modification;
   double max_ball_deviation = 0.1;   ///< maxDevCalBall: of the sphere's radius, mm
-  bool notes_insignificant = false;  ///< corrects what is below twice its uncertainty, with a note
+  bool notes_insignificant = false;  ///< corrects also below twice the uncertainty, with a note
 
   friend bool operator==(const KinematicsOptions&, const KinematicsOptions&) = default;
 };
 
-/// Everything that can be read from a machine. Positions, lengths and radii are those the control
-/// knows (its tables), not those of the simulated reality.
+/// All readable data of a machine. Positions, lengths and radii are those of the control's tables,
+/// not of the simulated reality.
 ///
-/// The position is always that of the tool **tip**: of a probe the south pole of its ball, so the
-/// ball centre is one effective radius from the tip towards the spindle. A tool call leaves the
-/// spindle nose where it is; the tip moves by the difference of the lengths.
+/// The position is always the tool **tip**: of a probe the south pole of its ball, so the ball
+/// centre is one effective radius from the tip towards the spindle. A tool call does not move the
+/// spindle nose; the tip moves by the difference of the lengths.
 class MachineState {
  public:
   Frames frames;
@@ -84,7 +84,7 @@ class MachineState {
   int active_preset = 0;
   ActiveTool tool;
   Modes modes;
-  Position nose;  ///< of the spindle nose, machine datum: what the axes show
+  Position nose;  ///< of the spindle nose, machine datum: the display of the axes
   double rapid_mm_min = 15000;
   double elapsed_s = 0;  ///< machining time since the run began
 
@@ -102,7 +102,7 @@ class MachineState {
   /// Unit vector from the tip to the spindle nose.
   Vec3 tool_direction(CoordinateSystem system = CoordinateSystem::Input) const;
 
-  /// Where the tool tip (the nose in Reference) stands.
+  /// Position of the tool tip (of the nose in Reference).
   Position position(CoordinateSystem system = CoordinateSystem::Input) const;
   /// The centre of the probe's ball on the spindle axis, so without CAL_OF1 and CAL_OF2 (a
   /// ContactPoint has them); with another tool the point one radius above the tip.

@@ -14,11 +14,11 @@ struct ScriptedContact {
   CoordinateSystem system = CoordinateSystem::Input;
 };
 
-/// Replays the contacts of a real machine: every probing move takes the next one of a list. Nothing
-/// stands on its table, so no other move meets anything. Not thread-safe.
+/// Replays the contacts of a real machine: every probing move uses the next one of a list. Its
+/// table is empty, so other moves touch nothing. Not thread-safe.
 class ScriptedAxes final : public Axes {
  public:
-  /// A recorded contact may lie `tolerance` mm beside the probing line.
+  /// A recorded contact may be `tolerance` mm away from the probing line.
   ScriptedAxes(const Position& start, std::vector<ScriptedContact> contacts, double tolerance)
       : nose_(start), contacts_(std::move(contacts)), tolerance_(tolerance) {}
 
@@ -58,7 +58,7 @@ class ScriptedMachine final : public Control {
   std::size_t remaining() const { return axes_.remaining(); }
 
  private:
-  /// Takes over `axes`.
+  /// Owns `axes`.
   ScriptedMachine(const MachineSetup& setup, ScriptedAxes* axes, Allowance* allowance)
       : Control(setup, std::unique_ptr<Axes>(axes), allowance), axes_(*axes) {
     axes_.serve(state());

@@ -8,11 +8,11 @@
 
 namespace fitgauge::machine {
 
-/// Axes that exist in a setup alone: they, their tools and their probe may differ from what the
-/// control's tables say, and a workpiece stands on their table. The ball of the touch probe is what
-/// touches; stylus and holder are not modelled, and cutters pass through material. Fixtures collide
-/// with every tool, of which the ball of its radius at the tip is looked at.
-/// The same setup and the same commands give the same run. Not thread-safe.
+/// Axes of a setup: they, their tools and their probe may differ from the control's tables, and a
+/// workpiece is on their table. Only the ball of the touch probe touches; stylus and holder are not
+/// modelled, and cutters pass through material. Fixtures collide with every tool, modelled as a
+/// ball of its radius at the tip. The same setup and the same commands give the same run. Not
+/// thread-safe.
 class SimulatedAxes final : public Axes {
  public:
   /// @pre validate(setup) succeeds.
@@ -55,13 +55,13 @@ class SimulatedAxes final : public Axes {
   Kinematics kinematics_;  ///< as built, with the errors of centre and direction
   Position nose_;
   Vec3 slack_deg_;      ///< what backlash adds to the positions of A, B, C at present
-  Displacements rest_;  ///< what the scatter of the axes adds at present
+  Displacements rest_;  ///< the current scatter of the axes
   Random random_;
   std::optional<Vec3> touching_;  ///< centre of the ball at the last contact, on the table
   Transform table_at_contact_;
 };
 
-/// A control over axes that exist in a setup alone. Not thread-safe.
+/// A control with the axes of a setup. Not thread-safe.
 class SimulatedMachine final : public Control {
  public:
   /// @param allowance as of Control

@@ -25,15 +25,15 @@ class Solid {
   virtual ~Solid() = default;
 
   virtual Field field(const Vec3& at) const = 0;
-  /// Whether `contact` cannot tell, so that the path has to be traced step by step.
+  /// Whether `contact` is not exact, so that the path must be traced step by step.
   virtual bool is_traced() const { return false; }
-  /// The way after which the ball touches, 0 where it does at the start. As it stands for convex
+  /// Distance until the ball touches, 0 if it touches at the start. The default is for convex
   /// bodies, whose distance is convex along a line: Newton's steps never pass the contact, one to a
   /// face, a few to a rounding.
   virtual std::optional<double> contact(const BallPath& ball) const;
-  /// Holds the material; endless where that is.
+  /// Box around the material; infinite if the material is.
   virtual Box box() const = 0;
-  /// The lowest z of the material, -infinity where it has no lower end.
+  /// Lowest z of the material, -infinity without a lower end.
   double bottom() const { return box().min.z; }
 };
 

@@ -9,8 +9,8 @@
 
 namespace fitgauge::machine {
 
-/// The step for a ball of `radius` in mm: what it rounds off has at least its own radius, so a dip
-/// that is passed by a step of that length is shallower than kSamePoint.
+/// Step for a ball of `radius` in mm: an edge is rounded with at least this radius, so a dip within
+/// one step is shallower than kSamePoint.
 inline double least_step(double radius) {
   constexpr double kSmallest = 0.1;
   return std::sqrt(8 * std::max(radius, kSmallest) * tolerance::kSamePoint);

@@ -8,14 +8,14 @@
 
 namespace fitgauge::machine {
 
-/// The triangles of an STL file, binary or text, in the file's own unit. Its normals are not looked
-/// at: the order of a triangle's corners says which side is out.
-/// @errors FieldInvalid: the file is not STL, or which line or triangle is wrong.
+/// Reads the triangles of an STL file, binary or text, in the file's unit. Normals are ignored: the
+/// order of a triangle's corners defines the outside.
+/// @errors FieldInvalid: the file is not STL, or the wrong line or triangle.
 Result<std::vector<Triangle>> read_stl(std::string_view bytes);
 
-/// Whether the triangles bound a body: none without an area, each edge shared by two that run along
-/// it in opposite ways, and a positive volume.
-/// @errors FieldInvalid: the mesh is empty, degenerate, open, or turned inside out, and where.
+/// Checks if the triangles bound a body: each has an area, each edge is shared by two in opposite
+/// directions, and the volume is positive.
+/// @errors FieldInvalid: the mesh is empty, degenerate, open, or inverted, and the place.
 Result<void> check_closed(const std::vector<Triangle>& triangles);
 
 /// In the cube of the triangles' unit.

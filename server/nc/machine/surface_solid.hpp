@@ -23,7 +23,7 @@ class SurfaceSolid final : public Solid {
 
   struct Candidate {
     Vec3 point;
-    Vec3 normal;  ///< of the face it lies on
+    Vec3 normal;  ///< of its face
   };
   /// The nearest point of the walls, or `top` when that is nearer.
   Candidate nearest_with_walls(const Vec3& at, const Candidate& top) const;

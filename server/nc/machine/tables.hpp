@@ -103,7 +103,7 @@ struct ProbeRow {
   std::string type;      ///< TYPE, such as TS460
   double cal_of1 = 0;    ///< CAL_OF1: ball centre minus spindle centre, main axis, in mm
   double cal_of2 = 0;    ///< CAL_OF2: the same in the secondary axis
-  double cal_ang = 0;    ///< CAL_ANG: spindle angle that CAL_OF1 and CAL_OF2 hold at, in degrees
+  double cal_ang = 0;    ///< CAL_ANG: spindle angle of CAL_OF1 and CAL_OF2, in degrees
   double feed = 500;     ///< F: probing feed, in mm/min
   double rapid = 3000;   ///< FMAX: rapid for pre-positioning, in mm/min
   double distance = 20;  ///< DIST: longest probing travel, in mm
@@ -111,7 +111,7 @@ struct ProbeRow {
   PrePositioning prepositioning = PrePositioning::ProbeRapid;  ///< F_PREPOS
   bool track = false;                                          ///< TRACK
   CollisionReaction reaction = CollisionReaction::NcStop;      ///< REACTION
-  std::optional<double> uncertainty_um{};  ///< standard uncertainty of a touch; beside the table
+  std::optional<double> uncertainty_um{};  ///< standard uncertainty of a touch; not in the table
 
   friend bool operator==(const ProbeRow&, const ProbeRow&) = default;
 };

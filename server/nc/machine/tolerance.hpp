@@ -8,17 +8,17 @@ namespace fitgauge::tolerance {
 
 // Lengths in mm.
 
-/// The smallest length that is said: a ball that overlaps material by less only touches it, and an
-/// error below it is none.
+/// The smallest reported length: a smaller overlap of ball and material is a contact, and a smaller
+/// error is none.
 inline constexpr double kNanometre = 1e-6;
-/// Points that are nearer are one, and a point that near to a face or a limit lies on it: a
-/// thousandth of what is said, so that sums of hundreds of roundings do not show.
+/// Points nearer than this are equal, and a point so near to a face or a limit is on it: a
+/// thousandth of the smallest reported length, so that sums of hundreds of roundings do not show.
 inline constexpr double kSamePoint = 1e-9;
 /// A clearance that is none: a fit through several contacts then still keeps kSamePoint.
 inline constexpr double kContact = 1e-11;
-/// Along a path: places that no double tells apart.
+/// Along a path: places that a double cannot distinguish.
 inline constexpr double kRounding = 1e-13;
-/// How far beside its circle the end of an arc may be programmed, as the control accepts it.
+/// Accepted distance of an arc's end from its circle, as on the control.
 inline constexpr double kBesideCircle = 0.016;
 /// A chord longer than its diameter by less is the diameter, as the control accepts it.
 inline constexpr double kLongChord = 0.001;
@@ -38,18 +38,18 @@ inline constexpr double kToolVectorDeg = 1e-3;
 
 /// The same direction: at a lever of a metre it leads to the same nanometre.
 inline constexpr double kSameDirection = 1e-9;
-/// Lines that do not meet: what they have in common is rounding.
+/// Lines that do not meet: common points would be rounding.
 inline constexpr double kParallel = 1e-12;
-/// Touched edges that make no corner: it would lie a million times their distance away.
+/// Touched edges without a corner: it would be a million times their distance away.
 inline constexpr double kParallelEdges = 1e-6;
-/// Rotary axes that can be told apart by the way the sphere takes.
+/// Rotary axes that the path of the sphere can distinguish.
 inline constexpr double kAcross = 1e-3;
-/// chkTiltingAxes, 0.006 degrees: the tool stands square to its plane.
+/// chkTiltingAxes, 0.006 degrees: the tool is square to its plane.
 inline constexpr double kSquare = 1e-4;
 
 // Without a unit.
 
-/// Points that are less than this part of their distance off a line lie on it.
+/// Points nearer to a line than this part of their distance are on it.
 inline constexpr double kCollinear = 1e-9;
 /// An error of the kinematics that moves the sphere by less than this part of itself is not seen.
 inline constexpr double kSeen = 1e-3;

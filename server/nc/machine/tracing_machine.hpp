@@ -16,8 +16,7 @@ enum class MoveKind : std::uint8_t { Rapid, Feed, Probe, Arc };
 /// "rapid", "feed", "probe", "arc".
 std::string_view name(MoveKind kind);
 
-/// The data of an arc other than its ends. The machine's forms hold if no scaling factor of its own
-/// makes an ellipse of it.
+/// Data of an arc except its ends, for the machine's forms without an additional scaling factor.
 struct TracedArc {
   Vec3 centre;          ///< in input coordinates, at the height of the start
   double sweep_deg;     ///< as programmed; positive counter-clockwise seen from the axis' tip
@@ -30,11 +29,10 @@ struct TracedArc {
 struct TracedContact {
   Vec3 surface;  ///< the point of the surface, in input coordinates
   Vec3 machine_surface;
-  std::optional<Vec3>
-      normal;  ///< away from the material, in Machine coordinates, where it is known
+  std::optional<Vec3> normal;  ///< away from the material, in Machine coordinates, if it is known
 };
 
-/// One move of the trace: of the tool tip, in input coordinates and in those of the machine.
+/// One move of the trace: of the tool tip, in input and in machine coordinates.
 struct TracedMove {
   MoveKind kind = MoveKind::Rapid;
   Position start;
@@ -48,15 +46,14 @@ struct TracedMove {
 };
 
 struct TraceOptions {
-  std::function<void(const TracedMove&)> keep;  ///< takes each move as it ends
-  std::size_t longest = 1'000'000;              ///< moves, and lines, that are kept
+  std::function<void(const TracedMove&)> keep;  ///< receives each move at its end
+  std::size_t longest = 1'000'000;              ///< maximum numbers of moves and of lines
   bool lines = false;                           ///< whether each command also writes a line of text
 };
 
-/// A decorator that tells what passes through it: the moves of a run and, for golden tests, one
-/// line of text for each command. A probing move is followed by the rapid of its way back; a move
-/// that ends at a fault is kept as far as it went. Owns the lines, not the machine. Not
-/// thread-safe.
+/// A decorator that records its commands: the moves of a run and, for golden tests, one line of
+/// text for each command. A probing move is followed by the rapid of its way back; a move that ends
+/// at a fault is recorded up to the fault. Owns the lines, not the machine. Not thread-safe.
 class TracingMachine final : public Machine {
  public:
   TracingMachine(Machine& inner, TraceOptions options);
@@ -84,7 +81,7 @@ class TracingMachine final : public Machine {
   void message(std::string_view text) override;
 
  private:
-  /// A move that is under way: what it started from.
+  /// A move in progress: its start.
   struct Begun {
     Position start;
     Vec3 machine_start;

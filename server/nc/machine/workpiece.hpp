@@ -13,8 +13,8 @@ namespace fitgauge::machine {
 class Solid;
 class BoreVoid;
 
-/// The part on the table as a signed distance: features joined in order, bores taken from what
-/// stands before them. Coordinates are fixed to the table. Immutable: thread-safe.
+/// The part on the table as a signed distance: features joined in order, bores removed from earlier
+/// features. Coordinates are fixed to the table. Immutable: thread-safe.
 class Workpiece {
  public:
   /// @pre validate() accepts the features.
@@ -25,11 +25,11 @@ class Workpiece {
 
   bool is_empty() const { return parts_.empty(); }
 
-  /// How far a ball of `radius` at `centre` can move in any direction without touching, in mm: the
-  /// distance to the material less the radius. Never more than the true value, and equal to it
-  /// near contact; negative where the ball overlaps the material; infinity without material.
-  /// The one inexact place is a corner where three faces meet inside the edge of a bore: there the
-  /// value is too small.
+  /// Returns how far a ball of `radius` at `centre` can move in any direction without touching, in
+  /// mm: the distance to the material minus the radius. Never more than the true value, and equal
+  /// to it near contact; negative if the ball overlaps the material; infinity without material. The
+  /// one inexact place is a corner of three faces inside the edge of a bore: there the value is too
+  /// small.
   double clearance(const Vec3& centre, double radius) const;
 
   /// The way along the unit vector `direction`, at most `longest` mm, after which a ball that
@@ -45,7 +45,7 @@ class Workpiece {
   /// Unit vector away from the material nearest to `at`, to 1e-6; nothing on a ridge between two.
   std::optional<Vec3> normal(const Vec3& at) const;
 
-  /// The result of `contact` by tracing alone, step by step: the reference for `contact`. Slow.
+  /// Result of `contact` by tracing step by step: the reference for `contact`. Slow.
   std::optional<double> traced_contact(const Vec3& start, const Vec3& direction, double radius,
                                        double longest) const;
 
@@ -57,7 +57,7 @@ class Workpiece {
   void join(const Added& feature);
 
   std::vector<Part> parts_;
-  BoxTree tree_;  ///< of the parts, which stand in its order
+  BoxTree tree_;  ///< of the parts, which are in its order
 };
 
 }  // namespace fitgauge::machine

@@ -21,8 +21,8 @@ inline bool are_equal(double a, double b) {
          tolerance::kEqualNumbers * std::fmax(1.0, std::fmax(std::abs(a), std::abs(b)));
 }
 
-/// The operators that take up to two numbers; those with one ignore a defined `b`. Angles in
-/// degrees. @pre is_arithmetic(op)
+/// The operators with up to two numbers; those with one ignore a defined `b`. Angles in degrees.
+/// @pre is_arithmetic(op)
 double compute(klartext::Operator op, double a, double b);
 
 /// Whether `compute` knows the operator.

@@ -10,11 +10,11 @@
 
 namespace fitgauge::interpreter {
 
-/// Everything to say about a program and every program it names literally, without running
-/// anything. Errors keep a run from starting; warnings name what would fail when its block is
-/// reached: a missing program, table or mask, an unavailable cycle or M function, an ERROR block.
-/// Programs that are reached once `allowance` is spent are left unchecked, with a warning.
-/// @errors ProgramUnknown when there is no such file.
+/// Returns all findings in a program and every program that it names literally, without running
+/// anything. Errors prevent a run; warnings are failures of a block that may be reached: a missing
+/// program, table or mask, an unavailable cycle or M function, an ERROR block. Programs that are
+/// reached after `allowance` is spent are not checked, with a warning.
+/// @errors ProgramUnknown if there is no such file.
 Result<std::vector<klartext::Diagnostic>> check(const ControlPath& program, const ControlDisk& disk,
                                                 ProgramCache& programs, Allowance& allowance);
 

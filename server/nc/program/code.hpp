@@ -60,7 +60,7 @@ enum class Op : std::uint8_t {
   SkipBlock,  ///< on to c while the operator's block skip is on
   CallLabel,  ///< subprogram at c
   LabelEnd,   ///< LBL 0: back to the caller, if there is one
-  Repeat,     ///< CALL LBL REP: on to c; a is the cell of the count, b that of the counter
+  Repeat,     ///< CALL LBL REP: continue at c; a is the cell of the count, b of the counter
   Statement,  ///< everything else: block a; of a dotted cycle, b is the block of its first part
   End,        ///< the end of the program
 };

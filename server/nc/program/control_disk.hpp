@@ -17,7 +17,7 @@ class TabTable;
 namespace fitgauge::interpreter {
 
 /// A file of the control's disk: `TNC:\nc_prog\8255\8255.h`. Always absolute and below `TNC:\`,
-/// without `.` and `..`; kept as written, compared without regard to (ASCII) case. A value type.
+/// without `.` and `..`; stored as written, compared without regard to (ASCII) case. A value type.
 class ControlPath {
  public:
   /// Reads an absolute path; `/` separates as `\` does.
@@ -30,12 +30,12 @@ class ControlPath {
   static Result<ControlPath> resolve(std::string_view text, const ControlPath& program);
 
   const std::string& text() const { return text_; }
-  /// The same for all spellings of one file; what a disk looks up.
+  /// The same for all spellings of one file: the key of a disk.
   std::string key() const;
   /// With its last `\`: `TNC:\nc_prog\8255\`.
   std::string_view directory() const;
   std::string_view file_name() const;
-  /// With `extension` (such as `.H`) where the file name has none.
+  /// With `extension` (such as `.H`) if the file name has none.
   ControlPath with_default_extension(std::string_view extension) const;
   /// A file of the same directory. @pre `name` has no separator.
   ControlPath beside(std::string_view name) const;
@@ -64,11 +64,11 @@ struct ControlFile {
   /// Changes with the content: path and revision name one content for ever.
   std::string revision;
   FileSource source = FileSource::Stored;
-  /// The table the bytes hold, where the disk has it read already; else null.
+  /// The table in the bytes, if the disk has read it; else null.
   std::shared_ptr<const tabfile::TabTable> table = nullptr;
 };
 
-/// The control's disk as a run sees it: read-only. What a run writes lies in the run's own overlay.
+/// The control's disk of a run: read-only. Files that a run writes are in its overlay.
 /// Implementations are thread-safe; broken storage throws.
 class ControlDisk {
  public:
@@ -77,11 +77,11 @@ class ControlDisk {
 
   /// The file, or nothing when there is none.
   virtual std::optional<ControlFile> find(const ControlPath& path) const = 0;
-  /// That of the file `find` gives, without reading its bytes.
+  /// Revision of the file of `find`, without reading its bytes.
   virtual std::optional<std::string> revision(const ControlPath& path) const = 0;
   bool exists(const ControlPath& path) const { return revision(path).has_value(); }
 
-  /// Whether a file lies in that directory or below it.
+  /// Whether a file is in that directory or below it.
   /// @param directory ends with `\`.
   virtual bool has_directory(std::string_view directory) const = 0;
 };
@@ -102,8 +102,8 @@ class MemoryDisk final : public ControlDisk {
   std::map<std::string, ControlFile> files_;  // by key
 };
 
-/// Files that are found in every directory unless a file of that name lies there: 82553_hole.tab
-/// and 82553_shaft.tab, projected from the live tolerance tables.
+/// Default files of every directory without a file of that name: 82553_hole.tab and
+/// 82553_shaft.tab, from the current tolerance tables.
 class ProjectingDisk final : public ControlDisk {
  public:
   struct Projection {

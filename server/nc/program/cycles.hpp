@@ -56,11 +56,11 @@ bool is_dotted_cycle(int number);
 /// transformations written in sub-lines, and machining cycles as motion can.
 bool is_available(klartext::CycleFamily family, int number, bool dotted);
 
-/// GLOBAL DEF 100, 105, 110, 111, 120 and 125: the values that PREDEF takes (decision 23). Static
-/// data; null for another number.
+/// GLOBAL DEF 100, 105, 110, 111, 120 and 125: the values of PREDEF (decision 23). Static data;
+/// null for another number.
 const probing::CycleDescriptor* global_definition(int number);
 
-/// The GLOBAL DEF that has a value for `Q320=PREDEF`, or null where no PREDEF may stand.
+/// The GLOBAL DEF with a value for `Q320=PREDEF`, or null if PREDEF is not allowed.
 const probing::CycleDescriptor* global_definition_of(int parameter);
 
 }  // namespace fitgauge::interpreter

@@ -11,7 +11,7 @@
 
 namespace fitgauge::interpreter {
 
-/// Findings beyond this number are not kept.
+/// Maximum number of findings.
 inline constexpr std::size_t kMostFindings = 200;
 
 /// A finding about a place of a program: by default a block, as far as its first physical line
@@ -33,7 +33,7 @@ std::string cycle_hint(bool is_probing, int number);
 
 enum class MRole : std::uint8_t {
   Does,    ///< the run executes it
-  Notes,   ///< the run says what it leaves out
+  Notes,   ///< the run reports that it leaves it out
   Ends,    ///< switches off what `text` names, which the run leaves out: nothing to do
   Refuses  ///< the run fails: positions would be wrong
 };
@@ -41,7 +41,7 @@ enum class MRole : std::uint8_t {
 struct MFunction {
   int number = 0;
   MRole role = MRole::Does;
-  std::string_view text{};  ///< what the run leaves out and why; of Ends the number that it ends
+  std::string_view text{};  ///< the missing effect and the reason; of Ends the number that it ends
 };
 
 /// The M functions of the control, by number.

@@ -15,8 +15,8 @@ bool has_effect(const klartext::Program& program, std::uint32_t block);
 /// The block that opens the dotted cycle whose sub-line `block` is, else `block` itself.
 std::uint32_t first_part(const klartext::Program& program, std::uint32_t block);
 
-/// Reports what is wrong with the cycle of a block (unknown or invalid parameters: errors; a cycle
-/// that is not available: a warning) and M functions that are not available (warnings).
+/// Reports faults of the cycle of a block (unknown or invalid parameters: errors; an unavailable
+/// cycle: a warning) and unavailable M functions (warnings).
 void check_block(const klartext::Program& program, std::uint32_t block,
                  std::vector<klartext::Diagnostic>& diagnostics);
 

@@ -48,17 +48,17 @@ class LinkedProgram {
   std::uint32_t counters() const { return parts_.counters; }
   const BoundCycle& cycle(std::uint32_t index) const { return parts_.cycles[index]; }
 
-  /// All cells a run of this program needs, those of other programs included.
+  /// All cells for a run of this program, with those of other programs.
   std::size_t cells() const {
     return kFirstConstant + parts_.constants.size() + parts_.counters + parts_.temporaries;
   }
   std::uint32_t block_of(std::size_t instruction) const { return parts_.block_of[instruction]; }
 
-  /// The first instruction of a block, by its number as written or counted, or of what follows it;
-  /// nothing where no block has the number.
+  /// First instruction of a block, by its number as written or counted, or of the next one; none if
+  /// no block has the number.
   std::optional<std::uint32_t> instruction_of(std::uint32_t block_number) const;
 
-  /// The instruction a label stands before, or nothing.
+  /// The instruction after a label, or nothing.
   std::optional<std::uint32_t> label(std::uint32_t number) const;
   std::optional<std::uint32_t> label(std::string_view name) const;
 

@@ -17,7 +17,7 @@ struct FileReference {
   enum class Kind : std::uint8_t { Program, Table, Mask };
   Kind kind = Kind::Program;
   std::string written;
-  klartext::Diagnostic place;  ///< the warning where the file is missing, without its message
+  klartext::Diagnostic place;  ///< warning for a missing file, without its message
   /// Columns that FN 28 reads, such as `A,B`, and the row if it is a number.
   std::string columns{};
   std::optional<std::int64_t> row{};
@@ -35,7 +35,7 @@ struct LinkedFile {
   std::shared_ptr<const LinkedProgram> with_error_blocks;
   std::vector<klartext::Diagnostic> diagnostics;  ///< of the parser and the linker
   std::vector<FileReference> references;          ///< the first 1000
-  std::size_t memory_bytes = 0;                   ///< about what it occupies
+  std::size_t memory_bytes = 0;                   ///< its approximate memory
 };
 
 /// Resolves labels, jumps, repeats and cycles and lowers the formulas of a parsed program.

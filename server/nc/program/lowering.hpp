@@ -14,7 +14,7 @@ namespace fitgauge::interpreter {
 class CodeWriter {
  public:
   explicit CodeWriter(const klartext::Program& program) : program_(program) {
-    // A block becomes one instruction, mostly; what is reserved and not used is never touched.
+    // Usually one instruction a block; unused reserved memory is never touched.
     code_.reserve(program.blocks().size());
     block_of_.reserve(program.blocks().size());
   }
@@ -31,7 +31,7 @@ class CodeWriter {
   std::uint32_t next() const { return static_cast<std::uint32_t>(code_.size()); }
   Instruction& at(std::uint32_t index) { return code_[index]; }
 
-  /// The cell that holds the value of a numeric expression, after code that computes it.
+  /// The cell with the value of a numeric expression, after the code that computes it.
   std::uint32_t value(const klartext::Expr& expr);
   /// Computes a numeric expression into a cell.
   void assign(std::uint32_t target, const klartext::Expr& expr);
@@ -44,7 +44,7 @@ class CodeWriter {
   std::vector<std::uint32_t> take_blocks() { return std::move(block_of_); }
   /// Joins two instructions that often follow each other, once no more are added.
   void join_pairs();
-  /// Moves the temporaries, whose number and place are known only at the end, behind `counters`.
+  /// Moves the temporaries after `counters`, because their number is known only at the end.
   void place_temporaries(std::uint32_t counters);
   std::vector<double> take_constants() { return std::move(constants_); }
   std::uint32_t temporaries() const { return most_temporaries_; }

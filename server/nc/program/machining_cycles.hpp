@@ -5,8 +5,8 @@
 #include "nc/klartext/statement.hpp"
 #include "nc/probing/cycle_descriptor.hpp"
 
-/// The machining cycles: what the linker checks, /v1/cycles shows and the run reads. They run as
-/// motion of the tool: positions, depths and feeds as on the control; no material is removed.
+/// The machining cycles, for the linker, /v1/cycles and the run. They run as motion of the tool:
+/// positions, depths and feeds as on the control; no material is removed.
 namespace fitgauge::interpreter {
 
 /// The path of a machining cycle.

@@ -10,7 +10,7 @@
 
 namespace fitgauge::interpreter {
 
-/// The characters (code points) a QS holds at most.
+/// Maximum number of characters (code points) of a QS.
 inline constexpr std::size_t kLongestString = 255;
 
 /// A parameter with its value: a number, or the string of a QS.

@@ -12,8 +12,8 @@
 
 namespace fitgauge::interpreter {
 
-/// Programs parsed and linked once per revision of their file, the least recently used dropped
-/// beyond a size. Thread-safe; two threads that miss at once both link, and one result is kept.
+/// Programs parsed and linked once for each revision of their file, the least recently used dropped
+/// beyond a size. Thread-safe; two threads that miss at once both link, and one result is stored.
 class ProgramCache {
  public:
   explicit ProgramCache(std::size_t bytes = std::size_t{32} << 20) : capacity_(bytes) {}

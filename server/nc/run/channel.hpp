@@ -22,9 +22,8 @@
 
 namespace fitgauge::interpreter {
 
-/// Everything that one run owns: the parts of the control that its blocks work on. The executor
-/// moves it from block to block; the exec_* files say what each block does to it. Lives on the
-/// thread of its run.
+/// Everything that one run owns: the parts of the control for its blocks. The executor moves it
+/// from block to block; the exec_* files execute the blocks. Used by the thread of its run.
 class Channel {
  public:
   Channel(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& run_environment,
@@ -43,16 +42,16 @@ class Channel {
   machine::Machine& machine() const { return environment.machine; }
   Timestamp now() const { return environment.clock.now(); }
 
-  /// STOP, M0, M1: reported; the run goes on, or ends where `on_stop` says so.
+  /// STOP, M0, M1: reported; the run continues, or ends by `on_stop`.
   NcResult<void> programmed_stop(std::string reason);
   NcResult<void> note(std::string text) { return log.note(std::move(text), place()); }
 
   /// A path as the program that runs names it.
   NcResult<ControlPath> resolve(std::string_view written) const;
-  /// A file that the program that runs prints: in the folder of FN 16, where there is one and the
-  /// name has none.
+  /// A file that the current program prints: in the folder of FN 16, if there is one and the name
+  /// has none.
   NcResult<ControlPath> resolve_printed(std::string_view written) const;
-  /// A program as the one that runs names it; `.H` where it has no extension.
+  /// A program by its name in the current one; `.H` without an extension.
   NcResult<ControlPath> resolve_program(std::string_view written) const;
   /// The program, linked; each file is loaded once in a run.
   /// @errors it does not exist, it has errors, limit (memory).
@@ -70,7 +69,7 @@ class Channel {
   std::uint32_t block_before = 0;  ///< of the one that ran before it, if every block is followed
 
   Contour contour;
-  std::optional<SpatialAngles> spatial_angles;  ///< while A, B, C are those of AXIS SPAT
+  std::optional<SpatialAngles> spatial_angles;  ///< while A, B, C are angles of AXIS SPAT
   bool turns_along_vector = false;              ///< PATHCTRL VECTOR
   ActiveCycle active_cycle;
   /// Values of PREDEF, by the number of the Q parameter: mm, degrees, mm/min (GLOBAL DEF).

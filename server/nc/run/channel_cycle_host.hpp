@@ -5,9 +5,9 @@
 
 namespace fitgauge::interpreter {
 
-/// The program as touch-probe cycles see it. Results go to Q parameters in the unit of the program
-/// that runs. What cannot be reported by a cycle's own result (an
-/// exceeded budget) is kept and returned by `failure`.
+/// The interface of touch-probe cycles to the program. Results go to Q parameters in the unit of
+/// the current program. Failures that a cycle's result cannot report (an exceeded budget) are
+/// stored for `failure`.
 class ChannelCycleHost final : public probing::CycleHost {
  public:
   explicit ChannelCycleHost(Channel& channel) : channel_(channel) {}
@@ -29,7 +29,7 @@ class ChannelCycleHost final : public probing::CycleHost {
   probing::CycleResult<probing::KinematicsRecords> kinematics_records() override;
   probing::CycleResult<void> keep_kinematics(const probing::KinematicsRecords& records) override;
 
-  /// The first failure behind the cycle's back, or nothing.
+  /// The first failure that the cycle did not report, or nothing.
   const std::optional<NcError>& failure() const { return failure_; }
 
  private:

@@ -15,10 +15,9 @@ struct Pole {
   Vec2 point;
 };
 
-/// The programmed path as far as it takes more than one block to know it: the pole, the last
-/// direction (for CT and DEP), corners that RND and CHF change, approaches. A block that is
-/// followed by RND or CHF moves when the block after that is known. What is known goes on to the
-/// path of the cutter.
+/// State of the programmed path over several blocks: the pole, the last direction (for CT and DEP),
+/// corners of RND and CHF, approaches. A block before RND or CHF moves when the block after them is
+/// known. Complete elements go to the path of the cutter.
 class Contour {
  public:
   /// APPR LT, LN, CT, LCT: moves when the first contour element is known.
@@ -28,11 +27,11 @@ class Contour {
     double length = 0;       ///< LEN
     double angle = 0;        ///< CCA
     double radius = 0;       ///< R; negative: to the other side (APPR CT)
-    machine::Feed before{};  ///< of the block before: the way to where APPR LT, LN and CT begin
+    machine::Feed before{};  ///< of the previous block: the way to the start of APPR LT, LN and CT
   };
 
-  /// Where the last block ends, in input coordinates, also when the machine is not there yet or
-  /// the tool stands beside the contour.
+  /// End point of the last block in input coordinates, even if the machine has not reached it or
+  /// the tool is offset.
   machine::Position position(const machine::Machine& machine) const;
 
   /// Moves along an element, or keeps it when a corner follows (RND, CHF).
@@ -40,18 +39,18 @@ class Contour {
   /// RND (`size` is the radius) or CHF (the side, decision 30) after the last element.
   NcResult<void> set_corner(double size, bool is_chamfer, std::optional<machine::Feed> feed);
   NcResult<void> add(machine::Machine& machine, Approach approach);
-  /// DEP: goes to the end of the contour. @returns where the centre of the tool is.
+  /// DEP: moves to the end of the contour. @returns the position of the tool's centre.
   NcResult<Vec2> depart(machine::Machine& machine, const WorkingPlane& plane);
   /// From here on nothing moves: the path is the contour of an SL cycle.
   void draw(const machine::Machine& machine) { drawing_.emplace(machine); }
   /// Null while the path moves the machine.
   const SlDrawing* drawing() const { return drawing_ ? &*drawing_ : nullptr; }
 
-  /// Before anything but a positioning block: moves what was kept.
-  /// @errors 1022, 1024 when the element that RND, CHF or APPR refers to is missing.
+  /// Moves postponed elements before any other block than positioning.
+  /// @errors 1022, 1024 if the element of RND, CHF or APPR is missing.
   NcResult<void> finish(machine::Machine& machine);
 
-  /// RL, RR, R0, R+, R- of a block; it holds for those after it.
+  /// RL, RR, R0, R+, R- of a block; also applies to later blocks.
   void compensate(klartext::RadiusCompensation compensation);
   int side() const { return side_; }
   /// 1 for R+, -1 for R-.
@@ -70,7 +69,7 @@ class Contour {
     bool is_chamfer = false;
     std::optional<machine::Feed> feed;
   };
-  /// Where the programmed path is while the tool stands beside it.
+  /// Position of the programmed path while the tool is offset.
   struct Beside {
     machine::Position programmed;
     machine::Position tool;

@@ -17,7 +17,7 @@ namespace fitgauge::interpreter {
 struct Element {
   WorkingPlane plane;
   Curve curve;
-  machine::Vec3 from;  ///< where the block before ends
+  machine::Vec3 from;  ///< end of the previous block
   machine::AxisWords target;
   machine::Feed feed;
   machine::CoordinateSystem system = machine::CoordinateSystem::Input;
@@ -41,21 +41,21 @@ inline void set_plane_target(Element& element, Vec2 point) {
   element.target.values[element.plane.second] = point.y;
 }
 
-/// Leads the centre of the cutter along a contour: on it, or with RL and RR at the tool's radius
-/// (R + DR) and an allowance beside it. The path begins and ends square to the first and last point
-/// of the contour, goes around outer corners on an arc, and meets inner corners where the two
-/// offset curves cross. An element moves when the one after it in the plane is known.
+/// Moves the centre of the cutter along a contour: on it, or with RL and RR offset by the tool's
+/// radius (R + DR) and an allowance. The path begins and ends square to the first and last point of
+/// the contour, follows an arc around outer corners, and ends at the intersection of the offset
+/// curves in inner corners. An element moves when the next one in the plane is known.
 class CutterPath {
  public:
   CutterPath() = default;
-  /// @param allowance stays on the contour, in mm beside the tool's radius
+  /// @param allowance remains on the contour, in mm in addition to the tool's radius
   explicit CutterPath(double allowance) : allowance_(allowance) {}
 
   /// @errors 1003 the tool does not fit into a corner or arc; 1021 RL or RR begins with an arc.
   NcResult<void> add(machine::Machine& machine, const Element& next);
-  /// Moves along what was kept, up to the point square to its end.
+  /// Moves along postponed elements, up to the point square to their end.
   NcResult<void> finish(machine::Machine& machine);
-  /// The tool stands at the offset start of the contour that the next element begins (APPR).
+  /// The tool is at the offset start of the next element's contour (APPR).
   void begin(Vec2 centre, int side);
   /// The tool has left the contour (DEP).
   void leave() { *this = {}; }
@@ -70,8 +70,8 @@ class CutterPath {
  private:
   NcResult<void> enter(machine::Machine& machine, const Element& next);
   NcResult<void> join(machine::Machine& machine, const Element& next);
-  /// Moves along the kept element, which ends at `end` for the centre of the tool, and along what
-  /// stood between it and the next one.
+  /// Moves along the postponed element, which ends at `end` for the centre of the tool, and along
+  /// the blocks after it.
   NcResult<void> move_to(machine::Machine& machine, Vec2 end);
 
   /// From the contour to the centre of the cutter.
@@ -81,7 +81,7 @@ class CutterPath {
   int side_ = 0;
   std::optional<Element> last_;
   bool is_entry_ = false;       ///< `last_` brings the tool to the contour
-  Vec2 at_;                     ///< where the centre of the tool begins `last_`
+  Vec2 at_;                     ///< start of the tool's centre for `last_`
   std::optional<Vec2> begun_;   ///< there it begins the next element
   std::vector<Element> aside_;  ///< moves outside of the plane, between `last_` and the next one
 };

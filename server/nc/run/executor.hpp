@@ -10,11 +10,11 @@ struct Ending {
   std::optional<NcError> error;  ///< nothing when the program ended
 };
 
-/// Runs the main program of a channel to its end. Where it fails, `channel.place()` is the block.
+/// Runs the main program of a channel to its end. If it fails, `channel.place()` is the block.
 Ending execute_program(Channel& channel);
 
-/// Runs the blocks from the instruction of a label to its LBL 0, for a cycle that needs what a
-/// subprogram programs. @errors those of the blocks; no LBL 0 comes.
+/// Runs the blocks from the instruction of a label to its LBL 0, for a cycle that needs a
+/// subprogram. @errors those of the blocks; LBL 0 is missing.
 NcResult<void> execute_label(Channel& channel, std::uint32_t label);
 
 }  // namespace fitgauge::interpreter

@@ -12,11 +12,11 @@ namespace fitgauge::interpreter {
 /// plain jumps.
 class ExecutorSteps {
  protected:
-  /// @param announces the loop tells the observer of every block itself
+  /// @param announces the loop notifies the observer of every block itself
   ExecutorSteps(Channel& channel, bool announces)
       : channel_(channel), depth_(channel.calls.depth()), announces_(announces) {}
 
-  /// Where LBL 0 of a subprogram that a cycle runs goes on.
+  /// Continuation after LBL 0 of a subprogram that a cycle runs.
   static constexpr std::uint32_t kBackToCycle = std::numeric_limits<std::uint32_t>::max();
 
   void load_program() {
@@ -28,7 +28,7 @@ class ExecutorSteps {
     return static_cast<std::uint32_t>(pc - code_);
   }
 
-  /// Says which block runs.
+  /// Reports the current block.
   void enter(const Instruction* pc) { channel_.block = channel_.linked().block_of(index_of(pc)); }
 
   void announce(const Instruction* pc) {
@@ -43,7 +43,7 @@ class ExecutorSteps {
   bool refuel(std::int64_t needed);
   bool evaluate_node(const Instruction* pc);
   bool call_program(std::shared_ptr<const LinkedProgram> program, std::uint32_t return_to);
-  // Where the run goes on; null after an error and at the end of the run.
+  // The next instruction; null after an error and at the end of the run.
   const Instruction* jump_when(const Instruction* pc);
   const Instruction* call_label(std::uint32_t target, const Instruction* pc);
   const Instruction* end_label(const Instruction* pc);
@@ -62,7 +62,7 @@ class ExecutorSteps {
   std::int64_t fuel_ = 0;
   std::optional<NcError> error_;
   bool has_returned_ = false;               ///< to the cycle that runs a subprogram
-  std::optional<std::uint32_t> failed_at_;  ///< the block, where it is one of that subprogram
+  std::optional<std::uint32_t> failed_at_;  ///< the block, if it is in that subprogram
 
  private:
   const std::size_t depth_;  ///< of the program in which this began

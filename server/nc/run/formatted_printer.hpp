@@ -15,8 +15,7 @@
 
 namespace fitgauge::interpreter {
 
-/// One run through a mask: its lines in the language of the control, and what it says about the
-/// file they go to.
+/// One run through a mask: its lines in the language of the control, and its settings for the file.
 struct PrintedMask {
   std::vector<std::string> lines;
   bool close = false;
@@ -25,8 +24,8 @@ struct PrintedMask {
   std::optional<std::size_t> most_bytes;  ///< M_APPEND_MAX
 };
 
-/// The masks and files of FN 16: F-PRINT. What goes to one file is collected and written at M_CLOSE
-/// or at the end of the run. Not thread-safe.
+/// The masks and files of FN 16: F-PRINT. Lines of one file are collected and written at M_CLOSE or
+/// at the end of the run. Not thread-safe.
 class FormattedPrinter {
  public:
   /// Both must outlive this object.
@@ -36,7 +35,7 @@ class FormattedPrinter {
   NcResult<std::shared_ptr<const klartext::MaskFile>> mask(const ControlPath& path);
   /// @errors limit.
   NcResult<void> print(const PrintedMask& printed, const ControlPath& path);
-  /// Writes what has been collected. @errors limit.
+  /// Writes the collected lines. @errors limit.
   NcResult<void> close();
 
  private:

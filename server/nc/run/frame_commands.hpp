@@ -41,7 +41,7 @@ struct PlaneMoves {
 /// positions that go with it into Q120 to Q122. The datum shift before it becomes the plane's
 /// origin. @errors 1013 no rotary axes reach it.
 NcResult<void> tilt(Channel& channel, const machine::Matrix3& rotation, const PlaneMoves& moves);
-/// All rotary axes go to the position that reads 0, as PLANE tells them to move.
+/// Moves all rotary axes to the position 0, by the word of PLANE.
 NcResult<void> reset_tilt(Channel& channel, const PlaneMoves& moves);
 
 }  // namespace fitgauge::interpreter

@@ -36,24 +36,24 @@ struct RunOptions {
   /// otherwise they refuse the program.
   bool keeps_unreadable = false;
   bool decimal_comma = true;  ///< of FN 15
-  /// A file of the folder for logs and for what FN 16 names without a folder (fn16DefaultPath);
-  /// without one they lie beside the program.
+  /// A file in the folder for logs and for files of FN 16 without a folder (fn16DefaultPath);
+  /// without this folder in that of the program.
   std::optional<ControlPath> print_folder;
   /// The datum table that is active at the start, until SEL TABLE.
   std::optional<ControlPath> datum_table;
   klartext::MaskLanguage language = klartext::MaskLanguage::English;  ///< of the control's dialog
 };
 
-/// The input of a run. All must outlive the run; machine and observer belong to it alone, the
-/// others may be shared with other runs.
+/// The input of a run. All must outlive the run; machine and observer must not be shared with other
+/// runs.
 struct RunEnvironment {
   machine::Machine& machine;
   const ControlDisk& disk;
   ProgramCache& programs;
   const Clock& clock;
   RunObserver& observer;
-  /// Made of the limits and the stop token before the machine, which looks at it too; without one
-  /// the run makes its own, and what the machine does is not interrupted.
+  /// Made of the limits and the stop token before the machine, which checks it too; without it the
+  /// run makes one, and the machine is not interrupted.
   Allowance* allowance = nullptr;
 };
 

@@ -6,9 +6,8 @@
 
 namespace fitgauge::interpreter {
 
-/// The records of cycle 450 in `TNC:\table\DATA450.KD`, where the control keeps them: a row for
-/// each axis of a record and one for the tool, with a point and a direction. None where there is no
-/// such file.
+/// Reads the records of cycle 450 in `TNC:\table\DATA450.KD`: a row for each axis of a record and
+/// one for the tool, with a point and a direction. None without this file.
 /// @errors 1096 the file is not such a table.
 NcResult<probing::KinematicsRecords> read_kinematics_records(const RunFiles& files,
                                                              Allowance& allowance);

@@ -7,17 +7,17 @@
 #include "nc/run/plane_geometry.hpp"
 #include "nc/run/run_budget.hpp"
 
-/// The machining cycles as motion of the tool, one function for each shape. Each begins where the
-/// tool stands in the plane and ends over the surface, at the larger of its clearances.
+/// The machining cycles as motion of the tool, one function for each shape. Each begins at the
+/// current position in the plane and ends over the surface, at the larger of its clearances.
 /// @errors 1010 no feed, 1042 a depth of 0, and those of the machine and the budget.
 namespace fitgauge::interpreter {
 
 /// The moves of a machining cycle: in the working plane, and at heights along the tool axis, in mm
-/// of the input system. Each looks at the run's budget first;
-/// a move to where the tool stands is none.
+/// of the input system. Each checks the run's budget first; a move to the current position is
+/// skipped.
 class ToolMotion {
  public:
-  /// Both must outlive this object. The plane is that of the tool in the spindle now.
+  /// Both must outlive this object. The plane is that of the current tool.
   ToolMotion(machine::Machine& machine, RunBudget& budget);
 
   NcResult<void> to_height(double height, const machine::Feed& feed);
@@ -48,7 +48,7 @@ class Channel;
 struct Heights {
   double surface = 0;    ///< Q203, of 232 Q227
   double clearance = 0;  ///< Q200 above it
-  double second = 0;     ///< Q204 above it, or the clearance where that is higher
+  double second = 0;     ///< Q204 above it, or the clearance if it is higher
   double bottom = 0;     ///< Q201 below it, of 232 Q386
 };
 
@@ -61,7 +61,7 @@ struct Machining {
   Machining(const ToolMotion& tool, const MachiningDefinition& defined);
   double value(int parameter) const { return definition.value(parameter); }
   machine::Feed feed(int parameter) const;
-  /// Q208; where the block says 0, the feed of plunging (decision 30); rapid without it.
+  /// Q208; for 0 the feed of plunging (decision 30); rapid without it.
   machine::Feed retraction() const;
   NcResult<void> start();
   NcResult<void> leave();
@@ -70,7 +70,7 @@ struct Machining {
 machine::Feed feed_of(double rate);
 
 // drilling.cpp
-/// Where 1 and 21 stop above what is drilled: a fiftieth of the hole, from 0.6 to 7 mm.
+/// Stop distance of 1 and 21 above the drilled depth: a fiftieth of the hole, from 0.6 to 7 mm.
 double advanced_stop(double depth);
 NcResult<void> drill(Machining& cycle);
 NcResult<void> tap(Machining& cycle);
@@ -89,7 +89,7 @@ NcResult<void> mill_circular_stud(Machining& cycle);
 NcResult<void> engrave(Machining& cycle);
 
 // face_milling.cpp
-/// 232. @errors 1002 the tool has no radius, 1016 the end point lies above the starting point.
+/// 232. @errors 1002 the tool has no radius, 1016 the end point is above the starting point.
 NcResult<void> mill_face(Machining& cycle);
 
 // contour_pocket.cpp

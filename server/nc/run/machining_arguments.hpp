@@ -11,7 +11,7 @@ namespace fitgauge::interpreter {
 class Channel;
 
 /// The value of a cycle parameter in mm, mm/min and degrees; MAX is infinity, AUTO the feed of TOOL
-/// CALL, a text where the parameter takes one. @errors decision 3.
+/// CALL, a text if the parameter accepts one. @errors decision 3.
 NcResult<probing::ArgumentValue> cycle_argument(Channel& channel,
                                                 const klartext::CycleParameter& written,
                                                 const probing::CycleParameter& parameter);

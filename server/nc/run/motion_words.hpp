@@ -13,7 +13,7 @@ namespace fitgauge::interpreter {
 
 class Channel;
 
-/// A number that may add to where the last block ended.
+/// A number that may be relative to the end of the last block.
 struct Coordinate {
   double value = 0;
   bool incremental = false;
@@ -25,7 +25,7 @@ struct MCall {
   std::optional<double> length{};        ///< MB, mm
   bool to_limit = false;                 ///< MB MAX
   std::optional<machine::Feed> feed{};   ///< of M140
-  const ControlPath* program = nullptr;  ///< that stands for it in the setup
+  const ControlPath* program = nullptr;  ///< its replacement in the setup
 };
 
 /// The words of a positioning block as numbers, in mm, degrees and mm/min.
@@ -44,14 +44,14 @@ struct MotionWords {
   bool has_m(int number) const;
 };
 
-/// @errors an axis the machine has no name for, an M function that is not available; decision 18
-///   holds for coordinates, decision 3 for all others.
+/// @errors an axis that the machine does not have, an unavailable M function; decision 18 applies
+///   to coordinates, decision 3 to all others.
 NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<klartext::Word> words);
 
 /// F, FMAX, FAUTO, FU or FZ as mm/min. @errors FT and FMAXT.
 NcResult<machine::Feed> read_feed(Channel& channel, const klartext::Word& word);
 
-/// The feed of a block: its own, which becomes the modal one unless it is FMAX, or the modal feed.
+/// The feed of a block: its word, which becomes modal unless it is FMAX, or the modal feed.
 NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::Feed>& written);
 
 /// @errors AxisMissing for U, V, W, which the simulated machine does not have.

@@ -62,8 +62,8 @@ struct BuilderAction {
   std::optional<ControlPath> program;
 };
 
-/// The M functions and cycles that only the builder of a machine knows, as its setup gives them
-/// (decision 28). Those of the control itself cannot be replaced.
+/// M functions and cycles of the machine builder, as in the setup (decision 28). Those of the
+/// control itself cannot be replaced.
 struct MachineBuilder {
   std::map<int, BuilderAction> m_functions;
   std::map<int, BuilderAction> cycles;

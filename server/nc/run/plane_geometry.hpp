@@ -69,28 +69,26 @@ double sweep(Vec2 start, Vec2 end, Vec2 centre, bool left_turn);
 /// The full turns of a sweep beyond its first: 720 of 730, 0 of 360.
 double whole_turns(double sweep_deg);
 
-/// The curve at a distance to its left; negative: to its right. Nothing where an arc shrinks to
-/// nothing.
+/// The curve offset to its left; negative: to its right. None if an arc vanishes.
 std::optional<Curve> offset_curve(const Curve& curve, double distance);
-/// Where the two curves at that distance to the left meet, near the point in which the curves
-/// themselves join.
+/// Intersection of the two curves offset to the left, near their common point.
 std::optional<Vec2> inner_corner(const Curve& before, const Curve& after, double distance);
 
 /// CR: of radius |r|, at most 180 degrees for r > 0 and more for r < 0. Nothing when the points are
 /// further apart than the diameter, or equal.
 std::optional<Curve> arc_of_radius(Vec2 start, Vec2 end, double r, bool left_turn);
 
-/// CT: leaves `start` along `direction`. A line when the end lies straight ahead.
+/// CT: begins at `start` along `direction`. A line if the end is straight ahead.
 Curve tangential_arc(Vec2 start, Vec2 direction, Vec2 end);
 
-/// RND: an arc tangential to both curves, nothing where it does not fit.
+/// RND: an arc tangential to both curves, none if it does not fit.
 std::optional<Curve> rounding(const Curve& before, const Curve& after, double radius);
-/// CHF: a line across the corner of two lines that takes `side` from each of them (decision 30);
-/// nothing where it does not fit.
+/// CHF: a line across the corner of two lines that removes `side` from each of them (decision 30);
+/// none if it does not fit.
 std::optional<Curve> chamfer(const Curve& before, const Curve& after, double side);
 
-/// APPR LCT and, reversed, DEP LCT: a line from `from`, tangential to the circle that is turned
-/// around `centre`. @returns where it meets the circle; nothing when `from` lies inside.
+/// APPR LCT and, reversed, DEP LCT: a line from `from`, tangential to the circle around `centre`.
+/// @returns the tangent point; none if `from` is inside.
 std::optional<Vec2> tangent_point(Vec2 from, Vec2 centre, double radius, bool left_turn);
 
 }  // namespace fitgauge::interpreter

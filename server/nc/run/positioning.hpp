@@ -33,18 +33,18 @@ class Positioning {
   /// The axes the block names, absolute.
   machine::AxisWords target(const machine::Position& from) const;
 
-  /// The plane of the block: that of the pole for polar coordinates and arcs around it, that of
-  /// the two axes a CR or CT names, else the working plane (decision 29).
+  /// The plane of the block: the pole's for polar coordinates and arcs around it, the plane of the
+  /// two axes of CR or CT, else the working plane (decision 29).
   WorkingPlane plane() const;
   bool is_polar() const;
 
-  /// Where the block ends in the working plane. @errors no pole.
+  /// End of the block in the working plane. @errors no pole.
   NcResult<Vec2> end_point();
   NcResult<Element> element(const Curve& curve);
   NcResult<void> move_along(Element element);
   NcResult<void> add(const Curve& curve);
 
-  /// A pole is not moved to, so decision 3 holds for its coordinates.
+  /// A pole is no motion, so decision 3 applies to its coordinates.
   NcResult<void> set_pole();
   NcResult<void> corner(const std::optional<double>& size, bool is_chamfer) {
     return contour().set_corner(size.value_or(0), is_chamfer, words_.feed);
@@ -53,12 +53,12 @@ class Positioning {
   /// M91, M92: coordinates of the spindle nose from the machine datum.
   NcResult<void> line_in(machine::CoordinateSystem system);
   NcResult<void> line();
-  /// PATHCTRL VECTOR: the same line in pieces, where it turns the tool.
+  /// PATHCTRL VECTOR: the same line in pieces, if it turns the tool.
   NcResult<void> add_along_vector(const Element& line);
   /// LN: from the programmed path, the tool's DR along the surface's normal.
   NcResult<machine::Vec3> shift_of_surface();
 
-  /// R+ and R-: each named axis of the plane goes on, or stops short, by the tool's radius.
+  /// R+ and R-: each named axis of the plane moves further, or less far, by the tool's radius.
   NcResult<void> lengthened_line(Vec2 end);
   NcResult<void> arc();
   bool left_turn() const { return motion_.rotation != klartext::Rotation::Negative; }
@@ -70,14 +70,14 @@ class Positioning {
   std::optional<Vec2> arriving();
   NcResult<Curve> centre_arc(Vec2 end);
 
-  /// Where the tool is when no compensation says it: on the left.
+  /// Side of the tool without compensation: left.
   double side() const { return channel_.contour.side() < 0 ? -1 : 1; }
 
   NcResult<void> approach();
   klartext::Path cartesian() const;
   NcResult<void> depart();
 
-  /// A move of the working plane alone.
+  /// A move only in the working plane.
   NcResult<void> leave(const Curve& curve);
 
   Channel& channel_;

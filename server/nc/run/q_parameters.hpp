@@ -12,10 +12,9 @@
 
 namespace fitgauge::interpreter {
 
-/// The cells that a program's code works on, and the strings. Q, QR and QS are the control's and
-/// outlive programs; QL, constants, counters and temporaries are those of the program that runs
-/// (code.hpp has the layout). An undefined parameter is a NaN; a defined one is finite. Not
-/// thread-safe.
+/// The cells of a program's code, and the strings. Q, QR and QS belong to the control and outlive
+/// programs; QL, constants, counters and temporaries belong to the current program (code.hpp has
+/// the layout). An undefined parameter is a NaN; a defined one is finite. Not thread-safe.
 class QParameters {
  public:
   QParameters();
@@ -39,7 +38,7 @@ class QParameters {
 
   /// State that a call of another program saves: the QL and the counters of repeats.
   std::vector<double> save_locals(const LinkedProgram& program) const;
-  /// Makes the cells those of `program`: with saved locals, or fresh ones.
+  /// Switches to the cells of `program`: with saved locals, or fresh ones.
   void enter(const LinkedProgram& program, std::span<const double> saved = {});
 
   /// Everything defined: Q, QR, QS, then the QL of the program entered last.

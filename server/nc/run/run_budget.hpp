@@ -19,20 +19,20 @@ struct RunLimits {
   std::size_t program_depth = 19;                   ///< programs nested by CALL PGM
   std::size_t output_bytes = std::size_t{4} << 20;  ///< screen, files, messages and records
   std::size_t files = 100;                          ///< written
-  /// All that the run holds: programs, tables, masks, presets, files, records, its trace.
+  /// Memory of the run: programs, tables, masks, presets, files, records, its trace.
   std::size_t memory_bytes = std::size_t{48} << 20;
 };
 
-/// The blocks of a run, and its allowance of time and memory. The executor takes blocks in portions
-/// and counts them down itself; the allowance is looked at with each portion, with each block that
-/// is more than arithmetic, and in every loop inside of such a block.
+/// The blocks of a run, and its allowance of time and memory. The executor reserves blocks in
+/// portions and counts them itself; the allowance is checked with each portion, with each block
+/// that is more than arithmetic, and in every loop inside of such a block.
 class RunBudget {
  public:
-  /// @param allowance is that of the run's machine, too, and outlives the budget
+  /// @param allowance is also that of the run's machine, and must outlive the budget
   RunBudget(const RunLimits& limits, Allowance& allowance)
       : limits_(limits), allowance_(allowance) {}
 
-  /// Takes back what is left of a portion and grants a new one of at least `needed` blocks.
+  /// Returns the rest of a portion and reserves a new one of at least `needed` blocks.
   /// @errors limit (blocks, time), cancelled.
   NcResult<std::int64_t> refuel(std::int64_t left, std::int64_t needed);
   /// The rest of a portion if its executor ends before the run.
@@ -44,8 +44,8 @@ class RunBudget {
       return {};
     return *refusal();
   }
-  /// Why the allowance is spent, if an earlier look has found it so: then whatever failed since
-  /// failed for that.
+  /// Why the allowance is spent, if an earlier check has found it so: then it is the cause of later
+  /// failures.
   std::optional<NcError> refusal() const;
 
   Allowance& allowance() { return allowance_; }

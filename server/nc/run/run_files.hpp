@@ -14,8 +14,8 @@
 
 namespace fitgauge::interpreter {
 
-/// The control's disk as this run has left it: what it wrote lies over what is stored, and stays
-/// in the run. Not thread-safe.
+/// The control's disk after this run: its files cover the stored ones, and stay in the run. Not
+/// thread-safe.
 class RunFiles final : public ControlDisk {
  public:
   /// @param disk must outlive this object, as must `budget`.
@@ -23,7 +23,7 @@ class RunFiles final : public ControlDisk {
       : disk_(disk), budget_(budget), most_files_(most_files) {}
 
   std::optional<ControlFile> find(const ControlPath& path) const override;
-  /// That of the file `find` gives, without reading its bytes.
+  /// Revision of the file of `find`, without reading its bytes.
   std::optional<std::string> revision(const ControlPath& path) const override;
   bool has_directory(std::string_view directory) const override;
 
@@ -31,7 +31,7 @@ class RunFiles final : public ControlDisk {
   NcResult<void> reserve(const ControlPath& path);
   /// @errors limit: output or number of files.
   NcResult<void> write(const ControlPath& path, std::string bytes);
-  /// Adds to a file of the run, or to what is stored of it. @errors as write.
+  /// Appends to a file of the run, or to a copy of the stored file. @errors as write.
   NcResult<void> append(const ControlPath& path, std::string_view bytes);
 
   /// Copies of all that was written until now.

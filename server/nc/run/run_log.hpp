@@ -25,7 +25,7 @@ class OutputBudget {
   std::size_t left_;
 };
 
-/// The output of a run: screen, messages, measurements. Owns them until they are taken.
+/// The output of a run: screen, messages, measurements. Owns them until they are moved out.
 class RunLog {
  public:
   RunLog(OutputBudget& budget, RunObserver& observer) : budget_(budget), observer_(observer) {}

@@ -32,11 +32,10 @@ class RunObserver {
   /// Asked once at the start: whether `entered` is wanted for every block, and not only for those
   /// that may command the machine or print.
   virtual bool follows_every_block() const { return false; }
-  /// Called once before the first block: where the run's files and parameters are, which may be
-  /// looked at in the calls below.
+  /// Called once before the first block with the run's files and parameters, which may be read in
+  /// the calls below.
   virtual void begins(const RunFiles&, const QParameters&) {}
-  /// The block that is about to run: what the machine is commanded until the next call is its
-  /// doing.
+  /// Called before a block: machine commands until the next call belong to it.
   virtual void entered(const Place&) {}
   /// The cycle that commands the machine from now on; 0: the blocks themselves.
   virtual void moved_by_cycle(int /*number*/) {}

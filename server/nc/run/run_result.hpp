@@ -25,7 +25,7 @@ enum class MessageKind : std::uint8_t {
   Stop,       ///< STOP, M0, a log on the screen, the Q309 reaction of a cycle
   Limit,      ///< a budget of the run is used up
   Cancelled,  ///< by the operator
-  Note,       ///< what the simulation leaves out: radius compensation, PLC functions
+  Note,       ///< omitted by the simulation: radius compensation, PLC functions
 };
 
 /// `error`, `stop`, `limit`, `cancelled`, `note`.
@@ -34,13 +34,13 @@ std::string_view word(MessageKind kind);
 /// A line for the control's message line, and its block.
 struct RunMessage {
   MessageKind kind = MessageKind::Error;
-  int number = 0;  ///< the control's error number, 0 where it has none
+  int number = 0;  ///< the control's error number, 0 if it has none
   std::string text;
   std::string program;                 ///< TNC:\...
   std::uint32_t line = 0;              ///< from 1, of the block's first physical line
   std::optional<std::uint32_t> block;  ///< its number, as written or counted
   std::uint32_t column = 0;            ///< from 1, of the block in that line; 0: no line is meant
-  std::string source{};                ///< the physical line, cut where it is long
+  std::string source{};                ///< the physical line, cut if it is long
   std::vector<klartext::DiagnosticNote> origins{};  ///< of an error that ended the run
 
   friend bool operator==(const RunMessage&, const RunMessage&) = default;
@@ -66,7 +66,7 @@ struct Measurement {
   std::optional<std::uint32_t> block;
 };
 
-/// Everything a run leaves behind; complete also when it failed.
+/// All results of a run; complete also if it failed.
 struct RunResult {
   RunStatus status = RunStatus::Completed;
   std::uint64_t blocks_executed = 0;

@@ -41,7 +41,7 @@ SlPath path_along(const SlContour& contour, double reach, bool is_climb);
 /// feeds and M functions do not count there.
 class SlDrawing {
  public:
-  /// Begins where the machine stands, which must outlive this.
+  /// Begins at the position of the machine, which must outlive this.
   explicit SlDrawing(const machine::Machine& machine)
       : machine_(&machine),
         begun_in_(machine.state().frames),
@@ -51,7 +51,7 @@ class SlDrawing {
   /// others are the contour. @errors not in the working plane.
   NcResult<void> add(const Element& element);
 
-  /// Where the last element ends, in the coordinates that are active now.
+  /// End of the last element, in the active coordinates.
   machine::Position position() const;
 
   const std::vector<Curve>& curves() const { return curves_; }

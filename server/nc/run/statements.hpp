@@ -8,12 +8,12 @@
 #include "nc/program/linked_program.hpp"
 #include "nc/run/nc_error.hpp"
 
-/// One function for each kind of block; a family lies in one exec_* file.
+/// One function for each kind of block; a family is in one exec_* file.
 namespace fitgauge::interpreter {
 
 class Channel;
 
-/// Where the run goes on after a block.
+/// The next step of the run after a block.
 struct Next {
   enum class Kind : std::uint8_t { Block, Jump, CallLabel, CallProgram, EndRun };
   Kind kind = Kind::Block;
@@ -30,7 +30,7 @@ NcResult<Next> execute(Channel& channel, const klartext::LabelCall& call, std::u
 NcResult<Next> execute(Channel& channel, const klartext::CallProgram& call);
 NcResult<Next> execute(Channel& channel, const klartext::CallSelectedProgram& call);
 NcResult<void> execute(Channel& channel, const klartext::SelectProgram& select);
-/// Goes on in a program. @errors it does not exist or has errors.
+/// Continues in a program. @errors it does not exist or has errors.
 NcResult<Next> call_program(Channel& channel, const ControlPath& path);
 
 // exec_data.cpp

@@ -55,7 +55,7 @@ class TableAccess {
   /// Those since the last call.
   std::vector<ToolCell> take_tool_cells() { return std::exchange(tool_cells_, {}); }
 
-  /// Writes what has changed. @errors limit.
+  /// Writes the changes. @errors limit.
   NcResult<void> close();
   const std::vector<OpenedTable>& opened() const { return opened_; }
 

@@ -15,7 +15,7 @@ std::optional<double> tool_value(const machine::Tool& tool, std::int64_t nr);
 enum class ToolWrite : std::uint8_t {
   Done,
   Unknown,    ///< no column has that number
-  OutOfRange  ///< the column takes whole numbers, and not this one
+  OutOfRange  ///< the column has whole numbers, and this is not one
 };
 ToolWrite set_tool_value(machine::Tool& tool, std::int64_t nr, double value);
 

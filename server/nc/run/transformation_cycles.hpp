@@ -10,8 +10,8 @@ namespace fitgauge::interpreter {
 
 class Channel;
 
-/// The axis words of a transformation with their values, in mm and degrees; other words are passed
-/// over. Decision 3 holds: an undefined parameter is an error.
+/// The axis words of a transformation with their values, in mm and degrees; other words are
+/// ignored. Decision 3 applies: an undefined parameter is an error.
 NcResult<AxisCoordinates> read_axis_words(Channel& channel, std::span<const klartext::Word> words);
 
 /// The cycles of CYCL DEF that are written in sub-lines and act when they are read: 7 datum shift,

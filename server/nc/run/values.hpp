@@ -18,7 +18,7 @@ NcResult<double> number(Channel& channel, const klartext::Expr& expr);
 NcResult<std::optional<double>> coordinate(Channel& channel, const klartext::Expr& expr);
 /// A number that must be whole and between two bounds, both included. @errors 1011.
 NcResult<int> whole_in(Channel& channel, const klartext::Expr& expr, int least, int most);
-/// A number that must be whole: any that an int holds. @errors 1011.
+/// A whole number in the range of int. @errors 1011.
 NcResult<int> whole(Channel& channel, const klartext::Expr& expr);
 
 NcResult<std::string> text(Channel& channel, const klartext::Expr& expr);
