@@ -149,6 +149,15 @@ Outcome<std::string> run_there(const Context& context, const RunOptions& options
   return std::move(answer->body);
 }
 
+/// The usual cause of a probing move without contact (error 1014), if the run has no setup.
+std::string_view missing_part(const JsonValue& run, const RunOptions& options) {
+  const bool has_setup = !options.setup.empty() || !options.setup_file.empty();
+  const auto is_missed = [](const JsonValue& each) { return each.text_of("number") == "1014"; };
+  return !has_setup && std::ranges::any_of(run.member("messages").items, is_missed)
+             ? ": the machine has no workpiece, give a setup with --setup"
+             : "";
+}
+
 Outcome<ExitCode> run_one(const Context& context, const RunOptions& options) {
   const auto body = options.from_control ? run_there(context, options) : run_here(context, options);
   if (!body) return body.error();
@@ -164,10 +173,10 @@ Outcome<ExitCode> run_one(const Context& context, const RunOptions& options) {
   }
   const std::string_view status = run->text_of("status");
   if (status != "completed") {
-    return Failure{
-        ExitCode::ProgramFailed,
-        fmt::format("run {} ended with status {}",
-                    options.from_control ? run->text_of("id") : options.program, status)};
+    return Failure{ExitCode::ProgramFailed,
+                   fmt::format("run {} ended with status {}{}",
+                               options.from_control ? run->text_of("id") : options.program, status,
+                               missing_part(*run, options))};
   }
   const std::string_view verdict = run->text_of("verdict");
   return verdict.empty() ? ExitCode::Good : verdict_exit_code(verdict);

@@ -200,6 +200,14 @@ END PGM HOLE MM
         self.assertEqual(failed.returncode, 9)
         self.assertIn("TNC:\\fails.h:2:", failed.stderr_text)
         self.assertIn("ended with status failed", failed.stderr_text)
+        self.assertNotIn("--setup", failed.stderr_text)
+
+    def test_a_run_without_a_workpiece_names_the_remedy(self):
+        for arguments in (("--from-control", "nc_prog/8255/8255.h"), (EXAMPLES / "8255" / "8255.h",)):
+            failed = self.client.run("nc", "run", *arguments)
+            self.assertEqual(failed.returncode, 9)
+            self.assertIn("error 1014", failed.stderr_text)
+            self.assertIn("the machine has no workpiece, give a setup with --setup", failed.stderr_text)
 
 
 if __name__ == "__main__":
