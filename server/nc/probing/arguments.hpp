@@ -13,10 +13,9 @@ namespace fitgauge::probing {
 /// text.
 using ArgumentValue = std::variant<std::monostate, double, std::string>;
 
-/// Whether a value may stand in a parameter: for the linker, as soon as it is known, and for the
-/// run. The message names the parameter, the value and what is allowed.
-/// @errors 1004 outside the range, 1011 not whole, not finite, or a text where none may stand,
-///   1017 missing.
+/// Checks if a value is allowed in a parameter, in the linker when it is known, and in the run. The
+/// message has the parameter, the value and the allowed values.
+/// @errors 1004 outside the range, 1011 not whole, not finite, or an unexpected text, 1017 missing.
 CycleResult<void> check(const CycleParameter& parameter, const ArgumentValue& value);
 
 /// The values of one cycle block, in the order of its descriptor's parameters.
@@ -33,7 +32,7 @@ class Arguments {
   /// Puts the defaults into missing parameters and checks all; errors as `check`.
   CycleResult<void> complete();
 
-  /// @pre complete() succeeded and the parameter holds a number.
+  /// @pre complete() succeeded and the parameter is a number.
   double number(ParameterId id) const;
   double number(int parameter) const { return number(q(parameter)); }
   /// Of a cycle that is written in sub-lines or in Q parameters: the number in either.
@@ -44,7 +43,7 @@ class Arguments {
   double number_or(int parameter, double fallback) const;
   int whole(int parameter) const { return static_cast<int>(number(parameter)); }
   bool has_number(ParameterId id) const;
-  /// The text, or nothing when the parameter holds none.
+  /// The text, or nothing if the parameter is not a text.
   const std::string* text(ParameterId id) const;
 
  private:

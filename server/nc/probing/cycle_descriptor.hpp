@@ -118,7 +118,7 @@ struct CycleParameter {
   std::optional<double> default_value{};  ///< of a parameter that the block leaves out
   bool required = true;   ///< without default: an error when it is missing, else just absent
   bool newer = false;     ///< not in the blocks of older controls
-  std::uint8_t part = 0;  ///< of a dotted cycle: the sub-line it stands in, `3.2` is 2
+  std::uint8_t part = 0;  ///< of a dotted cycle: its sub-line, `3.2` is 2
 
   constexpr bool is_text() const { return kind == ValueKind::Text; }
   constexpr bool takes_text() const { return is_text() || kind == ValueKind::NumberOrText; }
@@ -142,15 +142,15 @@ struct CycleDescriptor {
   bool dotted = false;  ///< one block per sub-line, `0.0`, `0.1`; its parameters are words
   std::span<const CycleParameter> parameters{};  ///< in the order of the control's dialog
   std::span<const CycleOutput> results{};
-  ErrorSet errors{};                 ///< that it ends with, beside 1004 and 1011 of its values
-  std::string_view simulated{};      ///< what the simulation does
+  ErrorSet errors{};             ///< that it ends with, in addition to 1004 and 1011 of its values
+  std::string_view simulated{};  ///< behaviour in the simulation
   std::string_view not_simulated{};  ///< what of the control's cycle changes nothing; may be empty
 
   const CycleParameter* find(ParameterId id) const;
 };
 
-/// The numbered errors that a cycle may end with: those of its values, of the state it needs, of
-/// what it touches, of Q309. `run_cycle` asserts that there are no others.
+/// The error numbers of a cycle: of its values, of the required state, of its touches, of Q309.
+/// `run_cycle` asserts that there are no others.
 std::set<int> errors_of(const CycleDescriptor& cycle);
 
 }  // namespace fitgauge::probing

@@ -18,7 +18,7 @@ enum class CycleFaultKind : std::uint8_t {
 /// exception. The enum class stays first: see fitgauge::Error.
 struct CycleFault {
   CycleFaultKind kind{};
-  int number = 0;    ///< 1000 to 1199, 0 where the control shows only text
+  int number = 0;    ///< 1000 to 1199, 0 if the control shows only text
   std::string text;  ///< the control's text, then what happened
 
   friend bool operator==(const CycleFault&, const CycleFault&) = default;

@@ -67,18 +67,17 @@ class CycleHost {
   virtual std::string_view program_path() const = 0;
   virtual Timestamp now() const = 0;
 
-  /// Appends a log to a file beside the program (or in the directory FN 16 has set); the file is
-  /// made when it does not exist. @param name such as `TCHPR421.TXT`. @param text lines end with
-  /// LF.
-  /// @errors when the run's output budget is used up.
+  /// Appends a log to a file in the program's folder (or in the folder of FN 16), and creates the
+  /// file if needed. @param name such as `TCHPR421.TXT`. @param text lines end with LF.
+  /// @errors if the run's output budget is used up.
   virtual CycleResult<void> append_log(std::string_view name, std::string_view text) = 0;
   /// Writes a whole file there, new or replaced: `TCHPR444.html`.
   virtual CycleResult<void> write_log(std::string_view name, std::string_view text) = 0;
-  /// Stops until NC Start. Returns at once; where a stop ends the run, it ends after the cycle.
+  /// Stops until NC Start. Returns at once; if a stop ends the run, it ends after the cycle.
   virtual void stop(std::string_view reason) = 0;
-  /// Stops until NC Start confirms what `reason` says. @return false where a stop ends the run.
+  /// Stops until NC Start confirms `reason`. @return false if a stop ends the run.
   virtual CycleResult<bool> confirm(std::string_view reason) = 0;
-  /// Tells the operator something, once in a run. @errors when the run's output budget is used up.
+  /// Shows a message once in a run. @errors if the run's output budget is used up.
   virtual CycleResult<void> note(std::string_view text) = 0;
   /// Q281 = 2: shows the log on the screen and stops.
   virtual void show_and_stop(std::string_view text) = 0;

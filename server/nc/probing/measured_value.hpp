@@ -17,9 +17,8 @@ enum class ValueRole : std::uint8_t {
   Position,   ///< either side is reject (decision 1)
 };
 
-/// A measured value of a cycle with all that results, status, log and record say about it. Lengths
-/// in whole nanometres: that is what limits are compared with (decision 13) and what Q parameters
-/// get (decision 21).
+/// A measured value of a cycle with its texts for results, status, log and record. Lengths in whole
+/// nanometres: the unit of comparisons with limits (decision 13) and of Q parameters (decision 21).
 struct MeasuredValue {
   std::string_view characteristic{};  ///< "Diameter", as in the log
   ValueRole role = ValueRole::HoleSize;

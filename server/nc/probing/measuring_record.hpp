@@ -36,12 +36,12 @@ struct Form {
   bool assessable = false;
   std::string reason{};                 ///< which deviations stay invisible
   std::optional<double> residual_mm{};  ///< largest distance of a point from the fitted circle
-  double diameter_factor = 1;  ///< standard deviation of the diameter over that of one touch
+  double diameter_factor = 1;  ///< standard deviation of the diameter divided by that of one touch
   std::size_t points = 0;
   double start_angle_deg = 0;                    ///< of the first point, from the main axis
   std::optional<double> touch_uncertainty_um{};  ///< standard uncertainty, if the setup states it
-  /// Range of the points' distances from the centre: a lower bound of the roundness. Nothing of
-  /// three points, which always lie on a circle.
+  /// Range of the points' distances from the centre: a lower bound of the roundness. None for three
+  /// points, which always are on a circle.
   std::optional<Length> deviation{};
 };
 
@@ -55,11 +55,11 @@ constexpr gauging::Quantity quantity_of(int cycle, bool is_position) {
   return is_width ? Quantity::Width : Quantity::Diameter;
 }
 
-/// The outcome of a measuring cycle, kept with the run.
+/// The outcome of a measuring cycle, stored with the run.
 struct MeasuringRecord {
   std::uint16_t cycle = 0;
   std::vector<MeasuredSize> sizes{};          ///< sizes, then positions; none for 0 and 1
-  bool has_status = false;                    ///< its verdict is that of the run until the next
+  bool has_status = false;                    ///< its verdict is the run's until the next one
   std::optional<gauging::Verdict> verdict{};  ///< of the whole cycle; nothing without limits
   std::optional<Form> form{};                 ///< of circular features
 };

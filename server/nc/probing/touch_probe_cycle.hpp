@@ -20,7 +20,7 @@ using CycleFunction = CycleResult<void> (*)(const CycleContext&);
 /// Checks of several values together, or of a text. Unknown values are missing.
 using ArgumentCheck = CycleResult<void> (*)(const Arguments&);
 
-/// A cycle: what it is and what it does. Static data without state, shared by all threads.
+/// A cycle: its description and its function. Static data without state, shared by all threads.
 struct TouchProbeCycle {
   CycleDescriptor descriptor;
   CycleFunction execute;
@@ -39,13 +39,13 @@ constexpr TouchProbeCycle cycle(std::uint16_t number, std::string_view name, Cyc
           execute};
 }
 
-/// A function of the context and of what tells two cycles apart, as one of the context alone.
+/// Makes a function of only the context from one with the difference of two cycles.
 template <auto function, auto... arguments>
 CycleResult<void> with(const CycleContext& context) {
   return function(context, arguments...);
 }
 
-/// The same of a function that runs after `begin` has made what it needs.
+/// The same for a function that runs after `begin` has made its object.
 template <auto begin, auto function, auto... arguments>
 CycleResult<void> after(const CycleContext& context) {
   auto begun = begin(context);
@@ -54,7 +54,7 @@ CycleResult<void> after(const CycleContext& context) {
 }
 
 /// Completes and checks the arguments, then runs the cycle: motion, results, status, log, in that
-/// order the stop of Q309 last (decision 6). After an error the machine stands where it stopped.
+/// order, the stop of Q309 last (decision 6). After an error the machine stops where it is.
 /// @errors 1001 tool axis missing, 1004, 1011, 1017 arguments, and those of the cycle and machine.
 CycleResult<void> run_cycle(const TouchProbeCycle& cycle, Arguments arguments,
                             machine::Machine& machine, CycleHost& host);

@@ -29,7 +29,7 @@ CycleResult<void> reset_basic_rotation(machine::Machine& machine);
 /// The same, with a note when there was one. @errors when the run's output budget is used up.
 CycleResult<void> begin_without_rotation(const CycleContext& context);
 
-/// The begin of every alignment cycle: resets an active basic rotation.
+/// Begins every alignment cycle: resets an active basic rotation.
 /// @errors 1008 and 1007 with mirror and scaling active; those of ProbingMotion::begin.
 CycleResult<ProbingMotion> begin_alignment(const CycleContext& context);
 
@@ -45,15 +45,14 @@ constexpr machine::Axis rotary_axis_around(machine::Axis linear) {
   return static_cast<machine::Axis>(index(linear) + 3);
 }
 
-/// The angle by which a rotary table turns what stands at `angle_deg`, right-handed around the
-/// linear axis of the same letter, to 0. @errors those of align_rotary_axis.
+/// Returns the angle by which a rotary table turns a direction at `angle_deg`, right-handed around
+/// the linear axis of the same letter, to 0. @errors those of align_rotary_axis.
 CycleResult<double> table_angle(const machine::MachineState& state, machine::Axis rotary,
                                 double angle_deg);
 
-/// Turns a rotary table so that what stands at `angle_deg` (right-handed around the linear axis of
+/// Turns a rotary table so that a direction at `angle_deg` (right-handed around the linear axis of
 /// the same letter) comes to 0.
-/// @errors 1100 the axis turns the head, not the workpiece; a fault when the machine has no such
-/// axis
+/// @errors 1100 the axis turns the head, not the workpiece; a fault if the machine has no such axis
 ///   or it would leave its range.
 CycleResult<void> align_rotary_axis(const CycleContext& context, machine::Axis rotary,
                                     double angle_deg);

@@ -48,10 +48,10 @@ struct ProbeCalibration {
   double residual = 0;
 };
 
-/// The calibration of the touch probe in the spindle, which stands above or in the standard. The
-/// ball centre that the control computes is off by the error of CAL_OF1 and CAL_OF2, with the
-/// spindle turned by 180 degrees to the other side: the middle of both is right.
-/// Not thread-safe; lives within one execution. After an error no table has changed.
+/// The calibration of the touch probe in the spindle, which is above or in the standard. The
+/// computed ball centre is off by the error of CAL_OF1 and CAL_OF2, and to the other side after the
+/// spindle turns by 180 degrees: the middle of both is right. Not thread-safe; lives within one
+/// execution. After an error no table has changed.
 class ProbeCalibrator {
  public:
   using Pass = std::function<CycleResult<RoundStandard>(Point2 near)>;
@@ -61,14 +61,14 @@ class ProbeCalibrator {
   static CycleResult<ProbeCalibrator> begin(const CycleContext& context);
 
   ProbingMotion& motion() { return motion_; }
-  /// Where the ball's south pole stood at the beginning, in plane coordinates: its height is the
+  /// Position of the ball's south pole at the beginning, in plane coordinates: its height is the
   /// clearance height.
   const Vec3& start() const { return start_; }
 
   /// Touches Q423 times around a point from the angle Q380 on, the ball centre at `height`.
   CycleResult<RoundStandard> touch_around(Side side, Point2 centre, double height);
 
-  /// A pass from where the probe stands, to find the standard, then one at its centre for each
+  /// Probes once from the current position to find the standard, then once at its centre for each
   /// position of the spindle. Ends at the clearance height over the centre.
   CycleResult<ReversalResult> measure(const Pass& pass);
 

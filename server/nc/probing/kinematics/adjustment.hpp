@@ -44,13 +44,13 @@ struct AdjustedPoses {
   const std::vector<Line>& lines;
 };
 
-/// One fit of a set of unknowns: their values and what the positions see of them. Not thread-safe;
+/// One fit of unknowns: their values and what the positions determine of them. Not thread-safe;
 /// lives within one fit.
 class Adjustment {
  public:
   Adjustment(const AdjustedPoses& poses, std::vector<Unknown> unknowns);
 
-  /// Which unknowns lie in no direction that the positions leave undefined.
+  /// Which unknowns the positions determine.
   std::vector<bool> seen() const;
   /// @pre all unknowns are seen.
   void solve();

@@ -9,9 +9,9 @@ namespace fitgauge::probing {
 /// Corrections that the machine allows: with insignificant_corrections "note" all of them.
 FitOptions fit_options(const CycleContext& context, bool directions);
 
-/// Takes the corrected model into the machine, if there is something to correct, and notes what is
-/// left out. A correction beyond max_modification_mm waits for NC Start; where a stop ends the run
-/// nothing is corrected.
+/// Applies the corrected model to the machine, if there are corrections, and notes the omitted
+/// ones. A correction beyond max_modification_mm waits for NC Start; if a stop ends the run nothing
+/// is corrected.
 /// @errors 1102 errors were found, and none of them is at least twice its uncertainty.
 CycleResult<void> correct_kinematics(const CycleContext& context,
                                      std::span<const AxisErrors> errors, bool is_corrected,

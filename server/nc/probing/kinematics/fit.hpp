@@ -11,11 +11,11 @@ namespace fitgauge::probing {
 /// The calibration sphere measured with the rotary axes at one position.
 struct SpherePose {
   machine::Vec3 rotary;  ///< A, B, C in degrees
-  machine::Vec3 nose;    ///< what X, Y, Z would show with the ball's centre in that of the sphere
+  machine::Vec3 nose;    ///< display of X, Y, Z with the ball's centre in the sphere's centre
 };
 
-/// Poses that are compared with each other: those of one axis. Between groups the other axes come
-/// to rest elsewhere, so each group has a place of the sphere of its own.
+/// Comparable poses: those of one axis. Between groups the other axes rest elsewhere, so each group
+/// has its own place of the sphere.
 using PoseGroup = std::vector<SpherePose>;
 
 /// The spherical tool that measured: a ball `length` mm from the spindle nose.
@@ -24,15 +24,15 @@ struct MeasuringTool {
   double length = 0;
 };
 
-/// Where the sphere's centre lies on the table by a kinematic model: in machine coordinates with
+/// Position of the sphere's centre on the table by a kinematic model: in machine coordinates with
 /// all axes at zero.
 machine::Vec3 on_table(const SpherePose& pose, const machine::Kinematics& model,
                        const MeasuringTool& tool);
 
-/// The spread of sphere centres that should lie at one place of the table.
+/// Spread of sphere centres that should coincide on the table.
 struct Spread {
-  /// The root mean square of the errors in space (decision 26). Of two positions the distance
-  /// between them: one position beside the reference has an error, but no dispersion.
+  /// Root mean square of the errors in space (decision 26). Of two positions the distance between
+  /// them: a single position has an error, but no dispersion.
   double deviation = 0;
   machine::Vec3 centre;
   std::vector<machine::Vec3> errors;  ///< of each pose, on the table
@@ -61,8 +61,8 @@ struct AxisErrors {
   std::optional<FoundError> location;  ///< in mm across the axis, at the height of the sphere
   std::optional<FoundError> tilt_deg;  ///< a rotation vector across the axis
   std::optional<FoundError> zero_deg;  ///< a rotation vector along the axis
-  /// The variance of one measured centre over that of the location, in its worst direction; 0
-  /// without a location.
+  /// Variance of one measured centre divided by the variance of the location, in its worst
+  /// direction; 0 without a location.
   double valuation = 0;
 
   bool is_significant() const {
@@ -72,7 +72,7 @@ struct AxisErrors {
 };
 
 struct KinematicsFit {
-  machine::Kinematics corrected;   ///< the model with what was found
+  machine::Kinematics corrected;   ///< the corrected model
   bool is_corrected = false;       ///< something was found and is corrected
   std::vector<AxisErrors> errors;  ///< in the order asked for
   std::vector<Spread> before;      ///< of each group, by the model
@@ -80,7 +80,7 @@ struct KinematicsFit {
 };
 
 struct FitOptions {
-  bool directions = true;  ///< of the axes, beside their locations
+  bool directions = true;  ///< of the axes, in addition to their locations
   /// With directions: what an axis that is fitted too is tilted by around the one that carries it
   /// is the error of the carrier's zero.
   bool zeros = false;
@@ -96,14 +96,14 @@ KinematicsFit fit_kinematics(std::span<const PoseGroup> groups, const machine::K
                              const MeasuringTool& tool, std::span<const machine::Axis> axes,
                              const FitOptions& options);
 
-/// By how much more the axis is turned where its position was approached from above than where it
-/// was approached from below, in degrees, by least squares. @pre both have the same positions.
+/// Difference of the axis angle between approaches from above and from below, in degrees, by least
+/// squares. @pre both have the same positions.
 double fit_backlash(const PoseGroup& from_below, const PoseGroup& from_above,
                     const machine::Kinematics& model, const MeasuringTool& tool,
                     machine::Axis axis);
 
-/// How far the axis stands from its positions, in degrees: the mean size of the errors along the
-/// measuring circle over its radius, by that model.
+/// Position error of the axis, in degrees: the mean size of the errors along the measuring circle
+/// divided by its radius, by that model.
 double mean_positioning_error(const PoseGroup& poses, const machine::Kinematics& model,
                               const MeasuringTool& tool, machine::Axis axis);
 

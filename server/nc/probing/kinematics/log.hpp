@@ -15,10 +15,10 @@ struct KinematicsReport {
   std::optional<Vec3> shift{};  ///< of the preset, in mm, that was compensated
 };
 
-/// Adds a measurement to TCHPR451.html (that of the cycle's number) beside the program: per axis
-/// its positions with their errors before and after, standard deviations, what was found and what
-/// the positions cannot see. Lengths in mm, in an INCH program too.
-/// @errors when the run's output budget is used up.
+/// Adds a measurement to TCHPR451.html (with the cycle's number) in the program's folder: for each
+/// axis its positions with errors before and after, standard deviations, results and undetermined
+/// values. Lengths in mm, also in an INCH program.
+/// @errors if the run's output budget is used up.
 CycleResult<void> log_kinematics(const CycleContext& context, const KinematicsReport& report);
 
 /// The same of axes that were measured together.

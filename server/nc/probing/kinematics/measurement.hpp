@@ -14,26 +14,25 @@ namespace fitgauge::probing {
 /// A block's settings of one rotary axis, and its positions.
 struct AxisPlan {
   machine::Axis axis = machine::Axis::A;
-  double start = 0;      ///< degrees
-  double end = 0;        ///< degrees
-  double incidence = 0;  ///< where it stands while the other axes are measured, in degrees
-  int points = 0;        ///< 0: it is not measured
-  bool strobed = false;  ///< positioned by an M function (mStrobeRotAxPos, decision 19)
-  double grid = 0;       ///< of a Hirth axis, in degrees; 0 is none
+  double start = 0;                 ///< degrees
+  double end = 0;                   ///< degrees
+  double incidence = 0;             ///< its position while other axes are measured, in degrees
+  int points = 0;                   ///< 0: it is not measured
+  bool strobed = false;             ///< positioned by an M function (mStrobeRotAxPos, decision 19)
+  double grid = 0;                  ///< of a Hirth axis, in degrees; 0 is none
   std::vector<double> positions{};  ///< in order; 0 is left out, the reference is measured there
 
   bool is_measured() const { return points > 0; }
 };
 
 /// `points` positions from `start` to `end` at equal steps. A Hirth axis stops at the nearest
-/// multiple of its grid, of two equally near ones at that away from zero (decision 5).
+/// multiple of its grid, of two equally near ones at the one away from zero (decision 5).
 std::vector<double> measuring_positions(double start, double end, int points, double grid);
 
-/// The plans of the rotary axes that the machine has, in the order A, B, C; what the block says
-/// about others counts for nothing.
-/// @errors 1005 an axis that an M function positions does not stand at 0, 1100 the machine has no
-/// rotary axis, 1101 a position, or what backlash (Q432) needs on
-///   either side of it, is outside the range of its axis.
+/// Plans the rotary axes of the machine, in the order A, B, C; settings of other axes are ignored.
+/// @errors 1005 an axis that an M function positions is not at 0, 1100 the machine has no rotary
+///   axis, 1101 a position, or its approach for backlash (Q432) on either side, is outside the
+///   range of its axis.
 CycleResult<std::vector<AxisPlan>> plan_positions(const Arguments& arguments,
                                                   const machine::MachineState& state);
 
@@ -43,7 +42,7 @@ struct AxisMeasurement {
   PoseGroup poses;  ///< the reference at 0 first, then the positions
   AxisErrors errors;
   Spread before;      ///< by the kinematics that were active
-  Spread after;       ///< by the corrected kinematics: what the next measurement finds
+  Spread after;       ///< by the corrected kinematics: the result of a next measurement
   double radius = 0;  ///< of the measuring circle, in mm
   double positioning_error_deg = 0;  ///< mean, by the corrected kinematics
   std::optional<double> backlash_deg{};
@@ -52,12 +51,12 @@ struct AxisMeasurement {
 
 struct KinematicsMeasurement {
   std::vector<AxisMeasurement> axes;  ///< those measured, in the order A, B, C
-  machine::Kinematics corrected;      ///< the active kinematics with what was found
+  machine::Kinematics corrected;      ///< the active kinematics with the corrections
   bool is_corrected = false;          ///< something was found and is corrected
 };
 
 /// Measures the planned axes one after the other, the others at their angle of incidence: with
-/// backlash (Q432) each position is approached from either side, and the first side counts.
+/// backlash (Q432) each position is approached from both sides, and the first side counts.
 /// Evaluates all axes together (decision 26).
 /// @errors those of KinematicsProbing::measure.
 CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& context,
@@ -65,7 +64,7 @@ CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& contex
                                                       std::span<const AxisPlan> plans,
                                                       const FitOptions& options);
 
-/// Q141 to Q149, in mm whatever the unit of the program; -1 for axes that were not measured.
+/// Q141 to Q149, always in mm; -1 for axes that were not measured.
 void write_kinematics_results(CycleHost& host, const KinematicsMeasurement& measurement,
                               const Vec3& offset);
 

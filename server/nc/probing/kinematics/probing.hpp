@@ -5,11 +5,11 @@
 
 namespace fitgauge::probing {
 
-/// Turns the rotary axes and measures the calibration sphere where it then stands. Before a turn
-/// the probe goes to the retraction height Q408 over the sphere's place at zero, or with Q408 = 0
-/// it circles the sphere while the axes turn. A tilted plane and TCPM are switched off for
-/// good, as the control does. Not thread-safe; lives within one execution. After an error the
-/// machine stands where it stopped.
+/// Turns the rotary axes and measures the calibration sphere at its new place. Before a turn the
+/// probe moves to the retraction height Q408 over the sphere's place at zero, or with Q408 = 0 it
+/// circles the sphere while the axes turn. A tilted plane and TCPM are switched off, as on the
+/// control. Not thread-safe; lives within one execution. After an error the machine stops where it
+/// is.
 class KinematicsProbing {
  public:
   /// The sphere is expected at the zero of the active preset.
@@ -19,7 +19,7 @@ class KinematicsProbing {
   static CycleResult<KinematicsProbing> begin(const CycleContext& context);
 
   MeasuringTool tool() const { return {state().tool_axis(), probe_.ball_length()}; }
-  /// Where the sphere is expected with all axes at zero, in machine coordinates.
+  /// Expected place of the sphere with all axes at zero, in machine coordinates.
   const Vec3& sphere() const { return sphere_; }
 
   /// Finds the sphere below the probe, at the present position of the axes.

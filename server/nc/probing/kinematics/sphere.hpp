@@ -4,10 +4,10 @@
 
 namespace fitgauge::probing {
 
-/// Touches the calibration sphere wherever the rotary axes have brought it. Points are centres of
-/// the ball in machine coordinates; "above" is along the tool. Linear moves run at Q253, at most at
-/// the rapid of the probe. Not thread-safe; lives within one execution. After an error the machine
-/// stands where it stopped.
+/// Touches the calibration sphere at any position of the rotary axes. Points are centres of the
+/// ball in machine coordinates; "above" is along the tool. Linear moves run at Q253, at most at the
+/// rapid of the probe. Not thread-safe; lives within one execution. After an error the machine
+/// stops where it is.
 class SphereProbe {
  public:
   /// @errors those of ProbingMotion::begin.
@@ -15,7 +15,7 @@ class SphereProbe {
 
   /// Sphere to start of a touch, centre to centre: both radii, SET_UP and Q320.
   double start_distance() const { return sphere_radius_ + probe_.radius + clearance_; }
-  /// From the sphere's centre to the tip where it may circle the sphere: the ball stays clear of it
+  /// Distance from the sphere's centre to the tip for circling: the ball stays clear of the sphere
   /// on either side of the tip.
   double circling_distance() const { return sphere_radius_ + 2 * probe_.radius + clearance_; }
 
@@ -30,7 +30,7 @@ class SphereProbe {
   CycleResult<void> move_ball(const Vec3& centre);
   CycleResult<void> move_tip(const Vec3& tip);
 
-  /// Finds a sphere that the probe stands above: touches down once.
+  /// Finds a sphere below the probe: touches down once.
   CycleResult<Vec3> find();
   /// Touches a sphere whose centre is expected at `sphere`: from above, then Q423 times around it
   /// from the angle Q380 on. Ends above it.

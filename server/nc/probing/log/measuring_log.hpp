@@ -44,12 +44,12 @@ class MeasuringLog {
 /// The sections of measured values: nominal, limits, actual, deviations.
 void add_values(MeasuringLog& log, std::span<const MeasuredValue> values);
 
-/// The target of the log (Q281): 0 nothing, 1 the file beside the program, 2 the screen and a stop,
-/// unless cycle 441 has switched that off.
+/// The target of the log (Q281): 0 nothing, 1 the file in the program's folder, 2 the screen and a
+/// stop, unless cycle 441 has disabled that.
 CycleResult<void> deliver_log(const CycleContext& context, MeasuringLog log);
 
-/// A log that is one HTML page, beside the program that runs. It needs no other file, prints well
-/// and can be read without colours.
+/// A log as one HTML page in the program's folder. It needs no other file, prints well and can be
+/// read without colours.
 struct HtmlLog {
   std::string_view file_name;  ///< such as TCHPR444.html
   std::string_view title;      ///< of the window

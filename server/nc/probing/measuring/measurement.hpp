@@ -18,16 +18,16 @@ struct ToolCorrection {
   Length deviation{};  ///< of the measured value: compared with RBREAK or LBREAK
 };
 
-/// The radius of the tool that cut the feature: half the deviation, added for a hole, taken away
+/// Radius error of the tool that cut the feature: half the deviation, added for a hole, subtracted
 /// for an outside dimension (decision 8).
 ToolCorrection radius_correction(const MeasuredValue& size);
 
-/// The radius of the tool that cut one face, which was touched in that direction (Q267): where
-/// material is missing the tool is larger than its radius says (decision 8).
+/// Radius error of the tool that cut one face, which was touched in that direction (Q267): if
+/// material is missing the tool is larger than its radius in the table (decision 8).
 ToolCorrection face_correction(Length deviation, int direction);
 
-/// The length of the tool that cut a face across the probe axis: a face that is too high was cut by
-/// a tool that is shorter than its length says (decision 8).
+/// Length error of the tool that cut a face across the probe axis: a face that is too high was cut
+/// by a tool shorter than in the table (decision 8).
 ToolCorrection length_correction(Length deviation);
 
 /// Corrects the tool that Q330 names, inside the tolerance too and on top of earlier corrections
@@ -43,8 +43,8 @@ struct Measurement {
   std::optional<Form> form{};
 };
 
-/// The begin of every measuring cycle: resets an active basic rotation and, with a
-/// status among its results, clears Q180 to Q182.
+/// Begins every measuring cycle: resets an active basic rotation and, with a status among its
+/// results, clears Q180 to Q182.
 /// @errors 1108 scaling factors that differ by axis: a circle would be an ellipse; those of
 ///   ProbingMotion::begin.
 CycleResult<ProbingMotion> begin_measurement(const CycleContext& context);

@@ -10,7 +10,7 @@ namespace fitgauge::probing {
 
 /// A nominal dimension of cycles 1400 to 1434.
 struct Nominal {
-  Length target;                   ///< the middle of the tolerance: what is probed and compared
+  Length target;  ///< the middle of the tolerance: target of probing and comparison
   std::optional<Limits> limits{};  ///< nothing without a tolerance
 };
 

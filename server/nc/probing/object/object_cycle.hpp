@@ -20,7 +20,7 @@ struct ObjectPoint {
   Vec3 nominal;
   Vec3 measured;
   std::array<std::optional<Limits>, 3> limits{};
-  Vec3 touched{};  ///< the probing direction where it lies on a face; else zero
+  Vec3 touched{};  ///< the probing direction if it is on a face; else zero
 
   /// A face was found there along that direction.
   void touch(const Vec3& surface, const Vec3& direction) {
@@ -67,7 +67,7 @@ class ObjectProbing {
   Touch towards(const Vec3& point, const Vec3& direction) const {
     return {.start = point - direction * start_distance(), .direction = direction};
   }
-  /// Touches objects as Q1125 and the extrusion say; contacts in the order of the touches.
+  /// Touches objects by Q1125 and the extrusion; contacts in the order of the touches.
   CycleResult<std::vector<Contact>> touch(const std::vector<std::vector<Touch>>& objects);
   CycleResult<void> finish(const ObjectFound& found);
 
@@ -82,10 +82,10 @@ class ObjectProbing {
 
 /// Q372: a unit vector. @errors 1042 it is 0.
 CycleResult<Vec3> object_direction(const Arguments& arguments);
-/// The angles Q964 and Q965 of a line, in the working plane or to it, and the turn it says.
+/// The angles Q964 and Q965 of a line, in the working plane or to it, and the resulting turn.
 void add_line(ObjectFound& found, const ObjectProbing& probing, const Vec3& nominal,
               const Vec3& measured, bool is_level);
-/// The face behind the ball, which touches an oblique one beside its foremost point.
+/// The face of a touch; an oblique one is not touched at the ball's foremost point.
 Vec3 face_behind(const Contact& contact, const Vec3& direction, const Vec3& normal,
                  double ball_radius);
 /// The shortest turn that brings one direction into another. @pre neither is zero.
@@ -150,7 +150,7 @@ inline constexpr CycleOutput kAngleResult{964, "Angle in the input system", Unit
 inline constexpr CycleOutput kTableAngleResult{965, "Angle in the system of the table",
                                                Unit::Angle};
 
-/// The descriptor of such a cycle; `more` are its errors beside those that all have.
+/// The descriptor of such a cycle; `more` are errors in addition to the common ones.
 constexpr TouchProbeCycle object_cycle(std::uint16_t number, std::string_view name,
                                        std::span<const CycleParameter> parameters,
                                        std::span<const CycleOutput> results, const ErrorSet& more,

@@ -28,9 +28,9 @@ struct DatumPoint {
   Vec3 datum{};  ///< the new coordinates of the point, of the named axes
 };
 
-/// The begin of every preset cycle, before any motion.
-/// @errors 1078 Q303 = -1 with Q305 not 0: where to write is not defined; 1008 and 1007 with mirror
-///   and scaling active; those of ProbingMotion::begin.
+/// Begins every preset cycle, before any motion.
+/// @errors 1078 Q303 = -1 with Q305 not 0: the target is not defined; 1008 and 1007 with mirror and
+///   scaling active; those of ProbingMotion::begin.
 CycleResult<ProbingMotion> begin_preset(const CycleContext& context);
 
 /// Writes the datum as Q303 and Q305 say. Q305 = 0: row 0 of the preset table becomes the active
@@ -50,7 +50,7 @@ struct MovedPoint {
   Vec3 measured;
 };
 /// Corrects the active preset and its row: `turned` is the preset with the new basic rotation and
-/// offsets; the measured point is moved to read what the nominal one reads now.
+/// offsets; afterwards the measured point has the coordinates of the nominal one.
 /// @errors 1085 the row is write-protected.
 CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane& plane,
                                  machine::PresetFrame turned,
@@ -66,7 +66,7 @@ inline constexpr std::array kProbeAxisDatum{
     coordinate(384, "Touch in the probe axis: probe axis", 0),
     coordinate(333, "New datum in the probe axis", 0)};
 
-/// Where the datum goes and what the found point shall read, as in 410 to 416 and 418.
+/// Target of the datum and new coordinates of the found point, as in 410 to 416 and 418.
 inline constexpr std::array kPlaneDatum =
     join(std::array{kTableRow, coordinate(331, "New datum in the main axis", 0),
                     coordinate(332, "New datum in the secondary axis", 0), kTransfer},

@@ -7,21 +7,21 @@ namespace fitgauge::probing {
 
 /// Machine parameters of the tool touch probe, which no program changes.
 namespace tt_parameters {
-inline constexpr double kSafetyDistance = 5;         ///< safetyDistStylus, mm: before every touch
-inline constexpr double kDepth = 5;                  ///< offsetToolAxis, mm: tool end below the top
-inline constexpr double kLongestProbing = 50;        ///< mm: farther away the tool is not found
-inline constexpr double kProbingFeed = 300;          ///< probingFeed, mm/min: spindle stands
-inline constexpr double kPeripheralSpeed = 40;       ///< maxPeriphSpeedMeas, m/min
-inline constexpr double kMostRpm = 1000;             ///< maxSpeed
+inline constexpr double kSafetyDistance = 5;    ///< safetyDistStylus, mm: before every touch
+inline constexpr double kDepth = 5;             ///< offsetToolAxis, mm: tool end below the top
+inline constexpr double kLongestProbing = 50;   ///< mm: a tool farther away is not found
+inline constexpr double kProbingFeed = 300;     ///< probingFeed, mm/min, with a stopped spindle
+inline constexpr double kPeripheralSpeed = 40;  ///< maxPeriphSpeedMeas, m/min
+inline constexpr double kMostRpm = 1000;        ///< maxSpeed
 inline constexpr double kMeasuringTolerance = 0.01;  ///< measureTolerance1, mm a turn
 }  // namespace tt_parameters
 
 /// Whether the spindle turns while the tool is touched.
 enum class Spindle : std::uint8_t { Stands, Turns };
 
-/// The way of the tool in the spindle to the tool touch probe and its touches there, in machine
-/// coordinates of the tool tip. The spindle axis is Z. Not thread-safe; lives within one execution;
-/// after an error the machine stands where it stopped.
+/// Moves the tool in the spindle to the tool touch probe and touches it, in machine coordinates of
+/// the tool tip. The spindle axis is Z. Not thread-safe; lives within one execution; after an error
+/// the machine stops where it is.
 class ToolProbing {
  public:
   /// @param clearance_height Q260, in the input system; raised to stay clear of the contact plate.

@@ -17,7 +17,7 @@ struct Circle {
   Point2 centre;
   double radius = 0;
   double residual = 0;  ///< the largest distance of a point from the circle
-  /// The standard deviation of the diameter over that of a point along its radius: 1 with four
+  /// Standard deviation of the diameter divided by that of a point along its radius: 1 with four
   /// points at right angles, 260 with four on an arc of 15 degrees.
   double diameter_factor = 1;
 };
@@ -33,7 +33,7 @@ struct FittedSphere {
 };
 
 /// The sphere of least squared distances from the points (Gauss-Newton, exact for four of them),
-/// searched from `near`; nothing where the points lie in one plane, or on no sphere near it.
+/// searched from `near`; none if the points are in one plane, or on no sphere near it.
 std::optional<FittedSphere> fit_sphere(std::span<const machine::Vec3> points,
                                        const FittedSphere& near);
 
@@ -55,8 +55,8 @@ struct FittedCylinder {
 };
 
 /// The cylinder of least squared distances from the points (Gauss-Newton), searched from `near`,
-/// whose direction has any length; nothing if the points leave it open, as fewer than five do and
-/// those of one section, or if none is near it.
+/// whose direction may have any length; none if the points do not determine it (fewer than five, or
+/// all in one section), or if none is near it.
 std::optional<FittedCylinder> fit_cylinder(std::span<const machine::Vec3> points,
                                            const FittedCylinder& near);
 

@@ -12,19 +12,19 @@ struct Linearised {
   Eigen::MatrixXd jacobian;
 };
 
-/// The values with which the columns come nearest to `wanted`.
-/// @param threshold of the largest pivot, below which a column adds nothing to the others
-/// @return none when the columns cannot tell the values apart.
+/// Returns the values with which the columns are nearest to `wanted`.
+/// @param threshold of the largest pivot, below which a column depends on the others
+/// @return none if the columns do not determine the values.
 std::optional<Eigen::VectorXd> least_squares(const Eigen::MatrixXd& columns,
                                              const Eigen::VectorXd& wanted, double threshold);
 
-/// The step to the least squares of a linear problem; where it is not unique, one of them.
+/// The step to the least squares of a linear problem; if it is not unique, one of them.
 Eigen::VectorXd least_squares_step(const Linearised& at);
 
-/// Searches the least squares of residuals from where `values` stand (Gauss-Newton).
-/// `linearise(values)` gives the Linearised problem there. A search has settled when its step is
+/// Searches the least squares of residuals from the start `values` (Gauss-Newton).
+/// `linearise(values)` gives the Linearised problem there. A search has settled if its step is
 /// shorter than `settled`, in the unit of the values.
-/// @return whether it has; when not, `values` are of no use.
+/// @return whether it has settled; otherwise `values` are unusable.
 template <class Values, class Linearise>
 bool gauss_newton(Values& values, double settled, const Linearise& linearise) {
   constexpr int kMostSteps = 50;

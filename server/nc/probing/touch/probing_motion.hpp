@@ -14,7 +14,7 @@ namespace fitgauge::probing {
 
 using machine::Vec3;
 
-/// How the probe comes to the start of a touch from the one before.
+/// How the probe moves from one touch to the start of the next.
 enum class Transit : std::uint8_t {
   Straight,         ///< at measuring height, over the waypoints
   Arc,              ///< on the pitch circle, at measuring height
@@ -40,7 +40,7 @@ struct Contact {
 /// The motion of probing cycles: positioning logic, touches with their data of tchprobe.tp (F,
 /// FMAX, DIST, SET_UP) or cycle 441, retraction. Coordinates are those of the active input system,
 /// in which a mm may be scaled (cycle 11); clearances of the probe table are real millimetres. Not
-/// thread-safe; lives within one execution. After an error the machine stands where it stopped.
+/// thread-safe; lives within one execution. After an error the machine stops where it is.
 class ProbingMotion {
  public:
   /// @errors 1001 tool axis missing, 1092 no tool, 1093 no touch probe in the spindle.
@@ -62,7 +62,7 @@ class ProbingMotion {
   CycleResult<std::vector<Contact>> touch_all(std::span<const Touch> touches,
                                               double clearance_height);
 
-  /// The first of such touches alone: comes back to its start and stays there.
+  /// Only the first of such touches: returns to its start and stops there.
   /// @errors those of touch_all.
   CycleResult<Contact> touch(const Touch& touch, double clearance_height);
 
@@ -95,7 +95,7 @@ class ProbingMotion {
 /// @errors 1008 and 1007: preset and alignment cycles do not work mirrored or scaled.
 CycleResult<void> refuse_mirror_and_scaling(const machine::Frames& frames);
 
-/// Sets Q115 to Q119 and tells the host: every programmed touch does.
+/// Sets Q115 to Q119 and notifies the host, after every programmed touch.
 void publish_touch(const machine::MachineState& state, CycleHost& host,
                    const machine::ContactPoint& contact);
 
