@@ -15,8 +15,8 @@ std::string first_line(std::string_view text) {
   return std::string(text.substr(0, text.find('\n')));
 }
 
-/// Classes of SQLSTATE that say nothing of the statement: connection, transaction rolled back,
-/// resources, an operator's doing, the system, and a server that only reads.
+/// Classes of SQLSTATE that are not the statement's fault: connection, transaction rolled back,
+/// resources, an operator's action, the system, and a read-only server.
 constexpr std::array<std::string_view, 8> kOfTheServer = {"08", "40", "53", "54",
                                                           "57", "58", "25", "55"};
 constexpr std::string_view kDamaged = "XX001";
@@ -44,8 +44,8 @@ constexpr std::string_view kDamagedIndex = "XX002";
 
 constexpr sql::Dialect kDialect{.is_shared = true, .keys_may_be_null = true};
 
-/// Settings of each session: bounds, so that nobody waits for ever for a server, a row or a
-/// client that is gone.
+/// Settings of each session: bounds, so that nobody waits for ever for a server, a row or a lost
+/// client.
 constexpr const char* kSettings =
     "SET search_path TO fitgauge; SET statement_timeout = '60s'; SET lock_timeout = '30s';"
     "SET idle_in_transaction_session_timeout = '60s'; SET client_min_messages = warning;"

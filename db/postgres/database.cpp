@@ -32,11 +32,11 @@ Result<std::size_t> taken_steps(Connection& connection) {
                "the schema fitgauge of the database has no list of migrations"};
 }
 
-/// Makes the schema where there is none, takes the steps that one of an older version lacks, and
-/// checks those it has against this build's. Of several daemons that start at once one does it;
-/// those of the older version that are still running go on.
-/// @param may_change else it must be there and complete. @pre the connection is new.
-/// @errors DatabaseNewer, DatabaseForeign; StorageUnavailable when it may not be made.
+/// Creates the schema if it is missing, runs the missing migrations of an older version, and checks
+/// the others against this build. If several daemons start at once, one does it; running daemons of
+/// the older version continue.
+/// @param may_change otherwise the schema must exist and be complete. @pre the connection is new.
+/// @errors DatabaseNewer, DatabaseForeign; StorageUnavailable if it must not be created.
 Result<void> prepare_schema(const std::string& address, bool may_change, std::int64_t now_ns) {
   Connection connection(address);
   // The number is nobody else's: the first eight letters of "fitgauge".
@@ -121,7 +121,7 @@ class SharedDatabase final : public Database {
     return std::make_unique<Session>(options_, clock_, daemon, names_, notifications_);
   }
 
-  /// Any transaction tells of changed names.
+  /// Any transaction may report changed names.
   void heard(bool names) {
     if (names) {
       readers_.submit([](const Stores&) -> Result<bool> { return true; },

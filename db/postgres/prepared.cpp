@@ -12,7 +12,7 @@
 namespace fitgauge::store::postgres {
 namespace {
 
-/// `?` and `?1` become `$1`; what stands in quotes stays.
+/// `?` and `?1` become `$1`; quoted text does not change.
 std::string with_numbers(std::string_view sql) {
   std::string made;
   int last = 0;
@@ -58,9 +58,8 @@ constexpr const char* kColumns =
     "0 "
     "AND NOT attisdropped ORDER BY attnum";
 
-/// Rows come as one value: an array of rows of the table. Several statements on their way are
-/// carried out while the next rows are made, as with COPY, and one takes no more exchanges with the
-/// server than any other.
+/// Rows are sent as one value: an array of rows of the table. Like COPY, several statements run
+/// while the next rows are made, and one needs no more exchanges with the server than any other.
 const std::string& append_sql() {
   static const std::string sql =
       fmt::format("INSERT INTO measurements ({0}) SELECT {0} FROM unnest($1::measurements[])",
@@ -179,7 +178,7 @@ std::int64_t Prepared::integer(int column) const { return read_number(text(colum
 MeasurementTable::MeasurementTable(Connection& connection)
     : connection_(connection), make_part_(connection, "SELECT make_measurement_part(?, ?)") {}
 
-/// Migrations add columns at the end, whatever the order of for_each_column.
+/// Migrations append columns, whatever the order of for_each_column.
 void MeasurementTable::read_type() {
   row_type_ = static_cast<Oid>(sql::Statement(connection_, kRowType).returning<std::int64_t>());
   std::map<std::string, std::size_t, std::less<>> indices;

@@ -7,7 +7,7 @@
 namespace fitgauge::store::postgres {
 namespace {
 
-/// Positions in the WAL as numbers. What a transaction sees was written before its first statement.
+/// Positions in the WAL as numbers. A transaction sees data written before its first statement.
 constexpr const char* kHead =
     "SELECT last_id, own_rows, names, (pg_current_wal_insert_lsn() - '0/0')::bigint FROM head";
 constexpr const char* kFlushed = "SELECT (pg_current_wal_flush_lsn() - '0/0')::bigint";
@@ -17,19 +17,19 @@ constexpr const char* kFlushed = "SELECT (pg_current_wal_flush_lsn() - '0/0')::b
 /// here.
 constexpr const char* kQueueForHead = "SELECT pg_advisory_xact_lock(6044937214080451862)";
 
-/// The commit frees the row before the WAL is on the disk, which the session waits for behind it.
-/// Not where a standby has to have it, as reading would then wait for the standby; nor with new
-/// names, which daemons keep in memory beyond a crash of the server.
+/// The commit releases the row before the WAL is on the disk; the session waits for the disk
+/// afterwards. Not if a standby must have it, because reads would then wait for the standby; nor
+/// with new names, which daemons keep in memory beyond a crash of the server.
 constexpr const char* kSetHead =
     "UPDATE head SET last_id = ?, own_rows = ? RETURNING"
     " CASE WHEN names = ? AND current_setting('synchronous_standby_names') = ''"
     " THEN set_config('synchronous_commit', 'off', true) END,"
     " CASE WHEN ? = 1 THEN pg_notify('fitgauge', '') END";
 
-/// The WAL is one: with a commit of its own on the disk are all before it. PostgreSQL waits only
-/// for the disk when the transaction has written something, be it an empty message to nobody.
+/// There is one WAL: after a later commit is on the disk, all earlier ones are. PostgreSQL waits
+/// for the disk only if the transaction has written something, even an empty message.
 constexpr const char* kFlush = "SELECT pg_logical_emit_message(true, 'fitgauge', '')";
-/// Where a commit did not free the row early, the disk and the standby have it.
+/// If a commit did not release the row early, the disk and the standby have it.
 constexpr const char* kUnlessFlushed =
     " WHERE pg_current_wal_flush_lsn() < pg_current_wal_insert_lsn()";
 constexpr const char* kOnThisServer = ", set_config('synchronous_commit', 'local', true)";
@@ -90,7 +90,7 @@ void Session::begin_writing() {
 
 void Session::commit() { writes_ ? commit_written() : commit_read(); }
 
-/// One exchange with the server, whatever the jobs have left to be done.
+/// One exchange with the server for everything that the jobs have postponed.
 void Session::commit_written() {
   const Head& head = connection_.head;
   const bool notifies = notifications_.is_due();
@@ -100,8 +100,8 @@ void Session::commit_written() {
   flush_.run();
   connection_.wait_for_commit();
   notifications_.committed(notifies);
-  // The one it has: the wait for a standby was ended, by an operator or by statement_timeout. What
-  // is on this server alone is not acknowledged.
+  // Checks the warning of the result: an operator or statement_timeout ended the wait for a
+  // standby. Data on only this server is not acknowledged.
   if (const std::string warning = connection_.take_warning(); !warning.empty()) {
     throw StorageFailure({ErrorCode::StorageUnavailable,
                           fmt::format("PostgreSQL: {}", warning.substr(0, warning.find('\n')))});

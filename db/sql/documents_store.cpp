@@ -146,7 +146,7 @@ FilesStore::FilesStore(sql::Connection& connection)
 FilesStore::~FilesStore() = default;
 
 FilesStore::PutOutcome FilesStore::put(const FileWrite& file) {
-  // Else the pages of the large files before it would stay, as many as the cache takes.
+  // Otherwise the pages of earlier large files would fill the cache.
   constexpr std::size_t kLarge = std::size_t{256} << 10;
   if (file.content.size() > kLarge) statements_->insert.release_pages();
   const std::string key = ascii_upper(file.path);

@@ -13,7 +13,7 @@ using sql::Blob;
 using sql::Rows;
 using Times = IndexNodes::Times;
 
-/// Where the times from `min` to `max` lie to the range `from` <= time < `to`.
+/// Relation of the times from `min` to `max` to the range `from` <= time < `to`.
 Times relation_of(std::int64_t min, std::int64_t max, std::optional<std::int64_t> from,
                   std::optional<std::int64_t> to) {
   if ((from && max < *from) || (to && min >= *to)) return Times::Outside;

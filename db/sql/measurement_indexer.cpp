@@ -19,8 +19,8 @@ namespace {
 using sql::Blob;
 using sql::Rows;
 
-/// More values of a field than these have no aggregates: in a block each would be as long as the
-/// rows it stands for, and no summary has more than 10,000 groups.
+/// A field with more values has no aggregates: in a block they would be as long as its rows, and no
+/// summary has more than 10,000 groups.
 constexpr std::array<std::size_t, kLevels> kMostValues = {256, 4'096, 10'000, 10'000};
 
 /// The columns of a block's rows before its texts.
@@ -73,7 +73,7 @@ struct DesignationPlace {
   RowSet* rows = nullptr;  ///< those of it, if there is one
 };
 
-/// Takes the aggregates of a field with too many values away.
+/// Removes the aggregates of a field with too many values.
 void drop_field(NodeIndex& index, int field) {
   std::erase_if(index.aggregates,
                 [&](const auto& entry) { return std::get<0>(entry.first) == field; });
@@ -168,7 +168,7 @@ void MeasurementIndexer::renew(const IndexNode& node) {
 
 void MeasurementIndexer::corrected(std::int64_t id) {
   make_stale(id);
-  // One of the rivals took the place of another, and of what corrects that.
+  // One of the rivals replaced another, and the corrections of that one.
   for (Rows rows = rivals_.query(id); rows.next();) make_stale(rows.get<std::int64_t>(0));
 }
 
@@ -291,9 +291,8 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
   return index;
 }
 
-/// Joins the nodes below, in their order: sums count from the first value. A field that one of them
-/// has too many values of may still have few enough for this one: those of 32 blocks are read
-/// again, more are not.
+/// Joins the nodes below, in their order: sums count from the first value. If one of them has too
+/// many values of a field, this one may still have few enough: up to 32 blocks are read again.
 NodeIndex MeasurementIndexer::derive_parent(const IndexNode& node) {
   NodeIndex index;
   index.pairs = pairs_.derive(node);

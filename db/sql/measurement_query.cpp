@@ -15,7 +15,7 @@ using sql::Blob;
 using sql::Rows;
 using sql::Statement;
 
-/// Statements kept for the filters asked with; then all begin anew.
+/// Maximum of statements kept for filters; then all are dropped.
 constexpr std::size_t kMostKept = 64;
 constexpr std::int64_t kRowsAtATime = 1024;
 /// Smaller nodes are not worth a look: their blocks are found as soon.
@@ -68,7 +68,7 @@ void for_each_condition(const MeasurementFilter& filter, Add&& add) {
   }
 }
 
-/// The same for the node `b` of a block that may hold such rows.
+/// The same for the node `b` of a block that may have such rows.
 template <class Add>
 void for_each_time_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.from_ns) add("b.max_measured_at >= ?", *filter.from_ns);
@@ -86,7 +86,7 @@ void for_each_inside_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.received_to_ns) add("b.max_received_at < ?", *filter.received_to_ns);
 }
 
-/// Whether postings tell the rows that match where all times do, but for what was corrected.
+/// Whether postings determine the matching rows if all times match, except for corrections.
 bool is_said_by_index(const MeasurementFilter& filter) {
   return !filter.asks_of_rows() && (!filter.run_id || filter.run_origin == 0);
 }
@@ -97,8 +97,8 @@ std::string_view direction(ListOrder order) {
 
 }  // namespace
 
-// The later one of two corrections that were made apart stands, at each end alike: whatever order
-// they came in. Where they were received at the same time, their leaves decide.
+// The later of two rival corrections counts, at each end alike, whatever their order of arrival. If
+// they were received at the same time, their leaves decide.
 CurrentCondition::CurrentCondition(std::string_view last)
     : is_not_corrected(
           fmt::format("NOT EXISTS (SELECT 1 FROM measurements c WHERE c.correction_of = m.id AND "
@@ -299,8 +299,8 @@ bool MeasurementQuery::run_indexed(const Reading& reading, Statement& matching, 
   });
 }
 
-/// Reads all ids, or, where the nodes of the index can tell that they have none that match, those
-/// of the others. One value alone leads to its blocks without them.
+/// Reads all ids, or, if the nodes of the index can exclude some, only the others. A single value
+/// finds its blocks without nodes.
 bool MeasurementQuery::visit_nodes(const Reading& reading, std::span<const FieldValue> postings,
                                    const IdSpan& ids, const SpanReader& read) {
   if (postings.size() < 2 && !reading.filter.has_times()) return read(ids);
@@ -420,8 +420,8 @@ RowSet MeasurementQuery::rows_in_block(const FieldValue& posting, std::int64_t b
   return rows.next() ? RowSet::decode(rows.get<Blob>(0).bytes) : RowSet();
 }
 
-/// Reads the rows of a block, those that follow each other at once; what the index would leave out
-/// between them does not match either, and is cheaper to pass over than to ask a server anew.
+/// Reads adjacent rows of a block at once; excluded rows between them do not match either, and
+/// skipping them is cheaper than another request to a server.
 bool MeasurementQuery::run_block(const Reading& reading, Statement& matching, const IdSpan& ids,
                                  const RowSet& rows, std::int64_t block) {
   const IdSpan whole = IndexNode{0, block}.ids();

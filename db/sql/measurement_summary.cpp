@@ -66,8 +66,7 @@ Result<std::vector<SummaryGroup>> MeasurementSummary::run(const MeasurementFilte
   return summary;
 }
 
-/// Finds out whether nodes answer the filter, and what it filters by but the field that is grouped
-/// by.
+/// Checks if nodes answer the filter, and finds its other fields than the grouped one.
 void MeasurementSummary::look_at_filter() {
   const MeasurementFilter& filter = *filter_;
   others_.clear();
@@ -93,7 +92,7 @@ bool MeasurementSummary::is_rare(const FieldValue& wanted) {
          kFanOut;
 }
 
-/// Goes over what is indexed by the largest nodes there are, then reads the newer rows.
+/// Reads the index in the largest possible nodes, then the newer rows.
 void MeasurementSummary::add_nodes() {
   const std::int64_t indexed = indexed_to(last_block_);
   std::int64_t id = 1;
@@ -119,12 +118,12 @@ void MeasurementSummary::add_node(const IndexNode& node) {
     aggregated_.push_back(node.ids());
     return;
   }
-  // Blocks have no pairs; a query finds those of a value without looking at the others.
+  // Blocks have no pairs; a query finds the blocks of a value directly.
   if (node.level <= (others_.empty() ? 0 : 1)) return add_later(node.ids());
   for (std::int64_t i = 0; i < kFanOut && fits_; ++i) add_node(node.child(i));
 }
 
-/// @returns whether the node tells what there is by the other fields.
+/// @returns whether the node has statistics by the other fields.
 bool MeasurementSummary::add_by_others(const IndexNode& node) {
   return add_pairs(node) || add_tuples(node) ||
          (node.level > 1 && nodes_.lacks(node, others_, *filter_));
@@ -194,8 +193,8 @@ bool MeasurementSummary::add_tuples(const IndexNode& node) {
   return !found || add_sums(node, *groups);
 }
 
-/// Reads the sums only where there are matching tuples.
-/// @returns whether all are there
+/// Reads the sums only if there are matching tuples.
+/// @returns whether all exist
 bool MeasurementSummary::add_sums(const IndexNode& node, const TupleColumn& groups) {
   std::array<bool, kKinds> asked{};
   for (int kind = 0; kind < kKinds; ++kind)
@@ -223,7 +222,7 @@ bool MeasurementSummary::add_sums(const IndexNode& node, const TupleColumn& grou
   return true;
 }
 
-/// Reads what was left before, where these ids do not follow it.
+/// Reads the postponed rows, if these ids do not follow them.
 void MeasurementSummary::add_later(const IdSpan& ids) {
   if (left_.empty() || left_.last + 1 != ids.first) add_rows(std::exchange(left_, ids));
   left_.last = ids.last;

@@ -35,7 +35,7 @@ constexpr std::string_view kValueColumns =
     "m.nominal_nm + m.lower_deviation_nm, m.nominal_nm + m.upper_deviation_nm, m.subgroup, ";
 constexpr std::string_view kPlaceColumns =
     "coalesce(m.origin, 0), CASE WHEN m.origin > 0 THEN coalesce(m.number, m.seq) ELSE m.id END";
-/// The same where every row is of this folder: the columns at the far end are dear to reach.
+/// The same if every row is of this folder, because columns at the far end are slow to read.
 constexpr std::string_view kOwnPlaceColumns = "0, m.id";
 
 /// Counts the rows of a page.
@@ -43,7 +43,7 @@ class Page {
  public:
   explicit Page(std::size_t limit) : limit_(limit) {}
 
-  /// @returns whether the row `id` still belongs to it; one that does not tells of a next page.
+  /// @returns whether the row `id` is part of the page; a row after it means a next page.
   bool take(std::int64_t id) {
     more_ = count_++ == limit_;
     if (!more_) last_ = id;
@@ -123,7 +123,7 @@ struct MeasurementsStore::Statements {
     return {};
   }
 
-  /// Where two folders go on under one history, their rows would get the same ids.
+  /// If two folders continue one history, their rows would get the same ids.
   Result<void> require_one_history() {
     if (connection.dialect().is_shared) return {};  // no folder, and nothing is forwarded from it
     Rows rows = forked.query();
@@ -158,13 +158,13 @@ struct MeasurementsStore::Statements {
     return newest_of_own.returning<std::optional<std::int64_t>>().value_or(first_others);
   }
 
-  /// Whether rows of others stand here: for good, once others cannot bring the first.
+  /// Whether there are rows of other folders: final, once others cannot add the first.
   bool holds_others() {
     if (may_hold_others || connection.dialect().is_shared) may_hold_others = alone() != kLastId;
     return may_hold_others;
   }
 
-  /// Numbers rows of this folder in its own log, where others have come between.
+  /// Numbers rows of this folder in its log, if there are rows of others between them.
   std::vector<MeasurementRow> numbered(std::span<const MeasurementRow> rows) {
     std::vector<MeasurementRow> numbered(rows.begin(), rows.end());
     std::int64_t place = own_rows(alone());
@@ -180,7 +180,7 @@ struct MeasurementsStore::Statements {
     return rows.next() ? std::optional(rows.get<std::int64_t>(0)) : std::nullopt;
   }
 
-  /// The correction that stands in the place of a row: its own, or its rival.
+  /// The current correction of a row: its correction, or the rival of it.
   std::optional<std::int64_t> replaced_by(std::int64_t id) {
     if (const auto newer = corrected_by(id)) return newer;
     std::optional<std::int64_t> target;

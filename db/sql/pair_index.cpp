@@ -13,22 +13,22 @@ namespace {
 using sql::Blob;
 using sql::Rows;
 
-/// More statistics of two fields than these are not kept: by level, for about eight to several
-/// hundred rows each.
+/// Maximum of stored statistics of two fields, by level: each for about eight to several hundred
+/// rows.
 constexpr std::array<std::size_t, kLevels> kMostStatistics = {0, 4'096, 16'384, 65'536};
 
 std::size_t most_statistics(const IndexNode& node) {
   return kMostStatistics.at(static_cast<std::size_t>(node.level));
 }
 
-/// More tuples than these are not kept.
+/// Maximum of stored tuples.
 constexpr std::array<std::size_t, kLevels> kMostTuples = {0, 4'096, 32'768, 65'536};
 
 std::size_t most_tuples(const IndexNode& node) {
   return kMostTuples.at(static_cast<std::size_t>(node.level));
 }
 
-/// Calls `visit` with the fields of each pair that can be kept: whatever is grouped by is a text.
+/// Calls `visit` with the fields of each possible pair: fields of groups are texts.
 template <class Visit>
 void for_each_pair(const Visit& visit) {
   for (int by = 1; by <= static_cast<int>(kSummedColumns.size()); ++by) {
@@ -38,7 +38,7 @@ void for_each_pair(const Visit& visit) {
   }
 }
 
-/// And with those of tuples.
+/// The same with the fields of tuples.
 template <class Visit>
 void for_each_entry(const IndexNode& node, const Visit& visit) {
   for_each_pair(visit);
@@ -131,7 +131,8 @@ void PairIndex::derive_from_pairs(const IndexNode& node, Node& index) {
   join_tuples(node, index);
 }
 
-/// Numbers what the nodes below are by first, then adds them up: their statistics are not all kept.
+/// Numbers the values of the nodes below first, then adds them up, because their statistics are not
+/// all stored.
 void PairIndex::join_tuples(const IndexNode& node, Node& index) {
   index.pairs[{kSums, 0}];
   std::array<NumberedColumn, kBlockColumns> columns;
@@ -158,7 +159,7 @@ void PairIndex::join_tuples(const IndexNode& node, Node& index) {
   add_tuples(writer, index);
 }
 
-/// @returns false where the node has no tuples
+/// @returns false if the node has no tuples
 template <class Visit>
 bool PairIndex::visit_sums(const IndexNode& node, const Visit& visit) {
   TupleSums sums;

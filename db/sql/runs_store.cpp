@@ -35,7 +35,7 @@ std::string_view name_of(std::string_view path) {
   return path.substr(path.find_last_of("\\/:") + 1);
 }
 
-/// One daemon alone has ended where another process asks.
+/// With a single daemon: it has ended if another process asks.
 std::string_view of_the_dead(const sql::Connection& c) {
   return c.dialect().is_shared ? " AND daemon NOT IN (SELECT daemon FROM living_daemons)" : "";
 }
@@ -168,7 +168,7 @@ RunsStore::Page RunsStore::list(const RunFilter& filter, std::optional<std::int6
       filter.program ? std::optional(ascii_upper(*filter.program)) : std::nullopt;
   const std::int64_t before = after.value_or(std::numeric_limits<std::int64_t>::max());
   Page page;
-  // One row more than the page tells whether there is a next one.
+  // One row more than the page shows if there is a next one.
   for (Rows rows = statements_->page.query(filter.status, program_key, before, limit + 1);
        rows.next();) {
     if (page.runs.size() == limit) {

@@ -24,7 +24,7 @@ bool is_valid(const CustomCell& cell) {
   return cell.over_nm >= 0 && cell.over_nm < cell.up_to_nm && cell.lower_nm <= cell.upper_nm;
 }
 
-/// The first cell of a sorted list that is not valid or begins at the size of the one before.
+/// The first cell of a sorted list that is invalid or begins at the size of the previous cell.
 template <class Cell>
 const Cell* first_invalid(const std::vector<Cell>& cells) {
   const Cell* before = nullptr;
@@ -121,7 +121,7 @@ struct TablesStore::Statements {
     return loaded;
   }
 
-  /// The set that holds just these cells, stored now if it was not.
+  /// The set with exactly these cells, stored now if it was not.
   std::int64_t set_of(const std::vector<TableCell>& list) {
     const Digest digest = digest_of({.cells = list, .custom = {}});
     if (Rows rows = set_by_digest.query(digest); rows.next()) return rows.get<std::int64_t>(0);

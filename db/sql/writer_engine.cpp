@@ -14,14 +14,14 @@ using std::chrono::milliseconds;
 
 /// Rows a step deletes at most: a request that comes in between waits a few milliseconds.
 constexpr std::int64_t kStep = 200;
-/// Under load a step that took t is followed by so many t of jobs: six percent for maintenance.
+/// Under load, a step of duration t is followed by so many t of jobs: six percent for maintenance.
 constexpr int kShare = 15;
 /// After commits, and without any.
 constexpr milliseconds kLookInterval{200};
 constexpr milliseconds kQuietInterval{60'000};
 
 constexpr milliseconds kProbeInterval{1'000};
-/// Jobs that are waiting when a transaction has taken so long go into the next one.
+/// After this duration of a transaction, waiting jobs are left for the next one.
 constexpr milliseconds kLongestBatch{20};
 
 Error internal_error(const std::exception& bug) {
@@ -111,7 +111,7 @@ void Writer::Engine::run() {
   session_.reset();
 }
 
-/// One transaction for the first jobs, which it takes away, then their outcomes.
+/// Runs one transaction for the first jobs, and delivers their outcomes.
 void Writer::Engine::commit(Jobs& jobs) {
   Jobs rest;
   if (options_.commit_each) {
@@ -131,10 +131,10 @@ void Writer::Engine::commit(Jobs& jobs) {
   if (!error && options_.committed) guarded("a listener of commits", options_.committed);
 }
 
-/// Runs jobs until the transaction has taken long enough: one at least, so that none waits for
-/// more than a long one before it.
-/// @param errors gets what concerns one job, an entry for each that was run.
-/// @returns what concerns the whole batch, run or not.
+/// Runs jobs until the transaction is long enough: at least one, so that no job waits for more than
+/// one long job before it.
+/// @param errors receives the errors of single jobs, an entry for each that was run.
+/// @returns the error of the whole batch, run or not.
 std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
                                                 std::vector<std::optional<Error>>& errors) {
   const Health health = health_.health();
@@ -144,7 +144,7 @@ std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
     const auto begin = MaintenancePace::Clock::now();
     if (check_) check_();
     session().begin_writing();
-    // Where several daemons write, it was waited for: what has come meanwhile goes with it.
+    // If several daemons write, there was a wait: jobs that arrived in between are included.
     if (!options_.commit_each) {
       Jobs more = queue_.take_all(milliseconds(0));
       std::move(more.begin(), more.end(), std::back_inserter(jobs));
@@ -175,8 +175,8 @@ void Writer::Engine::commit_transaction() {
   counters_.own_rows = own_rows;  // before the outcomes are told
 }
 
-/// The transaction is the job's own: it needs no savepoint, and what it has left to be done behind
-/// it may fail as late as in the commit.
+/// The transaction has only this job: it needs no savepoint, and its postponed statements may fail
+/// as late as in the commit.
 /// @returns as run_in_savepoint().
 std::optional<Error> Writer::Engine::run_alone(WriteJob& job) {
   std::optional<Error> bug;
@@ -294,7 +294,7 @@ void Writer::Engine::succeed() {
   health_.writes_succeeded();
 }
 
-/// After a failure the connection starts afresh: what it holds in memory is not to be trusted.
+/// After a failure the connection is opened again, because its memory is not reliable.
 void Writer::Engine::fail(const Error& error) {
   ++counters_.failed_commits;
   if (session_) session_->rollback();

@@ -27,15 +27,15 @@ int flags_of(Mode mode) {
   return 0;
 }
 
-/// Without its memory statistics SQLite takes no global lock for every allocation. Takes effect
-/// before the first connection of the process only.
+/// Disables SQLite's memory statistics, which need a global lock for every allocation. Takes effect
+/// only before the first connection of the process.
 void configure_library() {
   static const int configured = sqlite3_config(SQLITE_CONFIG_MEMSTATUS, 0);
   static_cast<void>(configured);
 }
 
-/// A connection makes a log and its index beside the file. In a folder that it may not write to it
-/// reads the file alone, unless there is a log to read as well: then somebody may have it open.
+/// A connection creates a log and its index next to the file. In a read-only folder it reads only
+/// the file, unless there is a log: then somebody may have it open.
 bool is_at_rest(const std::filesystem::path& file) {
   const auto is_there = [&file](const char* suffix) {
     struct stat status {};
@@ -125,7 +125,7 @@ void Prepared::bind_integer(int index, std::int64_t value) {
   require_ok(connection_.handle(), sqlite3_bind_int64(statement_.get(), index, value), sql_);
 }
 
-// A null pointer would bind NULL where an empty text is meant.
+// A null pointer would bind NULL instead of an empty text.
 void Prepared::bind_text(int index, std::string_view value) {
   const char* const data = value.data() == nullptr ? "" : value.data();
   require_ok(connection_.handle(),
@@ -156,8 +156,8 @@ Connection::Connection(const std::filesystem::path& file, Mode mode, Synchronous
     : sql::Connection(kDialect), database_(open(file, mode)) {
   sqlite3_extended_result_codes(handle(), 1);
   add_row_digest(handle());
-  // temp_store: savepoints keep what they may undo in memory, so no temporary directory is needed.
-  // recursive_triggers: REPLACE, too, fires the triggers that refuse DELETE.
+  // temp_store: savepoints keep their undo data in memory, so no temporary directory is needed.
+  // recursive_triggers: REPLACE also fires the triggers that refuse DELETE.
   execute(
       "PRAGMA foreign_keys = ON; PRAGMA recursive_triggers = ON; PRAGMA trusted_schema = OFF;"
       "PRAGMA cell_size_check = ON; PRAGMA temp_store = MEMORY; PRAGMA cache_size = -4000;");

@@ -21,7 +21,7 @@
 namespace fitgauge::store::sqlite {
 namespace {
 
-/// Whether a call to the system may have failed: only then errno says something.
+/// Whether a system call may have failed: only then errno is valid.
 bool is_of_the_system(int code) {
   const int primary = code & 0xFF;
   return primary == SQLITE_IOERR || primary == SQLITE_FULL || primary == SQLITE_CANTOPEN ||
@@ -33,7 +33,7 @@ std::filesystem::path file_of(sqlite3* handle) {
   return name == nullptr ? "" : name;
 }
 
-/// Why no file can be created beside this one: the errno.
+/// The errno of creating a file next to this one.
 std::optional<int> error_of_creating(const std::filesystem::path& file) {
   if (file.empty()) return std::nullopt;
   const Descriptor nameless(
@@ -58,11 +58,11 @@ std::string describe(sqlite3* handle, int code, int system_error, std::string_vi
 }  // namespace
 
 void throw_failure(sqlite3* handle, int code, std::string_view doing) {
-  // SQLite loses the number where a commit fails, so the last call's own is taken.
+  // SQLite loses the number if a commit fails, so the last call's errno is used.
   const int last_error = errno;
   const int kept = handle == nullptr ? 0 : sqlite3_system_errno(handle);
   int system_error = kept != 0 ? kept : last_error;
-  // Where a file cannot be created, SQLite tries to open it to read, and keeps that error.
+  // If a file cannot be created, SQLite tries to open it for reading, and reports that error.
   if ((code & 0xFF) == SQLITE_CANTOPEN && system_error == ENOENT) {
     system_error = error_of_creating(file_of(handle)).value_or(system_error);
   }
@@ -204,7 +204,7 @@ Result<void> reserve_name(const std::filesystem::path& file) {
 
 Result<void> rename_to_new(const std::filesystem::path& from, const std::filesystem::path& to) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return {};
-  // Some network file systems cannot: link() takes no name that is taken either.
+  // Some network file systems cannot: link() also fails if the name exists.
   if (errno == EINVAL && ::link(from.c_str(), to.c_str()) == 0 && ::unlink(from.c_str()) == 0) {
     return {};
   }

@@ -18,7 +18,7 @@
 namespace fitgauge::store::sqlite {
 namespace {
 
-/// The writer's session with the checkpoints of what it commits. It closes last of all connections,
+/// The writer's session with the checkpoints of its commits. It is the last connection to close,
 /// and so checkpoints.
 class WriterSession final : public Session {
  public:
@@ -46,8 +46,7 @@ class WriterSession final : public Session {
   Checkpointer checkpointer_;
 };
 
-/// Whether a command beside the daemon can only read: the folder is on a read-only file system, or
-/// another user's.
+/// Whether a command can only read: the folder is on a read-only file system, or another user's.
 bool is_read_only(const OpenOptions& options) {
   return options.access == Access::Attach && ::access(options.directory.c_str(), W_OK) != 0;
 }

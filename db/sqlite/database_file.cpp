@@ -105,9 +105,8 @@ void roll_back_interrupted_change(const fs::path& file) {
   sqlite::schema_version(connection);
 }
 
-/// A read-only connection to a file in WAL mode makes an empty log with its index and leaves both
-/// behind. While this lives, the directory is the caller's alone; what was not there before goes
-/// again.
+/// A read-only connection to a file in WAL mode leaves an empty log with its index. While this
+/// object lives, the directory is only the caller's; its destructor removes new files.
 class LeavesNoLog {
  public:
   explicit LeavesNoLog(const fs::path& file)
@@ -128,8 +127,7 @@ class LeavesNoLog {
   bool kept_;
 };
 
-/// Rows that are in the tree and no longer in the table were cut off: their ids would be given out
-/// again.
+/// Rows in the tree but not in the table were cut off: their ids would be given out again.
 Result<void> has_whole_log(sqlite::Connection& connection, const fs::path& file) {
   const std::int64_t signed_rows = connection.query_integer("SELECT size FROM log");
   const std::int64_t rows =
@@ -141,10 +139,10 @@ Result<void> has_whole_log(sqlite::Connection& connection, const fs::path& file)
                            file.string(), signed_rows, rows)};
 }
 
-/// Opens the existing file read-only, so that whatever is refused is also left untouched.
+/// Opens the existing file read-only, so that a refused file stays unchanged.
 Result<int> checked_version(const OpenOptions& options, const fs::path& file,
                             std::span<const sqlite::Migration> known) {
-  // Beside a running daemon the log is the daemon's.
+  // With a running daemon the log is the daemon's.
   std::optional<LeavesNoLog> leaves_no_log;
   if (options.access == Access::Serve) leaves_no_log.emplace(file);
   try {
@@ -221,7 +219,7 @@ Result<void> copy_database(const fs::path& source, const fs::path& target) {
     sqlite::Connection to(draft, sqlite::Mode::Create);
     SQLite::Backup copy(to.database(), from.database());
     copy.executeStep();
-    // One file without a log beside it, readable from a read-only medium too.
+    // One file without a log, readable from a read-only medium too.
     to.execute("PRAGMA journal_mode = DELETE");
     if (to.query_integer("SELECT count(*) FROM sqlite_schema WHERE name = 'log_marks'") > 0) {
       to.execute("INSERT OR IGNORE INTO log_marks VALUES ('copy', '', row_digest('copy', ''))");

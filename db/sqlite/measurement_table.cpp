@@ -99,7 +99,7 @@ void MeasurementTable::insert(std::span<const MeasurementRow> rows) {
     sql::bind_value(statement, ++index, row.hash);
   }
   statement.run();
-  // SQLite finds the end of the table without a search where it gives the ids itself.
+  // SQLite finds the end of the table without a search if it assigns the ids.
   if (const std::int64_t id = rows.back().id; connection_.last_inserted_id() != id) {
     throw std::logic_error(fmt::format("measurement {} was stored with another id", id));
   }

@@ -13,13 +13,13 @@ namespace {
 
 constexpr int kForceFactor = 2;
 
-/// Copies what no reader needs any more; readers and writers go on.
+/// Copies pages without readers; readers and writers continue.
 void passive_checkpoint(const sqlite::Connection& connection) {
   sqlite3_wal_checkpoint_v2(connection.handle(), nullptr, SQLITE_CHECKPOINT_PASSIVE, nullptr,
                             nullptr);
 }
 
-/// A piece that took t is followed by a rest of so many t: six percent of a processor.
+/// A piece of duration t is followed by a rest of so many t: six percent of a processor.
 constexpr int kRest = 15;
 
 }  // namespace
@@ -46,7 +46,7 @@ void Checkpointer::install(sqlite::Connection& writer) {
 
 void Checkpointer::after_commit(sqlite::Connection& writer) {
   std::unique_lock lock(mutex_);
-  // A checkpoint beside the thread's would copy nothing: there is one at a time.
+  // A second checkpoint at the same time would copy nothing.
   if (pages_ >= kForceFactor * options_.checkpoint_pages) {
     changed_.wait(lock, [this] { return state_ != State::Running; });
   }

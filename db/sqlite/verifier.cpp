@@ -166,7 +166,7 @@ void Verifier::check_measurements(std::size_t page, const std::function<bool()>&
 }
 
 void Verifier::check_index() {
-  // The writer goes on indexing meanwhile: nodes and values have to be of the same moment.
+  // The writer continues to index: nodes and values must be read at the same moment.
   session_.begin_reading();
   session_.stores().measurements.verify_index(
       [this](std::string finding) { note(std::move(finding)); });

@@ -12,7 +12,7 @@ namespace {
 
 unsigned bits_for(std::size_t count) { return static_cast<unsigned>(std::bit_width(count - 1)); }
 
-/// @returns false where no `count` numbers stand there, each below it.
+/// @returns false unless there are `count` numbers, each below it.
 bool read_rows(PackedNumbers& in, std::size_t count, NumberRow& rows) {
   const unsigned bits = bits_for(count);
   const std::string_view bytes = in.bytes(NumberRow::size(kBlockRows, bits));
@@ -109,9 +109,9 @@ bool BlockColumns::read(std::size_t column, Column& into) const {
   return count > 0 && in.is_sound() && read_rows(in, count, into.rows) && in.is_at_end();
 }
 
-// First stand the kinds of rows: how many, and of each the lower limit, how far the upper one is
-// above it, and the subgroup. Then come the kinds of the rows, unless there is one kind alone, then
-// how far each value is above its lower limit.
+// First the kinds of rows: their number, and of each the lower limit, the distance of the upper
+// limit, and the subgroup. Then the kind of each row, unless there is only one, then the distance
+// of each value from its lower limit.
 
 void ValueBlockWriter::add(const MeasuredValue& value) {
   Kind kind{value.lower_limit_nm, value.upper_limit_nm, value.subgroup};

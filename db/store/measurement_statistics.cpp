@@ -48,8 +48,8 @@ void ExactStatistics::add(const ExactStatistics& other) {
     *this = other;
     return;
   }
-  // The other's differences are counted from its own first value, which lies `shift` from ours:
-  // the sum of (d + shift)^2. Unsigned, as a product on the way may not fit where the sum does.
+  // The other's differences count from its first value, which is `shift` from ours: the sum of (d +
+  // shift)^2. Unsigned, because an intermediate product may not fit although the sum does.
   const auto shift = static_cast<Bits>(Sum{other.first_} - first_);
   const auto n = static_cast<Bits>(other.count_);
   const auto sum = static_cast<Bits>(other.sum_);

@@ -51,7 +51,7 @@ TupleWriter::TupleWriter(std::span<const NumberedColumn> columns,
   statistics_.resize(row_of_tuple_.size());
 }
 
-/// By the fields in the order they were taken.
+/// By the fields in the order of their addition.
 void TupleWriter::sort() {
   std::vector<std::uint32_t> order(row_of_tuple_.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -74,7 +74,7 @@ void TupleWriter::sort() {
   row_of_tuple_ = std::move(row_of_tuple);
 }
 
-/// @returns false, and leaves them as they are, where more than `most` tuples come of it.
+/// @returns false, without a change, if there would be more than `most` tuples.
 bool TupleWriter::split_by(const NumberedColumn& column, std::size_t most) {
   if (column.values().size() == 1) return true;
   boost::unordered_flat_map<std::uint64_t, std::uint32_t> parts;
