@@ -44,8 +44,8 @@ void hand_over_memory(std::int64_t bytes) { held += bytes; }
 
 }  // namespace fitgauge
 
-// All forms, so that none is left to a sanitizer's runtime, which would not take back what another
-// form has taken.
+// Defines all forms, so that a sanitizer's runtime defines none of them and would miss memory of
+// another form.
 
 void* operator new(std::size_t size) {
   return taken([size] { return std::malloc(size == 0 ? 1 : size); });

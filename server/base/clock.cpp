@@ -236,8 +236,8 @@ SteadyTime ForwardClock::look(Jumps& jumps) const {
   return {.time = {reading.ns}, .held = held_};
 }
 
-/// A thread that stood still between two clocks saw no jump: the running time is the longest that
-/// may have passed against a clock ahead, the shortest against one that was set back.
+/// A thread that was paused between two clock readings sees no jump: use the longest possible
+/// running time against a clock ahead, the shortest against a clock that was set back.
 void ForwardClock::compare(const Reading& reading, Jumps& jumps) const {
   const nanoseconds passed(reading.ns - last_.ns);
   const nanoseconds longest = reading.after - last_.before;

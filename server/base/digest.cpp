@@ -99,7 +99,7 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
   if (size < 0 || static_cast<std::size_t>(size) != bytes.size()) return {};
   const auto padding = text.ends_with("==") ? 2U : text.ends_with("=") ? 1U : 0U;
   bytes.resize(bytes.size() - padding);
-  // libcrypto skips blanks and takes padding and spare bits as they come.
+  // libcrypto skips blanks and accepts any padding and spare bits.
   if (to_base64(bytes) != text) return {};
   return bytes;
 }

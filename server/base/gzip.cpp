@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kGzip = 16;  // added to the window: a header of gzip, not of zlib
 
-/// zlib does not write to what it reads.
+/// zlib does not write to its input.
 void set_input(z_stream& stream, std::string_view text) {
   constexpr std::size_t kMost = std::numeric_limits<uInt>::max();
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));

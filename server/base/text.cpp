@@ -67,7 +67,7 @@ bool is_no_character(char c) {
 /// Longer words are not compared.
 constexpr std::size_t kLongestWord = 40;
 
-/// The fewest letters to put in, take out, exchange or swap with their neighbour.
+/// The smallest number of letters to insert, remove, replace or swap.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {

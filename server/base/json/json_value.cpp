@@ -22,7 +22,7 @@ std::string place(std::string_view text, std::size_t offset) {
   return fmt::format("line {}, column {}", line, column);
 }
 
-/// A name that stands twice. Sorted, for an object may have as many members as a body has room for.
+/// A repeated name. Sorted, because an object may have as many members as fit into a body.
 std::optional<std::string_view> repeated_name(const JsonValue& object) {
   std::vector<std::string_view> names;
   names.reserve(object.members.size());
@@ -143,7 +143,7 @@ Result<JsonValue> read(std::string_view text, const JsonItemHandler& handle_item
   if (const std::size_t at = find_invalid_utf8(text); at != std::string_view::npos) {
     return Error{ErrorCode::TextEncoding, fmt::format("byte {} is not UTF-8", at), place(text, at)};
   }
-  // The library takes a NUL for the end of the text.
+  // The library regards a NUL as the end of the text.
   if (const std::size_t at = text.find('\0'); at != std::string_view::npos) {
     const std::string where = place(text, at);
     return Error{ErrorCode::JsonMalformed, fmt::format("at {}: a NUL character", where), where};
