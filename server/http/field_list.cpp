@@ -64,7 +64,7 @@ int specificity(std::string_view range, std::string_view type) {
   return ascii_iequals(range, type) ? 3 : 0;
 }
 
-/// The weight the Accept value gives to one type: that of the most specific range.
+/// The weight of one type in the Accept value: of the most specific range.
 int quality_of(std::string_view accept, std::string_view type) {
   int best_specificity = 0;
   int best_quality = 0;

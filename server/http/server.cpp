@@ -21,8 +21,8 @@ namespace {
 
 using TlsContext = std::shared_ptr<asio::ssl::context>;
 
-/// A connected socket on its way to another I/O thread: what Asio keeps of a socket belongs to one
-/// thread alone, so that only the descriptor goes. Owns it.
+/// A connected socket for another I/O thread: Asio's socket object belongs to one thread, so only
+/// the descriptor is passed. Owns it.
 class SocketInTransit {
  public:
   explicit SocketInTransit(Socket socket)
@@ -115,7 +115,7 @@ void Server::Impl::take(IoThread& thread, Socket socket, Peer peer) {
     refused_.fetch_add(1, std::memory_order_relaxed);
     return turn_away(std::move(socket), peer);
   }
-  // From here on: its thread may be busy, and others come meanwhile.
+  // Counted from here: its thread may be busy, and more connections arrive.
   Place place(shared_.connections);
   TlsContext tls;
   if (shared_.options.tls && !peer.health_only) {
@@ -139,8 +139,8 @@ void Server::Impl::take(IoThread& thread, Socket socket, Peer peer) {
   });
 }
 
-/// There are as many connections as the service takes: says so without reading a request, where
-/// that needs no handshake. On the first I/O thread.
+/// The largest number of connections is open: responds without reading a request, if no handshake
+/// is needed. On the first I/O thread.
 void Server::Impl::turn_away(Socket socket, const Peer& peer) {
   if (shared_.options.tls) return;
   IoThread& thread = *threads_.front();
@@ -179,13 +179,14 @@ ServerCounters Server::Impl::counters() const {
   return counters;
 }
 
-/// When it returns, no I/O thread calls a handler, a hook or a stream any more.
+/// After it returns, no I/O thread calls a handler, a hook or a stream.
 void Server::Impl::stop() {
   if (shared_.stopping.exchange(true) || threads_.empty()) return;
-  // Each thread has a place until it has told its connections, the first until all have one.
+  // Each thread keeps a place until it has notified its connections, the first until all are
+  // notified.
   threads_.front()->post([this, first = Place(shared_.connections)] {
     for (const auto& listener : listeners_) listener->close();
-    // Sockets accepted before are dealt already: what is posted now comes after them.
+    // Sockets accepted before are dealt: later posts come after them.
     for (const auto& thread : threads_) {
       thread->post([&each = *thread, place = Place(shared_.connections)] { each.drain(); });
     }

@@ -46,13 +46,13 @@ std::string_view reason(int status) {
   return found == kReasons.end() ? std::string_view{} : found->second;
 }
 
-/// Written for every answer, where a format string to read costs more than the number.
+/// Written for every response: parsing a format string would cost more than the number.
 void append_number(std::string& out, std::size_t number) {
   const fmt::format_int digits(number);
   out.append(digits.data(), digits.size());
 }
 
-/// A line break inside a value would begin a field of its own: it becomes a blank.
+/// A line break in a value would begin another field: it becomes a blank.
 void append_field(std::string& out, std::string_view name, std::string_view value) {
   out.append(name).append(": ");
   const std::size_t start = out.size();
@@ -130,7 +130,7 @@ SentAnswer append_prepared(OutputQueue& out, const std::shared_ptr<const Prepare
   return {.status = answer->status(), .keep_alive = form.keep_alive};
 }
 
-/// A text in pieces, each of which is packed in a turn of its own.
+/// A text in pieces, each of which is packed in a separate turn.
 class TextStream final : public BodyStream {
  public:
   TextStream(std::shared_ptr<const std::string> owner, std::string_view text)
@@ -221,7 +221,7 @@ void append_chunk(std::string& out, std::string_view bytes) {
 
 namespace {
 
-/// The body as gzip: what is long, or made while it is sent, is packed piece by piece.
+/// The body as gzip: long or streamed bodies are packed piece by piece.
 void pack(Response& response, SentAnswer& sent) {
   response.with("Content-Encoding", "gzip");
   response.etag = packed_etag(response.etag);
@@ -240,7 +240,7 @@ void pack(Response& response, SentAnswer& sent) {
   response.body = StreamedBody{.source = std::make_shared<TextStream>(owner, body), .held = held};
 }
 
-/// Whether the answer has a gzip form, which a short one has for those who take no other.
+/// Whether the response has a gzip form; short ones have it for clients that accept nothing else.
 struct PackedForm {
   bool exists = false;
   bool is_sent = false;

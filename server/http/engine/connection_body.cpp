@@ -1,5 +1,5 @@
-// The part of a connection that takes in a request's body: straight into its memory, or through the
-// chunked coding and gzip; it waits where other bodies hold the memory.
+// The part of a connection that reads a request's body: directly into its memory, or through the
+// chunked coding and gzip; it waits while other bodies hold the memory.
 
 #include <algorithm>
 #include <cstring>

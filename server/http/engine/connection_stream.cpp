@@ -15,12 +15,12 @@ namespace fitgauge::http {
 /// The answers of one thread for the I/O threads, collected for an AnswerBatch.
 class Posts {
  public:
-  /// Those of the calling thread; null when it has no AnswerBatch.
+  /// Outputs of the calling thread; null if it has no AnswerBatch.
   static Posts* kept();
 
   Posts();
   Posts& operator=(Posts&&) = delete;  // neither copied nor moved
-  /// Hands over what was kept.
+  /// Posts the collected outputs.
   ~Posts();
 
   void add(IoThread& thread, std::function<void()> function);

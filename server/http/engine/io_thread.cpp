@@ -11,8 +11,8 @@ namespace {
 /// One turn in vain among so many answers is not felt.
 constexpr unsigned kUntilRetry = 256;
 
-/// Deadlines are kept to a quarter of the shortest one, and to a quarter of a second, so that the
-/// Date is fresh too.
+/// Deadlines are checked at a quarter of the shortest one, and at least every quarter of a second,
+/// to keep the Date fresh.
 std::chrono::milliseconds sweep_interval(const ServerOptions& options) {
   using std::chrono::milliseconds;
   const auto shortest = std::min({options.header_timeout, options.request_timeout,
@@ -27,7 +27,7 @@ bool NextReads::put(Connection& connection) {
     --until_retry_;
     return false;
   }
-  // Posted first: where memory for it is lacking, nothing waits for a turn that does not come.
+  // Posted first: if its memory is missing, nothing waits for a turn that does not come.
   if (waiting_.empty()) asio::post(context_, [this] { read(); });
   waiting_.push_back(connection.shared_from_this());
   return true;
@@ -51,7 +51,7 @@ IoThread::~IoThread() { join(); }
 void IoThread::start() {
   update_clock();
   schedule_sweep();
-  // A bug, or no memory, where no connection is to blame: the others go on.
+  // A bug, or no memory, not caused by a connection: the others continue.
   thread_ = Thread("an I/O thread", [this](const auto&) { context_.run(); });
 }
 
@@ -117,9 +117,9 @@ void IoThread::sweep() {
   bound_unsent();
 }
 
-/// Answers that their clients have not taken for long end, the oldest first, until the others have
-/// room: so that readers who drip, however many, cannot hold all memory. The newest goes on,
-/// however long it is.
+/// Ends the responses that their clients have not read for the longest time, until the others have
+/// room: so slow readers, however many, cannot hold all memory. The newest continues, however long
+/// it is.
 void IoThread::bound_unsent() {
   const std::size_t most = shared_.options.unsent_budget / std::max(shared_.options.io_threads, 1U);
   std::size_t held = 0;
@@ -145,8 +145,8 @@ void IoThread::admit_waiting() {
   for_each_connection([&](Connection& connection) {
     if (connection.bytes_waited_for() > 0) waiting.push_back(connection.shared_from_this());
   });
-  // The smallest first and of equals the newest: a crowd of senders that never finish cannot make
-  // one that does wait behind all of them.
+  // The smallest first and of equals the newest: a crowd of senders that never finish cannot block
+  // one that does.
   std::sort(waiting.begin(), waiting.end(), [](const auto& a, const auto& b) {
     return a->bytes_waited_for() != b->bytes_waited_for()
                ? a->bytes_waited_for() < b->bytes_waited_for()

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
-/// Between the colon and the value stand blanks only, unless the value was folded over lines (or,
-/// joined by the parser, lies outside the input).
+/// Only blanks are between the colon and the value, unless the value was folded over lines (or,
+/// joined by the parser, is outside the input).
 bool is_folded(std::string_view name, std::string_view value) {
   const char* const after_colon = name.data() + name.size() + 1;
   const auto gap = value.data() - after_colon;
@@ -34,7 +34,7 @@ bool is_digits(std::string_view text) {
   return !text.empty();
 }
 
-/// A field without a name in Beast's list by which a proxy says for whom it speaks.
+/// A field without a name in Beast's list, in which a proxy names its client.
 bool is_of_proxy(std::string_view name) {
   constexpr std::string_view kPrefix = "X-Forwarded-";
   return ascii_iequals(name.substr(0, kPrefix.size()), kPrefix) ||
@@ -51,7 +51,7 @@ bool has_bare_line_feed(std::string_view lines) {
   return false;
 }
 
-/// Whether the chunk line at the front of `lines`, perhaps behind the end of the chunk before,
+/// Whether the chunk line at the front of `lines`, perhaps after the end of the previous chunk,
 /// begins with a size of more than 64 bits.
 bool has_endless_size(std::string_view lines) {
   constexpr std::string_view kHexDigits = "0123456789abcdefABCDEF";

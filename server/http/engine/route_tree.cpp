@@ -32,7 +32,7 @@ ErrorCode code_for(ParameterPlace place) {
   return ErrorCode::RequestMalformed;
 }
 
-/// A time that begins or ends a range may lie before or after all that a Timestamp holds.
+/// A time that begins or ends a range may be outside of the range of a Timestamp.
 Result<Timestamp> parse_time(std::string_view text) {
   auto time = parse_rfc3339(text);
   const std::string_view year = text.substr(0, 4);

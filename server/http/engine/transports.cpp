@@ -16,7 +16,7 @@ namespace {
 
 namespace ssl = asio::ssl;
 
-/// Out of file descriptors, say: the clients wait in the kernel's queue meanwhile.
+/// Out of file descriptors, for example: the clients wait in the kernel's queue.
 constexpr auto kRetry = std::chrono::milliseconds(100);
 
 /// Bytes of one call of OpenSSL, which counts in int.
@@ -201,7 +201,7 @@ Error cannot_listen(const ListenAddress& address, const error_code& error) {
                                                address.port, error.message())};
 }
 
-/// Opens and binds; the error tells what failed.
+/// Opens and binds; the error has the failed step.
 error_code bind(Acceptor& acceptor, const ListenAddress& address) {
   error_code error;
   const auto ip = asio::ip::make_address(address.host, error);
