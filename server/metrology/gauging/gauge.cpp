@@ -24,7 +24,7 @@ Verdict verdict(const Beyond& beyond, Wide upper, Wide lower, Wide measured, Wid
   return Verdict::Indeterminate;
 }
 
-/// By the probability of conformance; outside, the nearer limit tells rework from reject.
+/// By the probability of conformance; outside, the nearer limit decides between rework and reject.
 Verdict conformance_verdict(const Beyond& beyond, const ConformanceLimits& limits, Length measured,
                             const DecisionRule& rule) {
   const double wanted = rule.probability().value();

@@ -90,7 +90,7 @@ void set_cpm(Capability& capability, const SpecificationLimits& limits, const Ex
   const Exact target = limits.target ? *limits.target : (*limits.lower + *limits.upper) / 2;
   const long double off = nearest(mean - target);
   const long double root = std::hypot(capability.overall, off);
-  // With one limit what lies between it and the target counts twice.
+  // With one limit the part between it and the target counts twice.
   const Exact width = both           ? *limits.upper - *limits.lower
                       : limits.upper ? 2 * (*limits.upper - target)
                                      : 2 * (target - *limits.lower);

@@ -8,9 +8,9 @@
 namespace fitgauge::metrology {
 namespace {
 
-constexpr double kBeyondChance = 4;        ///< standard deviations
-constexpr double kUnknown = 1e6;  ///< variance of a state that nothing is known of, in scatters
-constexpr double kSure = 2;       ///< standard deviations of the offset that a proposal is beyond
+constexpr double kBeyondChance = 4;  ///< standard deviations
+constexpr double kUnknown = 1e6;     ///< variance of a state that nothing is known of, in scatters
+constexpr double kSure = 2;  ///< standard deviations of the offset that a proposal is beyond
 constexpr std::size_t kRecent = 50;  ///< parts among which jumps are counted
 constexpr std::size_t kMostJumps = 2;
 
@@ -93,7 +93,7 @@ double robust_scatter(std::span<const MadePart> parts) {
   return *middle / kOfTwo;
 }
 
-/// Tells jumps and outliers from usual parts, by a filter with a wandering as it is usual.
+/// Distinguishes jumps and outliers from usual parts, by a filter with the usual wandering.
 std::vector<Kind> kinds_of(std::span<const MadePart> parts, double scatter) {
   constexpr double kUsualWandering = 0.1;
   std::vector<Kind> kinds(parts.size(), Kind::Usual);

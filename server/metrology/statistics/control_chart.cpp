@@ -102,8 +102,8 @@ class Source {
   double unit_of_points_ = 0;  ///< the unit, where no point's sum or divisor is above kExactly
 };
 
-/// The spread chart that belongs to a location chart: its points, their mean in control and what
-/// that mean says of the standard deviation of single values.
+/// The spread chart of a location chart: its points, their mean in control and the resulting
+/// standard deviation of single values.
 struct Spread {
   std::string_view name;
   std::vector<double> points;
@@ -212,8 +212,8 @@ Chart cusum_chart(const std::vector<double>& points, const Centre& centre, long 
   return chart;
 }
 
-/// The lines of a location chart. Those of single values with a known centre and a known standard
-/// deviation are decimals, and so exact: a value that lies on one is not beyond it.
+/// The lines of a location chart. For single values with a known centre and a known standard
+/// deviation they are exact decimals: a value on a line is not beyond it.
 class Location {
  public:
   Location(const ChartPlan& plan, std::size_t group_size, const Centre& centre,

@@ -31,7 +31,7 @@ Error out_of_range(std::string_view text) {
                       kMostDigits)};
 }
 
-/// Takes the digits at the front of `rest`.
+/// Reads the digits at the front of `rest`.
 std::string_view take_digits(std::string_view& rest) {
   const auto end =
       std::find_if(rest.begin(), rest.end(), [](char c) { return c < '0' || c > '9'; });
@@ -40,7 +40,7 @@ std::string_view take_digits(std::string_view& rest) {
   return digits;
 }
 
-/// Takes an exponent, if there is one; one beyond ±9999 counts as that. @returns false: malformed.
+/// Reads an exponent, if there is one; one beyond ±9999 counts as 9999. @returns false: malformed.
 bool take_exponent(std::string_view& rest, int& exponent) {
   if (rest.empty() || (rest.front() != 'e' && rest.front() != 'E')) return true;
   rest.remove_prefix(1);
@@ -72,8 +72,8 @@ Real rounded(const Exact& value) {
   if (top == 0) return 0;
   const bool negative = top < 0;
   if (negative) top = -top;
-  // A quotient of 66 or 67 bits, its last one set where something follows it, rounds as the
-  // fraction itself would.
+  // A quotient of 66 or 67 bits, its last bit set if there is a remainder, rounds like the
+  // fraction.
   constexpr int kBits = 66;
   const int shift = kBits + static_cast<int>(msb(bottom)) - static_cast<int>(msb(top));
   if (shift > 0) {

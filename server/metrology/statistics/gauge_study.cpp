@@ -47,7 +47,7 @@ class Cells {
   std::size_t operators() const { return readings_.operator_count; }
   std::size_t count() const { return groups_.size(); }
   const std::vector<std::vector<Wide>>& groups() const { return groups_; }
-  /// Of a cell, where all have as many.
+  /// Of a cell, if all have the same number.
   std::optional<std::size_t> equal_trials() const {
     for (const auto& group : groups_) {
       if (group.size() != groups_.front().size()) return std::nullopt;
@@ -197,7 +197,7 @@ void set_categories(GaugeStudy& study) {
   study.ndc = std::max<std::int64_t>(1, static_cast<std::int64_t>(ratio));
 }
 
-/// @param none a component that is not told apart
+/// @param none a component that cannot be separated
 void set_components(GaugeStudy& study, const Exact& ev, const std::optional<Exact>& av,
                     const std::optional<Exact>& interaction, const Exact& pv) {
   const Exact grr = ev + av.value_or(0) + interaction.value_or(0);
@@ -298,7 +298,7 @@ GaugeStudy without_operators(const Cells& s, const StudyBounds& intervals) {
   return study;
 }
 
-/// d2 of one range alone (Duncan 1955): what 1 / K2 and 1 / K3 of MSA 4 are.
+/// d2 of a single range (Duncan 1955): 1 / K2 and 1 / K3 of MSA 4.
 long double d2_of_one(std::size_t n) {
   const RangeConstants constants = range_constants(n);
   return std::hypot(constants.d2, constants.d3);

@@ -24,7 +24,7 @@ constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
 
-/// A model as muParser keeps it: it reads the arguments where they stand.
+/// A model in muParser: it reads the arguments in place.
 struct ParsedModel {
   mu::Parser parser{};
   std::vector<double> arguments{};
@@ -78,8 +78,8 @@ Derivative extrapolate(const Difference& difference, double noise, int order) {
   return best;
 }
 
-/// The model about the estimates, with steps of its own for each quantity: its uncertainty, or for
-/// first derivatives so much of the estimate at least that rounding troubles less.
+/// The model around the estimates, with a step for each quantity: its uncertainty, or for first
+/// derivatives a minimum part of the estimate, to limit rounding.
 class Neighbourhood {
  public:
   Neighbourhood(const Budget& budget, double least) : budget_(budget) {
@@ -104,7 +104,7 @@ class Neighbourhood {
   }
   double step(std::size_t i) const { return steps_[i]; }
 
-  /// So many steps away in two quantities, or twice in one.
+  /// Steps in two quantities, or twice in one.
   double away(std::size_t i, double by, std::size_t j = 0, double by_too = 0) {
     at_[i] += by * steps_[i];
     at_[j] += by_too * steps_[j];
@@ -113,7 +113,8 @@ class Neighbourhood {
     at_[j] = budget_.contributions[j].estimate;
     return found;
   }
-  /// Half of what a step to either side changes, by a small part of it: a whole one may explode.
+  /// Half of the change between steps to either side, by a small part of it: a whole step may leave
+  /// the domain.
   double rise(std::size_t i) { return (away(i, kPart) - away(i, -kPart)) / (2 * kPart); }
 
   /// The change by a step to either side, without the value itself, which may be at a pole.
@@ -127,15 +128,15 @@ class Neighbourhood {
     }
     return found;
   }
-  /// Whether the slope on either side is the derivative: not so at a kink and beside a pole.
+  /// Whether the slope on either side is the derivative: false at a kink and near a pole.
   bool is_smooth(std::size_t i, double slope, double within) {
     const double near = std::max(width(i) / 4096, 5e-5);
     const double open = 0.004 * within + 8 * noise_ / near;
     const auto fits = [&](double h) { return std::abs((away(i, h) - value_) / h - slope) <= open; };
     return fits(near) && fits(-near);
   }
-  /// Half of what the slope jumps by at the value, as far as it is above rounding: the bend of
-  /// both sides, which ends with the step where the model is smooth.
+  /// Half of the slope's jump at the value, above rounding: the bend of both sides, which vanishes
+  /// with the step if the model is smooth.
   double kink(std::size_t i) {
     const double near = std::max(width(i) / 4096, 5e-5);
     const auto bend = [&](double h) { return (away(i, h) + away(i, -h) - 2 * value_) / h; };

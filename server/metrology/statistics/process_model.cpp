@@ -24,7 +24,7 @@ Integer scatter_of(std::span<const Wide> counts) {
   return Integer(counts.size()) * squares.value() - total * total;
 }
 
-/// The same in 128 bits, where no sum of a group is longer; else none.
+/// The same in 128 bits, if every sum of a group fits; else none.
 std::optional<Wide> short_scatter_of(std::span<const Wide> counts) {
   constexpr std::size_t kFew = std::size_t{1} << 10;
   constexpr Wide kShort = Wide{1} << 40;
@@ -40,8 +40,8 @@ std::optional<Wide> short_scatter_of(std::span<const Wide> counts) {
   return static_cast<Wide>(counts.size()) * squares - sum * sum;
 }
 
-/// The sum of squared deviations from the means of the groups. Those of one size are added as whole
-/// numbers: a fraction for each of many groups would take most of the time.
+/// The sum of squared deviations from the means of the groups. Groups of one size are added as
+/// whole numbers: a fraction for each of many groups would take most of the time.
 Exact sum_within(const GroupedCounts& groups) {
   struct Scatter {
     ExactSum of_short;
@@ -83,21 +83,21 @@ constexpr std::array<Row, 8> kRows = {{
     {"D", "location and dispersion change"},
 }};
 
-/// Where groups of one size end.
+/// End of the groups of one size.
 std::vector<std::size_t> ends_of(std::size_t groups, std::size_t size) {
   std::vector<std::size_t> ends(groups);
   for (std::size_t i = 0; i < groups; ++i) ends[i] = (i + 1) * size;
   return ends;
 }
 
-/// The same of whole subgroups, of a size of their own where the values come one by one.
+/// The same for whole subgroups; single values are grouped.
 std::vector<std::size_t> ends_of_groups(const Subgroups& data) {
   const std::size_t size = data.size > 1 ? data.size : kSizeOfValues;
   return ends_of(data.values.size() / size, size);
 }
 
-/// Of an odd group the median is one of the values: its distance is 0 whatever the dispersion, and
-/// is left out (Hines and Hines 2000; Noguchi and Gel 2010).
+/// The median of an odd group is one of its values: its distance is always 0, and is left out
+/// (Hines and Hines 2000; Noguchi and Gel 2010).
 std::size_t structural_zeros(std::size_t size) { return size % 2; }
 
 /// Distances from the median of their group, doubled so that they stay whole numbers.

@@ -13,7 +13,7 @@ constexpr int kHundredThousand = 100'000;
 constexpr std::size_t kManyToSort = 4'096;
 constexpr Wide kNarrow = Wide{1} << 20;  ///< a table of so many counts is worth its 4 MiB
 
-/// The logarithm of the probability below z. Far out, where erfc is 0, its asymptote.
+/// The logarithm of the probability below z. Its asymptote far out, if erfc is 0.
 double log_below(double z) {
   constexpr double kFar = -37;
   if (z < kFar) return -z * z / 2 - std::log(-z) - std::log(2 * M_PI) / 2;
@@ -100,7 +100,7 @@ Ranking::Ranking(std::span<const Wide> counts) {
     }
     return;
   }
-  // Measured sizes lie close together: how often each of them occurs is soon counted.
+  // Measured sizes are close together, so counting equal ones is fast.
   std::vector<std::uint32_t> times(static_cast<std::size_t>(*most - first) + 1);
   for (const Wide count : counts) ++times[static_cast<std::size_t>(count - first)];
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -143,10 +143,10 @@ namespace bm = boost::math;
 namespace {
 
 /// From here on the series of Cornish and Fisher is as good as the incomplete gamma function, whose
-/// own series Boost gives up beyond 1e10.
+/// series in Boost fails beyond 1e10.
 constexpr long double kManyDegreesOfFreedom = 1e7L;
 
-/// Cornish and Fisher 1960: what is left out is below 1e-16 of the quantile.
+/// Cornish and Fisher 1960: the omitted terms are below 1e-16 of the quantile.
 long double chi_squared_series(long double z, long double n) {
   const long double z2 = z * z;
   const long double unit = std::sqrt(2 / n);
@@ -206,8 +206,8 @@ NormalityTest test_normality(const Ranking& ranking, double mean, double standar
     // From the least value, so that leading digits all share cost nothing.
     const double z =
         (static_cast<double>(ranking.values()[i] - ranking.front()) - mean) / standard_deviation;
-    // ln F(x_i) has the weight 2i + 1, ln(1 - F(x_i)) that of its place from the other end: of
-    // equal values, of which measured ones are full, these are differences of squares.
+    // ln F(x_i) has the weight 2i + 1, ln(1 - F(x_i)) the weight of its place from the other end:
+    // for equal values, which are frequent in measurements, these are differences of squares.
     sum += (square(end) - square(begin)) * log_below(z) +
            (square(count - begin) - square(count - end)) * log_below(-z);
     begin = end;

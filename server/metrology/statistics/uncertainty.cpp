@@ -64,7 +64,7 @@ std::vector<std::size_t> groups_of(const Budget& budget) {
   return groups;
 }
 
-/// SplitMix64 (Steele, Lea and Flood 2014), and what is drawn with it.
+/// SplitMix64 (Steele, Lea and Flood 2014), and its draws.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -128,7 +128,7 @@ MonteCarloResult result_of(std::span<double> values, double probability) {
   double squares = 0;
   for (const double x : values) squares += (x - made.mean) * (x - made.mean);
   made.standard_deviation = std::sqrt(squares / (count - 1));
-  // JCGM 101, 7.7: the interval holds q = p M of the trials, as many outside on either side.
+  // JCGM 101, 7.7: the interval has q = p M of the trials, equally many outside on either side.
   const auto inside = static_cast<std::size_t>(std::round(probability * count));
   const std::size_t first = (values.size() - std::min(inside, values.size() - 1)) / 2;
   made.lower = values[first];

@@ -167,7 +167,7 @@ std::vector<RuleViolation> find_violations(std::span<const double> points, const
 }
 
 double zone_rules_run_length(ZoneRules rules) {
-  // Every history that can come about from none, and where each zone of the next point leads.
+  // Every history from the empty one, and its successor for each zone of the next point.
   std::map<ZoneHistory, std::size_t> numbers{{ZoneHistory(), 0}};
   std::vector<ZoneHistory> histories{ZoneHistory()};
   struct Step {
@@ -216,7 +216,7 @@ double ewma_run_length(double lambda, double width) {
 }
 
 double cusum_run_length(double reference_value, double decision_interval) {
-  // Siegmund's approximation (1985) says where the equations cannot tell the answer any more.
+  // Siegmund's approximation (1985), if the equations are not accurate enough.
   const double reach = 2 * reference_value * (decision_interval + 1.166);
   const double roughly = (std::expm1(reach) - reach) / (4 * reference_value * reference_value);
   if (roughly > kLongestRun) return std::numeric_limits<double>::infinity();
