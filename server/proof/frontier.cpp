@@ -23,7 +23,7 @@ Hash range_root(std::uint64_t begin, std::uint64_t end, const NodeReader& read) 
   return root;
 }
 
-/// The largest power of two below `size`: where the tree of RFC 6962 splits.
+/// The largest power of two below `size`: the split of the tree in RFC 6962.
 std::uint64_t split_of(std::uint64_t size) { return std::bit_floor(size - 1); }
 
 /// The index has at most 5 groups of three digits: 256 * 10^15 subtrees are more than there will

@@ -54,7 +54,7 @@ Error bad_checkpoint(std::string_view what) {
   return {ErrorCode::NoteMalformed, fmt::format("not a checkpoint: {}", what)};
 }
 
-/// The next line of `text` without its newline, taken off its front.
+/// Removes the next line of `text`. @returns it without its newline.
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
   const std::string_view line = text.substr(0, end);
