@@ -48,7 +48,7 @@ Result<void> finish(FieldErrors& errors) {
   return {};
 }
 
-/// Any JSON, with every error in its place: what the fast reader does not take ends here.
+/// Any JSON, with every error in its place: for input that the fast reader does not accept.
 Result<void> decode_json(std::string_view body, const BatchContext& context,
                          MeasurementBatch& batch) {
   FieldErrors errors;
@@ -120,7 +120,7 @@ Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
   return finish(errors);
 }
 
-/// The header names fields once each; a name that is none is reported for every row it stands in.
+/// The header names each field once; an unknown name is reported for every row.
 Result<void> check_header(std::vector<std::string> header) {
   std::sort(header.begin(), header.end());
   const auto name = std::adjacent_find(header.begin(), header.end());

@@ -5,7 +5,7 @@
 #include "tables/iso286/tolerance_class.hpp"
 #include "tables/standards/designated_limits.hpp"
 
-// How a row says its limits: a designation, a class with its nominal size, or those of a drawing.
+// How a row gives its limits: a designation, a class with its nominal size, or limits of a drawing.
 
 namespace fitgauge::api {
 namespace {
@@ -31,7 +31,7 @@ void MeasurementRowReader::take_limits(const app::Measurement& other) {
 void MeasurementRowReader::resolve_limits() {
   const bool by_designation = given(RowField::Designation);
   const bool by_class = given(RowField::Class);
-  // A general tolerance does not say whether its dimension is inside or outside.
+  // A general tolerance does not define inside or outside.
   const bool open_feature = is_open_designation() || is_open_class();
   const bool by_drawing = given(RowField::Upper) || given(RowField::Lower) ||
                           (given(RowField::Feature) && !open_feature);

@@ -37,8 +37,8 @@ bool MeasurementRowReader::knows(std::string_view name) {
   return search_field(name) < RowField::Count;
 }
 
-// Rows have their fields in one order, those of one request and mostly those of the next: the n-th
-// is most likely what it was before.
+// Rows of a request, and mostly of the next one, have their fields in one order: the n-th field is
+// usually the previous n-th.
 std::size_t MeasurementRowReader::find_field(std::string_view name) {
   static thread_local std::array<std::uint8_t, 32> order{};
   std::uint8_t& expected = order[position_++ % order.size()];
@@ -250,8 +250,8 @@ const GaugeInUse* MeasurementRowReader::find_gauge(std::string_view name) {
   return last_gauge_in_use_;
 }
 
-/// Facts of a gauge in use at that time: its uncertainty if the rule needs one that was not
-/// given, and that it was overdue or blocked. @pre measured_at stands
+/// Facts of a gauge in use at that time: its uncertainty if the rule needs one that was not given,
+/// and that it was overdue or blocked. @pre measured_at is set
 void MeasurementRowReader::apply_gauge() {
   app::Measurement& m = draft_.measurement;
   const bool needs = draft_.rule.kind != gauging::DecisionRule::Kind::Simple;

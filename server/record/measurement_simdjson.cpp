@@ -87,7 +87,7 @@ bool read_fields(ondemand::object& object, MeasurementRowReader& reader, Measure
         field.value().get(content) != simdjson::SUCCESS) {
       return false;
     }
-    // A key has no length of its own: it ends at the quote, and one with an escape is not taken.
+    // A key has no length: it ends at the quote, and a key with an escape is not accepted.
     const char* const name = key.raw();
     const char* name_end = name;
     while (*name_end != '"' && *name_end != '\\') ++name_end;
@@ -105,7 +105,7 @@ bool at_end(ondemand::document& document) {
   return document.current_location().error() == simdjson::OUT_OF_BOUNDS;
 }
 
-/// Room for as many rows as there are, or are taken at a time, when all are as long as the first.
+/// Room for all rows, or for kRowsAtATime of them, if all are as long as the first.
 void make_room(std::string_view body, ondemand::document& document, const BatchContext& context,
                MeasurementBatch& batch) {
   const char* at = nullptr;

@@ -13,14 +13,14 @@
 namespace fitgauge::app {
 namespace {
 
-/// Writes at the end of a string in room that was taken beforehand, so that a piece costs its bytes
-/// and no more: for records that are written by the ten thousand. All else uses api::JsonWriter.
+/// Writes at the end of a string into reserved room, so that a piece costs only its bytes: for tens
+/// of thousands of records. Other code uses api::JsonWriter.
 class RecordText {
  public:
   /// @param room no fewer characters than will be written.
   RecordText(std::string& out, std::size_t room) : out_(out), at_(extend(out, room)) {}
   RecordText& operator=(RecordText&&) = delete;  // neither copied nor moved
-  /// Gives back the room that was not needed.
+  /// Returns the unused room.
   ~RecordText() {
     assert(size() <= out_.size());
     out_.resize(size());
@@ -113,7 +113,7 @@ bool same_limits(const Measurement& a, const Measurement& b) {
   return limits(a) == limits(b);
 }
 
-/// Writes a member of a record behind those before; none without a value.
+/// Writes a member of a record after the previous ones; nothing without a value.
 class MemberText {
  public:
   MemberText(RecordText& text, std::string_view name) : text_(text), name_(name) {}

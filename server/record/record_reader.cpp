@@ -16,7 +16,7 @@ constexpr int kMmDecimals = 6;
 constexpr int kUmDecimals = 3;
 constexpr int kBillionths = 9;
 
-/// The members of a record, which are looked up by name; the first that is wrong is kept.
+/// The members of a record, by name; keeps the first error.
 class Record {
  public:
   Record(const JsonValue& json, TextArena& texts) : json_(json), texts_(texts) {}
@@ -33,7 +33,7 @@ class Record {
     return taken(name, parse_decimal(value->text, {.scale = scale, .exponent = true}));
   }
 
-  /// 1 where it is there.
+  /// 1 if it exists.
   std::optional<std::int64_t> truth(std::string_view name) {
     const JsonValue* value = json_.find(name);
     if (value == nullptr) return std::nullopt;

@@ -18,8 +18,8 @@ struct BodyWords {
   const std::optional<std::int64_t>& expansion_uncertainty;
 };
 
-/// The coefficient of a body, which is given by its number or by its material, with the
-/// uncertainties; none where it does not expand. A material has that of its source.
+/// The expansion of a body, by its number or its material, with the uncertainties; none without
+/// expansion. A material has the uncertainty of its source.
 Result<std::optional<gauging::ThermalBody>> read_body(const BodyWords& words) {
   const bool expands = words.expansion || words.material;
   if (!expands && !words.temperature_uncertainty && !words.expansion_uncertainty) {
@@ -59,7 +59,7 @@ Result<std::optional<gauging::ThermalBody>> read_body(const BodyWords& words) {
   return std::optional(body);
 }
 
-/// A coverage factor stands in a record of the simple rule too, as the uncertainty does.
+/// A record of the simple rule has a coverage factor too, like the uncertainty.
 constexpr std::array<Applicable, 2> kRuleMembers = {{
     {"coverage_factor", "simple guard_band"},
     {"probability", "conformance"},
