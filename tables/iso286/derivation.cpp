@@ -25,8 +25,8 @@ struct FundamentalDeviation {
 
 using Limit = FundamentalDeviation::Limit;
 
-/// The classes of holes below the nominal size. Up to a last grade the deviation is that of the
-/// shaft with the opposite sign and a delta added, so that H and the hole class give the same fits.
+/// The classes of holes below the nominal size. Up to a last grade the deviation is the shaft's
+/// with the opposite sign plus a delta, so that H and the hole class give the same fits.
 FundamentalDeviation hole_below(const ToleranceClass& c) {
   const std::string column = "ES_" + std::string(text(c.letter, c.feature));
   if (c.letter >= Letter::P) return {Limit::Upper, column + "_gt_IT7", c.grade <= Grade::IT7};
@@ -63,14 +63,14 @@ bool is_used_up_to_1_mm(const ToleranceClass& c) {
   return !(c.feature == Feature::Hole && c.letter == Letter::N && c.grade > Grade::IT8);
 }
 
-/// M6 from 250 to 315 mm is -9 µm, where base and delta give -11 (note to Table 2).
+/// M6 from 250 to 315 mm is -9 µm; base and delta would give -11 (note to Table 2).
 bool is_m6_exception(const ToleranceClass& c, const NominalSizeRange& range) {
   constexpr NominalSizeRange kStep{Length::millimetres(250), Length::millimetres(315)};
   return c == ToleranceClass{Feature::Hole, Letter::M, Grade::IT6} && kStep.contains(range);
 }
 constexpr Length kM6Exception = Length::micrometres(-9);
 
-/// Deltas exist for IT3 to IT8. Finer grades need none where all deltas are 0, up to 3 mm and above
+/// Deltas exist for IT3 to IT8. Finer grades need none if all deltas are 0, up to 3 mm and above
 /// 500 mm; between, their classes are not defined.
 bool needs_no_delta(const NominalSizeRange& range) {
   return range.up_to <= Length::millimetres(3) || range.over >= Length::millimetres(500);

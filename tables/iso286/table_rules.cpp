@@ -42,8 +42,8 @@ Error finding(TableId table, const NominalSizeRange& range, std::string_view col
                       column)};
 }
 
-/// The cells that the standard's tables have and `data` lacks, those it has besides, and those it
-/// has twice. Without findings the ranges are those of the standard, so they are contiguous.
+/// Cells of the standard's tables that `data` lacks, additional cells, and repeated cells. Without
+/// findings the ranges are those of the standard, so they are contiguous.
 std::vector<Error> compare_structure(const TableData& data) {
   std::vector<Error> findings;
   CellsByKey found;
@@ -71,7 +71,7 @@ std::string grade_column(std::size_t grade) {
   return "IT" + std::string(text(static_cast<StandardToleranceGrade>(grade)));
 }
 
-/// In each step every grade is coarser than the one before; only the finest may be missing.
+/// In each step every grade is coarser than the previous one; only the finest may be missing.
 void check_grades_increase(const IndexedTable& table, Findings& findings) {
   for (std::size_t grade = 1; grade < kGradeCount; ++grade) {
     const Column finer = table.column(grade_column(grade - 1));
@@ -146,7 +146,7 @@ void check_mirror(const StandardTables& tables, Findings& findings) {
   }
 }
 
-/// Of every class: upper - lower = IT; JS and js lie symmetrically about the nominal size.
+/// For every class: upper - lower = IT; JS and js are symmetric about the nominal size.
 void check_classes(const StandardTables& tables, Findings& findings) {
   const auto ranges = derivation_ranges(tables);
   for (std::uint16_t id = 0; id < kStandardClassCount; ++id) {

@@ -48,7 +48,7 @@ std::string_view without_diameter_sign(std::string_view text) {
   return text;
 }
 
-/// Takes `(E)` or `Ⓔ` off the end. @returns whether it was there.
+/// Removes `(E)` or `Ⓔ` from the end. @returns whether it was there.
 bool take_envelope(std::string_view& text) {
   for (const std::string_view sign : {std::string_view("(E)"), std::string_view("\xE2\x92\xBA")}) {
     if (!text.ends_with(sign)) continue;

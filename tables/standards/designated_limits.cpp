@@ -40,7 +40,7 @@ Error unknown_class(std::string_view text) {
                                : std::string())};
 }
 
-/// ISO 2768-1 as limits_of() says. An outside dimension, unless the caller knows better.
+/// Limits of ISO 2768-1, see limits_of(). An outside dimension by default.
 Result<DesignatedLimits> general_tolerance(Length nominal, std::string_view tolerance_class) {
   const auto* const known = std::find(kClasses.begin(), kClasses.end(), tolerance_class);
   if (known == kClasses.end()) return unknown_class(tolerance_class);

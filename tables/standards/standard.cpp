@@ -39,7 +39,7 @@ constexpr std::array<std::pair<std::string_view, std::optional<Length> Row::*>, 
     {"diameter_mm", &Row::diameter},
 }};
 
-/// Takes the text up to the next separator away.
+/// Removes the text up to the next separator.
 std::string_view take(std::string_view& rest, char separator) {
   const std::size_t end = std::min(rest.find(separator), rest.size());
   const std::string_view text = rest.substr(0, end);
@@ -62,7 +62,7 @@ std::optional<std::int64_t> number(std::string_view cell, Unit unit) {
   return length ? std::optional(length->count()) : std::nullopt;
 }
 
-/// Adds what a cell says to the row. @returns false: not a column or not a number.
+/// Adds a cell to the row. @returns false: not a column or not a number.
 bool read_cell(std::string_view column, std::string_view cell, Row& row) {
   for (const auto& [name, key] : kKeys) {
     if (column != name) continue;
@@ -83,8 +83,7 @@ bool read_cell(std::string_view column, std::string_view cell, Row& row) {
   return false;
 }
 
-/// A range follows the one before, or begins anew for another pitch; limits are the right way
-/// round.
+/// A range follows the previous one, or begins again for another pitch; limits must be in order.
 bool follows(const Row& row, const Row* before) {
   if (row.up_to && !row.over) return false;
   if (row.over && row.up_to && *row.over >= *row.up_to) return false;

@@ -54,7 +54,7 @@ std::optional<ThreadClass> class_of(std::string_view text) {
   return ThreadClass{.grade = text[0], .position = text[1]};
 }
 
-/// Takes the size at the front: digits with a point or a comma.
+/// Reads the size at the front: digits with a point or a comma.
 Result<Length> take_size(std::string_view& rest, std::string_view whole) {
   const auto* const stop = std::find_if(rest.begin(), rest.end(), [](char c) {
     return (c < '0' || c > '9') && c != '.' && c != ',';
@@ -172,7 +172,8 @@ Length pitch_diameter_of(const Thread& thread) {
   return Length::nanometres((exact + kMicrometre / 2) / kMicrometre * kMicrometre);
 }
 
-/// The one spelling of a designation, kept for ever: the standard has so many threads and no more.
+/// The one spelling of a designation, kept for ever: the number of threads in the standard bounds
+/// it.
 std::string_view kept(std::string designation) {
   static std::mutex mutex;
   static std::set<std::string, std::less<>> spellings;

@@ -8,7 +8,7 @@
 namespace fitgauge::tabfile {
 namespace {
 
-/// A width or count of decimals; 0 for what is no small number: the column line decides anyway.
+/// A width or count of decimals; 0 for other texts: the column line decides anyway.
 template <class Number>
 Number small_number(std::string_view text) {
   constexpr Number kLargest = 999;
@@ -98,8 +98,8 @@ ColumnDescriptions read_table_description(std::string_view text) {
 
 namespace {
 
-/// Whether a column has what its name and its place in the line do not tell: how wide the last one
-/// is they never do.
+/// Whether a column has data that its name and place do not define, other than the width of the
+/// last one.
 bool is_described(const TabTable& table, const TabColumn& column) {
   const bool is_last = &column == &table.columns().back();
   return !column.type.empty() || column.decimals || is_last;

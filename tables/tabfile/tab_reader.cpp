@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostCells = 1'000'000;
 constexpr std::size_t kMostLines = 1'000'000;
 constexpr std::string_view kBegin = "BEGIN";
-/// Of the last column where nothing tells how wide it is: a text as long as the control's are.
+/// Width of the last column if nothing defines it: the longest text of the control.
 constexpr std::size_t kWidestCell = 255;
 
 std::vector<std::string_view> lines_of(std::string_view text) {
@@ -50,7 +50,7 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-/// The fields after BEGIN: name, suffix (a blank may stand before its dot), unit, version.
+/// The fields after BEGIN: name, suffix (a blank may precede its dot), unit, version.
 TabHeader read_begin_line(std::string_view text) {
   TabHeader header;
   header.name = take_word(text);
@@ -65,7 +65,7 @@ TabHeader read_begin_line(std::string_view text) {
   return header;
 }
 
-/// A column of the column line: where its cells begin and where the next column's do.
+/// A column of the column line: the begin of its cells and of the next column's cells.
 struct ColumnPlace {
   std::size_t begin;  ///< in characters
   std::size_t width;  ///< in characters, with the blank between columns; npos for the last one
@@ -128,7 +128,7 @@ class Reader {
     }
     if (line.starts_with("TableDescription")) {
       header.form = HeaderForm::TableDescription;
-      // Its own line ends with "(", every inner parenthesis stands with its closing one or deeper.
+      // Its line ends with "(", every inner parenthesis closes on its line or deeper.
       int depth = 0;
       const auto end = take_until([&](std::string_view l) {
         depth += static_cast<int>(std::count(l.begin(), l.end(), '('));
@@ -143,7 +143,7 @@ class Reader {
     return ColumnDescriptions();
   }
 
-  /// Takes lines up to and including the first that `is_last`, and gives its index.
+  /// Reads lines up to and including the first that `is_last`, and returns its index.
   template <class Predicate>
   std::optional<std::size_t> take_until(Predicate is_last) {
     while (next_ < lines_.size()) {

@@ -30,7 +30,7 @@ std::optional<double> to_decimal(std::string_view text) {
   return to_number<double>(pointed);
 }
 
-/// To 1 nm without trailing zeros, and fewer decimals where they do not fit.
+/// To 1 nm without trailing zeros, with fewer decimals if they do not fit.
 std::string shortest(double value, std::size_t width) {
   for (int decimals = 6;; --decimals) {
     std::string text = fmt::format("{:.{}f}", value, decimals);
