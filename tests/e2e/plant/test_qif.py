@@ -210,7 +210,7 @@ class Qif(Folders):
             "bomb": (declared, "DOCTYPE"), "outside": (outside, "DOCTYPE"),
             "cut": (DOCUMENT[:len(DOCUMENT) // 2], "is not well-formed XML"), "cut-late": (DOCUMENT[:-20], "is not well-formed XML"),
             "nul": (DOCUMENT.replace("SN-1", "SN\0"), "is not well-formed XML"), "empty": ("", ""), "text": ("Bore 25.01", "is not well-formed XML"),
-            "other": ("<html/>", "is the begin of html, and no QIFDocument of QIF 3"), "qif2": (DOCUMENT.replace("xsd/qif3", "xsd/qif2"), "no QIFDocument of QIF 3"),
+            "other": ("<html/>", "but must begin a QIFDocument of QIF 3"), "qif2": (DOCUMENT.replace("xsd/qif3", "xsd/qif2"), "but must begin a QIFDocument of QIF 3"),
             "deep": ("<a>" * 100_000, ""), "no-value": (DOCUMENT.replace("<Value>7.9955</Value>", ""), "without a Value"),
             "angle": (DOCUMENT.replace("WidthCharacteristicMeasurement", "AngleCharacteristicMeasurement"), "no size that a measurement can hold"),
             "number": (DOCUMENT.replace("7.9955", "7.99.55"), "line 28 has the value '7.99.55', which is not a length"),

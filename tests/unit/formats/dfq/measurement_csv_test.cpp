@@ -114,28 +114,27 @@ TEST_CASE("limits and units") {
        "error: line 6 has ZZ7 in K2103 and K2104: there is no class ZZ7"},
       {"K2101/1 25\nK2103/1 H\nK2142/1 mm\n", "error: line 6 has one of K2103 and K2104"},
       {"K2101/1 25\nK2111/1 25.1\nK2113/1 0.2\nK2142/1 mm\n",
-       "error: line 6 says 25.1 mm in K2111, and K2113 makes it 25.2 mm"},
+       "error: line 6 has 25.1 mm in K2111, but K2113 gives 25.2 mm"},
       {"K2101/1 25\nK2110/1 25.2\nK2111/1 25.1\nK2142/1 mm\n",
        "error: line 7 has an upper limit that is below"},
       {"K2101/1 25\nK2111/1 many\nK2142/1 mm\n",
        "error: line 6 has 'many' in K2111, the upper limit, which must be a number"},
       {"K2101/1 25\nK2111/1 25.1\nK2121/1 7\nK2142/1 mm\n",
-       "error: line 7 says '7' in K2121: 0 is no limit"},
+       "error: line 7 has '7' in K2121, which must be 0 (no limit)"},
       {"K2101/1 25\nK2111/1 25.1\n", "error: line 3 describes characteristic 1, which has no unit"},
       {"K2004/1 1\n",
-       "error: line 3 describes characteristic 1, which no measurement can hold, as it is of type "
-       "1"},
+       "error: line 3 describes characteristic 1, which is not a measurement: it is of type 1"},
       {"K2101/1 25\nK2111/1 25.1\nK2142/1 \xB0\n",
-       "error: line 3 describes characteristic 1, which no measurement can hold, as its unit "
+       "error: line 3 describes characteristic 1, which is not a measurement: its unit "
        "\xC2\xB0 is not a length"},
       {"K2101/1 0\nK2111/1 0.1\nK2142/1 mm\n",
-       "error: line 3 describes characteristic 1, which no measurement can hold, as its nominal "
+       "error: line 3 describes characteristic 1, which is not a measurement: its nominal "
        "value (K2101) is not above 0"},
       {"K2111/1 0.1\nK2142/1 mm\n",
-       "error: line 3 describes characteristic 1, which no measurement can hold, as it has no "
+       "error: line 3 describes characteristic 1, which is not a measurement: it has no "
        "nominal"},
       {"K2101/1 25\nK2142/1 mm\n",
-       "error: line 3 describes characteristic 1, which no measurement can hold, as it has no "
+       "error: line 3 describes characteristic 1, which is not a measurement: it has no "
        "limits"},
   };
   for (const auto& [characteristic, said] : cases) {
@@ -192,7 +191,7 @@ TEST_CASE("attributes") {
   CHECK(rows_of(file(kH7,
                      "25.01\x14"
                      "3\n"))
-            .find("error: line 9 has a value of attribute 3") == 0);
+            .find("error: line 9 has attribute 3") == 0);
   CHECK(rows_of(file(kH7,
                      "\x14"
                      "0\x14"

@@ -172,7 +172,7 @@ TEST_CASE("an input that fails is told with its words") {
 TEST_CASE("rows, definitions and elements are bounded") {
   const std::string text = written(30);
   CHECK(error_of(text, {.most_rows = 30}).empty());
-  CHECK(error_of(text, {.most_rows = 29}).find("is beyond 29 measured values") !=
+  CHECK(error_of(text, {.most_rows = 29}).find("comes after 29 measured values") !=
         std::string::npos);
   // One element of more than it may have, given piece by piece: nothing of it is kept for long.
   const std::string begin =
@@ -197,7 +197,7 @@ TEST_CASE("rows, definitions and elements are bounded") {
   std::string many =
       R"(<QIFDocument xmlns="http://qifstandards.org/xsd/qif3"><CharacteristicItems>)";
   for (int i = 0; i <= 100'000; ++i) many += "<I/>";
-  CHECK(error_of(many).find("is beyond 100000 definitions") != std::string::npos);
+  CHECK(error_of(many).find("comes after 100000 definitions") != std::string::npos);
 }
 
 }  // namespace

@@ -301,22 +301,22 @@ TEST_CASE("an adaptive simulation goes on until its digits hold") {
 TEST_CASE("what is no model is refused with its place") {
   for (const auto& [model, words] : std::vector<std::pair<std::string, std::string>>{
            {"a + c*b", "'c' at character 5 of 7"},
-           {"a*b)", "')' cannot stand at character 4 of 4"},
+           {"a*b)", "')' is not allowed at character 4 of 4"},
            {"2a + b", "'a' at character 2 of 6"},
-           {"a + b =", "character 7 cannot stand"},
-           {"a = b", "character 3 cannot stand"},
-           {"a, b", "character 2 cannot stand"},
-           {"a > b ? a : b", "character 3 cannot stand"},
-           {"a\n+b", "character 2 cannot stand"},
+           {"a + b =", "character 7 is not allowed"},
+           {"a = b", "character 3 is not allowed"},
+           {"a, b", "character 2 is not allowed"},
+           {"a > b ? a : b", "character 3 is not allowed"},
+           {"a\n+b", "character 2 is not allowed"},
            {"sin(a", "ends too early"},
            {"a + b +", "ends too early"},
            {"", "ends too early"},
            {"sin(a)", "does not use 'b'"},
            {"rnd(a) + b", "'rnd' at character 1"},
            {"_pi*a + b", "'_pi' at character 1"},
-           {"a + 1e400 + b", "'1e400' cannot stand at character 5"},
-           {"a..1 + b", "cannot stand at character 2"},
-           {"sin() + a + b", "cannot stand at character"},
+           {"a + 1e400 + b", "'1e400' is not allowed at character 5"},
+           {"a..1 + b", "is not allowed at character 2"},
+           {"sin() + a + b", "is not allowed at character"},
            {std::string(1001, 'a'), "at most 1000"}}) {
     CAPTURE(model);
     CHECK(refusal(model).find(words) != std::string::npos);

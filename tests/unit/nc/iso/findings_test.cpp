@@ -24,7 +24,7 @@ TEST_CASE("A code that is not available says what to use instead") {
   CHECK(finding("N10 G50 *") ==
         "2:5 syntax.error: G50 is not available; leave it out: it protects a file");
   CHECK(finding("N10 G21 *") ==
-        "2:5 syntax.error: G21 is no code of these controls; docs/reference/language.md lists "
+        "2:5 syntax.error: G21 is unknown to these controls; docs/reference/language.md lists "
         "their codes");
 }
 
@@ -52,7 +52,7 @@ TEST_CASE("A block says what is missing or does not belong to it") {
   CHECK(finding("N10 D00 P01 +5 *") ==
         "2:1 syntax.error: a Q parameter is missing after the function");
   CHECK(finding("N10 G26 R5 *") ==
-        "2:1 syntax.error: G26 stands behind the block of the first contour point, which has G41 "
+        "2:1 syntax.error: G26 must follow the block of the first contour point, which has G41 "
         "or G42");
   CHECK(finding("N10 G27 R5 *\nN20 G98 L1 *") ==
         "3:1 syntax.error: G27 needs the end point in the next block, with G40");
@@ -63,20 +63,19 @@ TEST_CASE("A block says what is missing or does not belong to it") {
         "3:1 syntax.error: the tool axis changes with the tool: write G17, G18 or G19 after T");
   CHECK(finding("N10 G70 *") ==
         "2:5 syntax.error: G70 is not available; the unit of the program stands in its first line");
-  CHECK(finding("N10 G90 G421 Q273=+1 *") == "2:1 syntax.error: a cycle must be the first word of its block");
+  CHECK(finding("N10 G90 G421 Q273=+1 *") ==
+        "2:1 syntax.error: a cycle must be the first word of its block");
 }
 
 TEST_CASE("A mode that holds on over a label is named at its use") {
   const std::string text = "N10 G00 G90 X+1 *\nN20 L1,0 *\nN30 X+5 *\nN40 M30 *\nN50 G98 L1 *\n";
   CHECK(finding(text + "N60 G01 G90 X+1 *\nN70 G98 L0 *") ==
-        "4:1 block.modal_state_assumed: behind a label or a call the block has no path function: "
-        "G00 holds, as in the "
-        "blocks above it; write the code into this block");
+        "4:1 block.modal_state_assumed: after a label or a call the block has no path function: "
+        "G00 of an earlier block counts; write the code into this block");
   CHECK(finding("N10 G00 G90 X+1 *\nN20 L1,0 *\nN30 G00 X+5 *\nN50 G98 L1 *\nN60 G01 G91 X+1 "
                 "*\nN70 G98 L0 *") ==
-        "4:1 block.modal_state_assumed: behind a label or a call the block has no G90 or G91: G90 "
-        "holds, as in the blocks "
-        "above it; write the code into this block");
+        "4:1 block.modal_state_assumed: after a label or a call the block has no G90 or G91: G90 "
+        "of an earlier block counts; write the code into this block");
 }
 
 TEST_CASE("A program has a first and a last line") {

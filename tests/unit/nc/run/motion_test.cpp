@@ -201,8 +201,8 @@ TEST_CASE("arcs that are none are errors") {
   };
   CHECK(outcome_of("C X+1 Y+1 DR+") == "failed line 3: an arc needs a centre: write CC before it");
   CHECK(outcome_of("L X+10 FMAX\nCC X+0 Y+0\nC X+0 Y+11 DR+") ==
-        "failed line 5: the end of the arc lies 1.0000 mm outside its circle in the plane XY: CC "
-        "names the centre and by its two axes the plane");
+        "failed line 5: the end of the arc is 1.0000 mm outside its circle in the plane XY: CC "
+        "gives the centre, and its two axes give the plane");
   CHECK(outcome_of("CR X+30 Y+0 R+10 DR+") ==
         "failed line 3: CR: no arc of radius 10 mm joins two points 30.0000 mm apart");
   CHECK(outcome_of("LP PR+5 PA+3") ==
