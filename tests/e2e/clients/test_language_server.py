@@ -249,8 +249,8 @@ class Editing(ServerTest):
     def test_rename_refuses_what_would_mean_something_else(self):
         self.client.open("a.h", PROGRAM.replace("STOP", "FN 23: Q20 = CDATA Q30\nQ31 = 1\nQL3 = Q1\nFN 28: TABREAD Q40 = 1/\"A,B\""))
         for old, new, reason in (("Q1 = +25", "Q2", "used already"), ("Q1 = +25", "Q150", "keep their names"),
-                                 ("Q1 = +25", "X", "is not a parameter"), ("Q1 = +25", "QS7", "of its kind"), ("Q1 = +25", "Q9999", ""),
-                                 ("Q1 = +25", "Q41", "in a row"), ("Q31 = 1", "Q50", "in a row"),
+                                 ("Q1 = +25", "X", "is not a parameter"), ("Q1 = +25", "QS7", "keep its kind"), ("Q1 = +25", "Q9999", ""),
+                                 ("Q1 = +25", "Q41", "row of parameters"), ("Q31 = 1", "Q50", "row of parameters"),
                                  ("Q2 = Q153", "Q262", "used already")):
             with self.subTest(old, new=new):
                 answer = self.at("rename", "a.h", old, newName=new)

@@ -92,7 +92,7 @@ class Measure(ClientTest):
                 (self.client.folder / name).write_bytes(text)
                 done = self.client.run("measure", name)
                 self.assertEqual(done.returncode, 7)
-                self.assertIn("run it again, or with --encoding auto if", done.stderr_text)
+                self.assertIn("run the command again, or use --encoding auto", done.stderr_text)
                 self.assert_runs(0, "measure", name, "--encoding", "auto")
         self.assertEqual(self.stored_parts("T-"), ["T-0", "T-1", "T-2"])
 
@@ -255,5 +255,5 @@ class Busy(unittest.TestCase):
         client, requests = self.serve([(404, {"Content-Type": "text/html"}, b"<p>not here")])
         done = client.run("measure", "a.csv")
         self.assertEqual(done.returncode, 7)
-        self.assertIn("is it fitgauged?", done.stderr_text)
+        self.assertIn("check that fitgauged runs there", done.stderr_text)
         self.assertEqual(len(requests), 1)

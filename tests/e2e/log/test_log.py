@@ -220,7 +220,7 @@ class Tampered(StorageTest):
 
     def test_rows_cut_off(self):
         alter(self.daemon.database, *UNTRIGGERED, "DELETE FROM measurements WHERE id > 290")
-        self.assert_found("the newest were cut off")
+        self.assert_found("the newest are missing")
         # Their ids are never given out again: it does not start.
         self.assert_refused(self.daemon, "contains 290", "newest measurements are missing")
 
@@ -230,7 +230,7 @@ class Tampered(StorageTest):
               "DELETE FROM measurement_nodes", "DELETE FROM measurement_postings", "DELETE FROM measurement_aggregates",
               "DELETE FROM measurement_values")
         self.assertNotIn("cut off", self.verify().stdout, "the folder alone cannot tell")
-        self.assert_found("the newest were cut off", self.kept)
+        self.assert_found("the newest are missing", self.kept)
 
     def test_what_the_log_says_of_itself(self):
         for change in ("UPDATE log SET size = 12", "UPDATE log_keys SET vkey = 'x' || vkey",
@@ -275,11 +275,11 @@ class Tampered(StorageTest):
         for name in ("fitgauge.db-wal", "fitgauge.db-shm"):
             (self.daemon.data / name).unlink(missing_ok=True)
         shutil.copy(copy, self.daemon.database)
-        self.assert_found("an older copy was put back")
+        self.assert_found("an older copy was restored")
         self.daemon.start()
         self.assertEqual(self.daemon.stop(), 0)
         self.assertIn('"event":"log_branched"', self.daemon.log)
-        self.assert_found("an older copy was put back", self.kept)
+        self.assert_found("an older copy was restored", self.kept)
         # Up to the branch the earlier checkpoints hold.
         verified = self.daemon.command("verify", "--checkpoint", f"{copy}.checkpoint")
         self.assertEqual(verified.returncode, 0, verified.stdout)

@@ -136,7 +136,7 @@ class Dfq(Folders):
             "negative": (dfq(HEAD, VALUES.replace("25.03", "-25.03")), "line 31: measured_mm"),
             "attribute": (dfq(HEAD, VALUES.replace("25.03\x140", "25.03\x143")), "line 31 has attribute 3"),
             "type": (dfq(HEAD.replace("K2004/1 0", "K2004/1 1"), VALUES), "which is not a measurement: it is of type 1 (K2004)"),
-            "nul": (whole.replace(b"first", b"fi\0st"), "line 29 has a byte that is 0"),
+            "nul": (whole.replace(b"first", b"fi\0st"), "line 29 has a byte 0"),
             "long": (dfq(HEAD) + b"1" * 30_000_000, "line 26 is in a value of more than 1024 KiB"),
             "none": (dfq(HEAD), "The file has no measured value"),
             "empty": (b"", "The file has no K0100"),

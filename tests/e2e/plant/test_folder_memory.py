@@ -49,7 +49,7 @@ def bad_files():
     many = "K0100 20000\r\nK1001/1 " + "x" * 2000 + "\r\n" + "".join(
         f"K2002/{index} D{index}\r\nK2101/{index} 25\r\nK2103/{index} H\r\nK2104/{index} 7\r\nK2142/{index} mm\r\n" for index in range(1, 20_001))
     yield "described.dfq", (many + "\x0f".join(["25.0131"] * 20_000) + "\r\n").encode(), "more than 8 MiB"
-    yield "nul.dfq", bytes(SIZE), "byte that is 0|more than 1024 KiB"
+    yield "nul.dfq", bytes(SIZE), "has a byte 0|more than 1024 KiB"
     yield "line.dfq", (DFQ + "1" * (SIZE - 1000)).encode(), "in a value of more than 1024 KiB"
     yield "deep.qif", b"<a>" * (SIZE // 3), "nothing of this file is stored"
     yield "line.qif", b"<QIFDocument " + b"x" * SIZE, "nothing of this file is stored"

@@ -102,7 +102,7 @@ TEST_CASE("every kind of refusal has its exit code") {
   CHECK(code(500) == ExitCode::NoAnswer);
   CHECK(code(503) == ExitCode::NoAnswer);
   CHECK(failure_of({.status = 404, .content_type = "text/html", .body = "<p>"}, "http://x")
-            .message.find("is it fitgauged?") != std::string::npos);
+            .message.find("check that fitgauged runs there") != std::string::npos);
 }
 
 TEST_CASE("only what may succeed in a moment is repeated") {

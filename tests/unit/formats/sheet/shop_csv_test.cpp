@@ -152,7 +152,7 @@ TEST_CASE("a clock on the wall tells an instant") {
   CHECK(at("2026-10-25T02:30:00") == "2026-10-25T00:30:00Z");  // comes twice: the first
   CHECK(at("2026-10-25 03:00:00") == "2026-10-25T02:00:00Z");
   CHECK(at("2026-03-29 01:59:59") == "2026-03-29T00:59:59Z");
-  CHECK(at("2026-03-29 02:30:00").starts_with("the clock of the time zone has skipped"));
+  CHECK(at("2026-03-29 02:30:00").starts_with("this time does not exist in the time zone"));
   CHECK(at("2026-03-29 03:00:00") == "2026-03-29T01:00:00Z");
   CHECK(at("2045-07-01 12:00:00") == "2045-07-01T10:00:00Z");  // by the rule of the footer
   CHECK(at("2045-12-01 12:00:00") == "2045-12-01T11:00:00Z");

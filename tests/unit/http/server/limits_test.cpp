@@ -130,7 +130,7 @@ TEST_CASE("connections beyond the cap are answered 503 and closed") {
   CHECK(answer->field("Retry-After") == "1");
   CHECK(answer->field("Connection") == "close");
   CHECK(answer->field("Content-Type") == "application/problem+json");
-  CHECK(answer->body.starts_with("As many connections are open"));
+  CHECK(answer->body.starts_with("too many connections are open"));
   CHECK(third.is_closed_by_server());
   CHECK(server.server().counters().connections_refused == 1);
   CHECK(first.ask(get("/a"))->status == 200);

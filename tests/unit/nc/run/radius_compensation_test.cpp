@@ -115,7 +115,8 @@ TEST_CASE("APPR and DEP begin and end beside the contour") {
 TEST_CASE("RL and RR do not follow each other") {
   ContourMill mill;
   mill.path("L X+0 Y+0 RL F100\nL X+10 RR\nL Y+10");
-  CHECK(outcome(mill.last).find("between RL and RR stands a block with R0") != std::string::npos);
+  CHECK(outcome(mill.last).find("a block between RL and RR moves in the plane with R0") !=
+        std::string::npos);
   mill.path("L X+0 Y+0 RL F100\nL X+10\nL X+20 R0\nL Y+10 RR\nL X+0\nL X-10 R0");
   CHECK(outcome(mill.last) == "completed");
 }
@@ -131,7 +132,7 @@ TEST_CASE("what the tool does not fit into is an error with its place") {
   mill.path("CC X+20 Y+0\nL X+10 Y+0 F100\nC X+30 Y+0 DR+ RL\nL X+0 R0");
   CHECK(mill.last.messages.back().number == 1021);
   mill.path("CC X+0 Z+0\nL X+10 Z+0 RL F100\nC X-10 Z+0 DR+\nL X+0 R0");
-  CHECK(outcome(mill.last).find("RL and RR hold in the working plane alone") != std::string::npos);
+  CHECK(outcome(mill.last).find("RL and RR work only in the working plane") != std::string::npos);
 }
 
 struct ContourPoint {

@@ -88,7 +88,7 @@ TEST_CASE(
   // What it transforms ends with it, and the machine has not moved.
   CHECK(mill.last.messages.empty());
   mill.path(called(finish, "\nL X+20 Y+30 RL\nCYCL CALL\nL X+60\n"));
-  CHECK(outcome(mill.last).find("does not stand in the contour") != std::string::npos);
+  CHECK(outcome(mill.last).find("is not allowed in the contour") != std::string::npos);
   CHECK(mill.last.messages.back().source == "CYCL CALL");
   CHECK(mill.last.messages.back().line == 12);  // that of the contour
   mill.path(called(finish, "\nL X+20 Y+30 RL\nL X+60\n"));
