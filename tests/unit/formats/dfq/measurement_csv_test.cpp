@@ -170,7 +170,7 @@ TEST_CASE("what no measurement can hold may be left out") {
             .starts_with("measured_mm=25.02"));
   CHECK(rows_of(text + "25.01\x0F"
                        "0.02\n")
-            .find("leave_out stores the other values") != std::string::npos);
+            .find("leave_out stores the other characteristics") != std::string::npos);
   CHECK(rows_of("K0100 1\nK2002/1 Flatness\nK2101/1 0\nK2111/1 0.1\nK2142/1 mm\n0.02\n", how) ==
         "error: All values were left out: no characteristic of the file is a length with a nominal "
         "size and limits");
