@@ -47,7 +47,7 @@ void add_common(CLI::App& app, CommonOptions& common) {
       ->check(CLI::Range(0, 86'400));
 }
 
-/// The key of --key-file, else of FITGAUGE_KEY: never on the command line, where others see it.
+/// The key of --key-file, else of FITGAUGE_KEY: never an argument, which others can read.
 Outcome<std::string> read_key(const CommonOptions& common) {
   std::string text = environment_variable("FITGAUGE_KEY");
   if (!common.key_file.empty()) {
@@ -99,8 +99,8 @@ int complain(const Failure& failure, bool json) {
   return end_with(failure.exit_code);
 }
 
-/// Names the first word that is neither a command nor an option, and the one that was meant.
-/// @returns none where all are known, and something else is wrong.
+/// Names the first unknown word, command or option, and the nearest known one.
+/// @returns none if all are known, and something else is wrong.
 std::optional<std::string> what_is_unknown(const CLI::App& command,
                                            const std::vector<std::string>& words) {
   const auto option = std::find_if(words.begin(), words.end(),
@@ -168,7 +168,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return complain({ExitCode::Usage, usage_text(app, error)}, false);
   } catch (const std::exception& defect) {
-    // fmt throws where the stream takes no more.
+    // fmt throws if the stream is full.
     if (std::ferror(stdout) != 0) {
       return complain({ExitCode::LocalFile, "standard output cannot be written"}, false);
     }

@@ -62,7 +62,7 @@ std::string shell_text(std::string_view text) {
   return out + "'";
 }
 
-/// Help in a specification of zsh, where brackets and colons mean something.
+/// Help for a specification of zsh, in which brackets and colons have a meaning.
 std::string zsh_help(std::string text) {
   for (char& c : text) {
     if (c == '[' || c == ']' || c == ':') c = ' ';
@@ -97,7 +97,7 @@ void add_fish(std::string& out, const CLI::App& app, const std::string& inside) 
   }
 }
 
-/// The options of a command, then what it takes.
+/// The options of a command, then its arguments.
 std::string zsh_arguments(const CLI::App& app) {
   std::string out;
   bool files = false;

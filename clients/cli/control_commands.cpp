@@ -91,7 +91,7 @@ std::string_view name_of(ProgramState state) {
   return i < kNames.size() ? kNames.at(i) : "unknown";
 }
 
-/// All that `control state` says.
+/// All data of `control state`.
 struct MachineState {
   control_link::ControlIdentity identity{};
   std::uint16_t mode = 0;
@@ -102,7 +102,7 @@ struct MachineState {
   std::vector<control_link::Fault> errors{};
 };
 
-/// Asks for one thing; what the control does not tell stays as it is.
+/// Requests one item; an item that the control does not return stays unchanged.
 template <class Answer>
 Outcome<void> ask_for(LinkClient& control, std::uint16_t which, Answer& into) {
   auto answer = control.ask<Answer>(ReadRunInformation{which});
@@ -120,7 +120,7 @@ Outcome<std::vector<control_link::Fault>> read_errors(LinkClient& control) {
        which = ReadRunInformation::kNextError) {
     auto error = control.ask<control_link::Fault>(ReadRunInformation{which});
     if (!error) {
-      // Without a further error, or at a control that does not tell them.
+      // Without a further error, or if the control does not return errors.
       if (error.error().kind == LinkFailure::Kind::Refused) break;
       return failure_of(error.error());
     }

@@ -15,7 +15,7 @@ std::size_t count_lines(std::string_view text) {
 
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
-/// The offset behind the closing quote of the cell that begins with one; npos when it is not there.
+/// The offset after the closing quote of a quoted cell; npos if it is missing.
 std::size_t skip_quoted(std::string_view text, std::size_t begin) {
   std::size_t close = text.find('"', begin + 1);
   while (close != std::string_view::npos && text.substr(close + 1).starts_with('"')) {
@@ -33,7 +33,7 @@ std::optional<CsvRecord> first_record(std::string_view text, char separator, boo
     const char c = text[i];
     if (c == '"' && cell_begins) {
       const std::size_t end = skip_quoted(text, i);
-      // At the end of what was read, the quote may be the first of two.
+      // At the end of the buffer, the quote may be the first of two.
       if (end >= text.size() && !ended) return std::nullopt;
       const std::size_t next = std::min(end, text.size());
       lines += count_lines(text.substr(i, next - i));

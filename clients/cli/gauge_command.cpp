@@ -39,7 +39,7 @@ class SerialPort {
     std::string text;   ///< without what ends it; a long one is cut
     bool whole = true;  ///< false: too long, or it began before the port was listened to
   };
-  /// Waits for the next line that is not empty. @errors LocalFile once the port is gone.
+  /// Waits for the next line that is not empty. @errors LocalFile if the port is gone.
   Outcome<Line> next();
 
  private:
@@ -203,7 +203,7 @@ std::string verdict_query(const GaugeOptions& options, const std::string& measur
 }
 
 std::string record_body(const GaugeOptions& options, const std::string& measured) {
-  // A number alone is the nominal size of a drawing.
+  // A number without a class is the nominal size of a drawing.
   const bool by_drawing = parse_length_mm(options.designation, {.decimal_comma = true}).has_value();
   JsonObject body;
   body.add(kRowFields[by_drawing ? RowField::Nominal : RowField::Designation].name,
@@ -282,7 +282,7 @@ Outcome<ExitCode> judge(const Context& context, const GaugeOptions& options,
   return answer ? show_verdict(context, *answer) : answer.error();
 }
 
-/// Plain decimals in mm, and those of Digimatic adapters (01A+0025.013).
+/// Decimals in mm, also from Digimatic adapters (01A+0025.013).
 constexpr const char* kLine = R"((?:\d\dA)?\s*([+-]?\d+(?:[.,]\d+)?)\s*(?:mm)?)";
 
 Outcome<std::regex> pattern_of(const std::string& pattern) try {
@@ -293,7 +293,7 @@ Outcome<std::regex> pattern_of(const std::string& pattern) try {
       fmt::format("--pattern must be a regular expression; got '{}': {}", pattern, wrong.what())};
 }
 
-/// The value in a line that the pattern takes whole.
+/// The value in a line that matches the pattern.
 std::optional<std::string> value_in(const std::string& line, const std::regex& pattern) {
   constexpr std::string_view kBlank = " \t";
   const auto begin = line.find_first_not_of(kBlank);
@@ -302,12 +302,12 @@ std::optional<std::string> value_in(const std::string& line, const std::regex& p
   std::smatch found;
   if (!std::regex_match(text, found, pattern)) return std::nullopt;
   std::string value = found.size() > 1 && found[1].matched ? found[1].str() : text;
-  // A gauge says +0025.013 where a person writes 25.013.
+  // A gauge sends +0025.013 for 25.013.
   value.erase(0, value.starts_with('+') ? 1 : 0);
   return value;
 }
 
-/// Line by line, each value once; what is none is told and nothing is stored of it.
+/// Judges line by line, each value once; other lines are reported and not stored.
 Outcome<ExitCode> follow_port(const Context& context, GaugeOptions options) {
   const auto pattern = pattern_of(options.pattern);
   if (!pattern) return pattern.error();

@@ -18,7 +18,7 @@ constexpr long kAnswerSeconds = 120;
 constexpr long kSilenceSeconds = 45;  // the service sends a sign of life every 15 s
 constexpr long kUploadBuffer = 512L * 1024;
 
-/// Where the pieces of the answer that is being read go.
+/// Receiver of the current response's pieces.
 struct Reading {
   const http_client::CurlHandle& handle;
   Answer answer{};

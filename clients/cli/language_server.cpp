@@ -321,8 +321,8 @@ void handle(Server& server, const std::string& text) {
            JsonObject().add_raw("type", "1").add("message", reply.error().message));
 }
 
-/// The next message; an error for a wrong header, behind which the next header is looked for.
-/// Nothing at the end of the input.
+/// The next message; an error for a wrong header, after which the next header is searched. Nothing
+/// at the end of the input.
 std::optional<Reply> next_message(bool& is_lost) {
   constexpr std::string_view kLength = "content-length:";
   const auto lose = [&is_lost](std::string problem) {

@@ -62,7 +62,7 @@ void print(const Context& context, std::string_view format, const std::vector<Di
   }
 }
 
-/// What a file of the service has. @errors as of the service
+/// The content of a file of the service. @errors as of the service
 Outcome<std::vector<Diagnostic>> found_there(const Context& context, const std::string& file) {
   const auto answer = expect_ok(
       context.client.send({.method = "POST", .target = file_target(file) + "?action=check"}),
@@ -182,8 +182,8 @@ std::string ReadProgram::as_written(std::string_view text) const {
   return written;
 }
 
-/// A program of this machine, or of the service. @errors those of reading it, and ProgramFailed for
-/// one with errors.
+/// A local program, or one of the service. @errors those of reading it, and ProgramFailed for one
+/// with errors.
 Outcome<ReadProgram> read_program(const Context& context, const std::string& file,
                                   bool from_control) {
   std::string bytes;
@@ -210,8 +210,8 @@ Outcome<ReadProgram> read_program(const Context& context, const std::string& fil
   return read;
 }
 
-/// The text of a conversion; what was found is printed. @errors ProgramFailed for a block without
-/// a form.
+/// The text of a conversion; prints its findings. @errors ProgramFailed for a block that cannot be
+/// converted.
 Outcome<std::string> text_of(const std::string& file, iso::Conversion converted) {
   for (const Diagnostic& found : converted.findings)
     fmt::print(stderr, "{}\n", klartext::render(found));

@@ -125,7 +125,7 @@ class Upload {
     return chunks;
   }
 
-  /// The input at the place where an earlier run stopped, or at its first row.
+  /// The input at the end of an earlier run, or at its first row.
   Outcome<CsvChunks> find_place() {
     const auto& last = journal_.state();
     if (options_.again || !last) return begin_session();
@@ -230,7 +230,7 @@ class Upload {
                         : "")};
   }
 
-  /// Whether it was sent as it is, and might be taken as RowInput reads it.
+  /// Whether it was sent unchanged, and RowInput might accept it.
   bool may_be_table() const { return !RowInput::is_one(options_) && state_.counts.sum() == 0; }
 
   /// Of a line of the text that is sent.

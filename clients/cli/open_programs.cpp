@@ -187,7 +187,7 @@ class OpenPrograms::Disk final : public interpreter::ControlDisk {
     const auto here = local(path);
     return here ? std::optional(uri_of(here->lexically_normal())) : std::nullopt;
   }
-  /// By name in small letters: case does not count on a control.
+  /// By name in lower case, because a control ignores case.
   const std::map<std::string, fs::path>& entries() const { return entries_; }
 
  private:
@@ -244,7 +244,7 @@ std::optional<std::pair<std::string, std::size_t>> OpenPrograms::definition(
   return std::nullopt;
 }
 
-/// This program, what it calls or is called by, and so on, with their masks: files of its folder.
+/// This program, its called programs and callers, and so on, with their masks: files of its folder.
 std::vector<ControlPath> OpenPrograms::connected(const OpenProgram& program, const Disk& disk) {
   std::deque<ControlPath> waiting{program.name};
   for (const auto& [lower, path] : disk.entries()) {

@@ -34,7 +34,7 @@ void print(const Context& context, const step::Drawing& drawing) {
     context.note(fmt::format("not read: {} {}: {}", other.entity, other.name, other.why));
 }
 
-/// Stores the plan, and says what is other than in the one before.
+/// Stores the plan, and prints the differences from the stored one.
 Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing,
                         const PlanOptions& options) {
   const std::string target = "/v1/plans/" + percent_encoded(options.part);

@@ -33,7 +33,7 @@ constexpr std::string_view kBeforeCode = " \t/0123456789Nn";
 struct CycleAt {
   const CycleDescriptor* cycle = nullptr;
   std::size_t first_line = 0;
-  std::size_t dialog = 0;  ///< the column behind its number
+  std::size_t dialog = 0;  ///< the column after its number
 };
 
 const CycleDescriptor* find_descriptor(CycleFamily family, int number) {
@@ -118,7 +118,7 @@ std::string figures_of(const CycleParameter& parameter) {
   return std::string(trim(figures));
 }
 
-/// As a control writes it behind a value.
+/// As a control writes it after a value.
 std::string dialog_of(const CycleParameter& parameter) {
   return ascii_upper(parameter.meaning.substr(0, parameter.meaning.find(':')));
 }
@@ -180,7 +180,7 @@ std::string_view without_wrap(std::string_view line) {
   return line.substr(0, last + 1);
 }
 
-/// Where the comment of a line begins; npos: it has none.
+/// Begin of the comment of a line; npos: none.
 std::size_t comment_of(std::string_view line) {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -190,7 +190,7 @@ std::size_t comment_of(std::string_view line) {
   return line.npos;
 }
 
-/// The new text of a line that corrects a finding there, with what it does; or nothing.
+/// The corrected text of a line with a finding, and a description; or nothing.
 std::pair<std::string, std::string> correction(const EditedText& text, std::size_t line,
                                                DiagnosticCode code) {
   const std::string_view written = text.line(line);
@@ -318,7 +318,7 @@ std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic&
                    {{line, 0}, text.place(line, text.line(line).size()), std::move(by)},
                    corrects});
   };
-  // The block behind the open line is the error.
+  // The block after the open line is the error.
   if (is_error && found.code == DiagnosticCode::ContinuationMissing && line != 0) --line;
   auto [title, by] = correction(text, line, found.code);
   if (!title.empty()) add(std::move(title), std::move(by), true);

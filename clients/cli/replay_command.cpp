@@ -69,7 +69,7 @@ double number(std::string digits) {
   return value;
 }
 
-/// How far apart two printed values are; 0 where they agree to the last digit that both print.
+/// Difference of two printed values; 0 if they agree to the last digit of both.
 double difference(const LogValue& logged, const LogValue& replayed) {
   if (logged.printed == replayed.printed) return 0;
   const double apart = number(replayed.printed) - number(logged.printed);

@@ -50,7 +50,7 @@ Read reading(const std::shared_ptr<InputFile>& file) {
   };
 }
 
-/// From the begin, whatever was read before.
+/// Restarts from the begin.
 Read reading_again(const std::shared_ptr<InputFile>& file) {
   return [file, read = reading(file),
           is_begun = false](std::span<char> into) mutable -> Result<std::size_t> {

@@ -25,7 +25,7 @@ std::vector<std::string_view> values_of(std::string_view line) {
   }
 }
 
-/// Whether a comma in the line may stand for a decimal point: between digits, without a point.
+/// Whether a comma in the line may be a decimal comma: between digits, without a point.
 bool is_ambiguous(std::string_view line) {
   const auto is_digit = [&](std::size_t i) {
     return i < line.size() && line[i] >= '0' && line[i] <= '9';

@@ -31,7 +31,7 @@ Outcome<ExitCode> list(const Context& context, const std::string& target, std::s
   });
 }
 
-/// Writes what a GET gives into a file, or standard output.
+/// Writes the response of a GET to a file, or to standard output.
 Outcome<ExitCode> fetch(const Context& context, const std::string& target,
                         const std::string& file) {
   const auto answer = send_again(context, {.target = target});

@@ -17,7 +17,7 @@ std::string repeated(std::string_view piece, std::size_t count) {
   return out;
 }
 
-/// The columns `text` takes: its characters, not its bytes.
+/// The columns of `text`: its characters, not its bytes.
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & '\xC0') != '\x80'; }));
