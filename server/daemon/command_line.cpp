@@ -28,13 +28,13 @@ constexpr milliseconds kBetweenGlances{100};
 constexpr seconds kBetweenLines{2};
 constexpr seconds kCentrePatience{60};
 
-/// Writes to the terminal what the service would write to its log.
+/// Writes the service's log lines to the terminal.
 void print(std::string_view event, const std::string& detail) {
   std::cerr << fmt::format("fitgauged: {}: {}\n", event, detail);
 }
 
-/// `fitgauged forward --all`: forwards all of the folder's log to the centre and ends; 1 when the
-/// centre refuses it, or cannot be reached for a minute. Once more goes on where it ended.
+/// `fitgauged forward --all`: forwards the whole log of the folder to the centre and ends; 1 if the
+/// centre refuses it, or cannot be reached for a minute. A repeat continues at the end.
 Result<int> run_forward_all(const Config& config) {
   if (config.forward_to.empty()) {
     return Error{ErrorCode::ConfigInvalid, "forward --all needs forward-to, the centre's address"};
@@ -153,11 +153,11 @@ Result<Config> configuration(const Arguments& arguments) {
   return config;
 }
 
-/// The subcommands, each with what it does with the configuration.
+/// The subcommands and their functions.
 struct Commands {
   explicit Commands(CLI::App& app) {
     app.require_subcommand(0, 1);
-    // The settings stand before or after the command: `fitgauged verify --data DIR`.
+    // Settings are accepted before and after the command: `fitgauged verify --data DIR`.
     app.fallthrough();
     backup = app.add_subcommand("backup",
                                 "Write a consistent copy of the database; the service may run");

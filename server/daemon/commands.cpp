@@ -48,8 +48,8 @@ constexpr std::chrono::seconds kHealthPatience{3};
 using Bio = std::unique_ptr<BIO, decltype(&BIO_free_all)>;
 using SslContext = std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)>;
 
-/// Where to ask: beside a listener that wants client certificates, which this has none of, at the
-/// plain one for health checks.
+/// Address of the check: if the listener requires client certificates, the plain one for health
+/// checks.
 Result<std::string> address_of(const Config& config) {
   if (config.tls_client_ca.empty()) {
     const auto listen = http::parse_listen_address(config.listen.front());
@@ -70,7 +70,7 @@ void limit_waiting(BIO* connection) {
   setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
 }
 
-/// Calls again what a stop of this process has interrupted, as long as it may wait.
+/// Repeats a call that a stop of this process has interrupted, within its time limit.
 template <class Call>
 int uninterrupted(BIO* connection, const Call& call) {
   const auto end = std::chrono::steady_clock::now() + kHealthPatience;

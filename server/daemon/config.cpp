@@ -72,7 +72,7 @@ std::vector<std::string_view> model_names() {
   return names;
 }
 
-/// A TOML value as the text that `assign` takes; an array of strings becomes a list.
+/// A TOML value as the text for `assign`; an array of strings becomes a list.
 Result<std::string> text_of(const Setting& setting, const toml::node& node) {
   if (setting.integer != nullptr) {
     if (const auto value = node.value_exact<std::int64_t>()) return std::to_string(*value);

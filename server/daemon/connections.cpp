@@ -48,7 +48,7 @@ JsonValue json_of(const toml::node& node) {
   } else if (const auto truth = node.value_exact<bool>()) {
     return {.kind = JsonValue::Kind::Boolean, .boolean = *truth};
   } else {
-    // A date or a time: no connection takes one, and the message shows it.
+    // A date or a time: no connection accepts one, so the error shows it.
     std::ostringstream date;
     node.visit([&date](const auto& any) {
       if constexpr (toml::is_value<decltype(any)>) date << any.get();
@@ -73,7 +73,7 @@ class ConnectionReader {
   }
   /// Every field that cannot be accepted, each with its line.
   Error errors(const Error& refused) const;
-  /// The names of files with what stands in them.
+  /// The names of files with their contents.
   Result<void> load_patterns(JsonValue& body) const;
 
   const std::string& file_;
@@ -137,7 +137,7 @@ Error invalid_forwarding(std::string message) {
   return {ErrorCode::ConfigInvalid, std::move(message)};
 }
 
-/// `centre.example:8286` of `https://centre.example:8286/`; empty where it is no address of a
+/// `centre.example:8286` of `https://centre.example:8286/`; empty if it is not the address of a
 /// centre.
 std::string_view authority_of(std::string_view url) {
   const std::size_t scheme = url.find("://");
@@ -279,7 +279,7 @@ std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app:
 
 void write_outbox_metrics(const forwarder::Forwarder* forwarder, const Clock& clock,
                           api::Exposition& out) {
-  // The families are told without a centre too.
+  // The metrics exist without a centre too.
   const auto state = forwarder == nullptr ? std::nullopt : std::optional(forwarder->state());
   out.gauge("fitgauge_outbox_rows", "Measurements that have not reached the centre");
   if (state) out.sample(static_cast<double>(state->rows));

@@ -34,8 +34,8 @@ constexpr auto kDigitPairs = [] {
   return pairs;
 }();
 
-/// The text of one line in room of its own. A text that finds no room is left out: what is put here
-/// has a known greatest length.
+/// The text of one line in a fixed buffer. A text without room is left out: the texts have a known
+/// maximum length.
 class Line {
  public:
   void put(std::string_view text) {
@@ -105,7 +105,7 @@ void begin(Line& line, LogLevel level) {
   line.put(R"(","event":)");
 }
 
-/// For whom a proxy asks: a field as it came, but printable ASCII and no longer than the log bears.
+/// Client of a proxy: its field, but printable ASCII and cut to the limit of the log.
 std::optional<std::string> forwarded_for(const http::Request& request) {
   if (!request.is_forwarded()) return std::nullopt;
   const auto field = request.header("X-Forwarded-For");
@@ -120,7 +120,7 @@ std::optional<std::string> forwarded_for(const http::Request& request) {
 std::unique_ptr<LogQueue> queue;
 LogLevel least = LogLevel::Off;
 
-/// Where a standard descriptor is closed, the next file opened would become the log's.
+/// If a standard descriptor is closed, the next opened file would become the log's.
 void occupy_standard_descriptors() {
   int descriptor = 0;
   while ((descriptor = ::open("/dev/null", O_RDWR | O_CLOEXEC)) >= 0 &&

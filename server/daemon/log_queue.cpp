@@ -33,7 +33,8 @@ std::uint64_t lines_in(std::string_view text) {
   return static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// The next bytes to write: whole lines where they fit, so that other writers of a pipe tear none.
+/// The next bytes to write: whole lines if they fit, so that other writers of a pipe do not split
+/// them.
 std::string_view next_piece(std::string_view text) {
   if (text.size() <= kPiece) return text;
   const std::size_t end = text.rfind('\n', kPiece - 1);

@@ -33,8 +33,7 @@ constexpr rlim_t kOtherFiles = 256;
 
 namespace fs = std::filesystem;
 
-/// A folder that is there, or the nearest one above it that is: where the missing ones will be
-/// made.
+/// An existing folder, or its nearest existing parent, in which the missing ones will be created.
 fs::path nearest_existing(fs::path folder) {
   std::error_code ignored;
   folder = fs::absolute(folder, ignored);
@@ -99,8 +98,8 @@ Result<void> take_key_of_file(const std::string& file, const std::vector<app::Ke
   return {};
 }
 
-/// Writes the key for its owner alone, beside and renamed: nobody reads half of it, and a link or
-/// file of that name that others could read is replaced.
+/// Writes the key only for its owner, to a temporary file that is renamed: nobody reads half of it,
+/// and a link or file of that name that others could read is replaced.
 Result<void> write_key(const std::string& file, std::string_view token) {
   const std::string aside = file + ".new";
   ::unlink(aside.c_str());

@@ -61,8 +61,8 @@ http::ServerOptions server_options(const Config& config,
   return options;
 }
 
-/// Counts the problem; the cause of an internal error stands in the log, once; the client gets the
-/// request's id. An error with a status is the engine's own, which has told handler_threw.
+/// Counts the problem; logs the cause of an internal error once; the client gets the request's id.
+/// An error with a status is the engine's, which has called handler_threw.
 http::Response answer_error(api::Metrics& metrics, const Error& error, std::optional<int> status,
                             const http::Request& request) {
   metrics.count(error.code);
@@ -117,7 +117,7 @@ void wait_for_end(http::Server& server, bool tls, const Clock& clock) {
   }
 }
 
-/// Ends the process if something outside holds up its end; all that is acknowledged is on disk.
+/// Ends the process if something outside blocks its end; all acknowledged data is on disk.
 void end_in_time(const std::stop_token& stop) {
   constexpr std::chrono::seconds kLongestEnd{9};
   if (!wait_unless_stopped(stop, kLongestEnd)) return;
@@ -282,7 +282,7 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
 Result<void> serve(const Config& config, const std::string& port_file) {
   for (;;) {
     auto served = serve_once(config, port_file);
-    // A database server that went away during the start is waited for like one that was away.
+    // Waits for a database server that is lost during the start, as for one that was unreachable.
     const bool is_away =
         !served && !config.database.empty() && served.error().code == ErrorCode::StorageUnavailable;
     if (!is_away || is_to_end_after_a_second()) return served;

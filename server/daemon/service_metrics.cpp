@@ -29,9 +29,9 @@ double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
 }
 
-/// The second since 1970 at which this process was made: the kernel counts from its own start.
+/// Start of this process in seconds since 1970: the kernel counts from its own start.
 double start_time() {
-  // The name, in brackets, may hold blanks; the start is the 20th word after it (proc(5)).
+  // The name, in brackets, may have blanks; the start is the 20th word after it (proc(5)).
   std::ifstream file("/proc/self/stat");
   std::string text{std::istreambuf_iterator<char>(file), {}};
   text.erase(0, text.rfind(')') + 1);
@@ -118,7 +118,7 @@ void write_storage_metrics(const app::Application& app, const fs::path& folder,
   };
   out.gauge("fitgauge_reader_queue_jobs", "Jobs that wait for a reader of the database")
       .sample(static_cast<double>(storage.readers_queued));
-  // Every family is told; samples have those that the engine knows.
+  // Every metric is listed; samples only if the engine knows them.
   out.gauge("fitgauge_database_standbys", "Standby servers of the database");
   sample(storage.standbys);
   out.gauge("fitgauge_database_standby_behind_bytes",
