@@ -49,8 +49,7 @@ store::OpenOptions options_of_store(const ApplicationOptions& options) {
   return open;
 }
 
-/// Whether the limits of a designation of another standard are those that it gives, where this
-/// build has that edition.
+/// Whether limits of a designation of another standard match it, if this build has that edition.
 bool has_limits_of_its_standard(const Measurement& m) {
   if (m.basis != LimitsBasis::Standard) return true;
   std::string designation;
@@ -131,7 +130,7 @@ class LaterNames {
   mutable Names digits_;
 };
 
-/// The log that a checkpoint is of; that of this folder, where it is of none that is here.
+/// The log of a checkpoint; the log of this folder, if it is of an unknown one.
 std::int64_t origin_of(std::string_view note, const LogService::Logs& logs) {
   const auto checkpoint = tlog::parse_checkpoint(note);
   for (const auto& [origin, facts] : logs) {

@@ -64,7 +64,8 @@ Result<void> check_owner(const store::Stores& stores, DocumentKind kind, const s
   return centre_decides(called(kind, name));
 }
 
-/// Neither `users` nor a current document names what is removed. @errors DocumentInUse with names
+/// Checks that neither `users` nor a current document refers to the removed one. @errors
+/// DocumentInUse with names
 Result<void> check_free(const store::Stores& stores, DocumentKind kind, const std::string& name,
                         std::vector<std::string> users) {
   struct Use {

@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds kRest{5};
 
 constexpr std::size_t kRowsAPage = 200;
 
-/// Takes a whole number from the front of `text`.
+/// Reads a whole number from the front of `text`.
 std::optional<std::int64_t> take_number(std::string_view& text) {
   std::int64_t number = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -44,8 +44,7 @@ class EventReader {
     return {.measurement = stores_.measurements.last_id(), .stored = stores_.events.kept().newest};
   }
 
-  /// Whether what follows `after` can still be told. A position of the future is of another
-  /// database.
+  /// Whether the events after `after` still exist. A future position is of another database.
   bool can_go_on(const EventPosition& after, std::int64_t retention) const {
     const EventPosition end = newest();
     const store::EventsStore::Kept kept = stores_.events.kept();
@@ -179,8 +178,7 @@ std::optional<EventPosition> parse_event_id(std::string_view text, const Origins
   return position;
 }
 
-/// A page for all who ask for it until the transaction begins: who asks later may ask for what is
-/// committed later.
+/// A page for all requests until the transaction begins: later requests may ask for later commits.
 struct EventService::PageWork {
   EventService& service;
   Place place;

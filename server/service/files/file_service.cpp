@@ -78,7 +78,7 @@ bool StoredDisk::has_directory(std::string_view directory) const {
 using interpreter::ControlFile;
 using interpreter::ControlPath;
 
-// Like what a run writes, a draft has no revision that a cache could know it by.
+// Like a file of a run, a draft has no revision for the cache.
 DraftDisk::DraftDisk(const interpreter::ControlDisk& inner, const ControlPath& path,
                      std::string text)
     : inner_(inner),

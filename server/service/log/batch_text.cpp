@@ -90,7 +90,7 @@ Result<void> read_heading(const JsonValue& json, app::ForwardedBatch& batch) {
   return {};
 }
 
-/// An answer that the store keeps: what it refuses is refused here.
+/// A response for the store: refuses what the store refuses.
 Result<store::IdempotencyStore::Forwarded> read_answer(const JsonValue& json) {
   store::IdempotencyStore::Forwarded kept{.request = {.caller = text_of(json, "caller"),
                                                       .method = text_of(json, "method"),

@@ -37,7 +37,7 @@ void log_document(store::Stores& stores, store::DocumentKind kind, const std::st
   log_change(stores, std::move(change));
 }
 
-/// RFC 8785 of the members, but for the texts, which stand as they were stored.
+/// RFC 8785 of the members, except the texts, which are copied as stored.
 std::string text_of(const store::Change& change, bool has_digests) {
   std::string text;
   api::JsonWriter json(text);

@@ -50,7 +50,7 @@ std::optional<std::string> LogCheck::add(const store::MeasurementRow& row) {
   const auto expected = static_cast<std::int64_t>(frontier_.size()) + 1;
   if (whole_ && row.place_in_log() != expected) {
     whole_ = false;
-    // Where its place is its id, the gap before it is named by that.
+    // If its place is its id, the gap before it is reported by the id.
     if (row.origin || row.seq) {
       return fmt::format("is at {} in the log {}, but {} comes next", row.place_in_log(),
                          facts_.name, expected);

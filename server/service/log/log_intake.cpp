@@ -49,7 +49,7 @@ struct LogIntake::Known {
   std::vector<tlog::VerifierKey> keys{};
   std::vector<tlog::VerifierKey> new_keys{};  ///< that this batch has brought
   tlog::Frontier before{};                    ///< of the rows before the batch
-  std::optional<tlog::Hash> root_at_end{};    ///< where the batch ends within what is here
+  std::optional<tlog::Hash> root_at_end{};    ///< end of the batch within the stored rows
   bool lacks_notes = false;                   ///< of those that the batch's notes follow
 };
 
@@ -136,8 +136,7 @@ Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
   });
 }
 
-/// A branch begins with what its base has here: of one that has fewer rows than it says, with
-/// those.
+/// A branch begins with the rows of its base here, also if these are fewer than it names.
 Result<void> LogIntake::read_base(const store::Stores& stores, const ForwardedBatch& batch,
                                   Known& known) const {
   if (batch.base.origin.empty()) return {};
@@ -200,7 +199,7 @@ Result<void> LogIntake::trust(const ForwardedBatch& batch, Known& known) const {
                            key->name(), batch.key)};
 }
 
-/// Holds the batch against its checkpoint and against what is here.
+/// Compares the batch with its checkpoint and with the stored rows.
 Result<LogIntake::Judged> LogIntake::judge_tree(const ForwardedBatch& batch,
                                                 const Known& known) const {
   const auto checkpoint = tlog::open_checkpoint(batch.checkpoint, known.keys);
@@ -247,7 +246,7 @@ Result<LogIntake::Judged> LogIntake::judge_tree(const ForwardedBatch& batch,
   return judged;
 }
 
-/// A row is taken only if this version reads all of it: it has to give its own text again.
+/// A row is accepted only if this version reads all of it and writes the same text again.
 Result<void> LogIntake::check_rows(const ForwardedBatch& batch) const {
   std::int64_t before = batch.from - 1;
   for (std::size_t i = 0; i < batch.rows.size(); ++i) {
@@ -269,8 +268,8 @@ Result<void> LogIntake::check_rows(const ForwardedBatch& batch) const {
   return {};
 }
 
-/// Gives the folder and the table revisions their numbers, in a commit before the rows: whoever
-/// reads a row knows what it is called.
+/// Numbers the folder and the table revisions in a commit before the rows, so that every reader of
+/// a row knows their names.
 Result<void> LogIntake::prepare(const ForwardedBatch& batch, Known& known) {
   std::set<std::string_view> revisions;
   for (const ForwardedBatch::Row& row : batch.rows) {
@@ -301,7 +300,7 @@ Result<void> LogIntake::prepare(const ForwardedBatch& batch, Known& known) {
   return {};
 }
 
-/// @returns false: the log has grown meanwhile.
+/// @returns false: the log has grown.
 Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& batch,
                                    const Known& known, const Judged& judged) const {
   auto origin = stores.origins.find(known.number);
@@ -351,8 +350,8 @@ Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& 
   return true;
 }
 
-/// Those that are new here, of the station's history, one below it or a branch of those, beside
-/// records that are here.
+/// New notes of the station's history, of one below it or of a branch of those, on records that are
+/// stored here.
 Result<void> LogIntake::store_notes(store::Stores& stores, const ForwardedBatch& batch,
                                     std::int64_t station) const {
   std::set<std::int64_t> histories;

@@ -108,7 +108,7 @@ Result<std::string> renew_log_key(const fs::path& folder) {
                                   [&](const auto& key) { return key.verifier().name() != name; });
   const auto made = tlog::SigningKey::make(name);
   std::vector<tlog::SigningKey> all{made};
-  // A new one that no start has taken yet goes again; those of former histories stay.
+  // Removes a new key that no start has used; those of former histories stay.
   all.insert(all.end(), std::prev(older), keys->end());
   if (const auto written = write_log_keys(folder, all); !written) return written.error();
   return made.verifier().text();

@@ -77,12 +77,12 @@ const LogService::History* LogOutbox::empty_history(std::int64_t note) const {
   return history.signer && history.end == history.begin ? &history : nullptr;
 }
 
-/// @param place how many records of this folder the centre has with the batch
-/// @param notes those behind that number
+/// @param place number of records of this folder that the centre has with the batch
+/// @param notes after that number
 void LogOutbox::add_notes(const store::Stores& stores, std::int64_t place, std::int64_t behind,
                           std::vector<store::Note> notes, Batch& batch) const {
   const Origins& origins = log_.origins();
-  // The centre takes them in their order: those of a later history come with its own batches.
+  // The centre accepts them in their order: notes of a later history follow with its batches.
   std::int64_t last = std::numeric_limits<std::int64_t>::max();
   for (const auto& ended : stores.log.branches()) {
     if (digits_of_origin(ended.origin) == batch.origin) last = ended.newest[3];

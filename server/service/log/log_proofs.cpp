@@ -15,8 +15,8 @@
 #include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
-// Answers of the log: proofs, of forwarded records under a signature of this folder too, and
-// tiles. How it grows stands in log_service.cpp.
+// Responses of the log: tiles, and proofs, of forwarded records under a signature of this folder
+// too. Its growth is in log_service.cpp.
 
 namespace fitgauge::app {
 namespace {
@@ -53,7 +53,7 @@ void LogService::prove(const RecordName& name, Done<Proof> done) {
 
 Result<LogService::Proof> LogService::read_proof(const store::Stores& stores,
                                                  const RecordName& name) {
-  // The state of the job's first statement is not older than a head that was taken before it.
+  // The state of the job's first statement is not older than a head that was read before it.
   Proof proof{.index = 0, .leaf = {}, .path = {}, .head = head_.get()};
   const auto row = row_of(stores, name);
   std::int64_t place = 0;
@@ -87,8 +87,8 @@ Result<LogService::Proof> LogService::read_proof(const store::Stores& stores,
   return proof;
 }
 
-/// The head of a forwarded log, with a signature of this folder beside the station's; none of a
-/// log that is not here but for corrections.
+/// The head of a forwarded log, with a signature of this folder in addition to the station's; none
+/// of a log with only corrections here.
 std::shared_ptr<const LogService::Head> LogService::countersigned(const store::Stores& stores,
                                                                   std::int64_t origin) const {
   auto head = std::make_shared<Head>();

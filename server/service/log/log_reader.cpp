@@ -59,7 +59,7 @@ std::vector<tlog::Hash> LogReader::hashes(unsigned tile_level, std::uint64_t fir
           root_of(this->hashes(tile_level - 1, index * tlog::kTileWidth, tlog::kTileWidth)));
     }
   } else {
-    // Those that are whole below the branch were kept there.
+    // Nodes that are complete below the branch are stored there.
     const std::int64_t below =
         std::min(many, (base_ ? base_->size >> (tile_level * tlog::kTileHeight) : 0) - begin);
     if (below > 0) {

@@ -141,7 +141,7 @@ void LogService::run(const std::stop_token& stop) {
     guarded("a proof that was waited for", [&] { waiter.done(shutting_down()); });
   }
   guarded("the log's end", [this] {
-    // Behind the jobs that wait for the writer, of which committed() hears no more.
+    // After the jobs that wait for the writer, which committed() does not report.
     const auto nothing = [](store::Stores&) -> Result<bool> { return true; };
     if (!database_.writer().wait(nothing)) return;
     const auto end = Steady::now() + kLastGrowth;
@@ -153,11 +153,11 @@ void LogService::run(const std::stop_token& stop) {
 struct LogService::Stretch {
   tlog::Frontier grown;
   std::vector<store::LogStore::Node> nodes{};
-  bool more = true;  ///< there may be leaves behind it
+  bool more = true;  ///< there may be leaves after it
 };
 
-/// Takes in what was stored since, keeps the nodes it completes, mostly in one commit, and signs.
-/// After an upgrade that may be a long way: it is gone in stretches.
+/// Reads new rows, stores the completed nodes, mostly in one commit, and signs. After an upgrade
+/// there may be many rows: they are read in parts.
 Result<void> LogService::grow(const IsOver& is_over) {
   for (bool more = true; more && !is_over();) {
     Stretch stretch{.grown = frontier_};
@@ -171,7 +171,7 @@ Result<void> LogService::grow(const IsOver& is_over) {
     frontier_ = std::move(stretch.grown);
     more = stretch.more;
   }
-  // Not this growth alone: what was taken in before may not have been signed.
+  // Not only this growth: earlier growth may not have been signed.
   if (frontier_.size() != head_.get()->checkpoint.size) sign();
   const auto changes =
       wait_for_result<std::string>([this](auto done) { changes_head(std::move(done)); });
@@ -213,7 +213,7 @@ void LogService::sign() {
   if (keys.size() > 1) text += next_key_line(signers_.front().verifier());
   head->note = tlog::sign_note(text, keys);
   if (keep(kTreeOfMeasurements, head->note) && signers_.size() > 1) {
-    // The hand-over from the old key is kept: the new one signs alone from now on.
+    // The checkpoint of both keys is stored: from now on only the new key signs.
     const auto file = options_.directory /
                       fmt::format("{}.{:08x}", kCheckpointFile, signers_.front().verifier().id());
     signers_.resize(1, signers_.front());
@@ -284,7 +284,7 @@ Result<LogService::Logs> LogService::logs(store::Database& database) {
                .leaves = kTreeOfChanges.leaves};
     for (const auto& ended : stores.log.branches()) {
       logs[0].former.emplace(ended.name, static_cast<std::uint64_t>(ended.size));
-      // How many changes went on is not kept: their root tells.
+      // The number of continued changes is not stored: their root determines it.
       changes.former.emplace(kTreeOfChanges.name(ended.name),
                              std::numeric_limits<std::uint64_t>::max());
     }

@@ -14,8 +14,7 @@
 #include "service/measurements/mapping.hpp"
 #include "service/tables/table_catalog.hpp"
 
-// How the log of a folder begins: under which history it goes on, and with which key. How it grows
-// is in log_service.cpp.
+// The begin of a folder's log: its history and its key. Its growth is in log_service.cpp.
 
 namespace fitgauge::app {
 namespace {
@@ -58,7 +57,7 @@ Result<LogService::Loaded> LogService::read() const {
 
 Result<void> LogService::load() {
   auto loaded = read();
-  // verify tells of damage.
+  // verify reports damage.
   if (options_.attach && !loaded && loaded.error().code == ErrorCode::StorageCorrupt) return {};
   if (!loaded) return loaded.error();
   if (!options_.attach) {
@@ -125,7 +124,7 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
       const auto key = tlog::VerifierKey::parse(text);
       return key && key->name() == name_;
     });
-    // Of daemons that share a database each has a key of its own.
+    // Each of several daemons with one database has its own key.
     if (was_there && !options_.shares) {
       tell("log_key_lost", fmt::format("{} is missing: a new key signs from now on, and only a "
                                        "stored checkpoint connects it to the old key",
@@ -150,7 +149,7 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
   return {};
 }
 
-/// Those of other histories are kept: they sign what a centre lacks of them.
+/// Keys of other histories stay stored: they sign records that a centre lacks.
 Result<void> LogService::write_keys() const {
   std::vector<tlog::SigningKey> all = signers_;
   all.insert(all.end(), older_.begin(), older_.end());

@@ -13,8 +13,8 @@ namespace {
 
 using Documents = std::vector<app::NamedDocument>;
 
-// Documents were checked before they were stored; one that cannot be read was altered since, and is
-// as if it were not there.
+// Documents were checked before they were stored; an unreadable one was altered, and counts as
+// absent.
 
 std::map<std::string, metrology::CombinedUncertainty> combined_of(const Documents& budgets) {
   std::map<std::string, metrology::CombinedUncertainty> combined;

@@ -24,18 +24,17 @@
 
 namespace fitgauge::app {
 
-// How measurements get into the store; how they are read stands in measurement_service.cpp.
+// Storing of measurements; measurement_service.cpp reads them.
 
-/// Where small requests wait for the writer. All that come before its job begins and have room in
-/// it are stored by that one: their rows fill the same statements, and one savepoint serves them
-/// all. Thread-safe.
-/// Each job owns a reference to the queue, so the queue outlives them; the database drains its jobs
-/// when it closes.
+/// Queue of small requests for the writer. One job stores all requests that arrive before it begins
+/// and fit: their rows fill the same statements, and one savepoint is enough. Thread-safe. Each job
+/// owns a reference to the queue, so the queue outlives them; the database runs its jobs when it
+/// closes.
 class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
  public:
   /// @param origin of the data folder.
   /// @param most_waiting requests; one more is StorageBusy.
-  /// @param each_apart every request is a job, and so a commit, of its own.
+  /// @param each_apart every request is a separate job and commit.
   MeasurementQueue(store::Database& database, std::string_view origin, std::size_t most_waiting,
                    bool each_apart)
       : database_(database),
@@ -128,14 +127,14 @@ void MeasurementQueue::submit(const std::shared_ptr<Load>& load) {
       });
 }
 
-/// No request joins any more.
+/// No further request joins.
 void MeasurementQueue::close(const std::shared_ptr<Load>& load) {
   const std::lock_guard lock(mutex_);
   if (!std::exchange(load->is_closed, true)) waiting_ -= load->requests.size();
   if (open_ == load) open_ = nullptr;
 }
 
-/// For the next job: memory that one thread takes and another gives back costs the allocator most.
+/// Reused by the next job: memory that one thread allocates and another frees is slow.
 void MeasurementQueue::keep(const std::shared_ptr<Load>& load) {
   load->measurements.clear();
   load->requests.clear();
@@ -158,7 +157,7 @@ Result<bool> MeasurementQueue::store(store::Stores& stores, Load& load) {
   return true;
 }
 
-/// A bug may lie in one request alone: then the others do not suffer for it.
+/// A bug may be in one request only: then the others are stored.
 void MeasurementQueue::finish(Load& load, const Result<bool>& stored) {
   const bool again =
       !stored && stored.error().code == ErrorCode::Internal && load.requests.size() > 1;
@@ -188,19 +187,19 @@ namespace {
 /// the writer after finish() or fail().
 class MeasurementFeed {
  public:
-  /// Numbered on from what was put before; their texts live until outcome() has returned.
+  /// Numbers continue from earlier rows; their texts must live until outcome() has returned.
   using Piece = std::vector<store::MeasurementRow>;
 
   // The reading side.
 
-  /// Waits for the writer's turn. @returns the id before that of the first row; none when the
-  /// writer is done without having begun.
+  /// Waits for the writer's turn. @returns the id before the first row; none if the writer ended
+  /// without beginning.
   std::optional<std::int64_t> last_id();
   /// Hands a piece over; waits while a few are under way already.
   void put(Piece piece);
-  /// There is nothing more. @param answer to be kept, when the request has an idempotency key.
+  /// Ends the rows. @param answer to store, if the request has an idempotency key.
   void finish(Answer answer);
-  /// The request is refused: nothing of it is kept.
+  /// Refuses the request: nothing of it is stored.
   void fail(Error error);
   /// Waits until the writer is done.
   Result<Answer> outcome();

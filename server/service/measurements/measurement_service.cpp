@@ -15,8 +15,8 @@ Error unknown_cursor() {
   return {ErrorCode::CursorInvalid, "after must be the `next` of an earlier page"};
 }
 
-/// None for an absent one, which lies beyond every length. Values of cycles without limits had
-/// those of every length in versions that judged them.
+/// None for an absent limit, which is beyond every length. Older versions gave values of cycles
+/// without limits the limits of every length.
 std::optional<Length> limit_of(std::int64_t nanometres) {
   const Length limit = Length::nanometres(nanometres);
   return -kLongest < limit && limit < kLongest ? std::optional(limit) : std::nullopt;
@@ -143,7 +143,7 @@ Result<ReadValues> MeasurementService::read_values(const MeasurementQuery& query
                   places.pass(value.id);
                   values.push_back({value.number, Length::nanometres(value.measured_nm)});
                 }
-                // Where a history of this folder ended, another origin begins.
+                // At the end of a history of this folder, another origin begins.
                 for (std::span<const MeasuredRun::Value> rest(values); taken && !rest.empty();) {
                   const auto digits = origins_.digits(run.origin, rest.front().id);
                   const auto last = origins_.last_with(digits, run.origin);

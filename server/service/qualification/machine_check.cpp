@@ -21,7 +21,7 @@ using Values = std::vector<std::optional<std::int64_t>>;  ///< of each step, in 
 /// Upper and lower in nm; none: not defined.
 using Deviations = std::optional<std::pair<std::int64_t, std::int64_t>>;
 
-/// ISO 286-1 once more: of iso286.txt and its own rules, with nothing of the room `tables`.
+/// ISO 286-1 again: from iso286.txt and separate rules, without the room `tables`.
 struct Standard {
   explicit Standard(const References& references) {
     std::vector<std::int64_t> main;  // ends of the main steps
@@ -146,7 +146,7 @@ void add_fits(const References& references, Figures& to) {
     const auto circle = probing::fit_circle(points);
     if (circle) to.add(name, ".x .y .r", {circle->centre.x, circle->centre.y, circle->radius});
   }
-  // Sets of points in space, behind a row that says what is near them.
+  // Sets of points in space, each after a row with the approximate result.
   const auto each = [&](const char* kind, int count, const auto& fit) {
     for (int k = 1; k <= count; ++k) {
       const std::string name = fmt::format("{}.{}", kind, k);

@@ -92,7 +92,7 @@ Result<RevisionPage> RevisionFeed::page(const store::Stores& stores, std::string
   return page;
 }
 
-/// @returns false: there is nothing to tell of it.
+/// @returns false: it has nothing to send.
 bool RevisionFeed::fill(const store::Stores& stores, const std::string& name,
                         Revision& revision) const {
   if (revision.kind == RevisionKind::Correction) {

@@ -207,8 +207,8 @@ Result<RevisionIntake::Outcome> RevisionIntake::take(const RevisionPage& page) {
   return taken->outcome;
 }
 
-/// Gives the centre and the table revisions of its corrections their numbers, in a commit before
-/// the rows: whoever reads a row knows what it is called.
+/// Numbers the centre and the table revisions of its corrections in a commit before the rows, so
+/// that every reader of a row knows their names.
 Result<void> RevisionIntake::prepare(const RevisionPage& page) {
   std::set<std::string_view> revisions;
   std::set<std::string_view> centres;

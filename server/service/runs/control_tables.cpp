@@ -16,12 +16,12 @@
 namespace fitgauge::app {
 namespace {
 
-/// A table of the control about its own machine: tool.t, tchprobe.tp or preset.pr.
+/// A table of the control: tool.t, tchprobe.tp or preset.pr.
 struct MachineTable {
   std::string path;
   tabfile::TabTable table;
 
-  /// The table of that name in `TNC:\table\`, where TNC 640 and TNC7 keep it, else in `TNC:\`.
+  /// The table of that name in `TNC:\table\`, as on TNC 640 and TNC7, else in `TNC:\`.
   /// @errors TableFileMalformed.
   static Result<std::optional<MachineTable>> find(const interpreter::ControlDisk& disk,
                                                   std::string_view name, Allowance& allowance);
@@ -35,15 +35,15 @@ struct MachineTable {
   Error malformed(std::string_view what) const;
 };
 
-/// One row. A cell that is blank, or whose column the table lacks, leaves its value alone. The
-/// first error is kept, and nothing more is read.
+/// One row. A blank cell, or a missing column, does not change its value. Keeps the first error,
+/// and then reads nothing more.
 class MachineTableRow {
  public:
   MachineTableRow(const MachineTable& table, std::int64_t number)
       : table_(table), number_(number) {}
 
   int number() const { return static_cast<int>(number_); }
-  /// Empty where the table has no such column.
+  /// Empty if the table has no such column.
   std::string_view text(std::string_view column) const;
   void number(std::string_view column, double& value);
   void length(std::string_view column, double& millimetres);

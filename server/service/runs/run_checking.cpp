@@ -45,9 +45,9 @@ std::vector<klartext::Diagnostic> check_table(const interpreter::ControlFile& fi
   return {std::move(diagnostic)};
 }
 
-/// Everything there is to say about a file of the control's disk, by its kind: a mask (`.a`), a
-/// table (`.tab`, `.t`, `.tp`, `.pr`, `.d`), or else a program with those it calls.
-/// @errors ProgramUnknown when there is no such file.
+/// Returns all findings in a file of the control's disk, by its kind: a mask (`.a`), a table
+/// (`.tab`, `.t`, `.tp`, `.pr`, `.d`), or else a program with the programs that it calls.
+/// @errors ProgramUnknown if there is no such file.
 Result<std::vector<klartext::Diagnostic>> check_file(const interpreter::ControlPath& path,
                                                      const interpreter::ControlDisk& disk,
                                                      interpreter::ProgramCache& programs,

@@ -16,10 +16,10 @@ namespace {
 using interpreter::MessageKind;
 using interpreter::RunStatus;
 
-/// Moves that are kept: about 50 MB as text, which is packed.
+/// Maximum number of moves: about 50 MB as text, which is packed.
 constexpr std::size_t kLongestTrace = 100'000;
 
-/// Passes on what a run prints and remembers which block is commanding the machine.
+/// Passes on the output of a run and remembers which block commands the machine.
 class Follower final : public interpreter::RunObserver {
  public:
   Follower(ActiveRun& active, Allowance& allowance, bool shows_last)
@@ -67,7 +67,7 @@ class Follower final : public interpreter::RunObserver {
   }
 
  private:
-  /// The block is over: what it has made of the watched parameters.
+  /// End of the block: the values of the watched parameters.
   void leave_block() {
     if (watched_.empty() || place_.program == nullptr) return;
     std::vector<interpreter::ParameterValue> values;

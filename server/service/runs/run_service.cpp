@@ -151,7 +151,7 @@ void RunService::cancel(const std::shared_ptr<ActiveRun>& active) {
                                          active->program())));
     return {};
   };
-  // If there is no room, the worker that takes the run ends it.
+  // Without room, the worker of the run ends it.
   orders_.run(end_queued, [](const Result<void>&) {});
 }
 

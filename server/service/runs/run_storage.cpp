@@ -48,8 +48,8 @@ Result<void> RunService::close_interrupted() {
   }
 }
 
-/// A daemon that lost its connection for a moment looks dead: its runs are taken over only when it
-/// has looked so twice.
+/// A daemon that lost its connection for a moment seems to have ended: its runs are repeated only
+/// after two such checks.
 void RunService::look_for_abandoned(const std::stop_token& stop) {
   constexpr std::chrono::seconds kBetween{5};
   std::set<std::int64_t> seen;
@@ -189,7 +189,7 @@ void RunService::cancel(std::int64_t id, Done<void> done) {
     database_.writer().submit(
         [id](store::Stores& stores) { return stores.runs.ask_to_cancel(id); },
         [run = std::move(run->active), at_end, done](const Result<void>& asked) {
-          // One that has ended meanwhile tells how.
+          // A run that has ended in between has its status.
           if (!asked && asked.error().code != ErrorCode::RunFinished) return done(asked.error());
           run->on_end([run, at_end](const Result<FinishedRun>& end) { at_end(end); });
         });

@@ -26,9 +26,9 @@ TableState failed(const store::TableRevision& revision, std::vector<Error> findi
   return {.tables = nullptr, .number = revision.number, .findings = std::move(findings)};
 }
 
-/// Everything that must hold before one limit is read from stored tables: the content is that of
-/// the stored digest, it obeys the rules, and the standard's cells are the compiled-in ones. Tables
-/// of the same digests are the same: some are kept.
+/// Checks stored tables before they are used: the content matches the stored digest, it obeys the
+/// rules, and the standard's cells are the compiled-in ones. Tables with the same digests are the
+/// same: some are kept.
 TableState audit(const store::LoadedTables& loaded) {
   static std::mutex mutex;
   static std::map<std::tuple<std::string, Digest, Digest>, TableCatalog::Tables> sound;
@@ -350,7 +350,7 @@ Result<void> TableCatalog::number_standards() {
 
 std::optional<std::int64_t> TableCatalog::revision_number(std::string_view id) const {
   const std::lock_guard lock(ids_mutex_);
-  // From behind: a revision of this folder goes before the same one of another.
+  // Reversed: a revision of this folder is preferred over the same one of another.
   const auto found = std::find_if(ids_.rbegin(), ids_.rend(),
                                   [&](const auto& known) { return known.second == id; });
   return found == ids_.rend() ? std::nullopt : std::optional(found->first);
