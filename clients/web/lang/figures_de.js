@@ -39,5 +39,5 @@ export default {
   'offset.wear': 'Verschleiß je Teil',
   'offset.scatter': 'Streuung {um} µm',
   'offset.band': 'Totband',
-  'offset.how': 'Aus {count} Werten; ein Vorschlag, nichts wird verstellt.',
+  'offset.how': 'Aus {count} Werten. Nur ein Vorschlag: Nichts wird verstellt.',
 };

@@ -39,5 +39,5 @@ export default {
   'offset.wear': 'Wear a part',
   'offset.scatter': 'scatter {um} µm',
   'offset.band': 'Dead band',
-  'offset.how': 'From {count} values; a proposal, nothing is moved.',
+  'offset.how': 'From {count} values. A proposal only: nothing is moved.',
 };

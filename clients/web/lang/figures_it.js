@@ -39,5 +39,5 @@ export default {
   'offset.wear': 'Usura per pezzo',
   'offset.scatter': 'dispersione {um} µm',
   'offset.band': 'Banda morta',
-  'offset.how': 'Da {count} valori; una proposta, nulla viene mosso.',
+  'offset.how': 'Da {count} valori. Solo una proposta: nulla viene mosso.',
 };

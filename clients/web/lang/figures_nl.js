@@ -39,5 +39,5 @@ export default {
   'offset.wear': 'Slijtage per onderdeel',
   'offset.scatter': 'spreiding {um} µm',
   'offset.band': 'Dode band',
-  'offset.how': 'Uit {count} waarden; een voorstel, er wordt niets versteld.',
+  'offset.how': 'Uit {count} waarden. Alleen een voorstel: er wordt niets versteld.',
 };
