@@ -59,7 +59,7 @@ std::string body_text(const std::optional<std::int64_t>& temperature,
   return fmt::format("{}, {} \u00b5m/(m\u00b7K)", out, text(expansion.value_or(0)));
 }
 
-/// The size at 20 °C with the reading and what it was corrected for.
+/// The size at 20 °C with the reading and its temperatures.
 std::string measured_text(const app::Measurement& m) {
   if (!m.corrected) return mm_text(m.measured);
   std::string text = fmt::format("{} (read {})", mm_text(*m.corrected), mm_text(m.measured));
@@ -74,7 +74,7 @@ std::string measured_text(const app::Measurement& m) {
   return text;
 }
 
-/// `; GG, 4 points from 22.5°, form 2.1 µm, factor 1; envelope verified`: how it was taken.
+/// `; GG, 4 points from 22.5°, form 2.1 µm, factor 1; envelope verified`: the method of measuring.
 std::string taken_text(const app::Measurement& m) {
   std::string text;
   if (m.size_operator && m.size_operator != "LP") text = fmt::format("; {}", *m.size_operator);
@@ -133,7 +133,7 @@ std::string uncertainty_text(const app::Measurement& m) {
                      static_cast<double>(k) / 1e6, covered * 100);
 }
 
-/// How far between the limits a value lies: 0 is the lower one, 1 the upper one.
+/// Position of a value between the limits: 0 is the lower one, 1 the upper one.
 std::optional<double> place_of(const app::Measurement& m) {
   if (!m.is_judged() || !m.has_lower_limit() || !m.has_upper_limit() ||
       m.upper_limit() == m.lower_limit())

@@ -16,7 +16,7 @@ namespace {
 
 /// On paper some hundred pages.
 constexpr std::size_t kMostMeasurements = 10'000;
-/// Of their records: what is made of them is held in memory.
+/// Maximum of record bytes, because the report is made in memory.
 constexpr std::size_t kMostBytes = std::size_t{16} << 20;
 constexpr std::string_view kPdf = "application/pdf";
 constexpr std::string_view kJson = "application/json";
@@ -46,8 +46,8 @@ http::Response written(CertificateDraft& draft, Timestamp now, const std::string
   return std::move(response).with("Content-Disposition", "inline; filename=\"certificate.pdf\"");
 }
 
-/// Its measurements are read: asks for a head that has all of them, then writes it, which may take
-/// long.
+/// Has the measurements: requests a head that covers them, then writes the report, which may be
+/// slow.
 void finish(const Services& services, const std::shared_ptr<CertificateDraft>& draft,
             const SharedResponder& shared) {
   const auto last = services.measurements.parse_id(draft->last_id());

@@ -143,7 +143,7 @@ void act_on_file(const Services& services, const http::Request& request,
         auto done = act_on(services.runs, path, formats, std::move(draft));
         if (done) return done;
         Error error = std::move(done).error();
-        // Here it is the request's path that names what is not there.
+        // Here the request's path names the missing file.
         if (error.code == ErrorCode::ProgramUnknown) error.code = ErrorCode::FileUnknown;
         return error;
       },

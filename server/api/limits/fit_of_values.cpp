@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kHole = "hole";
 constexpr std::string_view kShaft = "shaft";
 
-/// The values of one side of a fit, with what they come to.
+/// The values of one side of a fit, with their figures.
 struct MeasuredSide {
   SelectedValues selected{};
   std::string as_of{};
@@ -53,7 +53,7 @@ Error of_side(std::string_view side, Error error) {
   return error;
 }
 
-/// @errors QueryInvalid where no filter of this side is given
+/// @errors QueryInvalid if this side has no filter
 Result<app::MeasurementQuery> side_query(const Services& services, const http::Request& request,
                                          std::string_view side) {
   const std::string prefix = fmt::format("{}_", side);

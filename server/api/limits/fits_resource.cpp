@@ -18,8 +18,9 @@ namespace {
 
 using iso286::ToleranceTables;
 
-/// How likely sizes in the middle of their tolerances interfere; worst case stands beside it.
-/// @param stored writes the same of stored values; none: there are none asked for
+/// Probability of interference of sizes in the middle of their tolerances, in addition to the worst
+/// case.
+/// @param stored writes the same for stored values; none: not requested
 void write_statistical(JsonWriter& json, const iso286::Fit& fit, const WriteStored& stored) {
   const metrology::FitProbabilities found = metrology::probability_of_interference(fit);
   json.key("statistical").begin_object();
@@ -121,8 +122,8 @@ Result<iso286::FitDesignation> of_one_segment(const http::Request& request) {
   return read_fit(trim(text.substr(0, stroke)), trim(text.substr(stroke + 1)));
 }
 
-/// The fit of a designation: from the tables and cached, and with stored values where a query
-/// chooses them.
+/// The fit of a designation: from the tables and cached, and with stored values if a query selects
+/// them.
 template <class Designation>
 http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
   auto from_tables = ResponseCache::of_revision(
@@ -168,7 +169,7 @@ std::vector<http::Parameter> with_filters(std::vector<http::Parameter> parameter
   return parameters;
 }
 
-/// The fit as its own address answers it, with the names of its classes.
+/// The fit like the response of its own address, with the names of its classes.
 Result<void> write_found(JsonWriter& json, const metrology::FoundFit& found,
                          iso286::NominalSize size, const ToleranceTables& tables) {
   const auto fit = tables.fit(size, found.hole, found.shaft);

@@ -71,7 +71,7 @@ Result<std::optional<ThermalCorrection>> correction_of(const http::Request& requ
   return made;
 }
 
-/// The limits of a designation, of whatever standard.
+/// The limits of a designation of any standard.
 struct Limits {
   iso286::Feature feature = iso286::Feature::Hole;
   gauging::Quantity quantity = gauging::Quantity::Diameter;

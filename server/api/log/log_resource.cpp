@@ -18,7 +18,7 @@ http::Response text_response(std::string text, std::string_view caching) {
       .with("Cache-Control", std::string(caching));
 }
 
-/// The head of the measurements, or that of the changes.
+/// The head of the measurements, or of the changes.
 template <bool of_changes>
 void checkpoint(const Services& services, const http::Request&, http::Responder responder) {
   if constexpr (!of_changes) {

@@ -59,7 +59,7 @@ bool names_any(const JsonValue& body, std::span<const std::string_view> fields) 
                      [&](std::string_view field) { return body.find(field) != nullptr; });
 }
 
-/// The correction says that the value is no hole or shaft.
+/// The correction states that the value is not a hole or shaft.
 bool is_without_feature(const JsonValue& body) {
   const JsonValue* quantity = body.find("quantity");
   const auto said =
@@ -67,8 +67,7 @@ bool is_without_feature(const JsonValue& body) {
   return said && !gauging::has_feature(*said);
 }
 
-/// A correction that names no limits keeps those that were applied; one that names some takes the
-/// others over.
+/// A correction without limits keeps the applied ones; one with some limits copies the others.
 void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
                       const app::Measurement& original) {
   if (!names_any(body, kLimitsFields)) return reader.take_limits(original);
@@ -99,7 +98,7 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
     const bool is_replaced = std::ranges::any_of(kReplaced, [&](const Replaced& pair) {
       return pair.field == field.name && body.find(pair.by) != nullptr;
     });
-    // Those of a budget come with its uncertainty.
+    // The degrees of freedom of a budget come with its uncertainty.
     const bool is_of_budget =
         field.number == &app::MeasurementFields::degrees_of_freedom &&
         (original.uncertainty_budget || body.find("uncertainty_um") != nullptr);
@@ -112,7 +111,7 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
   }
   offer(reader, "measured_at", format_rfc3339(original.measured_at));
   if (original.is_judged()) offer(reader, "rule", word(original.rule.kind()));
-  // The gauge said then what it says now, unless another or another time is meant.
+  // The gauge's data is unchanged, unless another gauge or time is given.
   if (!names_any(body, kGaugeFields)) reader.take_gauge(original);
   if (original.standard_uncertainty && !original.uncertainty_budget) {
     offer(reader, "uncertainty_um", format_um(*original.standard_uncertainty));

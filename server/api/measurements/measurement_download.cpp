@@ -86,7 +86,7 @@ Result<app::ListPage> add_page(Download& download, MeasurementFile& file, std::s
   return read;
 }
 
-/// How many match. @errors those of MeasurementService::summary
+/// Number of matches. @errors those of MeasurementService::summary
 Result<std::size_t> count(const Download& download) {
   const auto read = wait_for_result<std::vector<app::MeasurementGroup>>([&](auto done) {
     download.services.measurements.summary(download.query, "tolerance_class", done);
@@ -97,7 +97,7 @@ Result<std::size_t> count(const Download& download) {
   return rows;
 }
 
-/// @errors QueryInvalid: more match than a file holds.
+/// @errors QueryInvalid: too many match for a file.
 Result<void> check_count(const Download& download) {
   if (download.limit || download.query.last) return {};
   const auto rows = count(download);

@@ -95,7 +95,7 @@ class XlsxFile final : public MeasurementFile {
   const std::optional<sheet::TimeZone> zone_;
 };
 
-/// How a record is judged, as far as that is not by its limits alone.
+/// The decision rule of a record, if it is more than its limits.
 std::string rule_of(const app::Measurement& m) {
   std::string rule;
   const auto say = [&rule](std::string_view name, std::string_view text) {
@@ -104,7 +104,7 @@ std::string rule_of(const app::Measurement& m) {
   };
   if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) say("rule", word(m.rule.kind()));
   if (m.standard_uncertainty) {
-    // Of the size at 20 degrees, which is what is written.
+    // Of the size at 20 degrees, which is written.
     say("uncertainty_um", format_um(gauging::combined_uncertainty(
                               *m.standard_uncertainty, m.added_uncertainty.value_or(0))));
   }

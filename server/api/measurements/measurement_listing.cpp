@@ -49,7 +49,7 @@ std::string media_type(Form form) {
   return std::string(kForms.at(static_cast<std::size_t>(form)).second);
 }
 
-/// Shows the notes behind the members of a record that was written.
+/// Writes the notes after the members of a record.
 void append_notes(std::string& out, std::span<const app::Note> notes) {
   out.pop_back();
   out += app::sets_aside(notes) ? ",\"set_aside\":true,\"notes\":" : ",\"notes\":";
@@ -67,11 +67,11 @@ void append_row(std::string& out, Form form, const app::Measurement& measurement
   if (form == Form::Ndjson) out += '\n';
 }
 
-/// Where a page begins.
+/// Start of a page.
 struct Cursor {
   std::int64_t after = 0;                 ///< the row before its first
   std::optional<std::int64_t> as_of;      ///< the state its list is read in; none: the newest
-  std::optional<app::RecordName> record;  ///< or it begins behind this one
+  std::optional<app::RecordName> record;  ///< or it begins after this one
 };
 
 /// `m100.m250-5f0c9a3e77d21b40`: the rows after m100, in the state when m250 was the newest of that
@@ -80,7 +80,7 @@ std::string cursor_text(const app::ListPage& page, std::string_view origin) {
   return fmt::format("m{}.{}", *page.next, app::measurement_id_text(page.as_of, origin));
 }
 
-/// The id of a measurement is a cursor too: what was recorded after it.
+/// The id of a measurement is a cursor too: for later measurements.
 Result<Cursor> cursor_of(const Services& services, const http::Request& request) {
   const auto text = request.text("after");
   if (!text) return Cursor();

@@ -76,7 +76,7 @@ Result<void> judge_while_recording(const SharedPosting& posting) {
   };
   auto answer =
       posting->services.measurements.record_while_reading(read, posting->scope, rendering);
-  // The exact reader runs outside the job, so the writer is free for other requests meanwhile.
+  // The exact reader runs outside the job, so that the writer is free for other requests.
   if (batch.wants_whole) {
     // Mostly for an error: it is found without holding the rows, which take more than the body.
     BatchContext context = context_of(*posting, *basis);
@@ -196,7 +196,7 @@ void MeasurementAnswer::add(std::span<const app::Measurement> measurements,
   }
 }
 
-/// Of a list the first ones alone, each with the id of its record.
+/// Of a list only the first ones, each with the id of its record.
 void MeasurementAnswer::warn_of(const app::Measurement& m) {
   constexpr std::size_t kMost = 20;
   for (Warning& warning : warnings_of(m)) {

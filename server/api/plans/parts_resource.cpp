@@ -9,7 +9,7 @@
 #include "service/documents/document_service.hpp"
 #include "service/measurements/measurement_service.hpp"
 
-// A part: the newest value of each characteristic, held against a plan.
+// A part: the newest value of each characteristic, compared with a plan.
 
 namespace fitgauge::api {
 namespace {
@@ -100,8 +100,8 @@ void hold_against(const std::vector<Reaction>& plan, Part& part) {
   }
 }
 
-/// Holds the part against the plan of that name, else of its own name, else the only one that has
-/// all that was measured. @errors QueryInvalid where a plan is named that is not there.
+/// Compares the part with the plan of that name, else of the part's name, else the only plan with
+/// all measured characteristics. @errors QueryInvalid if the named plan does not exist.
 Result<void> plan_part(const std::vector<NamedDocument>& plans,
                        std::optional<std::string_view> named, Part& part) {
   std::vector<std::pair<std::string, std::vector<Reaction>>> fitting;

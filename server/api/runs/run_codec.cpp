@@ -157,7 +157,7 @@ RunHead head_of(const app::RunReport& report) {
   return {report.id_text(), app::state_of(report.result.status), report.program};
 }
 
-/// A run, with its result when it is over; until then with what it has printed.
+/// A run, with its result if it is over; before with its output.
 struct RunAnswer {
   RunHead head{};
   Timestamp created_at{};
@@ -207,7 +207,7 @@ std::string report_json(const app::RunReport& report) {
                              .result = &report.result});
 }
 
-/// An order is stored as it was accepted: what it leaves out has the default.
+/// An order is stored as it was accepted, with its defaults.
 std::uint64_t seed_of(const std::string& request) {
   const auto order = parse_json(request);
   const JsonValue* setup = order ? order->find("setup") : nullptr;
@@ -259,7 +259,7 @@ void members(auto& v, const DiagnosticsAnswer& answer) {
            "Findings; empty if there are none");
 }
 
-/// Its setup stands in it, so that no setup is asked for by its name.
+/// It contains its setup, so no setup is requested by name.
 Result<app::RunOrder> stored_order(const std::string& request, const app::ControlTables& tables) {
   auto body = parse_stored_json(request, "order of a run");
   if (!body) return body.error();

@@ -45,7 +45,7 @@ Result<void> append_screen(std::string& out, const std::string& report, std::siz
   return {};
 }
 
-/// Follows one run; a slow reader receives all that happened meanwhile in one piece.
+/// Follows one run; a slow reader receives all new events in one piece.
 class RunEventStream final : public http::BodyStream,
                              public std::enable_shared_from_this<RunEventStream> {
  public:

@@ -141,7 +141,7 @@ struct Subject : Text {
 };
 constexpr Subject kSubject{{.longest = kLongestSubject}};
 
-/// `[50.1, 40, -5]`: where the ball's centre stood when it touched.
+/// `[50.1, 40, -5]`: the ball's centre at the touch.
 std::optional<machine::Vec3> read_point(const JsonValue& value) {
   if (!value.is(Kind::Array) || value.items.size() != 3) return std::nullopt;
   machine::Vec3 point;
@@ -153,7 +153,7 @@ std::optional<machine::Vec3> read_point(const JsonValue& value) {
   return point;
 }
 
-/// The form of what a real machine touched.
+/// The form of the contacts of a real machine.
 struct Contacts {
   std::string schema(Side) const {
     return schema::array(schema::null_or(schema::array(schema::number(), 3, 3)), 0, kMostContacts);

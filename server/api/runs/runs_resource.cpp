@@ -25,7 +25,7 @@ void answer(http::Responder& responder, Result<http::Response> response) {
   responder.answer(*std::move(response));
 }
 
-/// Answers with `answer_of(run object as JSON)`, a Result<Response>, for a run in whatever state.
+/// Responds with `answer_of(run object as JSON)`, a Result<Response>, for a run in any state.
 template <class Answer>
 void with_run_json(const Services& services, const http::Request& request,
                    http::Responder responder, const Answer& answer_of) {
@@ -129,7 +129,7 @@ void get_events(const Services& services, const http::Request& request, http::Re
                        }));
 }
 
-/// Answers when the run has ended, so that its status tells whether it was in time.
+/// Responds when the run has ended, so that its status shows whether the cancellation was in time.
 void cancel_run(const Services& services, const http::Request& request, http::Responder responder) {
   const auto id = id_of(services, request);
   if (!id) return responder.fail(id.error());

@@ -91,7 +91,7 @@ void read_separator(const JsonValue& setup, const std::string& pointer,
   }
 }
 
-/// A path of the control, with `added` behind it.
+/// A path of the control followed by `added`.
 void read_path(const JsonValue& setup, const std::string& pointer, std::string_view member,
                std::string_view added, std::optional<interpreter::ControlPath>& to,
                FieldErrors& errors) {

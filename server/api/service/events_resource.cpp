@@ -18,7 +18,7 @@ class EventStream final : public CommitStream {
  public:
   struct Start {
     std::optional<app::EventPosition> after{};  ///< none: from now on
-    bool gap = false;                           ///< the reader named a position that is none
+    bool gap = false;                           ///< the reader named an invalid position
   };
 
   EventStream(app::EventService& events, Start start, std::optional<app::Source> source)

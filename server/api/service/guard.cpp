@@ -72,8 +72,7 @@ bool may_be_rebound(const http::Request& request) {
 
 }  // namespace
 
-/// HTTP/1.0 with `Connection: close` is what nginx sends by default: behind it everybody would be
-/// of this machine.
+/// nginx sends HTTP/1.0 with `Connection: close` by default: its clients would all seem local.
 void Guard::warn_of_proxy(const http::Request& request) const {
   if (!request.is_http_1_0() || !proxy_seen_) return;
   const auto connection = request.header("Connection");

@@ -196,7 +196,7 @@ void write_responses(JsonWriter& json, const http::Route& route) {
   json.key("default").begin_object().member("$ref", refusal(0)).end_object().end_object();
 }
 
-/// The role a key needs; `open` asks for one only where everything asks for one.
+/// The role that a key needs; `open` needs one only if the service requires keys for everything.
 void write_security(JsonWriter& json, const std::string& access) {
   json.key("security").begin_array();
   const bool needs_none = access == "public" || access == "open";
@@ -238,7 +238,7 @@ void write_operation(JsonWriter& json, const http::Route& route) {
   json.end_object();
 }
 
-/// `{path*}` takes the rest of the path, which OpenAPI cannot say: it stands as `{path}`.
+/// `{path*}` is the rest of the path, which OpenAPI cannot express: it is written as `{path}`.
 std::string openapi_path(std::string pattern) {
   if (const std::size_t star = pattern.find("*}"); star != std::string::npos)
     pattern.erase(star, 1);

@@ -16,13 +16,13 @@ using PageFiles = std::map<std::string, Prepared, std::less<>>;
 
 constexpr std::string_view kEntry = "index.html";
 
-/// The page loads nothing from elsewhere, runs no script but its own, and stands in no other
-/// site's frame.
+/// The page loads nothing from other sites, runs only its scripts, and cannot be framed by another
+/// site.
 constexpr std::string_view kPolicy =
     "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";
 
-/// Asked for again each time, or kept: what stands below the build's name never changes.
+/// Revalidated each time, or cached: files below the build's name never change.
 constexpr std::string_view kFresh = "no-cache";
 constexpr std::string_view kKept = "public, max-age=31536000, immutable";
 

@@ -32,8 +32,7 @@ Result<http::Response> ready(const Services& services) {
   return http::Response(200, "application/json", std::move(body)).with("Cache-Control", "no-store");
 }
 
-/// The verdicts are counted when somebody asks; where the storage cannot tell, the others are
-/// shown.
+/// Verdicts are counted at each request; if the storage fails, the other metrics are returned.
 void metrics(const Services& services, const http::Request&, http::Responder responder) {
   const SharedResponder shared = share(std::move(responder));
   services.verdicts->refresh([&services, shared] {

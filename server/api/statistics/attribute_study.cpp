@@ -8,7 +8,7 @@
 
 namespace fitgauge::api {
 
-/// Ratings with the names of what they are of.
+/// Ratings with their labels.
 struct RatingsOrder {
   StudyLabels parts{};
   StudyLabels operators{};

@@ -172,8 +172,8 @@ void find_offset(const OffsetOrder& order, app::MeasurementService& measurements
       });
 }
 
-/// Tells the proposal at its beginning, and again whenever its state is another; in its place why
-/// the values give none, for as long as they do not.
+/// Sends the proposal at the beginning, and again whenever its state changes; instead of it the
+/// reason while the values give none.
 class OffsetStream final : public CommitStream {
  public:
   OffsetStream(const Services& services, OffsetOrder order)

@@ -33,7 +33,7 @@ struct StudyChoices {
   std::optional<metrology::Exact> tolerance{};
 };
 
-/// The form of a model, which only the method `anova` has a choice of.
+/// The form of a model; only the method `anova` has a choice.
 struct ModelForm : Words<StudyModel> {
   bool is_free;
 
@@ -130,7 +130,7 @@ void members(auto& v, LinearityOrder& study) {
   v.member("measurements", study, StudyRows<LinearityOrder>{});
 }
 
-/// Readings of one master over time: those of one time are a subgroup.
+/// Readings of one master over time: readings of one time are a subgroup.
 struct StabilityOrder {
   StudyChoices choices{};
   StudyLabels times{};

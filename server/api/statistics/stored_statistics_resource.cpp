@@ -20,7 +20,7 @@ constexpr double kMillion = 1e6;
 /// A computation over a selection, given the newest id.
 using Figure = std::function<Result<std::string>(ValueSelection&&, const std::string& as_of)>;
 
-/// Reads the values that the filters choose and computes from them, where both may take long.
+/// Reads the values of the filters and computes from them; both may be slow.
 void answer_with(const Services& services, const http::Request& request, http::Responder responder,
                  Figure figure) {
   auto query = measurement_query(services, request);

@@ -11,7 +11,7 @@
 
 namespace fitgauge::api {
 
-/// Whether the interval of the law of propagation is that of the simulation (JCGM 101, 8).
+/// Whether the interval of the law of propagation matches the simulation (JCGM 101, 8).
 struct ValidationAnswer {
   int digits = 0;
   double tolerance = 0;

@@ -157,7 +157,7 @@ void ValueSelection::move(const std::vector<app::MovedValue>& moves) {
   ids_ = ids_.in_order(order);
   if (ungrouped_) return;
   groups_ = in_order(groups_);
-  // The subgroups stand in the order they begin in.
+  // The subgroups are in the order of their first value.
   constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(names_.size(), kNone);
   std::vector<const std::string*> names;

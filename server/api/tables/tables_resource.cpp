@@ -170,7 +170,7 @@ Result<std::string> column_name(const http::Request& request) {
       "name"};
 }
 
-/// Whether entity tags name the tables of a revision, in whatever form, or `*` a class that exists.
+/// Whether entity tags match the tables of a revision, in any form, or `*` a class that exists.
 bool name_tables(std::string_view tags, std::string_view revision, bool exists, bool weakly) {
   if (trim(tags) == "*") return exists;
   const auto items = http::list_items(tags);

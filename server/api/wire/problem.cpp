@@ -5,7 +5,7 @@
 namespace fitgauge::api {
 namespace {
 
-/// A field's place is its JSON pointer; formats with lines give the line as a detail of its own.
+/// A field's place is its JSON pointer; formats with lines add the line.
 void write_detail(JsonWriter& json, const Error& detail) {
   json.begin_object().member("pointer", std::string_view(detail.where));
   if (!detail.details.empty()) json.key("line").raw(detail.details.front().where);

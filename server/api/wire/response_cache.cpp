@@ -6,9 +6,9 @@ namespace fitgauge::api {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{4} << 20;
-/// A longer answer is sent from where it lies, and a few of them would take all the room.
+/// A longer response is sent in place, and a few of them would fill the cache.
 constexpr std::size_t kLongestAnswer = std::size_t{64} << 10;
-/// Of an entry beside its texts.
+/// Of an entry in addition to its texts.
 constexpr std::size_t kOverhead = 256;
 
 }  // namespace
