@@ -20,7 +20,7 @@ std::optional<std::string> text_of(const std::optional<Timestamp>& time) {
   return time ? std::optional(format_rfc3339(*time)) : std::nullopt;
 }
 
-/// The members of its settings, which stand beside those of its state.
+/// The members of its settings, next to those of its state.
 Result<void> write_settings(JsonWriter& json, const ConnectionState& connection) {
   const auto settings = parse_stored_json(connection.settings, "a connection");
   if (!settings) return settings.error();
@@ -107,7 +107,7 @@ Result<http::Response> one(const Connections& all, const std::string& name, int 
 
 using Change = Result<http::Response> (*)(Connections&, const http::Request&);
 
-/// A handler that answers what `change` gives where connections are changed.
+/// A handler that responds with the result of `change` on the thread of changes.
 http::AsyncHandler by(Connections& all, Change change) {
   return [&all, change](const http::Request& request, http::Responder responder) {
     const auto shared = api::share(std::move(responder));

@@ -131,7 +131,7 @@ void LogFollower::run(bool& has_begun, const std::stop_token& stop) {
   }
   while (!stop.stop_requested() && !state().is_stopped) {
     guarded("connection", [&] {
-      // Events first, so that what was stored before them is among the measurements.
+      // Events first, so that measurements stored before them are included.
       auto has_read = read_events();
       if (has_read) has_read = read();
       if (!has_read || cannot_read_) {
@@ -270,7 +270,7 @@ std::size_t LogFollower::ripe() const {
   if (pending_.empty()) return 0;
   const std::int64_t age =
       plant_.clock.now().nanoseconds - (*pending_.front())->received_at.nanoseconds;
-  // After a kill what was decided before it goes out first, when all of it is read.
+  // After a kill the delivery that was decided before goes first, when all of it is read.
   if (progress_.planned > progress_.position) {
     const bool is_read = read_to_ >= progress_.planned || pending_.size() >= kPage;
     return is_read ? pending_.size() : 0;
@@ -335,7 +335,7 @@ void LogFollower::take(const Delivery& delivery, std::size_t measurements) {
     pause_ = std::chrono::seconds(0);
     repeats_at_once_ = true;
   } else if ((has_progress || repeats_at_once_) && !delivery.wait && !delivery.wants_no_more) {
-    // The other side has just taken something: this is no reason to wait, unless it comes again.
+    // The other side has just accepted a delivery: no wait, unless it fails again.
     pass_refusal(*delivery.failure, has_progress);
     pause_ = std::chrono::seconds(0);
     repeats_at_once_ = false;

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// With the links of what is there followed.
+/// Resolves the links of the existing part.
 bool is_below(const fs::path& folder, const fs::path& root) {
   std::error_code failure;
   const fs::path inner = fs::weakly_canonical(folder, failure);

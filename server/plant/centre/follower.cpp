@@ -27,7 +27,7 @@ using std::chrono::minutes;
 using std::chrono::seconds;
 
 constexpr seconds kBetweenQuestions{5};
-/// After what the centre gives could not be taken: somebody may have cleared the way.
+/// After a revision could not be stored: the cause may be gone.
 constexpr minutes kBetweenBeginnings{10};
 
 constexpr long kAnswered = 200;

@@ -49,8 +49,8 @@ Forwarder::Forwarder(app::LogOutbox outbox, app::RevisionIntake intake, Forwarde
           std::move(intake), [this] { return outbox_.newest_history(); }, options_.tell) {
   if (const auto confirmed = outbox_.confirmed(options_.centre.url)) confirmed_ = *confirmed;
   look();
-  // Before the first measurement is taken: the newest tables. A centre that is away holds nothing
-  // up for long.
+  // The newest tables are needed before the first measurement. An unreachable centre does not delay
+  // the start for long.
   const auto until = Steady::now() + kPatienceAtStart;
   guarded("the follower", [&] { follow([until] { return Steady::now() < until; }); });
   thread_ = Thread("the forwarder", [this](const std::stop_token& stop) { run(stop); });
@@ -85,13 +85,13 @@ bool Forwarder::wait(const std::stop_token& stop, milliseconds time) {
   return !stop.stop_requested();
 }
 
-/// Takes what the centre hands on, and what it says of this folder's log.
+/// Handles the centre's revisions, and its state of this folder's log.
 void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
   const auto there = follower_.look(link_, goes_on);
   if (!there) return;
   outbox_.meet(there->centre);
-  // It was set back to an older copy: it gets what it has lost. Of a branch that it does not know
-  // it may still have the records below.
+  // The centre was set back to an older copy: it gets the missing rows. Of an unknown branch it may
+  // still have the records below.
   const std::int64_t has = std::max(there->size, outbox_.history_of(seen_).begin);
   if (has < confirmed_) goes_back_to(has);
   if (!there->notes) return noted_.reset();
@@ -106,7 +106,7 @@ void Forwarder::goes_back_to(std::int64_t size) {
   if (noted_) noted_ = 0;
 }
 
-/// Counts what is waiting while a call does.
+/// Counts waiting records during a call.
 CentreLink::GoesOn Forwarder::goes_on(const std::stop_token& stop) {
   return [this, &stop] {
     look();
@@ -191,7 +191,7 @@ Forwarder::Sent Forwarder::answered(const http_client::HttpAnswer& answer, std::
                 fmt::format("{} {}", answer.status, detail));
 }
 
-/// The centre has more or less than was thought: go on from there, if it has the same.
+/// The centre has more or fewer records than expected: continue there, if they are the same.
 Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root) {
   const auto bytes = tlog::from_base64(root);
   tlog::Hash there{};
@@ -225,7 +225,7 @@ Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root)
                           size));
 }
 
-/// Two folders go on under one history: no more ids are given out.
+/// Two folders continue one history: no more ids are given out.
 Forwarder::Sent Forwarder::forked(const std::string& why) {
   outbox_.set_forked(
       fmt::format("the centre refuses the next records: {}. The service stores nothing, because "
@@ -264,7 +264,7 @@ void Forwarder::took(std::int64_t size) {
   look();
 }
 
-/// Counts what is waiting, not more often than need be.
+/// Counts waiting records, only as often as needed.
 void Forwarder::look() {
   const auto now = Steady::now();
   if (now < looked_ + kBetweenLooks) return;

@@ -116,7 +116,7 @@ bool is_dfq(std::string_view file_name) {
 
 constexpr std::size_t kMostTold = 100;
 
-/// Answers nobody: it counts what is stored.
+/// Not for a client: the response counts the stored rows.
 class CountedRows final : public app::Rendering {
  public:
   void add(std::span<const app::Measurement> measurements, std::string_view) override {
@@ -143,7 +143,7 @@ Result<FileRows> read_file_rows(const FolderInOptions& options,
                                 const iso286::ToleranceTables& tables, std::string_view file_name,
                                 const RestingFile& file, const RestingFile* description) {
   FileRows rows{.media_type = sheet::is_ndjson(file_name) ? "application/x-ndjson" : "text/csv"};
-  // Room that is not written to takes no memory; a text that grows is there twice.
+  // Unused room needs no memory; a growing text would exist twice.
   rows.text.reserve(FileRows::kMostBytes + kMostAppended + http::Request::kBodyPadding);
   const auto appended = is_dfq(file_name) ? append_dfq(options, tables, file, description, rows)
                         : qif::is_qif(file_name)      ? append_qif(options, tables, file, rows)

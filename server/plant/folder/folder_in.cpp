@@ -37,22 +37,22 @@ class FolderIn final : public Worker {
   struct Seen {
     Look look{};
     Time since{};
-    bool is_taken = false;  ///< and could not be moved away yet
+    bool is_taken = false;  ///< and could not be moved yet
   };
 
   void run(const std::stop_token& stop);
   void watch();
   /// Until something happens, the time is over, or a stop.
   void wait(const std::stop_token& stop, std::chrono::milliseconds most);
-  /// Takes what is at rest. @returns why not.
+  /// Stores files that do not change. @returns why not.
   std::optional<std::string> look(const std::stop_token& stop);
   std::optional<std::string> take(const Folder& folder, const std::string& name, Seen& seen);
   /// The DFD of a DFX: empty while it has to be waited for. @errors it is not there.
   Result<std::string> description_of(const std::string& name, const Seen& seen);
-  /// Of files that are taken. @returns why one stays, until the next look.
+  /// Moves stored files. @returns why one stays, until the next scan.
   static std::optional<std::string> move_away(const Folder& folder,
                                               const std::vector<std::string>& names);
-  /// @param names of the file, and of its description where it has one
+  /// @param names of the file, and of its description if it has one
   std::optional<std::string> fail(const Folder& folder, const std::vector<std::string>& names,
                                   const Error& error);
   bool is_wanted(const std::string& name) const;

@@ -30,7 +30,7 @@ Result<std::string> read_glob(const JsonValue& item) {
   return invalid_field("must be a file name without a folder (* and ? allowed), such as *.csv");
 }
 
-/// An object of texts; `fault` says what is wrong with one.
+/// An object of texts; `fault` returns the fault of one.
 template <class Fault>
 struct TextsBy {
   Fault fault;

@@ -15,12 +15,12 @@
 namespace fitgauge::connections {
 namespace {
 
-/// A folder that others take files of measurements from.
+/// A folder from which others collect files of measurements.
 struct FolderOutOptions {
   FollowerOptions follower{.gather = std::chrono::seconds(60), .plans = true};
   std::filesystem::path folder{};
   enum class Format { Csv, Ndjson, Dfq, Qif } format = Format::Csv;
-  enum class Split { None, Part, Order } split = Split::None;  ///< a file has one of these alone
+  enum class Split { None, Part, Order } split = Split::None;  ///< a file has only one of these
   aqdef::DfqOptions dfq{};
 };
 
@@ -29,7 +29,7 @@ using Split = FolderOutOptions::Split;
 
 constexpr std::size_t kLongestKeyInName = 60;
 
-/// Measurements that stand in one file.
+/// Measurements of one file.
 struct File {
   std::string key{};
   std::int64_t first = 0;
@@ -54,9 +54,9 @@ std::string plain(std::string_view key) {
   return name;
 }
 
-/// Writes NAME-FIRST-LAST.csv, where the numbers are the positions of the measurements in the log;
-/// beside, and renamed when it is whole and on disk.
-/// Measurements that a DFQ cannot express are dead letters.
+/// Writes NAME-FIRST-LAST.csv, with the positions of the measurements in the log; to a temporary
+/// file that is renamed when it is complete and on disk. Measurements that a DFQ cannot express are
+/// dead letters.
 class FolderOut final : public Outlet {
  public:
   FolderOut(FolderOutOptions options, const Plant& plant)
@@ -67,7 +67,7 @@ class FolderOut final : public Outlet {
  private:
   std::vector<File> files_of(std::span<const Outgoing> measurements,
                              std::vector<DeadLetter>& refused) const;
-  /// @errors a DFQ or a QIF cannot hold it.
+  /// @errors a DFQ or a QIF cannot express it.
   Result<void> add(File& file, const app::Measurement& measurement) const;
   std::string name_of(const File& file) const;
 
@@ -149,7 +149,7 @@ Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::s
   return delivery;
 }
 
-/// The form of a text of a part that stands in that field of a DFQ.
+/// The form of a text in that field of a DFQ.
 auto part_text(std::size_t longest, int field) {
   return By{longest, [field](std::string_view text) -> Result<std::string> {
               if (text.empty()) return invalid_field("must be a text");

@@ -33,7 +33,7 @@ Timestamp instant(const sheet::WallTime& shown) {
   return Timestamp{std::int64_t{std::mktime(&time)} * kNanosecondsPerSecond};
 }
 
-/// A text that lives with the log, cut to what a field takes.
+/// A text that lives with the log, cut to the limit of a field.
 std::string_view kept(CollectedLog& log, std::string_view text, std::size_t most = kLongestText) {
   return log.texts.emplace_back(first_characters(text, most));
 }
@@ -137,7 +137,7 @@ Result<void> judge_by_class(Measurement& measurement, CollectedLog& log, const F
   return {};
 }
 
-/// `upper_um` and `lower_um` beside the nominal size, or `upper_mm` and `lower_mm` themselves.
+/// `upper_um` and `lower_um` with the nominal size, or `upper_mm` and `lower_mm`.
 Result<std::optional<app::SizeLimits>> drawn_limits(const Fields& fields, Length nominal) {
   for (const bool as_deviation : {true, false}) {
     const char* const names[] = {as_deviation ? "upper_um" : "upper_mm",

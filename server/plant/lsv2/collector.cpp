@@ -48,8 +48,8 @@ std::vector<std::string> folders_of(const MachineOptions& machine) {
   return folders;
 }
 
-/// Reads measuring logs from a control, with a thread and a connection of its own: one that is
-/// slow or away holds up no other.
+/// Reads probing logs from a control with its own thread and connection: a slow or unreachable
+/// control delays no other.
 class Collector final : public Worker {
  public:
   Collector(MachineOptions options, const Plant& plant)
@@ -115,7 +115,7 @@ std::optional<std::string> Collector::round(const std::stop_token& stop) {
   return first;
 }
 
-/// A folder or a file that cannot be read holds up no other, as long as the connection stands.
+/// An unreadable folder or file delays no other, as long as the connection is open.
 std::optional<std::string> Collector::read_folder(LinkClient& control, const std::string& folder) {
   auto entries = control.list(folder, options_.most_entries);
   if (!entries) return failed(folder, entries.error());

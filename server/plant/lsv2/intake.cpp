@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostUnderWay = 16;
 
-/// Answers nobody: it tells that the log was not there before.
+/// Not for a client: it shows that the log was not stored before.
 class NewLog final : public app::Rendering {
  public:
   explicit NewLog(std::shared_ptr<bool> is_new) : is_new_(std::move(is_new)) {}
@@ -54,7 +54,7 @@ UnderWay store(app::MeasurementService& measurements, const MachineOptions& mach
   return {std::move(log), std::move(is_new), std::move(future)};
 }
 
-/// Keeps the file where it is not there as it is.
+/// Stores the file unless it is stored unchanged.
 Result<void> keep(app::FileService& files, const MachineOptions& machine, const std::string& path,
                   const std::string& bytes) {
   constexpr std::size_t kDrive = 5;  // TNC:\.

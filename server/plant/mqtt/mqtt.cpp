@@ -13,17 +13,17 @@ namespace {
 constexpr std::size_t kMostAhead = 32;
 constexpr std::size_t kLongestTopic = 500;
 
-/// A broker that is told each measurement as a message.
+/// A broker that receives each measurement as a message.
 struct MqttOptions {
   FollowerOptions follower{};
   Broker broker{};
   TopicTemplate topic{};
-  std::string status_topic{};  ///< where `online` and the last will `offline` stand
+  std::string status_topic{};  ///< topic of `online` and of the last will `offline`
   std::string events_topic{};  ///< above the type of an event that is no measurement
   bool retain = true;
 };
 
-/// Reason codes of MQTT 5 about the message alone (5.0, 3.4.2.1).
+/// Reason codes of MQTT 5 about only the message (5.0, 3.4.2.1).
 bool is_of_the_message(int reason) {
   constexpr int kTopicNameInvalid = 0x90;
   constexpr int kPayloadFormatInvalid = 0x99;
@@ -32,8 +32,9 @@ bool is_of_the_message(int reason) {
 }
 
 /// Publishes each measurement's record with QoS 1, in order and at most 32 ahead of the broker's
-/// acknowledgements; a measurement is dealt with when its own has come, and those before it. What
-/// the broker says it will never take (MQTT 5) is a dead letter. Stays connected between.
+/// acknowledgements; a measurement is done when its acknowledgement and all earlier ones have
+/// arrived. A message that the broker refuses for good (MQTT 5) is a dead letter. Stays connected
+/// between.
 class Mqtt final : public Outlet {
  public:
   Mqtt(const MqttOptions& options, const Plant& plant)
@@ -110,7 +111,7 @@ Delivery Mqtt::publish(const Items& items, const std::stop_token& stop, const Co
   std::deque<Ahead> ahead;
   std::size_t sent = 0;
   while (true) {
-    // Also where the thread stood still meanwhile: what sends nothing tells nothing of the broker.
+    // Also after a pause of the thread: silence shows nothing about the broker.
     const bool is_in_time = sent == 0 || std::chrono::steady_clock::now() < until;
     const bool sends_more = is_in_time && !stop.stop_requested();
     while (sends_more && sent < items.size() && ahead.size() < kMostAhead) {

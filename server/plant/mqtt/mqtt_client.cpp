@@ -21,7 +21,7 @@ constexpr int kKeepAliveSeconds = 30;
 constexpr std::chrono::seconds kConnectTime{10};
 constexpr std::chrono::seconds kLeaveTime{2};
 constexpr int kLoopMilliseconds = 1000;  ///< so that keep-alives and timeouts are seen to
-/// Bytes of what has arrived and nobody has taken. A command has some hundred.
+/// Maximum bytes of unread messages. A command has some hundred.
 constexpr std::size_t kMostArrived = std::size_t{1} << 20;
 
 void initialise_library() {
@@ -140,7 +140,7 @@ void MqttClient::Loop::on_message(mosquitto*, void* user, const mosquitto_messag
          .qos = message->qos,
          .retain = message->retain});
     client.arrived_bytes_ += bytes_of(client.arrived_.back());
-    // Too much is what nobody takes: the newest counts.
+    // Too many messages are unread: the newest count.
     while (client.arrived_bytes_ > kMostArrived) {
       client.arrived_bytes_ -= bytes_of(client.arrived_.front());
       client.arrived_.pop_front();
@@ -230,8 +230,8 @@ int MqttClient::Loop::carry_out_orders() {
   return MOSQ_ERR_SUCCESS;
 }
 
-/// Where a write fails, what the broker sent before it went still waits to be read:
-/// acknowledgements, whose messages need not come again, and the reason why it goes.
+/// If a write fails, data that the broker sent before is still unread: acknowledgements, whose
+/// messages need not be repeated, and the reason of its end.
 void MqttClient::Loop::read_the_rest() {
   constexpr int kMostPackets = 1000;  // a broker that never ends is not heard out
   pollfd arrived{mosquitto_socket(handle_.get()), POLLIN, 0};
@@ -240,8 +240,8 @@ void MqttClient::Loop::read_the_rest() {
   }
 }
 
-/// poll and not mosquitto_loop, which selects: that takes no descriptor above 1023. It reads before
-/// it writes, as libmosquitto closes a connection on which a write fails.
+/// poll instead of mosquitto_loop, which selects and cannot use descriptors above 1023. It reads
+/// before it writes, because libmosquitto closes a connection on which a write fails.
 int MqttClient::Loop::turn() {
   if (const int failed = carry_out_orders(); failed != MOSQ_ERR_SUCCESS) {
     const int reason = errno;

@@ -13,7 +13,7 @@ namespace {
 
 using gauging::Verdict;
 
-/// Nothing is ever dropped, since the log is kept for ever: the largest number the schema takes.
+/// The log is kept for ever, so nothing is dropped: the largest number of the schema.
 constexpr std::string_view kBufferSize = "4294967294";
 
 /// A key is an NMTOKEN.

@@ -12,7 +12,7 @@
 namespace fitgauge::mtconnect {
 namespace {
 
-/// The outer elements of MTConnectDevices; data items stand in the last.
+/// The outer elements of MTConnectDevices; data items are in the last one.
 constexpr std::array<std::string_view, 4> kOuter = {"MTConnectDevices", "Devices", "Device",
                                                     "DataItems"};
 constexpr std::size_t kDevice = 2;
@@ -23,7 +23,7 @@ struct Condition {
 };
 
 struct Step {
-  bool is_anywhere = false;  ///< behind `//`
+  bool is_anywhere = false;  ///< after `//`
   std::string_view name;
   /// Any of these lists, each of which wants all of its conditions; empty: no condition.
   std::vector<std::vector<Condition>> any{};
@@ -135,7 +135,7 @@ bool is_met(const Step& step, const Place& place) {
          });
 }
 
-/// Whether the steps from `step` on lead from below `at` to the item, or to what holds it.
+/// Whether the steps from `step` on lead from below `at` to the item, or to a parent of it.
 bool leads(const std::vector<Step>& steps, std::size_t step, const std::array<Place, 5>& places,
            std::size_t at) {
   if (step == steps.size()) return true;

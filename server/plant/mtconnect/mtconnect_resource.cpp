@@ -29,7 +29,7 @@ struct Gathered {
 };
 using SharedGathered = std::shared_ptr<Gathered>;
 
-/// Reads the newest measurements, then goes on with `done`.
+/// Reads the newest measurements, then calls `done`.
 void gather_newest(const Services& services, const SharedGathered& gathered, std::size_t count,
                    std::function<void()> done) {
   app::MeasurementQuery query;
@@ -99,7 +99,7 @@ void answer_current(const Current& current, const std::vector<app::MeasurementGr
   current.gathered->responder->answer(mtconnect_response(200, streams.document(next)));
 }
 
-/// Keeps the first measurement that a list shows, then goes on with `done`.
+/// Keeps the first measurement of a list, then calls `done`.
 void keep_first(const Services& services, const SharedCurrent& current,
                 const app::MeasurementQuery& query, std::int64_t behind,
                 std::unique_ptr<app::KeptMeasurement> Current::*where, std::function<void()> done) {
@@ -166,7 +166,7 @@ void current(const Services& services, const http::Request& request, http::Respo
 void answer_assets(const Gathered& gathered) {
   qif::QifWriter writer;
   std::for_each(gathered.newest.rbegin(), gathered.newest.rend(), [&writer](const auto& kept) {
-    // Characters that XML cannot hold are left out, because nobody could correct them.
+    // Characters that XML does not allow are left out, because nobody could correct them.
     [[maybe_unused]] const auto added = add_to_qif(writer, **kept);
   });
   const Timestamp at =

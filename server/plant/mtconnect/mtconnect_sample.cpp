@@ -84,7 +84,7 @@ void read_sample(const Services& services, const Sample& sample,
   app::MeasurementQuery query;
   query.history = true;
   query.newest_first = sample.backwards;
-  // A list goes on behind the row it is given; 0: from its begin.
+  // A list continues after the given row; 0: from its begin.
   std::int64_t behind = 0;
   if (sample.from) {
     const std::int64_t first = std::max<std::int64_t>(mtconnect::measurement_at(*sample.from), 1);

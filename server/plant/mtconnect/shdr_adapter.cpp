@@ -22,9 +22,9 @@ using Line = std::shared_ptr<const std::string>;
 
 constexpr std::size_t kPage = 256;
 constexpr int kSendBuffer = 64 << 10;
-/// Out of descriptors, say: agents wait in the kernel's queue for so long.
+/// Out of descriptors, for example: agents wait in the kernel's queue for this time.
 constexpr std::chrono::milliseconds kAcceptPause{100};
-/// Counts are told when it is quiet for so long.
+/// Counts are sent after this time without measurements.
 constexpr std::chrono::milliseconds kCountPause{200};
 /// Before the storage is asked again.
 constexpr std::chrono::milliseconds kRetry{1000};
@@ -68,7 +68,8 @@ std::string shdr_line(const Counts& counts, Timestamp at) {
   return line + '\n';
 }
 
-/// All but its calls from outside happens on its thread. What the storage answers is posted there.
+/// Everything except calls from outside runs on its thread. Results of the storage are posted
+/// there.
 class ShdrAdapter::Loop final : public app::CommitListener,
                                 public std::enable_shared_from_this<Loop> {
  public:
@@ -118,7 +119,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
  private:
   enum class Phase { Idle, Beginning, Following };
 
-  /// Does `work` on the thread, unless the adapter is gone.
+  /// Runs `work` on the thread, unless the adapter is destroyed.
   template <class Work>
   void post(Work work) {
     asio::post(io_, [weak = weak_from_this(), work = std::move(work)]() mutable {
@@ -178,7 +179,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
     if (counts_) agent.send(counts_);
   }
 
-  /// Reads where the log ends, for the first agent.
+  /// Reads the end of the log, for the first agent.
   void begin() {
     if (is_reading_) return;
     phase_ = Phase::Beginning;
@@ -197,7 +198,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
     });
   }
 
-  /// Reads what is behind the position, unless an agent is full.
+  /// Reads the rows after the position, unless an agent is full.
   void follow() {
     if (is_reading_ || agents_.empty()) return;
     if (phase_ != Phase::Following) return begin();
@@ -278,7 +279,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   http::Timer count_pause_{io_};
   std::set<std::shared_ptr<AgentSession>> agents_;
   Phase phase_ = Phase::Idle;
-  std::int64_t position_ = 0;  ///< all up to here is told
+  std::int64_t position_ = 0;  ///< all up to here is sent
   bool is_reading_ = false;
   bool counts_soon_ = false;
   Line newest_;

@@ -10,14 +10,14 @@
 namespace fitgauge::connections {
 namespace {
 
-/// Of them the broker is asked at once whether it has taken them.
+/// Number after which the broker is asked for confirmation.
 constexpr std::size_t kMostAtOnce = 64;
 /// Between two looks whether the primary host is there.
 constexpr std::chrono::seconds kHostPause{1};
 
-/// Each measurement is the data of a device. Data has QoS 0, as the specification wants it, so a
-/// measurement is dealt with when the broker has answered a question that came behind it: it takes
-/// the packets of a connection in their order.
+/// Each measurement is the data of a device. Data has QoS 0, as the specification requires, so a
+/// measurement is done when the broker has answered a later request: it handles the packets of a
+/// connection in their order.
 class Sparkplug final : public Outlet {
  public:
   Sparkplug(const SparkplugOptions& options, const Plant& plant)
@@ -37,7 +37,7 @@ class Sparkplug final : public Outlet {
   std::optional<std::string> subscribe(const std::string& topic, const std::stop_token& stop);
   /// Connected, the host is there, and all are born. @returns why not.
   Delivery prepare(const std::stop_token& stop);
-  /// Does what the messages say that have come. @returns whether the session goes on.
+  /// Handles received messages. @returns whether the session continues.
   bool obey();
   /// The node dies, and the connection ends.
   void leave();
@@ -135,7 +135,7 @@ Delivery Sparkplug::deliver(std::span<const Outgoing> measurements, const std::s
     node_.tell(**outgoing);
   }
   node_.tell_position((*some.back())->row);
-  // Nobody is subscribed there, and the answer says that all before it was taken.
+  // Nobody is subscribed there; the response shows that the broker has everything before it.
   const auto question = link_.client().unsubscribe(node_.topic("NDATA"));
   if (!link_.client().wait_settled(question, kLongestSilence, stop)) {
     if (!stop.stop_requested()) delivery.failure = link_.give_up("it does not answer");

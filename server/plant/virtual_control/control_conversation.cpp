@@ -161,7 +161,7 @@ ControlConversation::Reply ControlConversation::next_error(bool first) {
   const auto errors = state_.machine.errors();
   if (next_error_ >= errors.size()) return ControlError::NoNextError;
   const interpreter::RunMessage& error = errors[next_error_++];
-  // A telegram ends where its buffer does, and so does a long text.
+  // A telegram ends at the end of its buffer, and so does a long text.
   constexpr std::size_t kLongestText = 200;
   return encode(Fault{.number = error.number,
                       .text = std::string(first_characters(error.text, kLongestText))});
@@ -211,7 +211,7 @@ ControlConversation::Reply ControlConversation::reply(const LockKeyboard& reques
   return encode(control_link::Accepted{});
 }
 
-/// The keys of the operating modes switch the mode; every other key is taken and does nothing.
+/// The keys of the operating modes switch the mode; every other key is accepted without effect.
 ControlConversation::Reply ControlConversation::reply(const PressKey& request) {
   if (auto may = needs_to_write("MONITOR"); !may) return may.error();
   constexpr std::uint16_t kManual = 0x01C0;

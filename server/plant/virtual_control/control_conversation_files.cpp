@@ -1,4 +1,4 @@
-// The part of a conversation about directories and files: those of the disk, and their transfers.
+// The part of a session for directories and files, and their transfers.
 
 #include <algorithm>
 
@@ -194,7 +194,7 @@ ControlConversation::Reply ControlConversation::reply(const Download& request) {
   return reply(control_link::Accepted{});
 }
 
-/// The next part of what is sent; of an empty file one empty block.
+/// The next part of a transfer; of an empty file one empty block.
 ControlConversation::Reply ControlConversation::reply(const control_link::Accepted&) {
   auto* const sending = std::get_if<Sending>(&transfer_);
   if (sending == nullptr) return ControlError::Unexpected;

@@ -12,7 +12,7 @@ using control_link::ControlError;
 using control_link::Mode;
 using control_link::ProgramState;
 
-/// How long a running program is waited for until it tells where it is.
+/// Maximum wait for the position of a running program.
 constexpr std::chrono::milliseconds kMachinePatience{50};
 
 bool is_under_way(RunState state) {
@@ -32,7 +32,7 @@ ProgramState shown(RunState state) {
   return ProgramState::Idle;
 }
 
-/// Where the axes stand before the first program.
+/// Position of the axes before the first program.
 double at_rest(const machine::Setup& setup, machine::Axis axis) {
   if (const auto start = setup.machine.start[axis]) return *start;
   const auto& range = setup.machine.axes[machine::index(axis)];
@@ -78,8 +78,8 @@ std::uint32_t colour(control_link::ProgramState state) {
 
 }  // namespace
 
-/// A program that has begun switches the control to automatic, whoever started it. One that was
-/// started here counts from then on, though it may have to wait for a worker.
+/// A started program switches the control to automatic, wherever it was started. One that was
+/// started here counts from then on, even while it waits for a worker.
 std::shared_ptr<app::ActiveRun> MachineView::newest() {
   auto run = runs_.newest();
   if (started_ != nullptr && (run == nullptr || run->id() < started_->id())) run = started_;

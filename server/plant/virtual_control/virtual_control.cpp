@@ -18,7 +18,7 @@ constexpr ControlModel kModels[] = {
      .asks_plc_password = false},
 };
 
-/// Of what all transfers of all clients hold.
+/// Maximum for all transfers of all clients.
 constexpr std::size_t kTransferBytes = std::size_t{24} << 20;
 
 std::string mdi_program() { return "BEGIN PGM $MDI MM\nEND PGM $MDI MM\n"; }
@@ -33,7 +33,7 @@ std::string tool_table(const machine::Setup& setup) {
   return text + "[END]\n";
 }
 
-/// Stores a file where none of that name is.
+/// Stores a file unless one of that name exists.
 Result<void> bring(app::FileService& files, std::string_view path, const std::string& bytes) {
   auto parsed = interpreter::ControlPath::parse(path);
   if (!parsed) return parsed.error();

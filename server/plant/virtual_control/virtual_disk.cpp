@@ -18,7 +18,7 @@ std::string absolute(std::string_view text, std::string_view directory) {
   return std::string(directory) + path;
 }
 
-/// How long a running program is waited for until it tells what it has written.
+/// Maximum wait for the files of a running program.
 constexpr std::chrono::milliseconds kPatience{50};
 /// Of the names of directories that clients make.
 constexpr std::size_t kMostMadeBytes = std::size_t{1} << 20;

@@ -22,7 +22,7 @@ bool is_field(std::string_view name) {
   });
 }
 
-/// Whether an odd number of quotes that no backslash escapes stands in the text.
+/// Whether the text has an odd number of unescaped quotes.
 bool changes_string(std::string_view text) {
   bool is_odd = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -35,7 +35,7 @@ bool changes_string(std::string_view text) {
   return is_odd;
 }
 
-/// Follows the names between the dots; null where one is not there.
+/// Follows the names between the dots; null if one does not exist.
 const JsonValue& member_at(const JsonValue& object, std::string_view path) {
   const std::size_t dot = path.find('.');
   const JsonValue& member = object.member(path.substr(0, dot));

@@ -149,7 +149,7 @@ std::string begun_event(std::string_view type, Timestamp time) {
   return fmt::format(R"({{"type":"{}","timestamp":"{}","data":)", type, format_rfc3339(time));
 }
 
-/// Whether the receiver says that this event, and not all, is what it cannot take.
+/// Whether the receiver refuses only this event, and not all.
 bool is_of_the_event(long status) {
   constexpr std::array kStatuses = {400L, 413L, 415L, 422L};
   return std::find(kStatuses.begin(), kStatuses.end(), status) != kStatuses.end();
@@ -168,7 +168,7 @@ class Webhook final : public Outlet {
   Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) override;
   Delivery deliver_events(std::span<const OutgoingEvent> events,
                           const std::stop_token& stop) override;
-  /// @param event the body, or what the template makes one of
+  /// @param event the body, or the input of the template
   HttpAnswer send(std::string_view id, std::string_view event, const std::stop_token& stop);
 
  private:
@@ -250,9 +250,8 @@ Delivery Webhook::deliver_events(std::span<const OutgoingEvent> events,
 }
 
 /// Posts each measurement as an event `measurement.recorded` whose webhook-id is the measurement's,
-/// and the other events that were asked for.
-/// 2xx is taken. 410 ends the connection. 400, 413, 415 and 422, five times, make a dead letter.
-/// Anything else is repeated for ever.
+/// and the other requested events. 2xx is success. 410 ends the connection. 400, 413, 415 and 422,
+/// five times, make a dead letter. Anything else is repeated for ever.
 std::unique_ptr<Outlet> make(const WebhookOptions& options, const Plant& plant) {
   return std::make_unique<Webhook>(options, plant);
 }

@@ -54,12 +54,12 @@ class Connection {
   std::unique_ptr<Conversation> conversation_;
   TelegramReader reader_;
   std::string out_;
-  Time since_;  ///< of what it is doing: reading a telegram, writing an answer, being silent
+  Time since_;  ///< of its current step: reading a telegram, writing a response, or silence
 };
 
 namespace {
 
-/// After a call that failed: goes on later, or the client has left.
+/// After a failed call: continue later, or the client is gone.
 std::optional<Ending> later_or_left() {
   if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return std::nullopt;
   return Ending{};
@@ -67,7 +67,7 @@ std::optional<Ending> later_or_left() {
 
 using Time = Connection::Time;
 
-/// Out of descriptors, say: clients wait in the kernel's queue for so long.
+/// Out of descriptors, for example: clients wait in the kernel's queue for this time.
 constexpr auto kAcceptPause = std::chrono::milliseconds(100);
 
 Error cannot_listen(const LinkServerOptions& options, std::string_view reason) {
@@ -224,7 +224,7 @@ class LinkServer::Loop {
       const short ready = polled[kOthers + i].revents;
       const Time now = std::chrono::steady_clock::now();
       std::optional<Ending> ending;
-      // A bug in a conversation ends that one alone.
+      // A bug in a session ends only that session.
       const bool well = guarded("a control's conversation", [&] {
         if ((ready & POLLOUT) != 0) {
           ending = connection.write(now);

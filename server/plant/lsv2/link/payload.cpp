@@ -5,7 +5,7 @@
 namespace fitgauge::control_link {
 namespace {
 
-/// The next character of UTF-8 where Latin-1 has it, else `?`; moves `text` past it.
+/// The next character of UTF-8 in Latin-1, else `?`; moves `text` past it.
 char latin1_character(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text.front());
   text.remove_prefix(1);
