@@ -293,7 +293,6 @@ Outcome<std::regex> pattern_of(const std::string& pattern) try {
       fmt::format("--pattern must be a regular expression; got '{}': {}", pattern, wrong.what())};
 }
 
-/// The value in a line that matches the pattern.
 std::optional<std::string> value_in(const std::string& line, const std::regex& pattern) {
   constexpr std::string_view kBlank = " \t";
   const auto begin = line.find_first_not_of(kBlank);

@@ -94,7 +94,6 @@ class Backoff {
 /// Called before each delay with its reason and length.
 using RetryNotice = std::function<void(const Failure&, std::chrono::milliseconds)>;
 
-/// A new idempotency key.
 std::string new_idempotency_key();
 
 /// Sends a request that may be repeated (a GET, or one with an idempotency key) until it gets an

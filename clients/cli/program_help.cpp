@@ -44,7 +44,6 @@ const CycleDescriptor* find_descriptor(CycleFamily family, int number) {
   return machining == nullptr ? nullptr : &machining->descriptor;
 }
 
-/// The cycle that a line begins.
 std::optional<CycleAt> cycle_of(std::string_view line) {
   static const std::regex kHead(
       R"(/?\s*(?:N?\d+)?\s*(?:(TCH\s+PROBE|CYCL\s+DEF|GLOBAL\s+DEF)\s*|G)(\d{1,4})(?!\d))",

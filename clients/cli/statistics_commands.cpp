@@ -11,7 +11,6 @@
 namespace fitgauge::cli {
 namespace {
 
-/// The values of a line.
 std::vector<std::string_view> values_of(std::string_view line) {
   constexpr std::string_view kBetween = " \t\r,;";
   std::vector<std::string_view> values;

@@ -74,7 +74,6 @@ class Connection final : public sql::Connection {
   /// Runs statements without parameters in the open transaction.
   void run_script(const std::string& sql);
 
-  /// The name of a new statement.
   std::string new_name() { return "s" + std::to_string(++names_); }
   /// A statement without users.
   void forget(const std::string& name) noexcept;

@@ -22,7 +22,6 @@ struct Migration {
 /// @errors DatabaseNewer if it has more; DatabaseForeign if the text of a migration differs.
 Result<int> check_steps(Connection& connection, std::span<const Migration> known);
 
-/// Records a migration.
 void record_step(Connection& connection, const Migration& step, std::int64_t now_ns);
 
 Error newer_database(std::int64_t found, std::size_t known);

@@ -51,7 +51,6 @@ struct RunFile {
   std::string content{};
 };
 
-/// Results of a run.
 struct RunOutcome {
   RunStatus status = RunStatus::Completed;
   std::string_view result{};

@@ -71,7 +71,6 @@ struct LoadedTables {
       computed{};  ///< of the content as loaded: differs from revision.digest when a cell changed
 };
 
-/// Input of an import.
 struct TableImport {
   TableContent content{};
   std::string source{};

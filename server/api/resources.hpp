@@ -143,7 +143,6 @@ Schemas make_schemas(const Schemas& of_plant = {});
 schema::Fields limits_fields();
 /// In addition to the limits: the measured value and its verdict.
 schema::Fields verdict_fields();
-/// Warnings of a verdict.
 schema::Fields warnings_field();
 
 /// The formula of an answer.

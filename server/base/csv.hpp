@@ -32,7 +32,6 @@ std::string_view without_formula_guard(std::string_view text);
 
 namespace fitgauge::api {
 
-/// One cell of a CSV record.
 struct CsvCell {
   std::string_view text;  ///< without the quotes, doubled quotes undone
   bool quoted = false;

@@ -50,7 +50,6 @@ int run_command_line(int argc, char** argv);
 /// @errors those of opening the database and of listening.
 Result<void> serve(const Config& config, const std::string& port_file);
 
-/// The configuration of the application.
 inline app::ApplicationOptions application_options(const Config& config) {
   app::ApplicationOptions options;
   options.directory = config.data;

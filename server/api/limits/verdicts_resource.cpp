@@ -179,7 +179,6 @@ Result<http::Response> verdict(const http::Request& request,
       limits->etag);
 }
 
-/// A field of a measurement as a parameter.
 http::Parameter parameter_of(const app::MeasurementField& field) {
   http::Parameter parameter{.name = std::string(field.name),
                             .description = std::string(field.meaning)};

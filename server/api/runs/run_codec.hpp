@@ -80,7 +80,6 @@ class TraceCsv {
   std::vector<Column> columns_;
 };
 
-/// The schema of a trace.
 void add_trace_schema(Schemas& schemas);
 
 }  // namespace fitgauge::api

@@ -54,7 +54,6 @@ void members(auto& v, const NamedViolation& named) {
   v.optional("subgroup", named.subgroup, "Name of the subgroup of stored values");
 }
 
-/// Names the point of a violation.
 using NamePoint = std::function<void(NamedViolation&)>;
 
 /// The form of violations.

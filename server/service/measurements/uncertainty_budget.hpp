@@ -25,7 +25,6 @@ struct UncertaintyBudget {
   metrology::CombinedUncertainty combined{};
 };
 
-/// The schema of a budget.
 std::string uncertainty_budget_schema();
 
 /// @errors RequestInvalid with every bad field.

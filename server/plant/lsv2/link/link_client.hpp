@@ -10,7 +10,6 @@
 
 namespace fitgauge::control_link {
 
-/// The identity of a control.
 struct ControlIdentity {
   std::string control{};      ///< TNC640
   std::string nc_software{};  ///< 340595 08 SP1
