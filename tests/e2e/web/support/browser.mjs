@@ -20,7 +20,7 @@ export const PATIENCE_MS = 60000;
 const BROWSERS = {
   chromium: () => playwright.chromium.launch({
     timeout: PATIENCE_MS,
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium-headless-shell',
     args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
       '--disable-component-update', '--disable-sync'],
   }),
@@ -28,7 +28,9 @@ const BROWSERS = {
   firefox: () => playwright._bidiFirefox.launch({
     timeout: PATIENCE_MS,
     executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr', channel: 'moz-firefox',
-    firefoxUserPrefs: { 'browser.download.folderList': 2, 'browser.download.dir': downloads(), 'browser.download.useDownloadDir': true },
+    firefoxUserPrefs: { 'browser.download.folderList': 2, 'browser.download.dir': downloads(), 'browser.download.useDownloadDir': true,
+      // One process for all pages, none begun before it is asked for.
+      'fission.autostart': false, 'dom.ipc.processCount': 1, 'dom.ipc.processPrelaunch.enabled': false },
   }),
 };
 export const browserName = process.env.WEB_TEST_BROWSER ?? 'chromium';

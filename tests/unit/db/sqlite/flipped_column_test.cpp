@@ -169,10 +169,11 @@ std::vector<Column> columns_of(sqlite::Connection& connection) {
 /// Changes the newest row's value as a bit that flips would.
 std::string flip(const Column& column) {
   return fmt::format(
+      "PRAGMA foreign_keys = OFF; PRAGMA ignore_check_constraints = ON; "
+      "PRAGMA synchronous = OFF; BEGIN; "
       "DROP TRIGGER measurements_are_not_updated; DROP TRIGGER notes_are_not_updated; "
-      "DROP TRIGGER changes_are_not_updated; DROP TRIGGER note_origins_are_not_updated; PRAGMA "
-      "foreign_keys = OFF; "
-      "PRAGMA ignore_check_constraints = ON; UPDATE {0} SET {1} = CASE typeof({1}) "
+      "DROP TRIGGER changes_are_not_updated; DROP TRIGGER note_origins_are_not_updated; "
+      "UPDATE {0} SET {1} = CASE typeof({1}) "
       "WHEN 'integer' THEN {1} + 1 WHEN 'null' THEN 1 "
       "WHEN 'text' THEN char(unicode({1}) + 1) || substr({1}, 2) "
       "ELSE CAST((CASE hex(substr({1}, 1, 1)) WHEN '41' THEN 'B' ELSE 'A' END) || "
@@ -185,13 +186,20 @@ std::string flip(const Column& column) {
       "CREATE TRIGGER note_origins_are_not_updated BEFORE UPDATE ON note_origins\nBEGIN "
       "SELECT RAISE(ABORT, 'a note is never changed: add another'); END; "
       "CREATE TRIGGER changes_are_not_updated BEFORE UPDATE ON changes\nBEGIN "
-      "SELECT RAISE(ABORT, 'a change is never altered'); END",
+      "SELECT RAISE(ABORT, 'a change is never altered'); END; COMMIT",
       column.first, column.second);
 }
 
 }  // namespace
 
-TEST_CASE("a changed value is found in every column of every table") {
+// One thread does all of it: ThreadSanitizer has nothing to find and takes minutes.
+#ifdef __SANITIZE_THREAD__
+constexpr bool kNotHere = true;
+#else
+constexpr bool kNotHere = false;
+#endif
+
+TEST_CASE("a changed value is found in every column of every table" * doctest::skip(kNotHere)) {
   Everything sample;
   const auto columns = [&] {
     sqlite::Connection connection(sample.directory.file(), sqlite::Mode::Read);
