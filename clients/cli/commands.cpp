@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <array>
-#include <string>
-
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "cli/limits_commands.hpp"
 #include "cli/registration.hpp"
