@@ -70,7 +70,7 @@ class Writer {
     pdf_.close();
   }
 
-  /// A line of its own. One that is too long goes on in the next.
+  /// A separate line. A line that is too long continues in the next one.
   void paragraph(float size, const std::string& text, std::string_view type = "P") {
     pdf_.open(type);
     for (const std::string& line : pdf_.wrapped(text, size, width() - kCode)) {
@@ -94,7 +94,7 @@ class Writer {
 
 using Columns = std::span<const Column>;
 
-/// The tolerance in grey, half as wide as the drawing, with the value: a value far outside lies at
+/// The tolerance in grey, half as wide as the drawing, with the value: a value far outside is at
 /// the end.
 std::string drawing(float place, float x, float y, float width, float height) {
   const float at = x + width * (0.25F + 0.5F * std::clamp(place, -0.48F, 1.48F));
@@ -184,7 +184,7 @@ void write_code(Writer& out, const std::string& text, float top) {
   out.element("Figure", boxes, "/Alt" + TaggedPdf::string("QR code: " + text));
 }
 
-/// The logo, the address, the title and what the report is of.
+/// The logo, the address, the title and the subject of the report.
 void write_head(Writer& out, const Certificate& certificate) {
   const Picture& logo = certificate.letterhead.logo;
   float y = out.y();

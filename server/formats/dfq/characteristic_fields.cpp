@@ -1,5 +1,5 @@
-// Fields that all values of a characteristic share: its name, size, limits and user field, and what
-// it lacks.
+// Fields that all values of a characteristic share: its name, size, limits and user field, and its
+// missing fields.
 
 #include <fmt/format.h>
 

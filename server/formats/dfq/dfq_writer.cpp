@@ -43,7 +43,7 @@ int decimals_of(std::string_view number) {
   return point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
 }
 
-/// `H` and `7`; nothing for a class that the two fields cannot say.
+/// `H` and `7`; none for a class that the two fields cannot express.
 std::optional<std::pair<std::string, std::string>> letters_and_grade(std::string_view name) {
   constexpr std::size_t kMost = 2;
   std::size_t letters = 0;
@@ -75,7 +75,7 @@ bool is_ambiguous(std::string_view bytes) {
   return false;
 }
 
-/// Where it has no other characters.
+/// If it has no other characters.
 std::optional<std::string> as_windows1252(std::string_view text) {
   static const auto upper = [] {
     std::map<std::string, char, std::less<>> map;
@@ -304,7 +304,7 @@ void DfqWriter::append_description(std::string& out,
 
 void DfqWriter::append_values(std::string& out, const std::vector<std::size_t>& indices) const {
   for (std::size_t first = 0; first < values_.size();) {
-    // Values of one part that come in the order of its characteristics stand in one line.
+    // Values of one part in the order of its characteristics are on one line.
     std::size_t end = first + 1;
     while (end < values_.size() && !values_[first].part_id.empty() &&
            values_[end].part_id == values_[first].part_id &&

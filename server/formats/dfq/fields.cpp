@@ -72,7 +72,7 @@ static_assert(std::is_sorted(kFields.begin(), kFields.end(),
 
 constexpr char kBar = '|';
 
-/// Fields from a text that begins behind the first bar and ends with one.
+/// Fields of a text that begins after the first bar and ends with one.
 std::optional<std::vector<CarriedField>> parse_fields(std::string_view text) {
   std::vector<CarriedField> fields;
   while (!text.empty()) {

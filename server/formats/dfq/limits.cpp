@@ -35,7 +35,7 @@ constexpr std::array<std::pair<std::string_view, LengthUnit>, 20> kUnits = {{
     {"\"", LengthUnit::Inch},
 }};
 
-/// Digits behind the point of a value that is one nanometre.
+/// Digits after the point of a value of one nanometre.
 constexpr int decimals_of(LengthUnit unit) {
   switch (unit) {
     case LengthUnit::Micrometre: return 3;

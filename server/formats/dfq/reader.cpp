@@ -9,7 +9,7 @@
 namespace fitgauge::aqdef {
 namespace {
 
-/// Where a field of a value stands between the separators; npos for any other.
+/// Place of a field of a value between the separators; npos for any other.
 std::size_t place_of(int number) {
   const auto* const found = std::find(kCells.begin(), kCells.end(), number);
   return found == kCells.end() ? std::string_view::npos
@@ -71,7 +71,7 @@ Result<bool> Reader::next(ValueSet& set) {
     auto read = read_set(line, set);
     if (!read) return read;
     if (moves == lines_.moves()) break;
-    // Room was made for its end, so the views are of where the lines were.
+    // The buffer has moved, so the views are of the old place of the lines.
     lines_.rewind();
     lines_.next(line);
   }
@@ -135,7 +135,7 @@ Result<void> Reader::add_values(const Lines::Line& line, ValueSet& set) {
     return at_line(line.number, fmt::format("begins with '{}', and is neither a field nor a value",
                                             first_characters(rest, 20)));
   }
-  // Behind the last value may stand a separator.
+  // A separator may follow the last value.
   if (rest.back() == kValueSeparator) rest.remove_suffix(1);
   const std::size_t count = description_.count();
   set.text = rest.data();

@@ -11,7 +11,7 @@
 namespace fitgauge::log_reader {
 namespace {
 
-/// The text of an element, its kind, and where it begins.
+/// The text of an element, its kind and its begin.
 struct Element {
   std::string name;  ///< h1, h2, h3, p, tr
   std::string text;  ///< of a row the cells, each closed by a tab
@@ -51,7 +51,7 @@ bool is_kept(std::string_view name) {
   return name == "h1" || name == "h2" || name == "h3" || name == "p" || name == "tr";
 }
 
-/// Headings, paragraphs and rows of a page in their order. Whatever it is, it ends with the page.
+/// Headings, paragraphs and rows of a page in their order, up to the end of the page.
 std::vector<Element> elements_of(std::string_view page) {
   std::vector<Element> elements;
   std::optional<Element> open;

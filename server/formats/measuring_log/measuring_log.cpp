@@ -41,7 +41,7 @@ constexpr std::array<std::string_view, 3> kMain{"main axis", "reference axis", "
 constexpr std::array<std::string_view, 4> kSecondary{"secondary axis", "minor axis", "nebenachse",
                                                      "second axis"};
 
-/// A whole number at the front, which is taken away.
+/// Removes a whole number from the front.
 std::optional<int> take_number(std::string_view& text) {
   int value = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);

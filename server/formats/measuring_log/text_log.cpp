@@ -32,7 +32,7 @@ bool is_rule(std::string_view line) {
   return line.find_first_not_of("-_*= ") == std::string_view::npos;
 }
 
-/// Takes the lines of a file, one after the other.
+/// Reads the lines of a file in order.
 class TextReader {
  public:
   /// @param is_whole whether its line end is there; the cycle may still write the rest of it.
@@ -46,7 +46,7 @@ class TextReader {
   void take_line(std::string_view line, std::string_view lower, std::size_t number);
   void take_head(std::string_view label, std::string_view value, std::size_t number);
   void end();
-  /// The log that is being read cannot be; the first reason is told.
+  /// The current log is unreadable; reports the first reason.
   void spoil(std::size_t line, std::string why);
   void match_limits();
   std::vector<Entry>& of(Section section) { return entries_.at(static_cast<std::size_t>(section)); }
@@ -95,7 +95,7 @@ void TextReader::take(std::string_view raw, std::size_t number, bool is_whole) {
   }
   if (cycle_of_title(lower) || is_rule(line)) return;
   if (!is_inside_) {
-    // The first line of what is none tells of all of it.
+    // The first line of another text represents all of it.
     if (!has_stray_)
       reading_.unread.push_back({number, "this is not a log of a touch-probe cycle"});
     has_stray_ = true;
@@ -114,7 +114,7 @@ void TextReader::take_line(std::string_view line, std::string_view lower, std::s
     }
     return spoil(waiting_.line, fmt::format("'{}' has no number", waiting_.written));
   }
-  // A label may hold colons itself; a value, of a time or a path, stands in the head alone.
+  // A label may have colons; a value with colons (a time or a path) is only in the head.
   const bool is_head = section_ == Section::Head;
   const std::size_t colon = is_head && !lower.starts_with("unit") && !lower.starts_with("type") &&
                                     lower.find("0=mm") == std::string_view::npos &&

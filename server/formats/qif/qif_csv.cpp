@@ -49,7 +49,7 @@ class QifRows::Converter {
  private:
   /// @returns whether there is a row.
   Result<bool> read_row(const Element& element, std::uint32_t line);
-  /// Why no measurement can hold it; empty where one can.
+  /// Returns why it is not a measurement; empty if it is one.
   std::string reason_against(const Element& element, const Definitions::Item& item) const;
   /// @pre reason_against() found none
   Result<void> read_tolerance(const Definitions::Item& item, std::uint32_t line);
@@ -58,7 +58,7 @@ class QifRows::Converter {
   Result<Length> length(std::string_view what, const std::string& text, std::uint32_t line) const;
   Result<std::optional<Length>> limit(const std::string& text, Length from, std::string_view what,
                                       std::uint32_t line) const;
-  /// Where nothing better has said it.
+  /// If nothing more specific is known.
   void fill(std::size_t place, std::string_view text) {
     if (fields_.at(place).empty()) fields_.at(place) = text;
   }

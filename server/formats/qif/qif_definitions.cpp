@@ -14,7 +14,7 @@ constexpr std::size_t kMostDefinitions = 100'000;          ///< of all kinds
 constexpr std::size_t kMostBytes = std::size_t{16} << 20;  ///< of their texts
 constexpr std::string_view kNamespace = "http://qifstandards.org/xsd/qif3";
 
-/// Lists whose elements are taken whole.
+/// Lists whose elements are read whole.
 constexpr std::array<std::string_view, 10> kLists = {
     "CharacteristicDefinitions", "CharacteristicNominals", "CharacteristicItems",
     "FeatureDefinitions",        "FeatureNominals",        "FeatureItems",

@@ -12,7 +12,7 @@ namespace {
 
 using Texts = std::vector<std::pair<std::string_view, std::string>>;
 
-/// `<Attributes>` of texts by their names; nothing where there is none.
+/// `<Attributes>` of texts by their names; empty without texts.
 std::string attributes(const Texts& texts) {
   if (texts.empty()) return {};
   std::string out = fmt::format("<Attributes n=\"{}\">", texts.size());

@@ -126,7 +126,7 @@ struct XmlReader::State {
   State& operator=(State&&) = delete;  // neither copied nor moved
   ~State() { XML_ParserFree(parser); }
 
-  /// The next event, which stays until it is taken; null at the end of the document.
+  /// The next event, until it is consumed; null at the end of the document.
   Result<Event*> event();
   Event& take_event() { return events[next++]; }
 

@@ -48,7 +48,7 @@ Result<std::string_view> RecordReader::peek_line() {
   for (;;) {
     const std::string_view ahead = std::string_view(room_).substr(at_);
     const std::size_t end = std::min(ahead.find_first_of("\r\n"), ahead.size());
-    // Behind a CR may come its LF.
+    // An LF may follow a CR.
     if (is_at_end_ || end + 1 < ahead.size()) return ahead.substr(0, end);
     if (const auto filled = fill(); !filled) return filled.error();
   }

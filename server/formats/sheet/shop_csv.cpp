@@ -45,7 +45,7 @@ class ShopRows::Converter {
   Result<bool> append(std::string& rows);
 
  private:
-  /// The field of a column: empty where it is left out, as it is where nobody knows it.
+  /// The field of a column: empty if it is left out or unknown.
   std::string field_of(std::string_view column) const;
   std::string header_of(const Record& record);
   /// @errors CsvMalformed: it is not of a gauge.
@@ -196,7 +196,7 @@ Result<std::string> ShopRows::Converter::read_header() {
   }
   records_.set_separator(separator.value_or(separator_of(first)));
   if (const auto read = records_.next(record_); !read) return read.error();
-  // Behind the header, so that the lines below keep their numbers.
+  // After the header, so that the next lines keep their numbers.
   return header_of(record_) + std::string(before, '\n');
 }
 

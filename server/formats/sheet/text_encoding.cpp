@@ -17,7 +17,7 @@ constexpr std::size_t kLooked = 64;           ///< bytes of the beginning
 constexpr std::size_t kLongestCharacter = 4;  ///< of UTF-8
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 
-/// Reads the next piece behind what is there. @returns how many bytes it has; 0 at the end
+/// Reads the next piece and appends it. @returns its number of bytes; 0 at the end
 Result<std::size_t> read_on(const Read& read, std::string& bytes) {
   const std::size_t size = bytes.size();
   bytes.resize(size + kPiece);
@@ -58,8 +58,8 @@ bool is_big_endian(std::string_view bytes) {
   return zeros(bytes, 0) > zeros(bytes, 1);
 }
 
-/// Appends the whole characters at the front of a text. @param at where that stands, for the error
-/// @returns how many bytes they have.
+/// Appends the whole characters at the front of a text. @param at place of the text, for the error
+/// @returns their number of bytes.
 Result<std::size_t> append_utf16(std::string& out, std::string_view bytes, bool is_big,
                                  std::uint64_t at) {
   const auto unit = [&](std::size_t place) {
@@ -84,7 +84,7 @@ Result<std::size_t> append_utf16(std::string& out, std::string_view bytes, bool 
   return done;
 }
 
-/// How many bytes at the front of a text are whole characters; less than that where others follow.
+/// Number of bytes of whole characters at the front of a text; the rest of a character may follow.
 std::size_t valid_utf8(std::string_view bytes) {
   return std::min(find_invalid_utf8(bytes), bytes.size());
 }

@@ -26,7 +26,7 @@ std::int64_t days_since_1970(std::int64_t year, int month, int day) {
       .count();
 }
 
-/// Takes digits from the front: at least `least`, at most `most` of them.
+/// Reads digits from the front: at least `least`, at most `most` of them.
 std::optional<std::int64_t> take_digits(std::string_view& text, std::size_t least,
                                         std::size_t most) {
   std::int64_t number = 0;
@@ -96,7 +96,7 @@ Header take_header(Bytes& bytes) {
   return header;
 }
 
-/// `3`, `-3:30`, `+01:00:00` as seconds; positive is what the text says.
+/// `3`, `-3:30`, `+01:00:00` as seconds, with the sign of the text.
 std::optional<std::int64_t> take_clock(std::string_view& text) {
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text.remove_prefix(1);
@@ -294,8 +294,8 @@ std::int64_t TimeZone::offset_at(std::int64_t utc) const {
 }
 
 Result<Timestamp> TimeZone::instant(const WallTime& time) const {
-  // No zone is a day away, and none changes twice in two days: what stands before and after
-  // decides.
+  // No zone is a day away, and none changes twice in two days: the offsets before and after are
+  // enough.
   const std::int64_t before = offset_at(time.seconds - kDay);
   const std::int64_t after = offset_at(time.seconds + kDay);
   for (const std::int64_t offset : {before, after}) {

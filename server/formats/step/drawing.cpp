@@ -38,7 +38,7 @@ struct Entity {
   Group group = Group::NotGauged;
 };
 
-/// The entities that are looked for; whatever else is followed from them.
+/// The entities to search; all others are followed from them.
 constexpr std::array kEntities = {
     Entity{"DIMENSIONAL_SIZE", Group::Size},
     Entity{"DIMENSIONAL_SIZE_WITH_DATUM_FEATURE", Group::Size},
@@ -90,7 +90,7 @@ constexpr auto kNames = [] {
   return names;
 }();
 
-/// Where a relation has its two ends: the places of its parameters.
+/// The two ends of a relation: the places of its parameters.
 struct Relation {
   Group group;
   std::size_t from;
@@ -118,7 +118,7 @@ constexpr std::array<std::pair<std::string_view, Quantity>, 10> kQuantities = {{
     {"linear", Quantity::Width},
 }};
 
-/// All that the file says of one dimension.
+/// Everything in the file about one dimension.
 struct Found {
   std::optional<Length> nominal{};
   std::optional<Length> upper{};  ///< deviations
@@ -214,7 +214,7 @@ class Walker {
     }
     return name;
   }
-  /// Of the callout that shows it, else its own, else of its entity in words.
+  /// Name of its callout, else of the dimension, else of its entity in words.
   std::string name_of(std::uint32_t id, std::string_view entity) {
     std::string name = callout_of(id);
     if (name.empty()) name = text_in(file_, id, entity, 0);
@@ -392,7 +392,7 @@ class Walker {
     if (entity.group == Group::Size) {
       auto own = record_of(file_, id, "DIMENSIONAL_SIZE");
       if (own.empty()) own = record_of(file_, id, entity.name);
-      // The aspect and the name stand side by side, in a subtype not at its beginning.
+      // The aspect and the name are adjacent, in a subtype not at its beginning.
       const auto aspect = std::adjacent_find(
           own.begin(), own.end(),
           [](const auto& a, const auto& b) { return a.is(Kind::Reference) && b.is(Kind::Text); });

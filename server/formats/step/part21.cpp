@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 6> kSchemas = {
     "AP242_",           "AP203_", "AP214_", "AUTOMOTIVE_DESIGN", "CONFIG_CONTROL_DESIGN",
     "CONFIG_CONTROL_3D"};
 
-/// The number of some hexadecimal digits, none where others stand.
+/// The number of some hexadecimal digits, none for other characters.
 std::optional<std::uint32_t> hexadecimal(std::string_view digits, std::size_t count) {
   std::uint32_t code = 0;
   if (digits.size() < count) return std::nullopt;
