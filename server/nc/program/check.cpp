@@ -22,7 +22,7 @@ std::string_view word(FileReference::Kind kind) {
   return word_of(kind, {"program", "table", "mask"});
 }
 
-/// Walks a program and what it calls, each file once.
+/// Checks a program and the programs that it calls, each file once.
 class Walk {
  public:
   Walk(const ControlDisk& disk, ProgramCache& programs, Allowance& allowance)
@@ -58,7 +58,7 @@ class Walk {
     return true;
   }
 
-  /// A program that is still to be looked into, and where it is named.
+  /// A program to check, and the place of its name.
   struct Named {
     ControlPath path;
     FileReference reference;

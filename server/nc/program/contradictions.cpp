@@ -74,7 +74,7 @@ unsigned senses_of(std::string_view text) {
   return senses;
 }
 
-/// The text means something of a group, and nothing of what is meant.
+/// The text means something in a group, but not the intended item.
 bool contradict(unsigned said, unsigned meant, std::span<const unsigned> groups) {
   return std::ranges::any_of(groups, [&](unsigned group) {
     return (said & group) != 0 && (meant & group) != 0 && (said & meant & group) == 0;
@@ -352,7 +352,7 @@ class Contradictions {
     }
     for (const auto& [nominal, limit] : kLimitsOfSize) {
       const bool is_tolerance = limit == 279 || limit == 280;
-      // Grade IT16 of ISO 286 with its largest deviation lies within.
+      // Grade IT16 of ISO 286 with its largest deviation is within it.
       if (!is_probing || !values.contains(nominal) || !values.contains(limit) ||
           value(limit) == 0 ||
           std::abs(value(limit) - (is_tolerance ? 0 : value(nominal))) <=
@@ -371,7 +371,7 @@ class Contradictions {
     }
   }
 
-  /// `Q274=+50` right behind a cycle that lacks Q274: the line before it has no `~`.
+  /// `Q274=+50` directly after a cycle without Q274: the previous line has no `~`.
   void check_line_before(klartext::QRef target) {
     const auto* cycle =
         before_ == nullptr ? nullptr : std::get_if<klartext::Cycle>(&before_->statement);

@@ -34,7 +34,7 @@ Diagnostic diagnose(const klartext::Program& program, const klartext::Block& blo
 Diagnostic diagnose(const klartext::Program& program, const klartext::Block& block,
                     klartext::Slice<char> place, klartext::Severity severity,
                     klartext::DiagnosticCode code, std::string message) {
-  // A finding lies within one physical line.
+  // A finding is within one physical line.
   const std::string_view written = program.written(place);
   place.count = static_cast<std::uint32_t>(std::min(written.find('\n'), written.size()));
   const SourceRange range = program.range(place);

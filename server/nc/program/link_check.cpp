@@ -49,7 +49,7 @@ bool is_feed_word(klartext::CycleValue kind) {
   return kind != klartext::CycleValue::Expression && kind != klartext::CycleValue::Predef;
 }
 
-/// Finds what is wrong with one block.
+/// Finds the faults of one block.
 class BlockCheck {
  public:
   BlockCheck(const klartext::Program& program, const Block& block,
@@ -127,7 +127,7 @@ class BlockCheck {
             block.family == klartext::CycleFamily::TchProbe ? owner(block) : std::string()));
   }
 
-  /// PREDEF stands for a value of a GLOBAL DEF, so a parameter that none has takes no PREDEF.
+  /// PREDEF is the value of a GLOBAL DEF, so a parameter without one must not have PREDEF.
   void check_predefined(const klartext::Cycle& cycle) {
     const bool defines = cycle.family == klartext::CycleFamily::GlobalDef;
     for (const auto& written : program_.view(cycle.parameters)) {
@@ -140,7 +140,7 @@ class BlockCheck {
     }
   }
 
-  /// @return the values that are written out and may stand there.
+  /// @return the explicit values that are allowed.
   probing::Arguments check_parameters(const klartext::Cycle& cycle,
                                       const probing::CycleDescriptor& descriptor) {
     probing::Arguments known(descriptor);

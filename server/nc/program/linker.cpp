@@ -268,7 +268,7 @@ class Linker {
     return text == nullptr ? std::string_view() : program_.text(*text);
   }
 
-  /// Which table is open at a block is certain if the program opens one alone and writes none.
+  /// The open table at a block is certain if the program opens only one and writes none.
   void collect_cells() {
     if (opened_ == nullptr || !is_one_table_ || path_of(*opened_).empty()) return;
     for (const auto& [block, read] : reads_) {
@@ -329,7 +329,7 @@ std::size_t bytes_of(const std::vector<T>& pool) {
 }
 
 std::size_t memory_of(const LinkedParts& parts) {
-  // A node of a hash table: its link, the hash of a name, and the word beside it.
+  // A node of a hash table: its link, the hash of a name, and its word.
   constexpr std::size_t kNode = 4 * sizeof(void*);
   std::size_t bytes = bytes_of(parts.code) + bytes_of(parts.block_of) + bytes_of(parts.constants) +
                       bytes_of(parts.cycles) +

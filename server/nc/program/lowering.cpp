@@ -77,7 +77,7 @@ void CodeWriter::lower_node(std::uint32_t target, NodeIndex index) {
   const auto operands = program_.operands(index);
   Instruction instruction{.op = Op::Compute, .function = node.op, .c = target};
   if (!operands.empty()) instruction.a = value(operands[0]);
-  // Where there is no second operand, any defined cell will do.
+  // Without a second operand, any defined cell is usable.
   instruction.b = operands.size() > 1 ? value(operands[1]) : instruction.a;
   switch (node.op) {
     case Operator::Add: instruction.op = Op::Add; break;

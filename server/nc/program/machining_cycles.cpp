@@ -27,7 +27,7 @@ constexpr CycleParameter length(int number, std::string_view meaning, double val
 constexpr CycleParameter angle(int number, std::string_view meaning, double value = 0) {
   return probing::parameter::angle(number, meaning, kLongest, value);
 }
-/// A feed, also MAX, AUTO, FU and FZ; 0 where the control's dialog allows it.
+/// A feed, also MAX, AUTO, FU and FZ; 0 if the control's dialog allows it.
 constexpr CycleParameter feed(int number, std::string_view meaning, double value = 0) {
   return {.id = q(number),
           .meaning = meaning,

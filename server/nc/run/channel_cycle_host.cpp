@@ -5,7 +5,7 @@
 
 namespace fitgauge::interpreter {
 
-/// A failure as a cycle passes it on; its kind (a budget) is kept here.
+/// A failure as a cycle returns it; its kind (a budget) is stored here.
 probing::CycleResult<void> ChannelCycleHost::reported(const NcResult<void>& done) {
   if (done) return {};
   keep(done);

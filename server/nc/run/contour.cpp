@@ -82,7 +82,7 @@ machine::Position Contour::position(const machine::Machine& machine) const {
   return position;
 }
 
-/// Gives an element to the cutter and keeps where the programmed path then is.
+/// Passes an element to the cutter and stores the new end of the programmed path.
 NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
   if (drawing_) return drawing_->add(element);
   const bool is_beside = element.side != 0 || cutter_.side() != 0;
@@ -98,7 +98,7 @@ NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
   return {};
 }
 
-/// LN with DR: the tool stands beside the programmed path until a block without a normal.
+/// LN with DR: the tool is offset from the programmed path until a block without a normal.
 NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element) {
   machine::Position programmed = position(machine);
   for (const machine::Axis axis : machine::kAllAxes) {
@@ -145,7 +145,7 @@ NcResult<void> Contour::set_corner(double size, bool is_chamfer,
   return {};
 }
 
-/// Moves along the kept element up to the corner and around it; `next` begins behind it.
+/// Moves along the postponed element up to the corner and around it; `next` begins after it.
 NcResult<void> Contour::turn_corner(machine::Machine& machine, Element& next) {
   Element before = *std::exchange(kept_, std::nullopt);
   const auto corner = std::exchange(corner_, std::nullopt);
@@ -183,7 +183,7 @@ NcResult<void> Contour::add(machine::Machine& machine, Approach approach) {
   return {};
 }
 
-/// Moves the centre of the tool to the begin of the contour, which `next` goes on with.
+/// Moves the centre of the tool to the begin of the contour, which `next` continues.
 NcResult<void> Contour::approach(machine::Machine& machine, const Element& next) {
   const auto contour_direction = next.curve.start_direction();
   if (!contour_direction) {

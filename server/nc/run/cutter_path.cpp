@@ -21,7 +21,7 @@ NcError too_large(double radius, Vec2 at, std::string_view where) {
                               radius, where, at.x, at.y));
 }
 
-/// Whether the centre of the tool goes forward from `start` to `end` beside a curve.
+/// Whether the centre of the tool moves forward from `start` to `end` along an offset curve.
 bool goes_forward(const Curve& curve, Vec2 start, Vec2 end) {
   if (!curve.is_arc())
     return dot(end - start, unit(curve.end - curve.start)) >= -tolerance::kNanometre;
@@ -164,7 +164,7 @@ NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) 
   if (begun_) {
     begin = *std::exchange(begun_, std::nullopt);
   } else if (!last_) {
-    // A block of another kind came between; there the tool stands square to the element before.
+    // After a block of another kind the tool is square to the previous element.
     Element across{next.plane, {corner, begin, std::nullopt, 0}, next.from, {}, next.feed};
     set_plane_target(across, begin);
     if (auto done = move(machine, across); !done) return done;
@@ -210,7 +210,7 @@ NcResult<void> CutterPath::move_to(machine::Machine& machine, Vec2 end) {
     element.curve.start = at_;
     element.curve.end = end;
     if (element.curve.is_arc()) {
-      // Equal ends are a full circle only where the contour itself is one.
+      // Equal ends are a full circle only if the contour itself is one.
       element.curve.sweep_deg =
           norm(end - at_) < tolerance::kSamePoint && std::abs(element.curve.sweep_deg) < 360
               ? 0

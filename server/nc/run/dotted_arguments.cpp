@@ -91,7 +91,7 @@ class DottedReader {
     return set(*parameter, word, word.incremental && !is_direction ? here : 0);
   }
 
-  /// A number after dialog text: the values of a sub-line stand in this order.
+  /// A number after dialog text: the values of a sub-line have this order.
   NcResult<void> read_value(const Word& word, int part) {
     constexpr std::array kOrder{
         ParameterId::WordAngle,     ParameterId::WordDistance, ParameterId::WordReferenceSystem,

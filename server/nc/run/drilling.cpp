@@ -76,10 +76,9 @@ class Drilling {
                                              : SpindleState::StoppedAfterM3;
     return motion_.set_modes(modes);
   }
-  /// Stops above what is drilled by Q258 and breaks the chip each Q257.
+  /// Stops Q258 above the drilled depth and breaks the chip after each Q257.
   bool is_universal() const { return number_ == 205 || number_ == 264; }
-  /// Where feed begins again above the depth that is reached: the clearance, in 205 its advanced
-  /// stop distance.
+  /// Start of the feed above the reached depth: the clearance, in 205 its advanced stop distance.
   double stop_above(double reached) const {
     if (number_ == 1) return advanced_stop(heights_.bottom - heights_.surface);
     if (!is_universal()) return cycle_.value(200);
@@ -140,7 +139,7 @@ class Drilling {
     return motion_.to_height(reached - down_ * cycle_.value(256), cycle_.retraction());
   }
 
-  /// Out to the clearance, and back to the stop above what is reached.
+  /// Out to the clearance, and back to the stop above the reached depth.
   NcResult<void> clear_chips(double reached) {
     if (auto done = motion_.to_height(heights_.clearance,
                                       number_ == 203 ? cycle_.retraction() : Feed::rapid());
@@ -168,7 +167,7 @@ Feed thread_feed(const Machining& cycle, double factor = 1) {
   return Feed::at(std::abs(cycle.value(239)) * rpm * factor);
 }
 
-/// Q214: away from the wall, with the tool standing.
+/// Q214: away from the wall, with a stopped spindle.
 Vec2 withdrawal(const Machining& cycle, double by) {
   switch (static_cast<int>(cycle.value(214))) {
     case 1: return {-by, 0};
@@ -235,7 +234,7 @@ NcResult<void> bore_back(Machining& cycle) {
   const double below = lower_edge - cycle.value(200);
   const Vec2 centre = motion.point();
   const Vec2 beside = centre + withdrawal(cycle, cycle.value(251));
-  // The cutting edge enters the hole beside its centre and comes back up through the other side.
+  // The cutting edge enters the hole off its centre and returns on the other side.
   const auto through = [&](double height) -> NcResult<void> {
     if (auto done = motion.to_point(beside, Feed::rapid()); !done) return done;
     if (auto done = motion.to_height(height, cycle.feed(253)); !done) return done;

@@ -17,7 +17,7 @@ namespace {
 
 using klartext::CycleValue;
 
-/// Tells the observer which cycle commands the machine while this lives.
+/// Reports to the observer which cycle commands the machine during its lifetime.
 class MovedByCycle {
  public:
   MovedByCycle(Channel& channel, int number) : observer_(channel.environment.observer) {
@@ -30,7 +30,7 @@ class MovedByCycle {
   RunObserver& observer_;
 };
 
-/// A travel that ends before the nominal contact finds only material that lies nearer.
+/// A travel that ends before the nominal contact finds only nearer material.
 NcResult<void> note_short_travel(Channel& channel, const probing::Arguments& arguments) {
   const auto probe = channel.machine().state().probe_system();
   if (!probe || arguments.descriptor().find(probing::q(320)) == nullptr) return {};
@@ -74,7 +74,7 @@ NcResult<void> run_probing(Channel& channel, const klartext::Cycle& cycle,
   return run_probing(channel, *bound.probing, *std::move(arguments));
 }
 
-/// GLOBAL DEF: its values hold until the next one of its number, or the end of the run.
+/// GLOBAL DEF: its values apply until the next one of its number, or the end of the run.
 NcResult<void> define_globally(Channel& channel, const klartext::Cycle& cycle,
                                const BoundCycle& bound) {
   auto arguments = arguments_of(channel, cycle, bound);
@@ -86,7 +86,7 @@ NcResult<void> define_globally(Channel& channel, const klartext::Cycle& cycle,
   return {};
 }
 
-/// Keeps the cycle for M99 and CYCL CALL, or runs it at once where it is DEF-active.
+/// Stores the cycle for M99 and CYCL CALL, or runs it at once if it is DEF-active.
 NcResult<void> define(Channel& channel, MachiningDefinition definition) {
   ActiveCycle& active = channel.active_cycle;
   const MachiningShape shape = definition.cycle->shape;
@@ -117,7 +117,7 @@ NcResult<Next> run_builders(Channel& channel, klartext::CycleFamily family, int 
   return Next{};
 }
 
-/// Its parameters are Q parameters for the program that stands for it.
+/// Its parameters become Q parameters of its replacement program.
 NcResult<void> set_parameters(Channel& channel, const klartext::Cycle& cycle) {
   for (const auto& written : channel.program().view(cycle.parameters)) {
     if (written.kind != CycleValue::Expression || written.parameter.is_string()) continue;

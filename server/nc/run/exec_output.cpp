@@ -16,7 +16,7 @@ using klartext::MaskControl;
 using klartext::MaskControlKind;
 using klartext::MaskLanguage;
 
-/// FN 15: what a control collects during a program run.
+/// FN 15: output that a control collects during a program run.
 constexpr std::string_view kPrintFile = "%FN15RUN.A";
 
 /// A number with its sign always, a text as it is.
@@ -81,7 +81,7 @@ NcResult<PrintedMask> run_mask(Channel& channel, const klartext::MaskFile& mask)
       }
       if (!*text) continue;
       bytes += (*text)->size() + 1;
-      // A short mask can make long lines: what exceeds the budget is not even kept.
+      // A short mask can make long lines: text beyond the budget is not stored at all.
       if (bytes > channel.output.left()) return channel.output.charge(bytes).error();
       add_lines(**text, printed.lines);
     }

@@ -66,7 +66,7 @@ NcResult<std::vector<PatternPart>> read_elements(Channel& channel, klartext::Sli
   return elements;
 }
 
-/// Rows along the main axis; FRAME takes only their border.
+/// Rows along the main axis; FRAME uses only their border.
 void add_grid(const PatternPart& element, std::vector<Vec2>& points) {
   const int columns = element.count(Letter::NumX);
   const int rows = element.count(Letter::NumY);

@@ -86,7 +86,7 @@ class Executor : ExecutorSteps {
   FITGAUGE_KEEP(value);                                             \
   FITGAUGE_NEXT()
 
-// Jumps when `jumps`, goes on when `stays`; neither holds where an operand is undefined.
+// Jumps if `jumps`, continues if `stays`; neither is true if an operand is undefined.
 #define FITGAUGE_BRANCH(jumps, stays)                               \
   do {                                                              \
     const double a = cells[pc->a];                                  \
@@ -101,8 +101,8 @@ class Executor : ExecutorSteps {
   } while (false);                                                  \
   FITGAUGE_NEXT()
 
-// Leaves the loop for a function that says where the run goes on; null: it ended or failed. A
-// program call changes code and cells.
+// Leaves the loop for a function that returns the next instruction; null: the run ended or failed.
+// A program call changes code and cells.
 #define FITGAUGE_CALL(function)                                     \
   fuel_ = fuel;                                                     \
   next = (function);                                                \

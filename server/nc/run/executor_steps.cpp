@@ -137,7 +137,7 @@ const Instruction* ExecutorSteps::end_block(const Instruction* pc) {
   return end_program();
 }
 
-/// @returns where the caller goes on, or null at the end of the main program.
+/// @returns the next instruction of the caller, or null at the end of the main program.
 const Instruction* ExecutorSteps::end_program() {
   if (channel_.calls.depth() == depth_) return nullptr;
   const CallStack::Caller caller = channel_.calls.return_from_program();

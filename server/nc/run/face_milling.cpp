@@ -9,7 +9,7 @@
 namespace fitgauge::interpreter {
 namespace {
 
-/// The lanes of a surface: where each lies, and its two ends. The tool enters from outside.
+/// The lanes of a surface: their positions and both ends. The tool enters from outside.
 struct Lanes {
   Vec2 first;       ///< where the first one begins
   Vec2 step;        ///< from each to the next

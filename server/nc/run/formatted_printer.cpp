@@ -117,7 +117,7 @@ bool is_empty(const Channel& channel, QRef parameter) {
   return text == nullptr || text->empty();
 }
 
-/// The value of a placeholder; nothing where its line is left out.
+/// The value of a placeholder; nothing if its line is left out.
 NcResult<std::optional<Value>> value_of(Channel& channel, const MaskPlaceholder& placeholder,
                                         EmptyLines empty) {
   if (const auto* keyword = std::get_if<MaskKeyword>(&placeholder.value)) {
@@ -181,7 +181,7 @@ NcResult<void> FormattedPrinter::write(const Output& output) {
   if (output.most_bytes) {
     const auto file = files_.find(output.path);
     const std::size_t size = file ? file->bytes->size() : 0;
-    // A file that has reached its size takes no further entry.
+    // A file of maximum size accepts no further entry.
     if (size + text.size() > *output.most_bytes) return {};
   }
   return files_.append(output.path, text);

@@ -27,8 +27,8 @@ NcResult<void> change_frames(Channel& channel, const Change& change) {
   return checked(channel.machine().set_frames(frames));
 }
 
-/// TABLE ROT (decision 31): the table axis next to the workpiece is free where it is parallel to
-/// the tool in the plane. It turns until the plane's main axis lies along the machine's.
+/// TABLE ROT (decision 31): the table axis next to the workpiece is free if it is parallel to the
+/// tool in the plane. It turns until the plane's main axis is along the machine's.
 void turn_free_axis(const machine::MachineState& state, const Frames& plane, Vec3& rotary) {
   const auto& axes = state.kinematics.axes();
   const auto next_to_workpiece = std::find_if(axes.rbegin(), axes.rend(), [](const auto& axis) {
@@ -97,7 +97,7 @@ Vec3 tool_at(const machine::MachineState& state, const Vec3& rotary) {
   return machine::unit(on_table.direction_from_machine(workpiece));
 }
 
-/// MOVE keeps the tip where it is on the workpiece, TURN leaves the linear axes alone.
+/// MOVE keeps the tip in place on the workpiece, TURN does not move the linear axes.
 NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& moves) {
   machine::Machine& machine = channel.machine();
   if (moves.retraction) {

@@ -57,7 +57,7 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   const Place last = channel.place();
   auto closed = close_files(channel);
   if (!ending.error && !closed) ending.error = closed.error();
-  // A move or a loop that was interrupted has failed for that reason, whatever it says.
+  // An interrupted move or loop has failed for that reason, whatever its error.
   if (auto refusal = channel.budget.refusal()) ending.error = std::move(refusal);
 
   RunResult result;
@@ -70,7 +70,7 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
                                 : std::vector<klartext::DiagnosticNote>());
   }
   environment.observer.ends();
-  // The reported QL are those of the main program, also when the run ended in another.
+  // The reported QL are those of the main program, even if the run ended in another.
   while (!channel.calls.is_in_main()) {
     const CallStack::Caller caller = channel.calls.return_from_program();
     channel.parameters.enter(channel.linked(), caller.locals);

@@ -17,7 +17,7 @@ using machine::RotaryAxis;
 using machine::Vec3;
 using tabfile::TabTable;
 
-/// The row of a record that is no axis: how far the tool stands off.
+/// The row of a record that is not an axis: the offset of the tool.
 constexpr std::string_view kTool = "TOOL";
 constexpr std::string_view kOnTable = "TABLE";
 constexpr std::string_view kOnHead = "HEAD";
@@ -34,7 +34,7 @@ struct Record {
   Vec3 offset;
 };
 
-/// Reads one row after the other; the first thing that is wrong is kept.
+/// Reads one row after the other; keeps the first error.
 class RecordReader {
  public:
   explicit RecordReader(const TabTable& table) : table_(table) {}

@@ -15,7 +15,7 @@ namespace {
 
 using machine::SpindleState;
 
-/// Puts modes into the machine where the block changes them.
+/// Sets the modes of the machine that the block changes.
 NcResult<void> set_modes(Channel& channel, const machine::Modes& modes) {
   if (modes == channel.machine().state().modes) return {};
   if (auto set = checked(channel.machine().set_modes(modes)); !set) return set;

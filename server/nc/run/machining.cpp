@@ -20,7 +20,7 @@ double depth(const MachiningDefinition& definition, const machine::Tool* tool) {
 Heights heights_of(const MachiningDefinition& definition, const ToolMotion& motion) {
   Heights heights;
   if (definition.cycle->descriptor.dotted) {
-    // The old cycles begin at their clearance: the surface lies below the tool.
+    // The old cycles begin at their clearance: the surface is below the tool.
     heights.clearance = motion.height();
     heights.surface = heights.clearance - std::abs(definition.value(200));
     heights.second = heights.clearance;

@@ -29,7 +29,7 @@ NcResult<void> check_depth(const Machining& cycle) {
   return nc_error(1012, "the depth Q201 is negative: milling goes down from the surface");
 }
 
-/// Calls `mill` at each depth, plunging at `where` before.
+/// Calls `mill` at each depth, after plunging at `where`.
 template <class Mill>
 NcResult<void> at_each_depth(Machining& cycle, Vec2 where, const Mill& mill) {
   ToolMotion& motion = cycle.motion;
@@ -49,7 +49,7 @@ NcResult<void> at_each_depth(Machining& cycle, Vec2 where, const Mill& mill) {
   return cycle.leave();
 }
 
-/// A closed contour of lines and corner arcs, in a system of its own.
+/// A closed contour of lines and corner arcs, in a local system.
 struct Outline {
   Vec2 origin;
   double rotation_deg = 0;
@@ -100,7 +100,7 @@ NcResult<void> full_circle(Machining& cycle, Vec2 centre, double radius, double 
   return motion.to_point(centre, cycle.feed(207));
 }
 
-/// The offset of the figure's centre from where the tool stands, by Q367.
+/// The offset of the figure's centre from the tool position, by Q367.
 Vec2 rectangle_centre(const Machining& cycle, double half_length, double half_width) {
   switch (static_cast<int>(cycle.value(367))) {
     case 1: return {half_length, half_width};
@@ -250,7 +250,7 @@ NcResult<void> mill_circle(Machining& cycle) {
   const double half = cycle.value(223) / 2;
   const double radius = half - cycle.motion.tool_radius() - side_allowance(cycle);
   if (radius < 0) return does_not_fit(1029, cycle.motion.tool_radius());
-  // Q367 = 1 to 4: the tool stands at a quarter of the circle, on its axes.
+  // Q367 = 1 to 4: the tool is at a quarter of the circle, on its axes.
   constexpr std::array<Vec2, 5> kCentres{Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0},
                                          Vec2{0, -1}};
   const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 4.0));
@@ -283,7 +283,7 @@ NcResult<void> mill_circular_slot(Machining& cycle) {
   const double pitch = cycle.value(375) / 2;
   const double length = cycle.value(248);
   if (pitch - width <= 0) return nc_error(1003, "the slot lies across the centre of its circle");
-  // Q367: where on the slot the tool stands; Q376 is the angle of that place.
+  // Q367: position of the tool on the slot; Q376 is the angle of that place.
   constexpr std::array<double, 4> kParts{0, 0, 0.5, 1};
   const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 3.0));
   const double angle = cycle.value(376) - kParts[place] * length;

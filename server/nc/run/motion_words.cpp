@@ -166,7 +166,7 @@ NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<Word> words) 
     if (auto read = read_word(channel, word, out); !read) return read.error();
     if (word.letter == Letter::F && !word.argument) feed = &word;
   }
-  // M136 and M137 hold for the F of their own block.
+  // M136 and M137 apply to the F of their block.
   const bool per_revolution = channel.contour.feed_per_revolution;
   for (const MCall& call : out.m) {
     if (call.number == 136 || call.number == 137)

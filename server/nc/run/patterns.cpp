@@ -58,7 +58,7 @@ NcResult<void> run_pattern(Channel& channel, const MachiningDefinition& pattern)
   const double count =
       is_circle ? pattern.value(241, 1) : pattern.value(242, 1) * pattern.value(243, 1);
   if (count > kMostPoints) return nc_error(1015, "a pattern has at most 100000 points");
-  // The clearances and the surface of the pattern hold, not those of the cycle.
+  // The clearances and the surface of the pattern apply, not those of the cycle.
   MachiningDefinition cycle = *before;
   for (const int shared : {200, 203, 204}) cycle.values[shared] = pattern.value(shared);
   const double height = pattern.value(203) + std::max(pattern.value(200), pattern.value(204));

@@ -18,7 +18,7 @@ struct Offset {
   double radius = 0;
 };
 
-/// @param side positive to the left. Nothing where a circle shrinks to nothing.
+/// @param side positive to the left. None if a circle vanishes.
 std::optional<Offset> offset(const Curve& curve, Vec2 corner, double side) {
   if (!curve.is_arc()) {
     const Vec2 direction = unit(curve.end - curve.start);
@@ -59,7 +59,7 @@ std::vector<Vec2> intersect(const Offset& a, const Offset& b) {
   return {foot + reach, foot - reach};
 }
 
-/// Where a circle around `centre` touches the curve.
+/// Contact of a circle around `centre` with the curve.
 Vec2 touch(const Curve& curve, Vec2 centre) {
   if (curve.is_arc()) {
     const double radius = norm(curve.start - *curve.centre);
@@ -69,7 +69,7 @@ Vec2 touch(const Curve& curve, Vec2 centre) {
   return curve.start + direction * dot(centre - curve.start, direction);
 }
 
-/// Whether a point of the curve's line or circle lies between its ends.
+/// Whether a point of the curve's line or circle is between its ends.
 bool is_on(const Curve& curve, Vec2 point) {
   if (curve.is_arc()) {
     if (norm(point - curve.start) < tolerance::kNanometre) return true;

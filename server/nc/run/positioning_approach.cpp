@@ -13,7 +13,7 @@ NcResult<void> Positioning::approach() {
   auto to_start = element({start_, *end, std::nullopt, 0});
   if (!to_start) return to_start.error();
   set_plane_target(*to_start, *end);
-  // F of APPR LCT is that of its whole way, of the others that of its second part.
+  // F of APPR LCT applies to its whole way, of the others to the second part.
   const bool is_whole = !before || cartesian() == Path::ApprLct;
   const machine::Feed first_part = is_whole ? to_start->feed : *before;
   return contour().add(channel_.machine(),

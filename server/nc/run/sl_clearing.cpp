@@ -9,7 +9,7 @@
 namespace fitgauge::interpreter {
 namespace {
 
-/// Whether a point between the ray of the arc's start and that of its end lies in its sweep.
+/// Whether a point between the rays of the arc's start and end is in its sweep.
 bool is_in_sweep(const Curve& arc, Vec2 point) {
   if (std::abs(arc.sweep_deg) >= 360) return true;
   const double turn = sweep(arc.start, point, *arc.centre, arc.is_left_turn());
@@ -37,7 +37,7 @@ bool encloses(const SlContour& contour, Vec2 point) {
     const Vec2 b = curve.end - point;
     turns += std::atan2(cross(a, b), dot(a, b)) / (2 * machine::kPi);
     if (!curve.is_arc()) continue;
-    // The point may lie between the arc and its chord.
+    // The point may be between the arc and its chord.
     const double radius = norm(curve.start - *curve.centre);
     const double beside = cross(b - a, a * -1) * curve.sweep_deg;
     const bool is_circle = norm(b - a) < tolerance::kSamePoint;
@@ -58,7 +58,7 @@ bool is_in_material(const std::vector<SlContour>& contours, Vec2 point) {
   return is_in_pocket;
 }
 
-/// Where the line across at `y` meets a circle.
+/// Intersections of the line across at `y` with a circle.
 void add_circle(Vec2 centre, double radius, double y, std::vector<double>& out) {
   const double square = radius * radius - (y - centre.y) * (y - centre.y);
   if (radius <= 0 || square < 0) return;
@@ -66,7 +66,7 @@ void add_circle(Vec2 centre, double radius, double y, std::vector<double>& out) 
   out.push_back(centre.x + std::sqrt(square));
 }
 
-/// Where on the line at `y` the distance to the curve may become `reach`.
+/// Places on the line at `y` where the distance to the curve may become `reach`.
 void add_limits(const Curve& curve, double reach, double y, std::vector<double>& out) {
   add_circle(curve.start, reach, y, out);
   add_circle(curve.end, reach, y, out);
@@ -150,7 +150,7 @@ NcResult<std::vector<Lane>> clearing_lanes(const std::vector<SlContour>& contour
   high -= reach;
   std::vector<Lane> lanes;
   if (low > high) return lanes;
-  // Whole steps that are not longer than the spacing; the first and last lie beside the walls.
+  // Whole steps, at most as long as the spacing; the first and last are next to the walls.
   const double steps = std::max(1.0, std::ceil((high - low) / spacing - tolerance::kNanometre));
   Clearing clearing(contours, reach, budget);
   bool is_back = false;

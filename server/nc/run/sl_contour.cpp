@@ -40,7 +40,7 @@ std::vector<Curve> reversed(std::vector<Curve> curves) {
   return curves;
 }
 
-/// Where two lines meet; nothing when one is an arc or they are parallel.
+/// Intersection of two lines; none if one is an arc or they are parallel.
 std::optional<Vec2> corner_of(const Curve& before, const Curve& after) {
   if (before.is_arc() || after.is_arc()) return std::nullopt;
   const Vec2 along = before.end - before.start;
@@ -69,7 +69,7 @@ std::vector<Curve> with_sharp_corners(std::vector<Curve> curves, double distance
   return kept;
 }
 
-/// Begins in the middle of the longest curve: every corner then lies between two curves.
+/// Begins in the middle of the longest curve: every corner is then between two curves.
 void begin_in_the_middle(std::vector<Curve>& curves) {
   const auto longest = std::max_element(
       curves.begin(), curves.end(),
@@ -95,7 +95,7 @@ bool are_the_same(const machine::Frames& a, const machine::Frames& b) {
          a.rotation() == b.rotation() && a.scaling() == b.scaling();
 }
 
-/// Transformations of the subprogram hold in it alone.
+/// Transformations apply only in the subprogram.
 NcResult<SlDrawing> draw(Channel& channel, const klartext::Label& label) {
   const auto first = find_label(channel, label);
   if (!first) return nc_error(1024, "a contour label of cycle 14 is not defined in this program");

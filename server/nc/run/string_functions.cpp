@@ -19,7 +19,7 @@ using klartext::NodeIndex;
 using klartext::Operator;
 using Operands = std::span<const Expr>;
 
-/// Bytes that the characters of a string parameter take at most.
+/// Maximum bytes of the characters of a string parameter.
 constexpr std::size_t kLongestText = 4 * kLongestString;
 /// Digits that TOCHAR gives at most.
 constexpr int kMostDecimals = 15;

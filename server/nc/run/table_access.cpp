@@ -43,7 +43,7 @@ NcResult<std::vector<ColumnTarget>> targets(std::string_view columns, QRef first
   }
 }
 
-/// Program units in one unit of the table, for columns that hold lengths.
+/// Program units in one unit of the table, for columns of lengths.
 double unit_of(const TabTable& table, std::string_view column, double length_unit) {
   const auto index = table.find_column(column);
   if (!index) return 1;

@@ -17,7 +17,7 @@ using machine::CoordinateSystem;
 using machine::RotaryAxis;
 using machine::Vec3;
 
-/// The angle that looks like `angle`, lies in the range and is the nearest to `from`.
+/// The angle equivalent to `angle` that is in the range and nearest to `from`.
 std::optional<double> nearest_turn(double angle, double from, const machine::AxisRange& range) {
   const double whole = angle + 360 * std::round((from - angle) / 360);
   std::optional<double> nearest;

@@ -20,7 +20,7 @@ const Word* find(Words words, Letter letter) {
   return it == words.end() ? nullptr : &*it;
 }
 
-/// The number of a word, or `otherwise` where it is not written.
+/// The number of a word, or `otherwise` if it is absent.
 NcResult<double> value(Channel& channel, Words words, Letter letter, double otherwise) {
   const Word* word = find(words, letter);
   if (word == nullptr || is_absent(word->value)) return otherwise;
