@@ -29,6 +29,7 @@ struct LogStore::Statements {
       "SELECT (SELECT coalesce(max(id), 0) FROM measurements), (SELECT "
       "coalesce(max(id), 0) FROM runs), (SELECT coalesce(max(id), 0) FROM events), (SELECT "
       "coalesce(max(id), 0) FROM notes)"};
+  sql::Statement last_change{c, "SELECT coalesce(max(id), 0) FROM changes"};
   sql::Statement add_branch{c, kLogBranches.insert(c)};
   sql::Statement set_origin{c, "UPDATE log SET origin = ?, name = ?"};
   sql::Statement set_size{c, "UPDATE log SET size = ?1 WHERE size < ?1"};
@@ -67,6 +68,9 @@ std::array<std::int64_t, 4> numbers_in(const Rows& rows, int column) {
   return numbers;
 }
 
+// As 'centre' not in the comment of log_marks: the number of changes of an ended history.
+std::string mark_of_changes(std::string_view history) { return fmt::format("changes {}", history); }
+
 sql::Blob blob_of(const Origin& origin) {
   return {{reinterpret_cast<const char*>(origin.data()), origin.size()}};
 }
@@ -104,6 +108,10 @@ std::vector<LogStore::Branch> LogStore::branches() const {
   return branches;
 }
 
+std::int64_t LogStore::last_change(std::string_view history) const {
+  return std::stoll(statements_->reason_of(mark_of_changes(history)).value_or("0"));
+}
+
 bool LogStore::is_copy() const { return statements_->reason.query("copy").next(); }
 
 std::optional<std::string> LogStore::Statements::reason_of(std::string_view name) {
@@ -135,6 +143,8 @@ void LogStore::begin_branch(std::int64_t size, const Origin& origin, std::string
   }();
   statements_->add_branch.run(blob_of(ended.origin), ended.name.value_or(""), size, last[0],
                               last[1], last[2], last[3]);
+  statements_->mark.run(mark_of_changes(ended.name.value_or("")),
+                        std::to_string(statements_->last_change.returning<std::int64_t>()));
   statements_->set_origin.run(blob_of(origin), name);
   statements_->seal.renew(1);
   for (const char* const mark : {"copy", "forked"}) statements_->unmark.run(mark);

@@ -122,15 +122,17 @@ void list_changes(const Services& services, const http::Request& request,
                         .name = text_of(request, "name"),
                         .from_ns = time_of(request, "from"),
                         .to_ns = time_of(request, "to")},
-                       request.integer("after").value_or(0), request.integer("limit").value_or(100),
+                       std::string(request.text("after").value_or("0")),
+                       request.integer("limit").value_or(100),
                        answer_with(std::move(responder), [](const auto& page) {
                          return json_response(json_object([&page](JsonWriter& json) {
                            json.key("changes").begin_array();
                            for (const store::Change& change : page.changes)
                              json.raw(app::change_json(change));
                            json.end_array().key("next");
-                           page.has_more ? json.value(std::to_string(page.changes.back().id))
-                                         : json.null();
+                           page.has_more ? json.value(page.last) : json.null();
+                           json.key("last");
+                           page.last.empty() ? json.null() : json.value(page.last);
                          }));
                        }));
 }
@@ -165,7 +167,10 @@ void add_changes_schemas(Schemas& schemas) {
   schemas.push_back(
       {"Changes", schema::object({{"changes", schema::array(schema::ref("Change")), "Oldest first"},
                                   {"next", schema::null_or(schema::text()),
-                                   "Cursor for `after`; null on the last page"}})});
+                                   "Cursor for `after`; null on the last page"},
+                                  {"last", schema::null_or(schema::text()),
+                                   "Cursor of the newest change read, for `after` later; it names "
+                                   "its history. Null before the first change"}})});
 }
 
 void add_changes_routes(Routes& add) {
@@ -184,9 +189,7 @@ void add_changes_routes(Routes& add) {
             {.name = "limit",
              .type = http::Integer{1, 1000},
              .description = "Changes of a page, fewer of long ones; 100 when absent"},
-            {.name = "after",
-             .type = http::Integer{0},
-             .description = "`next` of the page before"}},
+            {.name = "after", .description = "`next` or `last` of an earlier page"}},
        .outcomes = {{.meaning = "A page, oldest first", .schema = "Changes"}}});
 }
 

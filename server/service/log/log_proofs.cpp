@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
+#include "base/number.hpp"
 #include "base/thread.hpp"
 #include "db/store/database.hpp"
 #include "proof/frontier.hpp"
@@ -142,15 +144,35 @@ void LogService::tile(std::string_view path, bool of_changes, Done<TileBytes> do
       std::move(done));
 }
 
-void LogService::changes(store::ChangeFilter filter, std::int64_t after, std::int64_t limit,
-                         Done<store::ChangesStore::Page> done) const {
+void LogService::changes(store::ChangeFilter filter, std::string after, std::int64_t limit,
+                         Done<ChangePage> done) const {
   database_.readers().submit(
-      [filter = std::move(filter), after,
-       limit](const store::Stores& stores) -> Result<store::ChangesStore::Page> {
-        if (after > stores.changes.size()) {
-          return Error{ErrorCode::CursorInvalid, "after must be the `next` of an earlier page"};
+      [filter = std::move(filter), after = std::move(after),
+       limit](const store::Stores& stores) -> Result<ChangePage> {
+        std::vector<std::pair<std::string, std::int64_t>> histories;  // and the last of each
+        for (const auto& ended : stores.log.branches()) {
+          histories.emplace_back(digits_of_origin(ended.origin),
+                                 stores.log.last_change(ended.name));
         }
-        return stores.changes.list(filter, after, limit);
+        histories.emplace_back(digits_of_origin(stores.log.state().origin), stores.changes.size());
+        const std::string_view given =
+            std::string_view(after).substr(after.starts_with('c') ? 1 : 0);
+        const std::size_t dash = std::min(given.find('-', 1), given.size());
+        const std::string_view digits = given.substr(std::min(dash + 1, given.size()));
+        const auto of = std::ranges::find_if(
+            histories, [&](const auto& each) { return digits.empty() || each.first == digits; });
+        const auto number = read_number<std::int64_t>(given.substr(0, dash));
+        if (!number || *number < 0 || of == histories.end() || *number > of->second) {
+          return Error{ErrorCode::CursorInvalid,
+                       "after must be `next` or `last` of an earlier page of this history"};
+        }
+        auto page = stores.changes.list(filter, *number, limit);
+        const std::int64_t last = page.changes.empty() ? *number : page.changes.back().id;
+        const auto own = std::find_if(histories.begin(), std::prev(histories.end()),
+                                      [last](const auto& each) { return last <= each.second; });
+        return ChangePage{.changes = std::move(page.changes),
+                          .last = last == 0 ? "" : fmt::format("c{}-{}", last, own->first),
+                          .has_more = page.has_more};
       },
       std::move(done));
 }

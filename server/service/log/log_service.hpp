@@ -132,10 +132,15 @@ class LogService {
   /// @errors NotFound; those of storage.
   void tile(std::string_view path, bool of_changes, Done<TileBytes> done);
 
-  /// Returns a page of changes after `after`, oldest first.
-  /// @errors CursorInvalid after the newest; those of storage.
-  void changes(store::ChangeFilter filter, std::int64_t after, std::int64_t limit,
-               Done<store::ChangesStore::Page> done) const;
+  struct ChangePage {
+    std::vector<store::Change> changes;
+    std::string last;  ///< cursor of the newest so far, cNUMBER-DIGITS; empty: there is none
+    bool has_more = false;
+  };
+  /// Returns a page of changes after a cursor, or after a number of the first history, oldest first.
+  /// @errors CursorInvalid after the end of its history; those of storage.
+  void changes(store::ChangeFilter filter, std::string after, std::int64_t limit,
+               Done<ChangePage> done) const;
   /// Returns the signed head of the tree of all changes, after storing it in the folder. Its name
   /// is the log's name with `/changes`, to distinguish it from heads of the measurements.
   /// @errors those of storage.

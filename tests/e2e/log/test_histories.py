@@ -122,6 +122,43 @@ class Folders(Restored):
         self.assertEqual(self.store(daemon, "n9")[0].split("-")[1], new[0].split("-")[1])
         self.assertEqual(daemon.log.count('"event":"log_branched"'), 1)
 
+    def test_a_reader_of_changes_misses_nothing_and_repeats_nothing(self):
+        daemon = self.made().start()
+        read = lambda query: daemon.get(f"/v1/changes?{query}")
+
+        def put(*names):
+            for name in names:
+                budget = {"contributions": [{"name": name, "standard_uncertainty": 0.8}]}
+                self.assertEqual(daemon.request("PUT", f"/v1/uncertainties/{name}", budget).status, 201)
+
+        self.assertIsNone(read("").json["last"])
+        put("a", "b")
+        kept = read("limit=1").json
+        self.assertEqual(kept["next"], kept["last"])
+        copy = self.backup(daemon)
+        held = read("").json["last"]
+        put("c", "d")
+        lost = read(f"after={held}").json
+        self.assertEqual([change["name"] for change in lost["changes"]], ["c", "d"])
+        self.assertEqual(read(f"after={lost['last']}").json, {"changes": [], "next": None, "last": lost["last"]})
+        self.assertEqual(daemon.stop(), 0)
+        self.restore(daemon, copy)
+        daemon.start()
+        put("e", "f", "g")
+        new = read(f"after={held}").json
+        self.assertEqual([change["name"] for change in new["changes"]], ["e", "f", "g"])
+        self.assertEqual([change["name"] for change in read(f"after={kept['next']}").json["changes"]], ["b", "e", "f", "g"])
+        self.assertNotEqual(new["last"].split("-")[1], held.split("-")[1])
+        # The numbers of the lost ones are given to others: as a cursor neither is known.
+        for cursor in (lost["last"], lost["changes"][0]["id"], lost["changes"][1]["id"], "c9-" + new["last"].split("-")[1], "x"):
+            answer = read(f"after={cursor}")
+            self.assertEqual((answer.status, answer.json["code"]), (400, "cursor.invalid"), cursor)
+        self.assertEqual(len(read(f"after={kept['changes'][0]['id']}").json["changes"]), 4)
+        daemon.stop()
+        daemon.start()
+        self.assertEqual(read(f"after={new['last']}").json["changes"], [])
+        self.assert_clean(daemon)
+
     def test_a_backup_at_once_after_a_write_covers_it(self):
         daemon = self.made().start()
         self.store(daemon, "d1 d2 d3")

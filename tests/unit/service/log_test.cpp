@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <atomic>
 #include <chrono>
@@ -114,11 +115,16 @@ TEST_CASE("a folder that knows changes which the database lacks begins a branch"
   CHECK(verified->findings == std::vector<std::string>());
   CHECK(verified->head.find("/changes: 2 changes, root ") != std::string::npos);
   CHECK(app->verify({{"lost", lost}})->findings ==
-        std::vector<std::string>{"changes up to 2 differ from the ones that lost has signed"});
-  const auto behind = [&](std::int64_t after) {
-    return wait_for<store::ChangesStore::Page>(
+         std::vector<std::string>{"changes up to 2 differ from the ones that lost has signed"});
+  const auto behind = [&](const std::string& after) {
+    return wait_for<LogService::ChangePage>(
         [&](auto done) { app->log().changes({}, after, 10, std::move(done)); });
   };
-  CHECK(behind(2).value().changes.empty());
-  CHECK(behind(3).error().code == ErrorCode::CursorInvalid);
+  const std::string newest = behind("0").value().last;
+  CHECK(newest == fmt::format("c2-{}", app->log().origin()));
+  CHECK(behind(newest).value().last == newest);
+  CHECK(behind(newest).value().changes.empty());
+  CHECK(behind("1").value().changes.size() == 1);
+  for (const char* const unknown : {"2", "3", "", "c", "c2-", "c-2", "-1", "c1-0123456789abcdef"})
+    CHECK(behind(unknown).error().code == ErrorCode::CursorInvalid);
 }
