@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,11 @@
 /// tool data and every Q parameter but the changed one are the same to 1 nm, nothing collides, the
 /// same faces of the part are touched as often, and the machine gets the same commands but for
 /// rapid traverse and the points of these faces. Every other mutant is missed.
+///
+/// A mutant is found at its line when the first finding that its original lacks lies in the changed
+/// block, or one of the other places that this finding names does. A value lies in the block that
+/// has written it last. Of a block that is left out, the block behind the gap counts, and of a TOOL
+/// CALL an error that says that it is missing.
 namespace fitgauge::mutants {
 namespace {
 
@@ -29,7 +35,8 @@ struct Options {
   std::size_t count = static_cast<std::size_t>(rounds(60, 500));
   std::optional<std::size_t> mutant{};
   bool shows_missed = false;
-  double least = 95;  ///< percent found; 60 mutants scatter by 2
+  bool shows_elsewhere = false;  ///< found at another line
+  double least = 95;             ///< percent found; 60 mutants scatter by 2
 };
 
 /// A subject with what its original does.
@@ -120,8 +127,12 @@ Mutant draw(const std::vector<Original>& originals, std::uint64_t seed, std::siz
 
 Judgement judge(const Mutant& mutant) {
   const Original& original = *mutant.original;
-  const auto outcome = outcome_of(original.subject, edited(original.text, mutant.edits));
-  return compare(original.outcome, outcome, mutant.site->target);
+  const std::string text = edited(original.text, mutant.edits);
+  const auto outcome = outcome_of(original.subject, text);
+  Judgement judgement = compare(original.outcome, outcome, mutant.site->target);
+  if (!judgement.parameters.empty())
+    judgement.at.line = line_of_last(original.subject, text, judgement.parameters);
+  return judgement;
 }
 
 /// The lines that differ, `-` and `+`.
@@ -148,10 +159,26 @@ std::string difference(const Mutant& mutant) {
   return text;
 }
 
-/// Whether a finding names the block that is changed.
-bool is_at_its_line(const Mutant& mutant, const Judgement& judgement) {
+/// How a finding names the block that is changed.
+enum class Named : std::uint8_t {
+  First,   ///< the finding itself lies there
+  Other,   ///< one of the places that it names besides
+  Missing  ///< a block is left out, and the finding says that this kind of block is missing
+};
+constexpr std::size_t kNamed = 3;
+
+std::optional<Named> named(const Mutant& mutant, const Judgement& judgement) {
   const Site& site = *mutant.site;
-  return judgement.line >= site.first_line && judgement.line <= site.last_line;
+  const auto is_there = [&](std::uint32_t line) {
+    return line >= site.first_line && line <= site.last_line;
+  };
+  if (is_there(judgement.at.line)) return Named::First;
+  if (std::ranges::any_of(judgement.at.notes, is_there)) return Named::Other;
+  const bool is_left_out = mutant.edits.size() == 1 && mutant.edits[0].by.empty();
+  if (is_left_out && site.kind == Kind::Tool &&
+      judgement.at.text.find("Tool axis is missing") != std::string::npos)
+    return Named::Missing;
+  return std::nullopt;
 }
 
 int report(const Options& options) {
@@ -166,13 +193,15 @@ int report(const Options& options) {
   if (options.mutant) {
     const Mutant mutant = draw(all, options.seed, *options.mutant);
     const Judgement judgement = judge(mutant);
-    fmt::print("{}{}: line {}: {}\n", difference(mutant), word(judgement.found), judgement.line,
-               judgement.reason);
+    fmt::print("{}{}: line {} (also {}): {}\n", difference(mutant), word(judgement.found),
+               judgement.at.line, fmt::join(judgement.at.notes, ", "), judgement.at.text);
     return 0;
   }
   std::map<Kind, std::array<std::size_t, kFound>> counts;
   std::array<std::size_t, kFound> sum{};
-  std::array<std::size_t, kFound> at_line{};
+  std::array<std::array<std::size_t, kFound>, kNamed> at_line{};
+  std::size_t places = 0;  ///< that the findings name
+  std::size_t found_by_message = 0;
   std::set<std::pair<const Original*, std::string>> distinct;
   for (std::size_t i = 0; i < options.count; ++i) {
     const Mutant mutant = draw(all, options.seed, i);
@@ -180,11 +209,18 @@ int report(const Options& options) {
     const auto at = static_cast<std::size_t>(judgement.found);
     ++counts[mutant.site->kind][at];
     ++sum[at];
-    at_line[at] += is_at_its_line(mutant, judgement) ? 1U : 0U;
+    const auto how = named(mutant, judgement);
+    if (how) ++at_line[static_cast<std::size_t>(*how)][at];
+    if (judgement.found <= Found::Run) {
+      places += 1 + judgement.at.notes.size();
+      ++found_by_message;
+    }
     distinct.emplace(mutant.original, edited(mutant.original->text, mutant.edits));
     const bool is_missed = judgement.found > Found::Record && judgement.found < Found::Equivalent;
-    if (is_missed && options.shows_missed)
-      fmt::print("{} {}: {}  {}\n", i, word(judgement.found), difference(mutant), judgement.reason);
+    const bool is_elsewhere = judgement.found <= Found::Record && !how;
+    if ((is_missed && options.shows_missed) || (is_elsewhere && options.shows_elsewhere))
+      fmt::print("{} {}: {}  line {} ({}): {}\n", i, word(judgement.found), difference(mutant),
+                 judgement.at.line, fmt::join(judgement.at.notes, " "), judgement.at.text);
   }
   const auto row = [](std::string_view name, const std::array<std::size_t, kFound>& numbers) {
     fmt::print("{:14}", name);
@@ -196,7 +232,12 @@ int report(const Options& options) {
   fmt::print("\n");
   for (const auto& [kind, numbers] : counts) row(word(kind), numbers);
   row("all", sum);
-  row("at its line", at_line);
+  row("at its line", at_line[static_cast<std::size_t>(Named::First)]);
+  row("beside", at_line[static_cast<std::size_t>(Named::Other)]);
+  row("missing", at_line[static_cast<std::size_t>(Named::Missing)]);
+  fmt::print("a finding of check or run names {:.2f} places\n",
+             static_cast<double>(places) /
+                 static_cast<double>(std::max<std::size_t>(found_by_message, 1)));
   const auto of = [&](Found found) { return sum[static_cast<std::size_t>(found)]; };
   const std::size_t missed = of(Found::Faces) + of(Found::Commands);
   const std::size_t counted = options.count - of(Found::Equivalent);
@@ -215,13 +256,14 @@ Options read(int count, char** arguments) {
   Options options;
   for (int i = 1; i < count; ++i) {
     const std::string_view option = arguments[i];
-    if (option == "--missed") {
-      options.shows_missed = true;
+    if (option == "--missed" || option == "--elsewhere") {
+      (option == "--missed" ? options.shows_missed : options.shows_elsewhere) = true;
       continue;
     }
     if (i + 1 >= count)
       throw std::runtime_error(
-          "mutants [--seed N] [--count N | --mutant K] [--least PERCENT] [--missed]");
+          "mutants [--seed N] [--count N | --mutant K] [--least PERCENT] [--missed] "
+          "[--elsewhere]");
     const std::string value = arguments[++i];
     if (option == "--seed") options.seed = std::stoull(value);
     if (option == "--count") options.count = std::stoull(value);

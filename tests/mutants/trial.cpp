@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/program/parameter.hpp"
+#include "nc/run/q_parameters.hpp"
 
 namespace fitgauge::mutants {
 namespace {
@@ -17,19 +19,79 @@ using interpreter::golden::Case;
 /// Follows the lines of one file.
 class Follower final : public interpreter::RunObserver {
  public:
-  explicit Follower(std::string path) : path_(std::move(path)) {}
+  Follower(const Case& trial, std::string path, std::vector<std::string> watched = {})
+      : trial_(trial), path_(std::move(path)), watched_(std::move(watched)) {}
   bool follows_every_block() const override { return true; }
-  void entered(const interpreter::Place& place) override {
-    is_here_ = ascii_iequals(place.path(), path_);
-    if (is_here_) lines.insert(line = place.line());
+  void begins(const interpreter::RunFiles& /*files*/,
+              const interpreter::QParameters& parameters) override {
+    parameters_ = &parameters;
   }
+  void entered(const interpreter::Place& place) override {
+    leave_block();
+    line_ = ascii_iequals(place.path(), path_) ? place.line() : 0;
+    if (line_ > 0) lines.insert(line_);
+    line_of_command_.resize(trial_.commands(), before_);
+    before_ = line_;
+  }
+  void printed(std::string_view line) override { screen.push_back({std::string(line), line_}); }
+  void ends() override { leave_block(); }
+
+  std::uint32_t line_of(std::size_t command) const {
+    return command < line_of_command_.size() ? line_of_command_[command] : before_;
+  }
+  /// The block that has set the parameter which has not changed for longest.
+  std::uint32_t settled_first() const {
+    const auto first =
+        std::ranges::min_element(last_, {}, [](const auto& each) { return each.second.block; });
+    return first == last_.end() ? 0 : first->second.line;
+  }
+
   std::set<std::uint32_t> lines;
-  std::uint32_t line = 0;
+  std::vector<Finding> screen;
 
  private:
-  std::string path_;
-  bool is_here_ = false;
+  struct Last {
+    std::string value{};
+    std::uint32_t line = 0;
+    std::size_t block = 0;
+  };
+  void leave_block() {
+    ++blocks_;
+    if (watched_.empty() || parameters_ == nullptr) return;
+    for (const auto& each : parameters_->all()) {
+      const std::string name = interpreter::name(each.parameter);
+      if (std::ranges::find(watched_, name) == watched_.end()) continue;
+      const auto* number = std::get_if<double>(&each.value);
+      std::string value =
+          number != nullptr ? fmt::format("{}", *number) : std::get<std::string>(each.value);
+      Last& last = last_[name];
+      if (last.value != value) last = {std::move(value), line_, blocks_};
+    }
+  }
+
+  const Case& trial_;
+  const std::string path_;
+  const std::vector<std::string> watched_;
+  const interpreter::QParameters* parameters_ = nullptr;
+  std::uint32_t line_ = 0;
+  std::uint32_t before_ = 0;
+  std::size_t blocks_ = 0;
+  std::vector<std::uint32_t> line_of_command_;
+  std::map<std::string, Last> last_;
 };
+
+/// Whether a finding lies in that file.
+bool is_in(std::string_view program, std::string_view file) {
+  return ascii_iequals(program.substr(program.find_last_of("\\/") + 1), file);
+}
+
+Finding placed(std::string text, const klartext::Diagnostic& found, std::string_view file) {
+  Finding finding{std::move(text), is_in(found.program, file) ? found.range.begin.line : 0, {}};
+  for (const auto& note : found.notes)
+    if (is_in(note.program.empty() ? found.program : note.program, file))
+      finding.notes.push_back(note.range.begin.line);
+  return finding;
+}
 
 /// The faces of a feature with how far a point lies off each, in mm.
 class Faces {
@@ -115,43 +177,48 @@ std::string text_of(const interpreter::ParameterValue& parameter) {
                            : std::get<std::string>(parameter.value);
 }
 
-void add(Outcome& outcome, const interpreter::RunResult& result) {
-  outcome.end = word(result.status);
+void add(Outcome& outcome, const interpreter::RunResult& result, std::string_view file) {
+  outcome.end.text = word(result.status);
   for (const auto& message : result.messages) {
     if (message.kind == interpreter::MessageKind::Note) continue;
-    outcome.end += fmt::format("; {} {}", message.number, message.text);
-    outcome.end_line = message.line;
+    outcome.end.text += fmt::format("; {} {}", message.number, message.text);
+    outcome.end.line = is_in(message.program, file) ? message.line : 0;
+  }
+  for (const auto& found : interpreter::findings_of(result)) {
+    if (found.severity == klartext::Severity::Warning)
+      outcome.alarms.push_back(placed(found.message, found, file));
+    else
+      outcome.end = placed(outcome.end.text, found, file);
   }
   for (const auto& measured : result.measurements) {
     const auto& record = measured.record;
+    const std::uint32_t line = is_in(measured.program, file) ? measured.line : 0;
     const std::string cycle = fmt::format("cycle {}", record.cycle);
     const auto verdict = record.verdict ? gauging::word(*record.verdict) : "none";
-    outcome.verdicts.push_back({fmt::format("{} {}", cycle, verdict), measured.line});
+    outcome.verdicts.push_back({fmt::format("{} {}", cycle, verdict), line});
     for (const auto& size : record.sizes) {
       outcome.values.push_back(
-          {fmt::format("{} {} = {}", cycle, size.characteristic, size.measured.count()),
-           measured.line});
+          {fmt::format("{} {} = {}", cycle, size.characteristic, size.measured.count()), line});
       std::string limits =
           fmt::format("{} {} {}", cycle, size.characteristic, size.nominal.count());
       if (size.limits)
         limits += fmt::format(" {} {}", size.limits->lower.count(), size.limits->upper.count());
-      outcome.records.push_back({std::move(limits), measured.line});
+      outcome.records.push_back({std::move(limits), line});
     }
   }
-  if (result.verdict) outcome.verdicts.push_back({std::string(gauging::word(*result.verdict)), 0});
-  for (const auto& line : result.screen) outcome.written.push_back({line, 0});
+  if (result.verdict) outcome.verdicts.push_back({std::string(gauging::word(*result.verdict))});
   for (const auto& preset : result.presets) {
     const auto& origin = preset.frame.origin;
     const auto& rotation = preset.frame.basic_rotation_deg;
     outcome.written.push_back(
         {fmt::format("preset {} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f}", preset.number, origin.x,
-                     origin.y, origin.z, rotation.x, rotation.y, rotation.z),
-         0});
+                     origin.y, origin.z, rotation.x, rotation.y, rotation.z)});
   }
-  outcome.written.push_back({fmt::format("preset {} active", result.active_preset), 0});
+  outcome.written.push_back({fmt::format("preset {} active", result.active_preset)});
   for (const auto& parameter : result.parameters)
     outcome.parameters[interpreter::name(parameter.parameter)] = text_of(parameter);
-  for (const auto& file : result.files) outcome.files += file.path.text() + "\n" + file.bytes;
+  for (const auto& written : result.files)
+    outcome.files += written.path.text() + "\n" + written.bytes;
 }
 
 /// The first finding of one that the other lacks at its place.
@@ -160,7 +227,7 @@ const Finding* first_difference(const std::vector<Finding>& original,
   for (std::size_t i = 0; i < mutant.size(); ++i)
     if (i >= original.size() || mutant[i].text != original[i].text) return &mutant[i];
   if (mutant.size() == original.size()) return nullptr;
-  static const Finding kFewer{"fewer", 0};
+  static const Finding kFewer{"fewer"};
   return mutant.empty() ? &kFewer : &mutant.back();
 }
 
@@ -174,28 +241,37 @@ Outcome outcome_of(const Subject& subject, const std::string& text) {
   for (const auto& found : trial.diagnostics(subject.main)) {
     if (found.severity == klartext::Severity::Note) continue;
     outcome.alarms.push_back(
-        {fmt::format("{}: {} | {}", id(found.code), found.message, found.source),
-         found.range.begin.line});
+        placed(fmt::format("{}: {} | {}", id(found.code), found.message, found.source), found,
+               subject.file));
   }
-  Follower follower(Case::path(subject.file).text());
+  Follower follower(trial, Case::path(subject.file).text());
   const auto ran = trial.execute(subject.main, follower);
   if (!ran) return outcome;
   outcome.lines = std::move(follower.lines);
-  for (const auto& found : interpreter::findings_of(ran->result))
-    if (found.severity == klartext::Severity::Warning)
-      outcome.alarms.push_back({found.message, found.range.begin.line});
-  add(outcome, ran->result);
+  add(outcome, ran->result, subject.file);
   for (const machine::Vec3& point : ran->touched)
-    outcome.faces.push_back({face_at(trial.setup().machine, point), 0});
+    outcome.faces.push_back({face_at(trial.setup().machine, point)});
   std::ranges::sort(outcome.faces);
-  for (const std::string& command : ran->commands) {
+  for (std::size_t i = 0; i < ran->commands.size(); ++i) {
+    const std::string& command = ran->commands[i];
+    const std::uint32_t line = follower.line_of(i);
     const bool is_way = command.starts_with("PROBE ") || command.find(" FMAX") != command.npos;
-    if (!is_way || command.starts_with("PROBE DATA")) outcome.commands.push_back({command, 0});
+    if (!is_way || command.starts_with("PROBE DATA")) outcome.commands.push_back({command, line});
     // Data of tools, the probe and the rotary axes, which the run leaves behind.
     if (command.starts_with("TOOL ") || command.starts_with("PROBE DATA") ||
         command.starts_with("TT ") || command.starts_with("KINEMATICS"))
-      outcome.written.push_back({command, 0});
+      outcome.written.push_back({command, line});
+    const bool is_row = command.starts_with("PRESET ROW ");
+    for (Finding& each : outcome.written) {
+      const bool is_it =
+          is_row
+              ? each.text.starts_with(fmt::format("preset {} ", std::atoi(command.c_str() + 11))) &&
+                    !each.text.ends_with("active")
+              : command.starts_with("PRESET ") && each.text.ends_with("active");
+      if (is_it) each.line = line;
+    }
   }
+  outcome.written.insert(outcome.written.end(), follower.screen.begin(), follower.screen.end());
   outcome.tests_itself = text.find("D14 ") != text.npos || text.find("FN 14") != text.npos;
   return outcome;
 }
@@ -211,29 +287,42 @@ Judgement compare(const Outcome& original, const Outcome& mutant, const std::str
     const auto is_same = [&](const Finding& each) { return each.text == alarm.text; };
     if (std::ranges::count_if(mutant.alarms, is_same) >
         std::ranges::count_if(original.alarms, is_same))
-      return {Found::Check, alarm.line, alarm.text};
+      return {Found::Check, alarm};
   }
-  if (mutant.end != original.end) return {Found::Run, mutant.end_line, mutant.end};
+  if (mutant.end.text != original.end.text) return {Found::Run, mutant.end};
   if (const auto* found = first_difference(original.verdicts, mutant.verdicts))
-    return {Found::Verdict, found->line, found->text};
+    return {Found::Verdict, *found};
   if (const auto* found = first_difference(original.values, mutant.values))
-    return {Found::Value, found->line, found->text};
+    return {Found::Value, *found};
   if (const auto* found = first_difference(original.written, mutant.written))
-    return {Found::Value, found->line, found->text};
+    return {Found::Value, *found};
+  Judgement judgement{Found::Value};
   for (const auto& [name, value] : original.parameters) {
     const auto here = mutant.parameters.find(name);
-    if (name != target && (here == mutant.parameters.end() || here->second != value))
-      return {Found::Value, 0,
-              name + " = " + (here == mutant.parameters.end() ? "" : here->second)};
+    if (name == target || (here != mutant.parameters.end() && here->second == value)) continue;
+    judgement.parameters.push_back(name);
+    if (judgement.at.text.empty())
+      judgement.at.text = name + " = " + (here == mutant.parameters.end() ? "" : here->second);
   }
+  if (!judgement.parameters.empty()) return judgement;
   if (const auto* found = first_difference(original.records, mutant.records))
-    return {Found::Record, found->line, found->text};
-  if (original.files != mutant.files) return {Found::Record, 0, "files"};
+    return {Found::Record, *found};
+  if (original.files != mutant.files) return {Found::Record, {"files"}};
   if (const auto* found = first_difference(original.faces, mutant.faces))
-    return {Found::Faces, 0, found->text};
+    return {Found::Faces, *found};
   if (const auto* found = first_difference(original.commands, mutant.commands))
-    return {Found::Commands, 0, found->text};
-  return {Found::Equivalent, 0, ""};
+    return {Found::Commands, *found};
+  return {Found::Equivalent};
+}
+
+std::uint32_t line_of_last(const Subject& subject, const std::string& text,
+                           const std::vector<std::string>& parameters) {
+  Case trial(subject.folder, subject.setup);
+  trial.add(subject.file, text);
+  trial.setup().options.limits.blocks = 20'000;
+  Follower follower(trial, Case::path(subject.file).text(), parameters);
+  trial.execute(subject.main, follower);
+  return follower.settled_first();
 }
 
 }  // namespace fitgauge::mutants

@@ -19,21 +19,23 @@ struct Subject {
   std::string file;
 };
 
+/// Lines are those of the file that is mutated; 0: it lies in another file, or names none.
 struct Finding {
-  std::string text;
+  std::string text{};
   std::uint32_t line = 0;
+  std::vector<std::uint32_t> notes{};  ///< the other places that it names
   friend auto operator<=>(const Finding&, const Finding&) = default;
 };
 
 /// All that a check and a run give.
 struct Outcome {
   std::vector<Finding> alarms;    ///< warnings and errors of the check
-  std::string end;                ///< status and messages
-  std::uint32_t end_line = 0;     ///< of the last message
+  Finding end;                    ///< status and messages, at the last message
   std::vector<Finding> verdicts;  ///< of the cycles and the run
   std::vector<Finding> values;    ///< measured sizes
   std::vector<Finding> records;   ///< nominal sizes and limits
-  std::vector<Finding> written;   ///< presets, tool data, screen: what the program leaves behind
+  std::vector<Finding> written;   ///< at the block that has written it last: presets, tool data,
+                                  ///< screen: what the program leaves behind
   std::map<std::string, std::string> parameters;
   std::string files;
   std::vector<Finding> commands;  ///< to the machine, but for rapid traverse and probing
@@ -59,12 +61,16 @@ std::string_view word(Found found);
 
 struct Judgement {
   Found found{};
-  std::uint32_t line = 0;  ///< where it shows; of the mutant
-  std::string reason{};
+  Finding at{};                           ///< what shows, where; of the mutant
+  std::vector<std::string> parameters{};  ///< that have another value, where nothing else shows
 };
 
 /// What a mutant does that its original does not.
 /// @param target the parameter that the mutated block sets, which differs anyway
 Judgement compare(const Outcome& original, const Outcome& mutant, const std::string& target);
+
+/// The block that sets one of the parameters last; that of the parameter which is settled first.
+std::uint32_t line_of_last(const Subject& subject, const std::string& text,
+                           const std::vector<std::string>& parameters);
 
 }  // namespace fitgauge::mutants

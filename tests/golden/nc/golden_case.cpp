@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "nc/machine/simulated_machine.hpp"
-#include "nc/machine/tracing_machine.hpp"
 #include "nc/program/check.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
 #include "tables/tabfile/tab_table.hpp"
@@ -115,9 +114,11 @@ std::optional<Ran> Case::execute(const std::string& name, RunObserver& observer)
     if (move.contact) touched.push_back(move.contact->machine_surface);
   };
   machine::TracingMachine tracing(machine, {.keep = keep, .longest = 10'000, .lines = true});
+  tracing_ = &tracing;
   const GoldenClock clock;
   RunResult result =
       interpreter::run(file->program, {tracing, disk, programs_, clock, observer}, setup_.options);
+  tracing_ = nullptr;
   const RunMessage last = result.messages.empty() ? RunMessage{} : result.messages.back();
   outcome_ = fmt::format("{} line {}: {}", word(result.status), last.line, last.text);
   return Ran{std::move(result), tracing.lines(), std::move(touched)};

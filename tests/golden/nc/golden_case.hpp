@@ -6,6 +6,7 @@
 
 #include "golden_setup.hpp"
 #include "nc/klartext/diagnostic.hpp"
+#include "nc/machine/tracing_machine.hpp"
 #include "nc/program/control_disk.hpp"
 #include "nc/program/program_cache.hpp"
 
@@ -42,6 +43,9 @@ class Case {
   /// The text of expected.txt.
   std::string run(const std::string& name);
 
+  /// Commands to the machine until now, in the run that is under way.
+  std::size_t commands() const { return tracing_ == nullptr ? 0 : tracing_->lines().size(); }
+
   /// Of the last run: `failed line 3: division by zero`.
   const std::string& outcome() const { return outcome_; }
   CaseSetup& setup() { return setup_; }
@@ -58,6 +62,7 @@ class Case {
   MemoryDisk disk_;
   ProgramCache programs_;
   std::string outcome_;
+  const machine::TracingMachine* tracing_ = nullptr;
 };
 
 }  // namespace fitgauge::interpreter::golden
