@@ -137,7 +137,8 @@ class LogService {
     std::string last;  ///< cursor of the newest so far, cNUMBER-DIGITS; empty: there is none
     bool has_more = false;
   };
-  /// Returns a page of changes after a cursor, or after a number of the first history, oldest first.
+  /// Returns a page of changes after a cursor, or after a number of the first history, oldest
+  /// first.
   /// @errors CursorInvalid after the end of its history; those of storage.
   void changes(store::ChangeFilter filter, std::string after, std::int64_t limit,
                Done<ChangePage> done) const;

@@ -185,7 +185,8 @@ TEST_CASE("a table that cannot be used names itself and the place") {
         "TNC:\\table\\TOOL.T: line 3: the file ends without [END]: it may be cut off");
   CHECK(tools("1       ten\n[END]\n") ==
         "TNC:\\table\\TOOL.T: table TOOL .T has no number in row 1, column L: 'ten'");
-  CHECK(tools("x       10\n[END]\n") == "TNC:\\table\\TOOL.T: row number must be a whole number; got 'x'");
+  CHECK(tools("x       10\n[END]\n") ==
+        "TNC:\\table\\TOOL.T: row number must be a whole number; got 'x'");
   CHECK(tools("1       10        1         1.5\n[END]\n") ==
         "TNC:\\table\\TOOL.T: row 1, TP_NO: must be a whole number from 0 to 65535");
   CHECK(tools("1       10        1         7\n[END]\n") ==

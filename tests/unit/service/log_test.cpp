@@ -115,7 +115,7 @@ TEST_CASE("a folder that knows changes which the database lacks begins a branch"
   CHECK(verified->findings == std::vector<std::string>());
   CHECK(verified->head.find("/changes: 2 changes, root ") != std::string::npos);
   CHECK(app->verify({{"lost", lost}})->findings ==
-         std::vector<std::string>{"changes up to 2 differ from the ones that lost has signed"});
+        std::vector<std::string>{"changes up to 2 differ from the ones that lost has signed"});
   const auto behind = [&](const std::string& after) {
     return wait_for<LogService::ChangePage>(
         [&](auto done) { app->log().changes({}, after, 10, std::move(done)); });

@@ -103,8 +103,7 @@ TEST_CASE("what cannot be read is told with its line, and the logs beside it are
   CHECK(first(with(kHole, "12.0259", "12.02.59")) == "23: '12.02.59' is not a length");
   CHECK(first(with(kHole, "Maximum dimension for hole: 12.0450\r\n", "")) ==
         "22: 'Diameter' has limits without a value");
-  CHECK(first(with(kHole, "12.0450", "11.0450")) ==
-        "23: 'Diameter' has limits without a value");
+  CHECK(first(with(kHole, "12.0450", "11.0450")) == "23: 'Diameter' has limits without a value");
   CHECK(first(with(kHole, "Maximum dimension", "Greatest dimension")) ==
         "17: 'Greatest dimension for hole' is an unknown limit");
   const Reading beside = read_logs(with(kHole, "12.0259", "?") + std::string(kHole));

@@ -50,8 +50,7 @@ TEST_CASE("a pattern that cannot be meant is refused with its line") {
   CHECK(why("") == "line 1: lines of a result must follow ---");
   CHECK(why("---\nX {part_id}\n") == "line 1: no line below --- has {measured_mm}");
   CHECK(why("measured_mm = 5\n---\nX\n") == "line 1: no line below --- has {measured_mm}");
-  CHECK(why("---\n{measured_mm}{part_id}\n") ==
-        "line 2: two fields need a text between them");
+  CHECK(why("---\n{measured_mm}{part_id}\n") == "line 2: two fields need a text between them");
   CHECK(why("---\n{measured_mm\n") == "line 2: a { has no }");
   CHECK(why("H7\n---\n{measured_mm}\n") == "line 1: a line above --- must be: field = value");
   CHECK(why("part_id = x\n---\n{measured_mm} {part_id}\n") ==

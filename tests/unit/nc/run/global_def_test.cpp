@@ -62,7 +62,8 @@ TEST_CASE("PREDEF without its GLOBAL DEF is an error that names both") {
   Control control;
   control.setup.features = {machine::Plane{{0, 0, 0}, {0, 0, 1}}};
   CHECK(outcome(control.run("TOOL CALL 30 Z\n" + kPoint)) ==
-        "failed line 3: CYCL incomplete: Q320 is PREDEF, but GLOBAL DEF 120 PROBING is missing before "
+        "failed line 3: CYCL incomplete: Q320 is PREDEF, but GLOBAL DEF 120 PROBING is missing "
+        "before "
         "it");
 }
 
