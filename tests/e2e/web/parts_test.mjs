@@ -120,7 +120,7 @@ describe('the parts', () => {
     const said = (text) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector('dialog .note')?.textContent), text);
     await page.getByRole('button', { name: 'Correct 25.010 mm of SN-C' }).click();
     await page.click('dialog .primary');
-    await said('as they were');
+    await said('have not changed');
     await page.getByLabel('Measured value').fill('0.98');
     await page.click('dialog .primary');
     await said('Enter the reason');
@@ -175,7 +175,7 @@ describe('the parts', () => {
     await page.click('dialog .primary');
     await page.waitForFunction(() => /SN-V/.test(document.querySelector('.records tbody').textContent));
     await page.click('.records tbody .quiet >> text=Note');
-    for (const label of ['Cause', 'Measure', 'Text']) {
+    for (const label of ['Cause', 'Action', 'Text']) {
       await refused(label, '01A+00025.012', 'is a value, not words');
       await page.locator('dialog').getByLabel(label).fill('');
     }
