@@ -94,6 +94,8 @@ export default {
   'catalogue.name_missing': 'Ein Katalog braucht einen Namen.',
   'catalogue.exists': 'Einen Katalog {name} gibt es schon. Es wurde nichts gespeichert.',
   'catalogue.changed': 'Jemand anderes hat den Katalog {name} geändert, seit er hier gelesen wurde. Es wurde nichts gespeichert.',
+  'catalogue.theirs': 'Gespeicherten Katalog lesen',
+  'catalogue.mine': 'Meinen Katalog trotzdem speichern',
   'catalogue.delete_sure': 'Katalog {name} löschen? Notizen, die mit ihm gemacht wurden, bleiben.',
   'catalogue.deleted': 'Katalog {name} ist gelöscht.',
 

@@ -94,6 +94,8 @@ export default {
   'catalogue.name_missing': 'A catalogue needs a name.',
   'catalogue.exists': 'There is a catalogue {name} already. Nothing was stored.',
   'catalogue.changed': 'Somebody else has changed catalogue {name} since it was read here. Nothing was stored.',
+  'catalogue.theirs': 'Read the stored catalogue',
+  'catalogue.mine': 'Store my catalogue anyway',
   'catalogue.delete_sure': 'Delete catalogue {name}? Notes that were made with it stay.',
   'catalogue.deleted': 'Catalogue {name} is deleted.',
 

@@ -94,6 +94,8 @@ export default {
   'catalogue.name_missing': 'Un catalogo deve avere un nome.',
   'catalogue.exists': 'Esiste già un catalogo {name}. Non è stato salvato nulla.',
   'catalogue.changed': 'Qualcun altro ha modificato il catalogo {name} da quando è stato letto qui. Non è stato salvato nulla.',
+  'catalogue.theirs': 'Leggi il catalogo salvato',
+  'catalogue.mine': 'Salva comunque il mio catalogo',
   'catalogue.delete_sure': 'Eliminare il catalogo {name}? Le note fatte con esso restano.',
   'catalogue.deleted': 'Il catalogo {name} è eliminato.',
 

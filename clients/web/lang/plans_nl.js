@@ -30,7 +30,7 @@ export default {
   'plans.changed': 'Niet opgeslagen. Iemand heeft plan {part} gewijzigd sinds het hier geopend is.',
   'plans.theirs': 'Opgeslagen plan lezen',
   'plans.mine': 'Mijn plan toch opslaan',
-  'plans.open_it': 'Dat plan openen',
+  'plans.open_it': 'Bestaande openen',
   'plans.drawing': 'Uit een tekening van {part}, bestand {digest}…',
   'plans.save_csv': 'Opslaan als CSV',
   'plans.import': 'Aanvullen uit een tabel',
@@ -94,6 +94,8 @@ export default {
   'catalogue.name_missing': 'Een catalogus heeft een naam nodig.',
   'catalogue.exists': 'Er is al een catalogus {name}. Er is niets opgeslagen.',
   'catalogue.changed': 'Iemand anders heeft catalogus {name} gewijzigd sinds die hier gelezen is. Er is niets opgeslagen.',
+  'catalogue.theirs': 'Opgeslagen catalogus lezen',
+  'catalogue.mine': 'Mijn catalogus toch opslaan',
   'catalogue.delete_sure': 'Catalogus {name} verwijderen? Notities die ermee zijn gemaakt, blijven.',
   'catalogue.deleted': 'Catalogus {name} is verwijderd.',
 

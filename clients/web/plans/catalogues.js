@@ -95,17 +95,18 @@ export class Catalogues {
     this.#drawState();
   }
 
-  #fill(value, { name, tag }, typed = name) {
+  /** @param typed the name that was typed in a draft, which is not stored and leaves the address as it is */
+  #fill(value, { name, tag }, typed) {
     this.#current = { name, tag };
-    this.name.value = name;
+    this.name.value = typed ?? name;
     for (const [list, element] of Object.entries(this.lists)) {
       element.replaceChildren();
       for (const text of value[list].length ? value[list] : ['']) this.#add(list, text);
     }
-    this.#before = this.#text;
-    if (typed !== name) this.name.value = typed;
+    const isDraft = typed !== undefined;
+    this.#before = isDraft ? '' : this.#text;
     this.done.textContent = '';
-    go({ view: 'plans', options: { catalogue: name } }, { refine: true });
+    if (!isDraft) go({ view: 'plans', options: { catalogue: name } }, { refine: true });
     this.#show();
   }
 
@@ -211,7 +212,7 @@ export class Catalogues {
   #sayChanged(name, isNew) {
     const act = (word, action) => h('button', { type: 'button', onclick: () => this.#attempt(action) }, t(word));
     refill(this.note, t(isNew ? 'catalogue.exists' : 'catalogue.changed', { name }), ' ',
-      act(isNew ? 'plans.open_it' : 'plans.theirs', () => { this.#before = this.#text; return this.#open(name); }), ' ', act('plans.mine', () => this.#store({ replacing: true })));
+      act(isNew ? 'plans.open_it' : 'catalogue.theirs', () => { this.#before = this.#text; return this.#open(name); }), ' ', act('catalogue.mine', () => this.#store({ replacing: true })));
   }
 
   async #remove() {

@@ -173,7 +173,7 @@ describe('the form of a plan', () => {
     await page.click('#views a[href^="#/plans"]');
     await page.waitForSelector('.editor:not([hidden]) .characteristic');
     assert.deepEqual(await names(), ['changed']);
-    await says('here again');
+    await says('are back');
     await page.reload();
     await page.waitForSelector('.editor:not([hidden]) .characteristic');
     assert.deepEqual(await names(), ['changed']);
@@ -246,7 +246,7 @@ describe('a table', () => {
   it('that has no names, no rows, or is none at all, says so', async () => {
     await visit();
     for (const [name, text, answer] of [['a.csv', 'x;y\n1;2\n', /no column of names/], ['b.csv', 'name;size\n', /no row/], ['c.csv', 'part,name,size\nA,x,25 H7\nB,y,25 H7\n', /several part numbers: A, B/],
-      ['d.xlsx', 'PK\x03\x04', /no workbook/], ['e.stp', 'ISO-10303-21;\nHEADER;', /cannot be read/]]) {
+      ['d.xlsx', 'PK\x03\x04', /not a workbook/], ['e.stp', 'ISO-10303-21;\nHEADER;', /cannot be read/]]) {
       await dropFile(page, name, text);
       await page.waitForFunction((pattern) => new RegExp(pattern).test(document.querySelector('.drop-zone > .note').textContent), answer.source);
     }
@@ -411,14 +411,25 @@ describe('catalogues of causes and actions', () => {
     await page.waitForSelector('.catalogues form:not([hidden]) [aria-label="Causes"] input');
     await daemon.send('PUT', '/v1/catalogues/c-two', { causes: ['B'], measures: [] });
     await entry('Causes', 1).locator('input').fill('C');
-    await page.click('#views a[href^="#/tables"]');
-    await page.waitForSelector('.grid');
-    await page.click('#views a[href^="#/plans"]');
+    const goAndComeBack = async () => {
+      await page.click('#views a[href^="#/tables"]');
+      await page.waitForSelector('.grid');
+      await page.click('#views a[href^="#/plans"]');
+      await page.waitForFunction(() => document.querySelector('.catalogues [aria-label="Causes"] input')?.value === 'C');
+      assert.equal(await page.textContent('.catalogues form .aside'), 'not stored yet');
+    };
+    await goAndComeBack();
+    await goAndComeBack();
+    await daemon.send('PUT', '/v1/plans/C-2', { characteristics: [{ name: 'c-bore', designation: '25 H7' }] });
+    await page.evaluate(() => { location.hash = '#/plans/C-2'; });
+    await page.waitForSelector('.editor:not([hidden]) .characteristic');
     await page.waitForFunction(() => document.querySelector('.catalogues [aria-label="Causes"] input')?.value === 'C');
+    assert.equal(hashOf(page), '#/plans/C-2');
+    await page.getByRole('button', { name: 'All plans' }).click();
     await storeIt();
     await tell('Somebody else has changed catalogue c-two');
     assert.deepEqual((await catalogue('c-two')).causes, ['B']);
-    await page.getByRole('button', { name: 'Read it anew' }).click();
+    await page.getByRole('button', { name: 'Read the stored catalogue' }).click();
     await page.waitForFunction(() => document.querySelector('.catalogues [aria-label="Causes"] input')?.value === 'B');
     await entry('Causes', 1).locator('input').fill('D');
     await storeIt();
