@@ -20,7 +20,7 @@ const PROCESS = ['resolution', 'u_cal', 'u_bi', 'u_evr'];
 const FIELDS = ['tolerance', 'parts', 'operators', 'trials', 'reference', 'values', ...PROCESS];
 const KINDS = { grr: ['tolerance', 'parts', 'operators', 'trials', ...PROCESS], type1: ['tolerance', 'reference', 'values', 'resolution', 'u_cal'] };
 const MOST = { parts: 100, operators: 20, trials: 20 };
-/** So many records make a study at the most. */
+/** So many records are read for a study at the most. */
 const MOST_RECORDS = 1000;
 
 const listOf = (text) => [...new Set(text.split(/[,;\n]/).map((one) => one.trim()).filter(Boolean))];
@@ -122,11 +122,12 @@ export class StudyForm {
     try {
       const asked = { characteristic, sort: 'newest', set_aside: 'false', from: dayOf(this.since.value), to: dayOf(this.until.value, 1), limit: MOST_RECORDS };
       const { measurements, next } = await getJson(url(['measurements'], asked), { signal: this.leaving });
-      const records = measurements.reverse().filter((record) => record.part_id && operatorOf(record));
+      const records = measurements.filter((record) => record.part_id && operatorOf(record));
       if (!records.length) throw Object.assign(new Error(t('study.no_records')));
-      const { tolerance_um: um } = records.at(-1);
-      this.#fill({ ...gridOf(records.map((record) => ({ part: record.part_id, operator: operatorOf(record), value: record.measured_mm }))), tolerance: um === undefined ? '' : mmText(nmFromUm(um), 0) });
-      if (next) this.said.textContent = t('study.cut', { count: MOST_RECORDS });
+      const { tolerance_um: um } = records[0];
+      const kept = fitting(records.map((record) => ({ part: record.part_id, operator: operatorOf(record), value: record.measured_mm })));
+      this.#fill({ ...gridOf(kept.reverse()), tolerance: um === undefined ? '' : mmText(nmFromUm(um), 0) });
+      if (next || kept.length < records.length) this.said.textContent = t('study.cut', { count: kept.length });
     } catch (problem) {
       this.note.textContent = explain(problem);
     }
@@ -195,10 +196,10 @@ export class StudyForm {
     const measured = (name, names) => names.filter((one) => read.some((reading) => reading[name] === one));
     const input = { ...(tolerance && { tolerance: new Decimal(tolerance) }), measurements: read.map(({ text, ...of }) => ({ ...of, value: new Decimal(text) })), measuring_process: this.#process('grr') };
     const of = { parts: measured('part', parts), operators: measured('operator', operators) };
-    return { kind: 'grr', input, shown: async (study) => variationResult(study, { ...of, readings: read.map(({ text, ...each }) => ({ ...each, value: Number(text) })), charts: await this.#charts(input.measurements, of) }) };
+    return { kind: 'grr', input, shown: async (study) => variationResult(study, { ...of, readings: read.map(({ text, ...each }) => ({ ...each, value: Number(text) })), charts: await this.#charts(input.measurements, of).catch((problem) => { this.note.textContent = t('study.charts_failed', { reason: explain(problem) }); }) }) };
   }
 
-  /** The charts of averages and ranges, a subgroup each part of each operator; null where a trial is missing or there is one alone. */
+  /** The charts of averages and ranges, a subgroup each part of each operator; null if a trial is missing or there is one alone. */
   async #charts(readings, { parts, operators }) {
     const subgroups = operators.flatMap((operator) => parts.map((part) => readings.filter((one) => one.part === part && one.operator === operator).map(({ value }) => value)));
     if (subgroups.some(({ length }) => length < 2 || length !== subgroups[0].length)) return null;
@@ -212,6 +213,19 @@ export class StudyForm {
     const input = { values: values.map((text) => new Decimal(text)), reference: new Decimal(reference), tolerance: new Decimal(tolerance), measuring_system: this.#process('type1') };
     return { kind: 'type1', input, shown: (study) => masterResult(study, { values: values.map(Number), reference: Number(reference), tolerance: Number(tolerance) }) };
   }
+}
+
+/** Of readings [{part, operator, value}] in their order those that a study takes: no more parts, operators and trials of both. */
+function fitting(readings) {
+  const [parts, operators, counts] = [new Set(), new Set(), new Map()];
+  return readings.filter(({ part, operator }) => {
+    const of = JSON.stringify([part, operator]);
+    const count = counts.get(of) ?? 0;
+    if (count === MOST.trials || (!parts.has(part) && parts.size === MOST.parts) || (!operators.has(operator) && operators.size === MOST.operators)) return false;
+    parts.add(part);
+    operators.add(operator);
+    return counts.set(of, count + 1);
+  });
 }
 
 /** The grid of readings [{part, operator, trial, value}]; without a trial they count up within part and operator. */

@@ -26,7 +26,7 @@ const processTiles = (of) => of && h('dl.tiles', Object.entries(MOST_OF_PROCESS)
 const percent = (value) => (value === null ? '–' : `${number(value.toFixed(1))} %`);
 const head = (verdict, ...said) => h('div.study-verdict', verdictShape(MARKS[verdict]), h('div', h('p.headline', t(`study.verdict.${verdict}`)), said.map((text) => h('p', text))));
 
-/** @param study what the service computed; @param readings [{part, operator, value}] in mm; @param parts and @param operators in order; @param charts of averages and ranges, null where a trial is missing */
+/** @param study what the service computed; @param readings [{part, operator, value}] in mm; @param parts and @param operators in order; @param charts of averages and ranges, null if a trial is missing, undefined if the service did not answer */
 export function variationResult(study, { readings, parts, operators, charts }) {
   const of = study.tolerance_percent.grr === null ? 'study_variation_percent' : 'tolerance_percent';
   const share = study[of].grr;
@@ -43,7 +43,7 @@ export function variationResult(study, { readings, parts, operators, charts }) {
       h('tbody', there.map((name) => h('tr', { class: name }, h('th', { scope: 'row' }, t(`study.component.${name}`)), h('td.number', micrometres(study[name])), intervals && h('td.number', interval(name)),
         shares.map((each) => h('td.number', percent(study[each][name])))))))),
     processTiles(study.measuring_process),
-    !charts && h('p.hint', t('study.no_charts')),
+    charts === null && h('p.hint', t('study.no_charts')),
     h('div.study-figures', components(study, there.filter((name) => name !== 'tv'), shares), charts && averageAndRange(charts, { parts, operators }), byOne(readings, 'part', parts), byOne(readings, 'operator', operators), interaction(readings, parts, operators)),
   ];
 }

@@ -236,7 +236,7 @@ export default {
   'study.values': 'Werte, je Zeile einer',
   'study.from': 'An der Station gemessen',
   'study.take': 'Werte eines Merkmals übernehmen …',
-  'study.cut': 'Das sind die neuesten {count} Datensätze; es gibt ältere.',
+  'study.cut': 'Das sind die neuesten {count} Messwerte, die in eine Studie passen; es gibt weitere.',
   'study.no_records': 'Keine Messung davon hat Teil und Prüfer.',
   'study.readings': 'Messwerte in mm',
   'study.compute': 'Auswerten',

@@ -8,6 +8,7 @@ export default {
   'study.ranges_out': '{count} Spannweiten liegen über der Grenze (Quadrate): Ursache klären und diese neu messen.',
   'study.chart_limits': 'Grenzen {lower} bis {upper} mm.',
   'study.no_charts': 'Die Karten der Mittelwerte und Spannweiten brauchen mindestens zwei Wiederholungen, gleich viele je Teil und Prüfer.',
+  'study.charts_failed': 'Die Karten der Mittelwerte und Spannweiten fehlen: {reason}',
   'trend.unfitted': 'Keine Verteilung der ISO 22514-2 passt zu den Werten: kein Kennwert.',
   'trend.fitted': 'Verteilung: {name}',
   'trend.fit': 'Anpassung p = {p}',

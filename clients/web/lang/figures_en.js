@@ -8,6 +8,7 @@ export default {
   'study.ranges_out': '{count} ranges lie beyond the limit (squares): find out why, and measure those again.',
   'study.chart_limits': 'Limits {lower} to {upper} mm.',
   'study.no_charts': 'The charts of averages and ranges need two trials or more, equally many of each part and operator.',
+  'study.charts_failed': 'The charts of averages and ranges are missing: {reason}',
   'trend.unfitted': 'No distribution of ISO 22514-2 fits the values: no index.',
   'trend.fitted': 'Distribution: {name}',
   'trend.fit': 'fit p = {p}',

@@ -8,6 +8,7 @@ export default {
   'study.ranges_out': '{count} escursioni sono oltre il limite (quadrati): trovarne la causa e ripetere quelle misure.',
   'study.chart_limits': 'Limiti da {lower} a {upper} mm.',
   'study.no_charts': 'Le carte delle medie e delle escursioni richiedono due o più prove, in numero uguale per ogni pezzo e operatore.',
+  'study.charts_failed': 'Mancano le carte delle medie e delle escursioni: {reason}',
   'trend.unfitted': 'Nessuna distribuzione della ISO 22514-2 si adatta ai valori: nessun indice.',
   'trend.fitted': 'Distribuzione: {name}',
   'trend.fit': 'adattamento p = {p}',

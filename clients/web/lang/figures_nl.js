@@ -8,6 +8,7 @@ export default {
   'study.ranges_out': '{count} spreidingsbreedten liggen boven de grens (vierkanten): zoek de oorzaak en meet die opnieuw.',
   'study.chart_limits': 'Grenzen {lower} tot {upper} mm.',
   'study.no_charts': 'De kaarten van gemiddelden en spreidingsbreedten vragen twee of meer herhalingen, even veel van elk onderdeel en elke operator.',
+  'study.charts_failed': 'De kaarten van gemiddelden en spreidingsbreedten ontbreken: {reason}',
   'trend.unfitted': 'Geen verdeling van ISO 22514-2 past bij de waarden: geen index.',
   'trend.fitted': 'Verdeling: {name}',
   'trend.fit': 'aanpassing p = {p}',

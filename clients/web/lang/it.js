@@ -236,7 +236,7 @@ export default {
   'study.values': 'Valori, uno per riga',
   'study.from': 'Misurati alla stazione',
   'study.take': 'Prendi i valori di una caratteristica …',
-  'study.cut': 'Sono le {count} misure più recenti; ce ne sono di più vecchie.',
+  'study.cut': 'Sono le {count} letture più recenti che entrano in uno studio; ce ne sono altre.',
   'study.no_records': 'Nessuna misura ha pezzo e operatore.',
   'study.readings': 'Letture in mm',
   'study.compute': 'Valuta',

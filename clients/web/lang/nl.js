@@ -236,7 +236,7 @@ export default {
   'study.values': 'Waarden, één per regel',
   'study.from': 'Aan het station gemeten',
   'study.take': 'Waarden van een kenmerk overnemen …',
-  'study.cut': 'Dit zijn de nieuwste {count} metingen; er zijn oudere.',
+  'study.cut': 'Dit zijn de nieuwste {count} meetwaarden die in een studie passen; er zijn er meer.',
   'study.no_records': 'Geen meting ervan heeft onderdeel en controleur.',
   'study.readings': 'Meetwaarden in mm',
   'study.compute': 'Berekenen',

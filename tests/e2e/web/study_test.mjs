@@ -98,15 +98,16 @@ describe('a gauge', () => {
   it('is studied with the newest records of a time, without those set aside, and says that there are more', async () => {
     const content = { designation: '25 H7', measured_mm: '25.01', operator: 'Kim', characteristic: 'study-many' };
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 1001 }, (_, i) => (
-      { ...content, part_id: i ? `Q${1 + i % 10}` : 'OLD', measured_at: i < 10 ? '2026-03-01T12:00:00Z' : '2026-03-03T12:00:00Z' })));
+      { ...content, measured_mm: i > 800 ? '25.01' : '25.02', part_id: i ? `Q${1 + i % 10}` : 'OLD', measured_at: i < 10 ? '2026-03-01T12:00:00Z' : '2026-03-03T12:00:00Z' })));
     const { id } = await (await daemon.send('POST', '/v1/measurements', { ...content, part_id: 'ASIDE' })).json();
     await daemon.send('POST', `/v1/measurements/${id}/notes`, { cause: 'Slipped', measure: 'set aside' });
     const page = await open(browser, daemon, '#/gauges');
     await page.waitForSelector('.study option[value="study-many"]', { state: 'attached' });
     await page.selectOption('.study [name="characteristic"]', 'study-many');
-    await page.waitForFunction(() => /the newest 1000 records; there are older/.test(document.querySelector('.study [role="status"]').textContent));
+    await page.waitForFunction(() => /the newest 200 readings that fit into a study; there are more/.test(document.querySelector('.study [role="status"]').textContent));
     const parts = async () => (await page.inputValue('[name="parts"]')).split(', ').sort();
     assert.deepEqual(await parts(), ['Q1', 'Q10', 'Q2', 'Q3', 'Q4', 'Q5', 'Q6', 'Q7', 'Q8', 'Q9']);
+    assert.deepEqual(await page.$$eval('.study-grid tbody input', (all) => [all.length, ...new Set(all.map(({ value }) => value))]), [200, '25.01']); // 20 trials of each, the newest
     await page.fill('[name="records-to"]', '2026-03-01');
     await page.selectOption('.study [name="characteristic"]', 'study-many');
     await page.waitForFunction(() => /^OLD/.test(document.querySelector('[name="parts"]').value));
@@ -145,6 +146,14 @@ describe('a gauge', () => {
     assert.equal(await page.$$eval('.study-figures figure:nth-child(2) .reading', (all) => all.length), 7);
     assert.equal(await page.$('.study-result .tiles'), null);
     assert.match(await page.textContent('.study-result'), /need two trials or more, equally many/);
+    await page.route('**/v1/statistics/chart', (route) => route.abort());
+    await page.fill('.study-grid tbody tr:last-child td:last-child input', '25.0151');
+    await page.click('.study .primary');
+    await page.waitForFunction(() => /^The charts of averages and ranges are missing: ./.test(document.querySelector('.study .note').textContent));
+    assert.equal(await page.$$eval('.study-figures figure:nth-child(2) .reading', (all) => all.length), 8);
+    assert.doesNotMatch(await page.textContent('.study-result'), /need two trials or more/);
+    await page.unroute('**/v1/statistics/chart');
+    await page.fill('.study-grid tbody tr:last-child td:last-child input', '');
     await page.click('.study details summary');
     for (const [name, value] of [['resolution', '0.0002'], ['u_cal', '0,0001'], ['u_bi', '0.0001'], ['u_evr', '0.0001']]) await page.fill(`[name="${name}"]`, value);
     await page.click('.study .primary');
