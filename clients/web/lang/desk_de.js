@@ -161,6 +161,7 @@ export default {
   'part.measure': 'Jetzt messen',
   'part.measured_count': '{count} gemessen',
   'part.by_plan': 'nach Plan {plan}',
+  'part.by_no_plan': 'nach keinem Plan',
   'part.open': 'Noch zu erledigende Reaktionen',
   'part.rule': 'Das schlechteste seiner neuesten Ergebnisse; gut, wenn vom Plan nichts fehlt.',
   'trend.all': 'Alle',

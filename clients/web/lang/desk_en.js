@@ -161,6 +161,7 @@ export default {
   'part.measure': 'Measure it',
   'part.measured_count': '{count} measured',
   'part.by_plan': 'held against plan {plan}',
+  'part.by_no_plan': 'not held against a plan',
   'part.open': 'Reactions to be done',
   'part.rule': 'The worst of its newest values; good when nothing of its plan is missing.',
   'trend.all': 'All',

@@ -161,6 +161,7 @@ export default {
   'part.measure': 'Misura ora',
   'part.measured_count': '{count} misurati',
   'part.by_plan': 'secondo il piano {plan}',
+  'part.by_no_plan': 'senza un piano',
   'part.open': 'Reazioni da fare',
   'part.rule': 'Il peggiore dei suoi valori più recenti; buono se del piano non manca nulla.',
   'trend.all': 'Tutte',

@@ -161,6 +161,7 @@ export default {
   'part.measure': 'Nu meten',
   'part.measured_count': '{count} gemeten',
   'part.by_plan': 'volgens plan {plan}',
+  'part.by_no_plan': 'zonder plan',
   'part.open': 'Reacties die nog te doen zijn',
   'part.rule': 'Het slechtste van zijn nieuwste waarden; goed als er van het plan niets ontbreekt.',
   'trend.all': 'Alle',

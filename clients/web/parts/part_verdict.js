@@ -4,15 +4,17 @@ import { getJson, url } from '../api.js';
 import { h, refill } from '../dom.js';
 import { t } from '../i18n.js';
 import { fragment } from '../route.js';
-import { verdictMark, verdictShape } from '../verdict.js';
+import { verdictShape } from '../verdict.js';
 
 /** So many questions at once. */
 const MOST_ASKED = 3;
 
 /** A value without a plan says it all itself. */
 const saysMore = ({ plan, characteristics }) => plan !== undefined || characteristics.length > 1;
+/** Without a plan nobody knows what is missing: good values make no good part. */
+const isOpenEnded = ({ verdict, plan }) => verdict === 'good' && plan === undefined;
 const wordOf = ({ verdict, missing }) => t(verdict ? `verdict.${verdict}` : missing.length ? 'part.incomplete' : 'verdict.unjudged');
-const shapeOf = ({ verdict, missing }) => verdict ?? (missing.length ? 'open' : null);
+const shapeOf = (found) => (isOpenEnded(found) ? null : found.verdict ?? (found.missing.length ? 'open' : null));
 
 export class PartVerdicts {
   #answers = new Map();
@@ -59,25 +61,23 @@ export class PartVerdicts {
   async #askFor(part) {
     const asking = new AbortController();
     this.#asked.set(part, asking);
-    try {
-      this.#answers.set(part, await verdictOf(part, asking.signal));
-    } catch {
-      if (!asking.signal.aborted) this.#answers.set(part, null);
-    }
+    const found = await verdictOf(part, asking.signal).catch(() => null);
     if (this.#asked.get(part) !== asking) return;
     this.#asked.delete(part);
-    for (const [place, of] of this.#places) if (of === part) this.#draw(place);
+    if (found) this.#answers.set(part, found);
+    if (found || !asking.signal.aborted) for (const [place, of] of this.#places) if (of === part) this.#draw(place);
     this.#ask();
   }
 
   #draw(place) {
     const found = this.#answers.get(place.dataset.part);
-    this.watch.unobserve(place);
     this.#places.delete(place);
-    if (!found || !saysMore(found)) return;
+    if (!found) return; // It is asked for again when it comes into sight again.
+    this.watch.unobserve(place);
+    if (!saysMore(found)) return;
     const { missing, open_reactions: open } = found;
-    refill(place, shapeOf(found) && verdictShape(shapeOf(found)), wordOf(found), missing.length > 0 && ` · ${t('part.missing_count', { count: missing.length })}`,
-      open.length > 0 && ` · ${t('part.open_count', { count: open.length })}`);
+    refill(place, shapeOf(found) && verdictShape(shapeOf(found)), [!isOpenEnded(found) && wordOf(found), missing.length > 0 && t('part.missing_count', { count: missing.length }),
+      open.length > 0 && t('part.open_count', { count: open.length })].filter(Boolean).join(' · '));
     place.title = [...missing, ...open.map(({ characteristic }) => characteristic)].join(', ');
   }
 }
@@ -92,8 +92,8 @@ export async function partSheet(part, signal) {
   const counted = t('part.measured_count', { count: characteristics.length });
   const station = plan && h('a', { href: fragment({ view: 'gauge', options: { plan, part_id: part } }) }, t('part.measure'));
   return h('section.sheet.part-verdict', { 'data-verdict': found.verdict, 'aria-label': t('panel.part', { part }) }, shapeOf(found) ? verdictShape(shapeOf(found)) : null,
-    h('div', h('p.headline', `${part} · ${wordOf(found)}`),
-      h('p', [counted, plan && t('part.by_plan', { plan })].filter(Boolean).join(' · ')),
+    h('div', h('p.headline', [part, !isOpenEnded(found) && wordOf(found)].filter(Boolean).join(' · ')),
+      h('p', [counted, plan === undefined ? t('part.by_no_plan') : t('part.by_plan', { plan })].filter(Boolean).join(' · ')),
       missing.length > 0 && h('p.missing', t('part.missing', { names: missing.join(', ') }), ' ', station),
       open.length > 0 && h('ul', { 'aria-label': t('part.open') }, open.map(({ characteristic, reaction }) => h('li', h('strong', characteristic), ` ${reaction}`))),
       h('p.aside', t('part.rule'))));

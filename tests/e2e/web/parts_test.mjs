@@ -114,6 +114,29 @@ describe('the parts', () => {
     assert.match(decodeURIComponent(hashOf(page)), /^#\/gauge\b(?=.*part_id=V-HALF).*plan=4713-A/);
   });
 
+  it('come to nothing good without a plan, and are asked for again when there was no answer', async () => {
+    const of = (part_id, characteristic, measured_mm) => ({ designation: '25 H7', characteristic, measured_mm, part_id, order: 'WO-F' });
+    await daemon.send('POST', '/v1/measurements', [...Array.from({ length: 40 }, (_, i) => of(`F-OLD-${i}`, 'f-a', '25.010')),
+      of('F-2', 'f-a', '25.010'), of('F-2', 'f-b', '25.040'), of('F-1', 'f-a', '25.010'), of('F-1', 'f-b', '25.010')]);
+    page = await open(browser, daemon, '#/overview');
+    await page.route('**/v1/parts/F-2', (route) => route.abort());
+    const answers = [page.waitForResponse(/\/v1\/parts\/F-1$/), page.waitForEvent('requestfailed', (request) => /\/v1\/parts\/F-2$/.test(request.url()))];
+    await page.evaluate(() => { location.hash = '#/parts?order=WO-F'; });
+    await Promise.all(answers);
+    await page.unroute('**/v1/parts/F-2');
+    await page.$eval('.records', (list) => list.scrollTo(0, list.scrollHeight));
+    await page.waitForFunction(() => /F-OLD-0/.test(document.querySelector('.records tbody').lastElementChild.textContent));
+    await page.$eval('.records', (list) => list.scrollTo(0, 0));
+    const places = (part) => page.$$eval('.records .of-part', (all, name) => all.filter(({ dataset }) => dataset.part === name).map((place) => [place.textContent, place.querySelectorAll('.shape').length]), part);
+    await page.waitForFunction(() => document.querySelector('.of-part[data-part="F-2"]')?.textContent === 'Reject');
+    assert.deepEqual((await places('F-1'))[0], ['', 0]);
+    await page.fill('[name="part_id"]', 'F-1');
+    await page.press('[name="part_id"]', 'Enter');
+    await page.waitForFunction(() => document.querySelector('.part-verdict .headline')?.textContent === 'F-1');
+    assert.match(await page.textContent('.part-verdict'), /2 measured · not held against a plan/);
+    assert.equal(await page.$('.part-verdict > .shape'), null);
+  });
+
   it('are corrected, value or part, with the reason, and not by mistake', async () => {
     await daemon.send('POST', '/v1/measurements', ['25.01', '25.012'].map((text) => ({ designation: '25 H7', measured_mm: text, part_id: 'SN-C', order: 'WO-C' })));
     page = await open(browser, daemon, '#/parts?order=WO-C');
