@@ -33,11 +33,12 @@ export function periodOf(period, now) {
   return [begun === undefined ? momentOf(now, -1, SHIFTS.at(-1)) : momentOf(now, 0, begun), null];
 }
 
-/** What was typed or scanned into the field of a search: one of those offered stays, another loses what a scanner and the shop write before it. */
+/** What was typed or scanned into the field of a search: one of those offered stays, another loses what a scanner and the shop write before it. A prefix of letters alone may be of the name. */
 export function searched(input) {
   const typed = input.value.trim();
   const isOffered = [...input.list?.options ?? []].some(({ value }) => value === typed);
-  if (!isOffered) input.value = nameIn(typed, input.name, keptPrefixes()) ?? typed;
+  const prefixes = Object.fromEntries(Object.entries(keptPrefixes()).filter(([, prefix]) => /[^\p{L}\p{N}]$/u.test(prefix)));
+  if (!isOffered) input.value = nameIn(typed, input.name, prefixes) ?? typed;
 }
 
 export class FilterBar {

@@ -179,6 +179,15 @@ describe('the parts', () => {
       await page.press('.parts [name="part_id"]', 'Enter');
       await page.waitForFunction(() => !/part_id/.test(location.hash));
     }
+    // A prefix of letters may be of the name.
+    await page.evaluate(() => localStorage.setItem('fitgauge.prefixes', JSON.stringify({ part_id: 'S' })));
+    await page.fill('.parts [name="part_id"]', 'SN-W');
+    await page.press('.parts [name="part_id"]', 'Enter');
+    await page.waitForFunction(() => /^#\/parts\?part_id=/.test(location.hash));
+    assert.equal(await page.inputValue('.parts [name="part_id"]'), 'SN-W');
+    await page.evaluate(() => localStorage.removeItem('fitgauge.prefixes'));
+    await page.fill('.parts [name="part_id"]', '');
+    await page.press('.parts [name="part_id"]', 'Enter');
     await page.fill('.parts [name="order"]', 'O:WO-W');
     await page.press('.parts [name="order"]', 'Enter');
     await page.waitForFunction(() => /order=WO-W/.test(location.hash) && document.querySelectorAll('.records tbody tr').length === 1);
