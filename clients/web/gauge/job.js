@@ -124,6 +124,13 @@ export class Job {
     this.#look();
   }
 
+  /** Gauges without a plan from now on: what the plan asked and its own limits end. */
+  leavePlan() {
+    if (!this.asked) return;
+    Object.assign(this, { own: null, asked: null });
+    this.#look();
+  }
+
   /** Everything but the designation, as the URL has it. */
   get options() {
     return { ...this.fields.texts, ...(isOpen(this.limits) && { feature: this.side.value }), ...this.rule.options };

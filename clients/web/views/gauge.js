@@ -112,6 +112,7 @@ export function mount(main, route) {
 
   async function choosePlan(part, again) {
     if (!await plan.load(part, again)) return;
+    if (!plan.part) job.leavePlan();
     prepare();
     stepped = false;
     jobChanged(true);

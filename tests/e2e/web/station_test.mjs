@@ -212,6 +212,13 @@ describe('a station with a scanner', () => {
     await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 3);
     const said = (await storedSince()).map(({ characteristic, envelope, go_gauge: go, size_operator: operator }) => [characteristic, envelope, go, operator]);
     assert.deepEqual(said, [['e-bore', 'required', 'passes', 'GX'], ['e-pin', undefined, undefined, 'GG'], ['e-free', undefined, undefined, 'LP']]);
+    await scan('SN-E8');
+    await page.waitForSelector('.envelope:visible');
+    await scan('8.01');
+    await page.waitForFunction(() => document.querySelector('[name="size_operator"]').value === 'GG');
+    await page.selectOption('.plan select', ''); // what it asked ends with it
+    await page.waitForSelector('.envelope', { state: 'hidden' });
+    assert.equal(await page.inputValue('.designation'), '25 h7');
   });
 
   it('corrects the part of a record', async () => {
