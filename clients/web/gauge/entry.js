@@ -82,10 +82,13 @@ export class Entry {
     }, { signal, capture: true });
   }
 
-  /** Keys that came before the page stood are typed now. */
+  /** Keys that came before the page stood are typed now; none of them ends a line from before a reload, which nobody had seen then. */
   takeFirst() {
     const keys = globalThis.firstKeys ?? [];
+    let unseen = this.input.value !== '';
     for (const event of keys) {
+      unseen &&= !writes(event);
+      if (unseen && ['Enter', 'Tab'].includes(event.key)) continue;
       this.#key(event);
       if (writes(event)) {
         this.input.setRangeText(event.key, this.input.selectionStart, this.input.selectionEnd, 'end');

@@ -209,6 +209,16 @@ describe('the door for keys', () => {
     await page.keyboard.type('14\n');
     await stored(2);
     assert.deepEqual(await measured(), [['SN-31', 25.013], ['SN-31', 25.014]]);
+    // Enter ends no line from before the reload that nobody has seen yet.
+    await page.keyboard.type('P:SN-3');
+    const arrivesLast = await onItsWay();
+    await page.keyboard.press('Enter');
+    await arrivesLast();
+    await page.waitForSelector('.echo .figures');
+    assert.deepEqual([await page.inputValue('#value'), await page.inputValue('[name="part_id"]')], ['P:SN-3', 'SN-31']);
+    await page.keyboard.type('25.015\n');
+    await stored(3);
+    assert.deepEqual((await measured()).at(-1), ['SN-31', 25.015]);
     await close(page);
   });
 
