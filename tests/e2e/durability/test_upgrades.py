@@ -23,7 +23,8 @@ PART = {"designation": "25 H7", "measured_mm": 25.013}
 # What a measurement has since a schema.
 SINCE = {4: {"offset_um": -2.5, "temperature_c": 21, "part_material": "steel", "temperature_uncertainty_c": 1},
          8: {"tool": "T30", "confirmed": True},
-         10: {"gauge": "BG-7", "measured_at": "2026-06-01T08:00:00Z"}}
+         10: {"gauge": "BG-7", "measured_at": "2026-06-01T08:00:00Z"},
+         12: {}}  # rows of a gauge that is blocked, which releases.fill() stores
 CALIBRATION = {"from": "2026-01-01", "due": "2026-12-31", "certificate": "K-1", "laboratory": "Lab"}
 
 
@@ -81,7 +82,7 @@ class Upgrades(unittest.TestCase):
             release = releases.unpack(WITHOUT_QUANTITY, daemon)
             return daemon, (release / "records.ndjson").read_text().splitlines()
         daemon.start()
-        releases.fill(daemon)
+        releases.fill(daemon, gauges=number >= 12)
         if number >= 10:
             releases.put(daemon, "/v1/gauges-in-use/BG-7", {"calibration_due": "2026-12-31"})
             releases.post(daemon, "/v1/gauges-in-use/BG-7/calibrations", CALIBRATION)
