@@ -41,7 +41,8 @@ void set_budget(GaugePeriod& period, std::string name,
   }
 }
 
-/// Takes the due date of a gauge, and its budget if it has one. @returns whether it has a date
+/// Sets the due date of a gauge, and its budget, with the u it has now, if `text` names a stored
+/// one. Else the period keeps its budget. @returns whether it has a date
 bool take_gauge(GaugePeriod& period, const std::string& text,
                 const std::map<std::string, metrology::CombinedUncertainty>& combined) {
   const auto body = parse_json(text);
