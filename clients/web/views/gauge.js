@@ -187,10 +187,11 @@ export function mount(main, route) {
     return undefined;
   }
 
-  /** @param fields what else it corrects; the page judges a correction by the limits of its record */
+  /** @param fields what else it corrects; the page judges a correction by the limits of its record, if they alone decide */
   function correct(record, measured, fields = {}) {
     const { part_id, characteristic, designation, rule = 'simple' } = { ...record, ...fields };
-    const verdict = rule === 'simple' ? judge(nmFromMm(measured), record) : null;
+    const isBySize = rule === 'simple' && record.go_gauge !== 'fails' && !record.inside_corner;
+    const verdict = isBySize ? judge(nmFromMm(measured), record) : null;
     const shown = { measured, part_id, characteristic, designation, confirmed: fields.confirmed, at: connection.now(), limits: record, verdict };
     const body = { measured_mm: new Decimal(measured), ...fields, reason: t('correction.reason') };
     send(url(['measurements', record.id, 'corrections']), body, shown, record);

@@ -177,6 +177,17 @@ describe('a station with a scanner', () => {
     await picture(page, 'station-envelope');
     await scan('25.010'); // by its size it would be good
     await verdict('rework');
+    let release;
+    await page.route('**/corrections', async (route) => {
+      await new Promise((resolve) => { release = resolve; });
+      await route.continue();
+    }, { times: 1 });
+    await page.keyboard.press('Control+z');
+    await page.waitForSelector('.entry.correcting');
+    await scan('25.009'); // so would its correction
+    await page.waitForSelector('.verdict[data-verdict="waiting"]');
+    release();
+    await verdict('rework');
     await scan('SN-E2');
     await page.selectOption('[name="size_operator"]', 'GN');
     await page.getByRole('button', { name: 'passes', exact: true }).click();
@@ -189,7 +200,7 @@ describe('a station with a scanner', () => {
     await scan('25.013');
     await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 4);
     const said = (await storedSince()).map(({ envelope, envelope_result: found, go_gauge: go, size_operator: operator, verdict: word }) => [envelope, found, go, operator, word]);
-    assert.deepEqual(said, [['required', 'failed', 'fails', 'LP', 'rework'], ['required', 'verified', 'passes', 'GN', 'good'], ['required', 'not_verified', undefined, 'GN', 'good'], ['required', 'not_verified', undefined, 'GN', 'good']]);
+    assert.deepEqual(said, [['required', 'failed', 'fails', 'LP', 'rework'], ['required', 'failed', 'fails', 'LP', 'rework'], ['required', 'verified', 'passes', 'GN', 'good'], ['required', 'not_verified', undefined, 'GN', 'good'], ['required', 'not_verified', undefined, 'GN', 'good']]);
     await scan('30 k6');
     await page.waitForSelector('.envelope', { state: 'hidden' });
   });
