@@ -39,9 +39,9 @@ struct CorrectedParts {
   bool is_unfit = false;              ///< the gauge of the newest value is
   std::optional<Error> error{};
 
-  /// As it is known now: a gauge may be blocked after it has measured.
+  /// As it was stored, and as it is known now: a gauge may be blocked after it has measured.
   bool is_gauge_fit(const app::Measurement& value) const {
-    if (value.calibration_due) return false;
+    if (value.calibration_due || value.gauge_blocked) return false;
     const auto gauge = value.gauge ? gauges->find(*value.gauge) : gauges->end();
     if (gauge == gauges->end()) return true;
     const GaugePeriod& period = gauge->second.at(value.measured_at);

@@ -273,6 +273,11 @@ class Stored(DaemonTest):
         self.store("drifted", self.about(5, 1), gauge="G-77", offset_um="-15", **at)
         self.store("drifted", self.about(5, 1))
         self.assertEqual(self.find("compensation", "characteristic=drifted")["values"], 1)
+        # What was stored while its gauge was blocked is of no use when the block is lifted.
+        self.assertEqual(self.daemon.post(f"{path}/calibrations", {"from": "2026-11-01", "status": "blocked"}).status, 200)
+        self.store("blocked", self.about(20), gauge="G-77", **at)
+        self.assertEqual(self.daemon.post(f"{path}/calibrations", {"from": "2026-11-01", "due": "2027-11-10"}).status, 200)
+        self.assertEqual(self.find("compensation", "characteristic=blocked")["values"], 0)
 
     def test_a_correction_before_a_value_that_is_left_out_counts(self):
         self.assertEqual(self.daemon.request("PUT", "/v1/gauges-in-use/G-78", {"calibration_due": "2026-01-01"}).status, 201)
