@@ -76,8 +76,8 @@ std::string measured_text(const app::Measurement& m) {
 
 /// `; GG, 4 points from 22.5°, form 2.1 µm, factor 1; envelope verified`: the method of measuring.
 std::string taken_text(const app::Measurement& m) {
-  std::string text;
-  if (m.size_operator && m.size_operator != "LP") text = fmt::format("; {}", *m.size_operator);
+  std::string text = m.inside_corner ? "; inside corner" : "";
+  if (m.size_operator && m.size_operator != "LP") text += fmt::format("; {}", *m.size_operator);
   if (m.points) text += fmt::format(", {} points", *m.points);
   if (m.start_angle) text += fmt::format(" from {}\u00b0", format_decimal(*m.start_angle, 6));
   if (m.form) text += fmt::format(", form {} \u00b5m", format_um(Length::nanometres(*m.form)));

@@ -176,11 +176,12 @@ class Certificates(DaemonTest):
     def test_how_a_size_was_taken_stands_beside_it(self):
         given = {"measured_mm": "25.01", "order": "WO-E"}
         for more in ({"designation": "25 H7", "size_operator": "GX"}, {"designation": "25 H7(E)"},
-                     {"designation": "25 H7(E)", "go_gauge": "passes"}, {"designation": "25 H7"}):
+                     {"designation": "25 H7(E)", "go_gauge": "passes"}, {"designation": "25 H7"},
+                     {"designation": "R25 ISO 2768-m", "inside_corner": True}):
             self.daemon.measure({**given, **more})
         table = self.flat("order=WO-E").split("Measured at", 1)[1]
-        counts = {word: table.count(word) for word in ("25.010; GX", "envelope", "not", "verified", "25.010 +10")}
-        self.assertEqual(counts, {"25.010; GX": 1, "envelope": 2, "not": 1, "verified": 2, "25.010 +10": 1})
+        counts = {word: table.count(word) for word in ("25.010; GX", "envelope", "not", "verified", "25.010 +10", "inside")}
+        self.assertEqual(counts, {"25.010; GX": 1, "envelope": 2, "not": 1, "verified": 2, "25.010 +10": 1, "inside": 1})
 
     def test_the_calibration_in_date_is_named(self):
         """Number and laboratory as the records have them: not of one that is overdue, nor of one that came later."""
