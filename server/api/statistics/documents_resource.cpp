@@ -157,7 +157,7 @@ void record_calibration(const Services& services, const http::Request& request,
 void list_calibrations(const Services& services, const http::Request& request,
                        http::Responder responder) {
   services.documents.list_each(
-      {app::DocumentKind::GaugeInUse, app::DocumentKind::Calibration},
+      {app::DocumentKind::GaugeInUse, app::DocumentKind::Calibration}, false,
       [gauge = std::string(*request.text("name")), shared = share(std::move(responder))](
           const Result<std::vector<std::vector<app::NamedDocument>>>& lists) {
         if (!lists) return shared->fail(lists.error());

@@ -77,9 +77,9 @@ class DocumentService {
   void remove(DocumentKind kind, std::string name, Precondition precondition,
               std::optional<std::string> caller, std::vector<std::string> users, Done<bool> done);
   void list(DocumentKind kind, Done<std::vector<NamedDocument>> done);  ///< by name
-  /// The lists of several kinds, of one state of the storage, and then what gauges in use were
-  /// before: `modified_at` is when another text took its place.
-  void list_each(std::vector<DocumentKind> kinds,
+  /// The lists of several kinds, of one state of the storage; and then, for `has_past`, what gauges
+  /// in use were before: `modified_at` is when another text took its place.
+  void list_each(std::vector<DocumentKind> kinds, bool has_past,
                  Done<std::vector<std::vector<NamedDocument>>> done);
 
   // As above, for threads that may wait.

@@ -111,7 +111,7 @@ void GaugesInUse::reload(std::function<void(Result<void>)> done) {
   const auto shared = std::make_shared<std::function<void(Result<void>)>>(std::move(done));
   using app::DocumentKind;
   documents_.list_each(
-      {DocumentKind::GaugeInUse, DocumentKind::Calibration, DocumentKind::Uncertainty},
+      {DocumentKind::GaugeInUse, DocumentKind::Calibration, DocumentKind::Uncertainty}, true,
       [this, number, shared](const Result<std::vector<Documents>>& lists) {
         if (!lists) return (*shared)(lists.error());
         show(number, book_of((*lists)[0], (*lists)[1], (*lists)[2], (*lists)[3]));
