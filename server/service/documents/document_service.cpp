@@ -228,8 +228,8 @@ void DocumentService::list(DocumentKind kind, Done<std::vector<NamedDocument>> d
 void DocumentService::list_each(std::vector<DocumentKind> kinds, bool has_past,
                                 Done<std::vector<std::vector<NamedDocument>>> done) {
   database_.readers().submit(
-      [kinds = std::move(kinds), has_past](
-          const store::Stores& stores) -> Result<std::vector<std::vector<NamedDocument>>> {
+      [kinds = std::move(kinds),
+       has_past](const store::Stores& stores) -> Result<std::vector<std::vector<NamedDocument>>> {
         std::vector<std::vector<NamedDocument>> lists;
         for (const DocumentKind kind : kinds) lists.push_back(all_of(stores, kind).value());
         if (has_past) lists.push_back(past_gauges(stores));
