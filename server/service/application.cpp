@@ -364,8 +364,12 @@ Result<Application::Verification> Application::verify(
   }
   auto report = database_->verify([&](const store::MeasurementRow& row) {
     const auto check = checks.find(row.origin.value_or(0));
-    const auto altered =
-        check != checks.end() ? check->second.add(row) : std::optional<std::string>(kOfNoOrigin);
+    std::optional<std::string> altered;
+    if (check != checks.end()) {
+      altered = check->second.add(row);
+    } else if (names.origin(row.origin.value_or(0), row.id).empty()) {
+      altered = kOfNoOrigin;  // not of a station whose first rows arrive meanwhile
+    }
     return finding_of(altered, check_verdict(row, names));
   });
   auto verification = verification_of(std::move(report));
