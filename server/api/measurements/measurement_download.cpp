@@ -59,8 +59,8 @@ Result<std::unique_ptr<MeasurementFile>> make_file(Download& download) {
 
 Error too_many(const std::string& matching, const std::string& most) {
   return {ErrorCode::QueryInvalid,
-          fmt::format("{} measurements match, but a file of this format has at most {}: select "
-                      "fewer by from and to, or use csv",
+          fmt::format("{} match, but a file of this format has at most {}: select fewer by from "
+                      "and to, or use csv",
                       matching, most),
           "format"};
 }
