@@ -20,6 +20,7 @@ _fitgauge() {
     --quantity) _fitgauge_words 'diameter width pitch_diameter position distance radius chamfer deviation'; return ;;
     --envelope) _fitgauge_words 'required'; return ;;
     --go-gauge) _fitgauge_words 'passes fails'; return ;;
+    --inside-corner) _fitgauge_words 'true'; return ;;
     --from | --to | --limit | --reason | --program | --upper-um | --lower-um | --offset-um | --group-by) return ;;
     --min-um | --max-um | --size-mm | --lower | --upper | --reference | --tolerance) return ;;
     --designation | --tolerance-class | --caller | --subgroup | --tool | --confirmed | --target-mm | --confidence | --rules) return ;;
@@ -66,7 +67,7 @@ _fitgauge() {
                --scale-temperature-c --scale-material --scale-expansion --temperature-uncertainty-c
                --part-expansion-uncertainty --scale-temperature-uncertainty-c --scale-expansion-uncertainty --record
                --part-id --characteristic --order --operation --machine --operator --gauge --unit --subgroup --tool --offset-um --confirmed --measured-at --temperature-c --comment --feature --upper-um --lower-um
-               --degrees-of-freedom --quantity --size-operator --envelope --go-gauge
+               --degrees-of-freedom --quantity --size-operator --envelope --go-gauge --inside-corner
                --serial --baud --pattern' ;;
     import | measure) options='--state --chunk --map --set --time-zone --length-unit --encoding --leave-out-others --again --exit-verdict' ;;
     list) options="$filters --limit --after" ;;
