@@ -76,9 +76,9 @@ bool sets_datum(const Program& program, const Block& block) {
          (known->number >= 1400 || (known->kind >= Preset && known->kind <= Kinematics));
 }
 
-/// Whether another part of the program ends there: at M2, M30 and LBL 0, and at the label that
-/// the call before `behind` calls.
-bool begins_part(const Program& program, const Block& block, const Place* behind) {
+/// Whether another part of the program ends there: at M2, M30 and LBL 0, and at the label of
+/// `call`.
+bool begins_part(const Program& program, const Block& block, const klartext::LabelCall* call) {
   const auto* label = as<klartext::LabelDefinition>(block);
   if (label == nullptr)
     return std::ranges::any_of(words_of(program, block), [](const Word& word) {
@@ -86,10 +86,6 @@ bool begins_part(const Program& program, const Block& block, const Place* behind
              (word.value == klartext::Expr(2.0) || word.value == klartext::Expr(30.0));
     });
   if (label->label == klartext::Label(0U)) return true;
-  const klartext::LabelCall* call = nullptr;
-  if (behind != nullptr && &behind->program->program() == &program)
-    for (std::uint32_t i = behind->index; i-- > 0 && call == nullptr;)
-      call = as<klartext::LabelCall>(program.blocks()[i]);
   return call != nullptr && call->label == label->label;
 }
 
@@ -101,10 +97,11 @@ class Origins {
   const Block* find(const std::string& what, const auto& sets) {
     for (std::size_t at = 0; at < chain_.size(); ++at) {
       const Program& program = chain_[at].program->program();
-      for (std::uint32_t i = chain_[at].index; i-- > 0;) {
+      const auto* call = at + 1 < chain_.size() ? call_before(program, chain_[at + 1]) : nullptr;
+      for (std::uint32_t i = chain_[at].index; i-- > 0 && left_ > 0; --left_) {
         const Block& block = program.blocks()[i];
         if (sets(program, block)) return note(what, {chain_[at].program, i}), &block;
-        if (begins_part(program, block, at + 1 < chain_.size() ? &chain_[at + 1] : nullptr)) break;
+        if (begins_part(program, block, call)) break;
       }
     }
     return nullptr;
@@ -121,7 +118,17 @@ class Origins {
   std::vector<klartext::DiagnosticNote> notes;
 
  private:
+  /// @returns the call of a label of this program that stands before the place, or null
+  const klartext::LabelCall* call_before(const Program& program, const Place& place) {
+    if (&place.program->program() != &program) return nullptr;
+    const klartext::LabelCall* call = nullptr;
+    for (std::uint32_t i = place.index; i-- > 0 && call == nullptr && left_ > 0; --left_)
+      call = as<klartext::LabelCall>(program.blocks()[i]);
+    return call;
+  }
+
   std::span<const Place> chain_;
+  std::uint32_t left_ = 1'000'000;  ///< blocks that all searches together may still look at
 };
 
 }  // namespace

@@ -166,6 +166,7 @@ def large():
     yield "formulas", ["Q1=1"] * (most // 9)
     yield "short_blocks", ["M5"] * (most // 11)
     yield "labels", [f"LBL {n}" for n in range(1, 8_000 * SCALE)]
+    yield "labels_again", [f"LBL {n}" for n in range(1, 8_000 * SCALE)] + ["CALL PGM labels_again.h"]
     yield "one_comment", ["; " + "x" * (most - 100)]
     yield "one_formula", ["Q1 = " + "1 + " * 100_000 + "1"]
     yield "deep", ["Q1 = " + "( " * 10_000 + "1" + " )" * 10_000]
