@@ -113,10 +113,10 @@ class Contradictions {
 
  private:
   void warn(DiagnosticCode code, klartext::Slice<char> place, std::string message,
-            const Block* block = nullptr) {
+            const Block* block = nullptr, Severity severity = Severity::Warning) {
     if (diagnostics_.size() >= kMostFindings) return;
-    diagnostics_.push_back(diagnose(program_, block != nullptr ? *block : *block_, place,
-                                    Severity::Warning, code, std::move(message)));
+    diagnostics_.push_back(diagnose(program_, block != nullptr ? *block : *block_, place, severity,
+                                    code, std::move(message)));
   }
   std::uint32_t line_of(const Block& block) const {
     return program_.range(block.written).begin.line;
@@ -124,7 +124,10 @@ class Contradictions {
 
   // --- what stands before a block that probes
   void visit(const auto&) {}
-  void visit(const klartext::LabelDefinition&) { forget(); }
+  void visit(const klartext::LabelDefinition& label) {
+    forget();
+    if (label.label == klartext::Label(0U)) constants_.clear();  // the next part has other callers
+  }
   void visit(const klartext::LabelCall& call) { forget(), enter(call); }
   void visit(const klartext::CallProgram&) { leave(); }
   void visit(const klartext::CallSelectedProgram&) { leave(); }
@@ -384,8 +387,8 @@ class Contradictions {
     warn(DiagnosticCode::ContinuationMissing, block_->written,
          fmt::format("{} is a parameter of cycle {} before it, whose last line has no '~' at its "
                      "end: add it there",
-                     name(target), descriptor->number));
-    diagnostics_.back().severity = Severity::Error;
+                     name(target), descriptor->number),
+         nullptr, Severity::Error);
   }
 
   const klartext::Program& program_;

@@ -84,6 +84,7 @@ TEST_CASE("a contradiction is found at its line") {
       {"Q1 = 121\nFN 9: IF +Q5 EQU +0 GOTO LBL 3\nLBL 3\n" + by_q1, {}},
       {"Q1 = 121\nCALL PGM OTHER\n" + by_q1, {"warning 3 file.missing"}},
       {"Q1 = 121\nM30\n" + by_q1, {}},
+      {"LBL 5\nQ1 = 121\nLBL 0\nLBL 6\n" + by_q1 + "LBL 0\n", {}},
       {"Q1 = 121\nCALL LBL 1\nM30\nLBL 1\n" + by_q1 + "LBL 0\n", {order}},
       {"Q1 = 12.1\nCALL LBL 1\nQ1 = 121\nCALL LBL 1\nM30\nLBL 1\n" + by_q1 + "LBL 0\n",
        {"warning 4 cycle.order_contradicts"}},
