@@ -294,7 +294,7 @@ export default {
   'connection.testing': 'Verbindung wird getestet …',
   'connection.reached': 'Erreicht:',
   'connection.failed': 'Nicht erreicht:',
-  'connection.wrong': 'Nicht gespeichert. Die markierten Felder berichtigen.',
+  'connection.wrong': 'Nicht gespeichert. Die markierten Felder korrigieren.',
   'connection.read_only': 'Diese Verbindung steht in der Konfigurationsdatei. Dort ändern.',
   'connection.none': 'Es gibt noch keine Verbindung.',
   'connection.state': 'Zustand',

@@ -282,7 +282,7 @@ export default {
   'schema.file': 'File STL sul CN',
   'schema.unit': 'Unità del file',
   'schema.origin_mm': 'Origine, mm',
-  'schema.spatial_angles_deg': 'Angoli spaziali, °',
+  'schema.spatial_angles_deg': 'Angoli solidi, °',
   'connection.name': 'Nome',
   'connection.name_hint': 'da 1 a 63 lettere, cifre, - e _',
   'connection.kind': 'Tipo',

@@ -136,7 +136,7 @@ export default {
   'entry.doubt': '{part} è il pezzo?',
   'entry.doubt_pattern': '{part} è il pezzo? I numeri di questo piano sono {pattern}.',
   'entry.doubt_no': 'No, leggere di nuovo',
-  'entry.ask_keep': 'Registrare {mm} mm',
+  'entry.ask_keep': 'Salvare {mm} mm',
   'entry.ask_part': 'Pezzo {part}',
   'entry.ask_drop': 'Non salvare',
   'entry.correcting': 'Al posto di {mm} mm',

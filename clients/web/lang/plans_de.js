@@ -24,7 +24,7 @@ export default {
   'plans.restored': 'Die nicht gespeicherten Änderungen sind wieder da.',
   'plans.drop': 'Änderungen verwerfen',
   'plans.drop_sure': 'Nicht gespeicherte Änderungen verwerfen?',
-  'plans.wrong': 'Nicht gespeichert. Die markierten Felder berichtigen.',
+  'plans.wrong': 'Nicht gespeichert. Die markierten Felder korrigieren.',
   'plans.part_missing': 'Ein Plan braucht eine Teilenummer.',
   'plans.exists': 'Nicht gespeichert. Plan {part} gibt es schon.',
   'plans.changed': 'Nicht gespeichert. Plan {part} wurde anderswo geändert, seit er hier geöffnet wurde.',
