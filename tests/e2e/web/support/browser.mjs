@@ -117,6 +117,8 @@ export async function open(browser, daemon, fragment = '', { at, ...options } = 
 }
 
 export async function openIn(context, daemon, fragment = '') {
+  // Without a window nobody can be asked: a copy needs the permission before.
+  if (browserName === 'chromium') await context.grantPermissions(['clipboard-write']);
   const page = await context.newPage();
   page.setDefaultTimeout(PATIENCE_MS);
   if (browserName === 'firefox') fillAsChromium(page);
