@@ -74,7 +74,7 @@ class Measure(ClientTest):
         lines = done.stderr_text.splitlines()
         self.assertTrue(lines[0].startswith("e.csv:8: measured_mm: "), lines)
         self.assertTrue(lines[1].startswith("e.csv:9: tolerance_class: "), lines)
-        self.assertIn("lines 7 to 11 are not stored, 5 rows before them are", lines[-1])
+        self.assertIn("lines 7 to 11 are not stored, and 5 rows before them are", lines[-1])
         bad[6:8] = good[6:8]
         bad[8] = "25;H7\n"  # no CSV
         self.client.write("e.csv", HEADER + "".join(bad))

@@ -234,7 +234,7 @@ class Folders(Restored):
         self.restore(daemon, copy)
         verified = daemon.command("verify")
         self.assertEqual(verified.returncode, 1)
-        self.assertIn("fitgauge.changes.checkpoint has signed 2 changes, 1 are there", verified.stdout)
+        self.assertIn("fitgauge.changes.checkpoint has signed 2 changes, but only 1 are stored", verified.stdout)
         daemon.start()
         daemon.wait_for_log("this folder has signed 2 changes, and the database has 1")
         self.plan(daemon, "C")

@@ -51,7 +51,7 @@ class Qualification(DaemonTest):
         self.out.parent.mkdir()
         self.out.write_text("a file")
         for arguments, says in ((["--out", self.out], "could not run"), ([], "--out"),
-                                (["--out", self.out.parent, "--data", self.out.parent / "none"], "no key")):
+                                (["--out", self.out.parent, "--data", self.out.parent / "none"], "has no log key")):
             with self.subTest(says):
                 done = command("qualify", *arguments)
                 self.assertEqual(done.returncode, 2, done)

@@ -336,7 +336,7 @@ class Statistics(DaemonTest):
                 self.assertEqual(answer.json["errors"][0]["code"], code, answer)
         self.assert_problem(self.send("summary", b'{"values":[NaN]}'), 400, "json.malformed")
         # Ten million: too many values, or too many bytes before they are counted; both say what to do.
-        for value, limit in ((b"1,", "more than 500000 values"), (b"25.0105,", "may have 33554432 bytes")):
+        for value, limit in ((b"1,", "more than 500000 values"), (b"25.0105,", "must have at most 33554432 bytes")):
             ten_million = b'{"values":[' + value * 9_999_999 + b"1]}"
             answer = self.send("summary", ten_million)
             self.assert_problem(answer, 413, "request.body_too_large")

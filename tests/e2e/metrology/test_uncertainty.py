@@ -99,7 +99,7 @@ class Uncertainty(DaemonTest):
                 ("a = b", [a, b], "/model", "field.invalid", "character 3"),
                 ("ln(0 - a) + b", [a, b], "/model", "field.invalid", "no value at the estimates"),
                 ("a", [{**a, "sensitivity": 2}], "/contributions/0/sensitivity", "field.conflict", "remove it"),
-                ("a", [{**a, "name": "sin"}], "/contributions/0/name", "field.invalid", "no function"),
+                ("a", [{**a, "name": "sin"}], "/contributions/0/name", "field.invalid", "not be a function or pi"),
                 ("a" * 101, [{**a, "name": "a" * 101}], "/contributions/0/name", "field.invalid", "1 to 100"),
                 ("a", [{"name": "a", "standard_uncertainty": 1}], "/contributions/0/value", "field.missing", "value"),
                 (None, [a], "/contributions/0/value", "field.conflict", "model"),

@@ -131,8 +131,8 @@ class Dfq(Folders):
         cases = {
             "cut": (whole[:whole.index(b"SN-2") + 3], "line 32 has no line end, so the file may be cut"),
             "count": (dfq(HEAD.replace("K0100 2", "K0100 1"), VALUES), "line 17 is for characteristic 2, but K0100 gives 1 characteristics"),
-            "limits": (dfq(HEAD.replace("25.021", "25.02"), VALUES), "line 13 says 25.02 mm in K2111, and H7 of 25 mm is 25.021 mm"),
-            "class": (dfq(HEAD.replace("K2104/1 7", "K2104/1 99"), VALUES), "line 10 says H99 in K2103 and K2104"),
+            "limits": (dfq(HEAD.replace("25.021", "25.02"), VALUES), "line 13 has 25.02 mm in K2111, but H7 of 25 mm gives 25.021 mm"),
+            "class": (dfq(HEAD.replace("K2104/1 7", "K2104/1 99"), VALUES), "line 10 has H99 in K2103 and K2104"),
             "negative": (dfq(HEAD, VALUES.replace("25.03", "-25.03")), "line 31: measured_mm"),
             "attribute": (dfq(HEAD, VALUES.replace("25.03\x140", "25.03\x143")), "line 31 has attribute 3"),
             "type": (dfq(HEAD.replace("K2004/1 0", "K2004/1 1"), VALUES), "which is not a measurement: it is of type 1 (K2004)"),
@@ -177,7 +177,7 @@ class CommandLine(Folders):
         self.assertIn("a.dfq:31: measured_mm: ", done.stderr)
         path.write_bytes(dfq(HEAD.replace("25.021", "25.02"), VALUES))
         done = self.measure(daemon, path, "--again")
-        self.assertIn("line 13 says 25.02 mm in K2111, and H7 of 25 mm is 25.021 mm", done.stderr)
+        self.assertIn("line 13 has 25.02 mm in K2111, but H7 of 25 mm gives 25.021 mm", done.stderr)
         self.assertEqual(len(daemon.stored()), 3)
 
 

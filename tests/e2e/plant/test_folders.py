@@ -189,15 +189,15 @@ class Taking(Folders):
         self.assertIn("all.jsonl:8:", (done := measure()).stderr + done.stdout)
         self.assertEqual(len(fourth.stored()), 6)
         path.write_bytes(records.replace(b'"source":"gauge"', b'"source":"simulation"', 1))
-        self.assertIn("line 1 is of a simulation", measure("--again").stderr)
+        self.assertIn("line 1 is simulated", measure("--again").stderr)
         self.assertEqual(measure("--set", "machine=M1").returncode, 4)
         self.drop("simulated.ndjson", path.read_bytes())
         self.wait(lambda: "simulated.ndjson" in self.files("failed"))
-        self.assertIn("line 1 is of a simulation", (self.folder / "failed" / "simulated.ndjson.error.txt").read_text())
+        self.assertIn("line 1 is simulated", (self.folder / "failed" / "simulated.ndjson.error.txt").read_text())
         header, end, rows = first.get("/v1/measurements", Accept="text/csv").body.partition(b"\r\n")
         self.drop("simulated.csv", header + end + rows.replace(b",gauge,", b",simulation,", 1))
         self.wait(lambda: "simulated.csv" in self.files("failed"))
-        self.assertIn("line 2 is of a simulation", (self.folder / "failed" / "simulated.csv.error.txt").read_text())
+        self.assertIn("line 2 is simulated", (self.folder / "failed" / "simulated.csv.error.txt").read_text())
 
     def test_a_folder_that_is_away_comes_back(self):
         daemon = self.daemon().start()

@@ -398,7 +398,7 @@ describe('catalogues of causes and actions', () => {
     await page.getByRole('button', { name: 'Delete', exact: true }).last().click();
     await page.click('dialog .primary');
     await page.waitForFunction(() => document.querySelector('.catalogues .note').textContent !== ''); // a plan names it
-    await page.goto(`${daemon.url}/#/gauge?plan=C-1&part_id=SN-C1`);
+    await page.evaluate(() => { location.hash = '#/gauge?plan=C-1&part_id=SN-C1'; });
     await page.waitForSelector('.echo .figures');
     await scan(page, '25.040');
     await page.click('.catalogue >> text=Wrong offset');

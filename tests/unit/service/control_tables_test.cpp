@@ -192,7 +192,7 @@ TEST_CASE("a table that cannot be used names itself and the place") {
   CHECK(tools("1       10        1         7\n[END]\n") ==
         "TNC:\\table\\TOOL.T: row 1, probe: probe not found: 7");
   CHECK(tools("1       10        -1\n[END]\n") ==
-        "TNC:\\table\\TOOL.T: row 1, radius_mm: Must be 0 to 1000.");
+        "TNC:\\table\\TOOL.T: row 1, radius_mm: must be 0 to 1000");
   CHECK(Disk()
             .with("TNC:\\preset.pr", "BEGIN PRESET .PR MM\nNO      X_OFFS\n1       2\n[END]\n")
             .error() ==

@@ -31,7 +31,7 @@ TEST_CASE("records come as they are given, whatever the pieces") {
   for (const std::size_t most : {1U, 2U, 7U, 1000U}) {
     CHECK(read_all(given, most) == given);
     CHECK(read_all(exported, most) == "\n{\"measured_mm\":25}\n");
-    CHECK(read_all(simulated, most).starts_with("error: line 2 is of a simulation"));
+    CHECK(read_all(simulated, most).starts_with("error: line 2 is simulated"));
     CHECK(read_all("{}\n\xFF{}\n", most).starts_with("error: byte 3 is not UTF-8"));
   }
   CHECK(read_all("", 1).empty());

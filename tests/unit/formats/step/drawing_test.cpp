@@ -262,7 +262,7 @@ TEST_CASE("what a file may not have is an error with its line") {
             .starts_with("line "));
   CHECK(error_of(replaced(housing(), "(#125),$);\n#125", "(#999),$);\n#125"))
             .find("refers to #999, which is missing") != std::string::npos);
-  CHECK(error_of(replaced(housing(), "#103=", "#102=")).find("#102 stands twice") !=
+  CHECK(error_of(replaced(housing(), "#103=", "#102=")).find("#102 occurs twice") !=
         std::string::npos);
   CHECK(error_of(replaced(housing(), "AP242_", "IFC4_")).find("line 6: FILE_SCHEMA is not") !=
         std::string::npos);
@@ -279,7 +279,7 @@ TEST_CASE("what a file may not have is an error with its line") {
         "#4294967296=A();\n", "#1=A() B();\n", "#=A();\n", "1=A();\n", "#1=A(/*);\n", "#1=();\n"}) {
     CHECK_MESSAGE(error_of(with_data(bad)).starts_with("line "), bad);
   }
-  CHECK(error_of(with_data(fmt::format("#1=A{:(>40}1{:)>40};\n", "", ""))).find("32 deep") !=
+  CHECK(error_of(with_data(fmt::format("#1=A{:(>40}1{:)>40};\n", "", ""))).find("32 levels") !=
         std::string::npos);
   CHECK(error_of(with_data(fmt::format("#1=A('{:x>1048577}');\n", ""))).find("1048576 bytes") !=
         std::string::npos);
