@@ -30,8 +30,8 @@ using namespace fitgauge::simulation;
 
 constexpr std::uint64_t kDaysOfARun = 20;
 
-/// Seeds 1 to 40, a minute on two processors. Seeds 1 to 50 hold.
-constexpr int kLongForm = 800;
+/// Seeds 1 to 50, 75 s on two processors.
+constexpr int kLongForm = 1'000;
 
 struct Order {
   std::uint64_t days = static_cast<std::uint64_t>(fitgauge::rounds(50, kLongForm));
