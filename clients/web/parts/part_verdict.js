@@ -43,7 +43,8 @@ export class PartVerdicts {
 
   #look(seen) {
     for (const { target, isIntersecting } of seen) {
-      if (isIntersecting) this.#places.set(target, target.dataset.part);
+      if (isIntersecting && this.#answers.has(target.dataset.part)) this.#draw(target);
+      else if (isIntersecting) this.#places.set(target, target.dataset.part);
       else this.#places.delete(target);
     }
     const wanted = new Set(this.#places.values());
