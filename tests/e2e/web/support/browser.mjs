@@ -90,8 +90,9 @@ export async function launch() {
 /** The driver of Firefox fills a field with keys that come as fast as those of a scanner, which the page reads as a scan. */
 function fillAsChromium(page) {
   page.fill = async (selector, text) => {
+    const there = await page.waitForSelector(selector);
     // A date is no text that could be inserted.
-    if (await page.$eval(selector, ({ type }) => type === 'date')) return page.locator(selector).fill(text);
+    if (await there.evaluate(({ type }) => type === 'date')) return page.locator(selector).fill(text);
     await page.focus(selector);
     return page.$eval(selector, (field, wanted) => {
       field.select();
