@@ -91,9 +91,15 @@ void add_documents_routes(Routes& add);
 void add_plans_routes(Routes& add);
 /// GET /v1/parts/{part}: the verdict of a part.
 void add_parts_routes(Routes& add);
-/// Gives what is missing of the plan of a part: nothing if no plan fits. @errors as its answer has.
-void missing_at(const Services& services, std::string_view part,
-                std::function<void(Result<std::vector<std::string>>)> done);
+/// The plan that a part is held against, if one alone fits, and its characteristics without a
+/// value.
+struct PlanOfPart {
+  std::optional<std::string> plan{};
+  std::vector<std::string> missing{};
+};
+/// Gives the plan of a part. @errors as the answer of the part has.
+void find_plan_of(const Services& services, std::string_view part,
+                  std::function<void(Result<PlanOfPart>)> done);
 /// /v1/files: the control's disk.
 void add_files_routes(Routes& add);
 /// /v1/setups: machines and workpieces.

@@ -250,9 +250,10 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
     write_verdict_counts(json, verdicts_);
     json.member("parts", std::uint64_t{parts_.size()}).member("worst_id", worst_id_);
     if (worst_verdict_ != gauging::Verdict::Unjudged) json.member("verdict", word(worst_verdict_));
-    if (missing_) {
+    if (plan_) {
+      if (plan_->plan) json.member("plan", *plan_->plan);
       json.key("missing").begin_array();
-      for (const std::string& name : *missing_) json.value(name);
+      for (const std::string& name : plan_->missing) json.value(name);
       json.end_array();
     }
     json.key("gauges").begin_array();
@@ -293,9 +294,15 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
       .lines = std::move(lines_),
       .code = fmt::format("{}/v1/measurements/{}/proof", order_.own_origin, first_id_),
       .signatures = {"Inspector", "Quality", "Date"}};
-  const bool lacks = missing_ && !missing_->empty();
-  if (lacks)
-    paper.summary.push_back(fmt::format("Missing of the plan: {}.", fmt::join(*missing_, ", ")));
+  const bool lacks = plan_ && !plan_->missing.empty();
+  if (plan_) {
+    paper.summary.push_back(plan_->plan ? fmt::format("Held against plan {}.", *plan_->plan)
+                                        : "Not held against a plan.");
+  }
+  if (lacks) {
+    paper.summary.push_back(
+        fmt::format("Missing of the plan: {}.", fmt::join(plan_->missing, ", ")));
+  }
   if (!order_.company.empty()) paper.facts.push_back(order_.company);
   if (!order_.customer.empty()) paper.facts.push_back("Customer: " + order_.customer);
   for (const auto& [name, value] : order_.of) {

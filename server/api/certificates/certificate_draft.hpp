@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "api/resources.hpp"
 #include "formats/certificate/certificate.hpp"
 #include "record/measurement.hpp"
 #include "service/measurements/measurement_service.hpp"
@@ -36,8 +37,8 @@ class CertificateDraft {
   const std::string& last_id() const { return last_id_; }  ///< of the measurements
 
   void add(const app::Measurement& measurement);
-  /// @param missing characteristics of the plan of the part without a value
-  void miss(std::vector<std::string> missing) { missing_ = std::move(missing); }
+  /// @param plan of the part that the report is of
+  void hold_against(PlanOfPart plan) { plan_ = std::move(plan); }
 
   /// @param checkpoint the signed head of the log
   std::string json(Timestamp made_at, const std::string& checkpoint) const;
@@ -52,8 +53,8 @@ class CertificateDraft {
   std::size_t count_ = 0;
   std::size_t bytes_ = 0;
   app::VerdictTally verdicts_{};
-  std::optional<std::vector<std::string>> missing_;  ///< of a part
-  std::string records_;                              ///< JSON, with commas between them
+  std::optional<PlanOfPart> plan_;  ///< of a part
+  std::string records_;             ///< JSON, with commas between them
   std::vector<certificate::Line> lines_;
   /// A gauge, as the records name it.
   struct UsedGauge {

@@ -93,9 +93,9 @@ void make_certificate(const Services& services, const http::Request& request,
         const auto go_on = [&services, draft, shared] { finish(services, draft, shared); };
         const auto& [name, value] = draft->order().of.back();
         if (name != "part_id") return go_on();
-        missing_at(services, value, [draft, go_on, shared](const auto& missing) {
-          if (!missing) return shared->fail(missing.error());
-          draft->miss(*missing);
+        find_plan_of(services, value, [draft, go_on, shared](const auto& found) {
+          if (!found) return shared->fail(found.error());
+          draft->hold_against(*found);
           go_on();
         });
       });
@@ -123,9 +123,8 @@ void add_certificates_routes(Routes& add) {
        .description =
            "Every value of the order, the part or both, in storage order, with limits, verdict, "
            "rule, uncertainty, gauge, machine, operator and the signed head of the log that has "
-           "them; before them the verdict of all and the worst value, of a part also what is "
-           "missing of "
-           "its plan. A tagged PDF, or JSON by "
+           "them; before them the verdict of all and the worst value, of a part also its plan and "
+           "what is missing of it, or that it is held against no plan. A tagged PDF, or JSON by "
            "Accept; at most 10,000 values, whose records have at most 16 MiB.",
        .parameters = parameters(),
        .response_types = {std::string(kPdf), std::string(kJson)},

@@ -226,8 +226,10 @@ void add_measurement_schemas(Schemas& schemas) {
             {"worst_id", schema::text(),
              "Id of the worst value: by verdict, then by position within the limits"},
             {"verdict", verdict_words(), "Worst verdict; absent if no value has limits", false},
-            {"missing", schema::array(schema::text()), "Of a part: what its plan has beyond it",
+            {"plan", schema::text(), "Plan that the part is held against; absent if it is none",
              false},
+            {"missing", schema::array(schema::text()),
+             "Characteristics of the plan without a value; absent without `part_id`", false},
             {"gauges", schema::array(gauge), "Gauges, as in the records"},
             {"checkpoint", schema::text(), "The signed head of the log: a note"},
             {"measurements", schema::array(schema::ref("Measurement")), ""}})});

@@ -187,12 +187,11 @@ void get_part(const Services& services, const http::Request& request, http::Resp
 
 }  // namespace
 
-void missing_at(const Services& services, std::string_view part,
-                std::function<void(Result<std::vector<std::string>>)> done) {
+void find_plan_of(const Services& services, std::string_view part,
+                  std::function<void(Result<PlanOfPart>)> done) {
   read_part(services, part, {}, [done = std::move(done)](const Result<Part>& found) {
-    if (found) return done(found->missing);
-    if (found.error().code == ErrorCode::MeasurementUnknown)
-      return done(std::vector<std::string>());
+    if (found) return done(PlanOfPart{.plan = found->plan, .missing = found->missing});
+    if (found.error().code == ErrorCode::MeasurementUnknown) return done(PlanOfPart());
     done(found.error());
   });
 }

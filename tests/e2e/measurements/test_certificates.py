@@ -52,15 +52,24 @@ class Certificates(DaemonTest):
         sheet = lambda query: self.daemon.get(f"/v1/certificates?{query}", Accept="application/json").json
         measure("a-bore", "25 H7", "25.01")
         text = self.flat("part_id=M-1")
-        self.assertIn("Missing of the plan: a-seat, a-slot.", text)
+        self.assertIn("Held against plan 7-A. Missing of the plan: a-seat, a-slot.", text)
         self.assertEqual(len(re.findall(r"\bgood\b", text)), 2)  # in the summary and in its line, not as the verdict of the part
-        self.assertEqual(sheet("part_id=M-1")["missing"], ["a-seat", "a-slot"])
-        self.assertNotIn("missing", sheet("order=WO-M"))
+        self.assertEqual([sheet("part_id=M-1")[name] for name in ("plan", "missing")], ["7-A", ["a-seat", "a-slot"]])
+        self.assertFalse({"plan", "missing"} & sheet("order=WO-M").keys())
         measure("a-seat", "30 k6", "30.1")
         self.assertEqual(len(re.findall(r"\brework\b", self.flat("part_id=M-1&order=WO-M"))), 3)
         measure("a-slot", "8 P9", "7.97")
         self.assertEqual(sheet("part_id=M-1")["missing"], [])
         self.assertNotIn("Missing", self.flat("part_id=M-1"))
+
+    def test_a_part_that_two_plans_fit_is_held_against_none_and_says_so(self):
+        for plan in ("8-A", "8-B"):
+            self.daemon.request("PUT", f"/v1/plans/{plan}", {"characteristics": [
+                {"name": "c-bore", "designation": "25 H7"}, {"name": f"only-{plan}", "designation": "30 k6"}]})
+        self.daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "part_id": "M-2", "characteristic": "c-bore"})
+        self.assertIn("Not held against a plan.", self.flat("part_id=M-2"))
+        sheet = self.daemon.get("/v1/certificates?part_id=M-2", Accept="application/json").json
+        self.assertEqual((sheet.get("plan"), sheet["missing"]), (None, []))
 
     def test_a_pdf_has_every_value_once_and_whole(self):
         text, info, _ = self.pdf("order=WO-1&company=Muster%20GmbH&customer=%C3%96hler%20%26%20Co")
