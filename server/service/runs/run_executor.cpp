@@ -253,9 +253,10 @@ std::vector<Measurement> measurements_of(const RunReport& report,
     const auto is_judged = [](const MeasuredSize& size) { return size.limits.has_value(); };
     const bool judges = std::ranges::any_of(sizes, is_judged);
     for (const MeasuredSize& size : sizes) {
-      if (judges && !is_judged(size) && size.is_position) continue;
+      // A place without limits is the result only of a cycle that measures no size.
+      const bool is_result = !judges && &size == &sizes.front();
+      if (size.is_position && !is_judged(size) && !is_result) continue;
       records.push_back(record_of(report, measured, size, caller));
-      if (!judges) break;
     }
   }
   return records;

@@ -121,6 +121,22 @@ TEST_CASE("each judged value of a cycle leaves a record, and nothing unjudged is
   }
 }
 
+TEST_CASE("each side of a rectangle without limits leaves a record") {
+  Service service;
+  service.program(
+      "TOOL CALL 30 Z\nTCH PROBE 424 MEAS. RECTAN. OUTS. ~\n Q273=+50 ~\n Q274=+50 ~\n"
+      " Q282=+40 ~\n Q283=+20 ~\n Q261=-10 ~\n Q320=+2 ~\n Q260=+50 ~\n Q301=+1 ~\n"
+      " Q284=+0 ~\n Q285=+0 ~\n Q286=+0 ~\n Q287=+0 ~\n Q279=+0 ~\n Q280=+0 ~\n Q281=+0");
+  RunOrder order = Service::order();
+  order.setup.features = {machine::Block{{29.99, 40, -60}, {70, 60, 0}}};
+  const RunReport report = service.run(std::move(order));
+  REQUIRE(report.result.status == RunStatus::Completed);
+  const auto records = measurements_of(report, std::nullopt);
+  REQUIRE(records.size() == 2);
+  CHECK(records[0].measured == Length::micrometres(40'010));
+  CHECK(records[1].measured == Length::micrometres(20'000));
+}
+
 TEST_CASE("a run is cancelled while it goes on and while it waits, each with its own setup") {
   Service service;
   service.program(kForever);
