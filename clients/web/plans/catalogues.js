@@ -5,11 +5,11 @@ import { confirm } from '../confirm.js';
 import { field, h, refill } from '../dom.js';
 import { explain, t } from '../i18n.js';
 import { go } from '../route.js';
-import { forget, readJson, store as keep } from '../stored.js';
+import { forget, readJson, store as keep, storedKeys } from '../stored.js';
 import { readDocument, removeDocument, writeDocument } from './plan_store.js';
 import { iconButton, sortable } from './sorting.js';
 
-const KEPT_DRAFT = 'catalogue-draft';
+const DRAFTS = 'catalogue-draft/';
 const LISTS = { causes: 'cause', measures: 'measure' };
 const EMPTY = { causes: [], measures: [] };
 const pathOf = (name) => ['catalogues', name];
@@ -45,16 +45,21 @@ export class Catalogues {
   begin(name) {
     this.#attempt(async () => {
       await this.#list();
-      const draft = readJson(KEPT_DRAFT, null, 'session');
-      if (draft && draft.name === (name ?? draft.name)) this.#fill(draft.value, draft, draft.typed);
-      else if (name) await this.#open(name);
+      const kept = name === undefined ? storedKeys(DRAFTS, 'session')[0] : DRAFTS + name;
+      const draft = kept && readJson(kept, null, 'session');
+      if (draft) {
+        forget(kept, 'session');
+        this.#fill(draft.value, draft, draft.typed);
+      } else if (name) await this.#open(name);
     });
   }
 
   /** What was changed and not stored is kept while the window lives. */
   keepDraft() {
-    if (this.#isDirty) keep(KEPT_DRAFT, JSON.stringify({ ...this.#current, value: this.value, typed: this.name.value }), 'session');
-    else forget(KEPT_DRAFT, 'session');
+    if (!this.#current) return;
+    const kept = DRAFTS + this.#current.name;
+    if (this.#isDirty) keep(kept, JSON.stringify({ ...this.#current, value: this.value, typed: this.name.value }), 'session');
+    else forget(kept, 'session');
   }
 
   get value() {

@@ -11,7 +11,7 @@ import { listPlans, readPlan, removePlan, writePlan } from '../plans/plan_store.
 import { fragment, go } from '../route.js';
 import { forget, readJson, store as keep } from '../stored.js';
 
-const KEPT_DRAFT = 'plan-draft';
+const draftOf = (part) => `plan-draft/${part}`;
 const toStation = (part) => fragment({ view: 'gauge', options: { plan: part } });
 const addressOf = (part) => fragment({ view: 'plans', path: part.split('/') });
 
@@ -223,14 +223,16 @@ export function mount(main, route) {
 
   /** What was changed and not stored is kept while the window lives. */
   function keepDraft() {
-    if (!isDirty()) return forget(KEPT_DRAFT, 'session');
-    return keep(KEPT_DRAFT, JSON.stringify({ ...current, text: form.text }), 'session');
+    if (!current) return;
+    if (isDirty()) keep(draftOf(current.part), JSON.stringify({ ...current, text: form.text }), 'session');
+    else forget(draftOf(current.part), 'session');
   }
 
   function restore() {
-    const draft = readJson(KEPT_DRAFT, null, 'session');
     const part = route.path.join('/');
-    if (!draft || draft.part !== part || (!part && !route.options.new)) return false;
+    const draft = readJson(draftOf(part), null, 'session');
+    if (!draft || (!part && !route.options.new)) return false;
+    forget(draftOf(part), 'session');
     edit(JSON.parse(draft.text), draft.tag, draft.part);
     before = '';
     showState();

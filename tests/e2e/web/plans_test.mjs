@@ -174,6 +174,10 @@ describe('the form of a plan', () => {
     await page.waitForSelector('.editor:not([hidden]) .characteristic');
     assert.deepEqual(await names(), ['changed']);
     await says('are back');
+    for (const [part, name] of [['K', 'a'], ['TWO', 'changed']]) { // another that is looked at takes no draft away
+      await page.evaluate((opened) => { location.hash = `#/plans/${opened}`; }, part);
+      await page.waitForFunction((wanted) => document.querySelector('.characteristics .of-name input')?.value === wanted, name);
+    }
     await page.reload();
     await page.waitForSelector('.editor:not([hidden]) .characteristic');
     assert.deepEqual(await names(), ['changed']);
@@ -420,6 +424,11 @@ describe('catalogues of causes and actions', () => {
     };
     await goAndComeBack();
     await goAndComeBack();
+    await daemon.send('PUT', '/v1/catalogues/c-other', { causes: ['X'], measures: [] });
+    for (const [name, cause] of [['c-other', 'X'], ['c-two', 'C']]) { // another that is looked at takes no draft away
+      await page.evaluate((opened) => { location.hash = `#/plans?catalogue=${opened}`; }, name);
+      await page.waitForFunction((wanted) => document.querySelector('.catalogues [aria-label="Causes"] input')?.value === wanted, cause);
+    }
     await daemon.send('PUT', '/v1/plans/C-2', { characteristics: [{ name: 'c-bore', designation: '25 H7' }] });
     await page.evaluate(() => { location.hash = '#/plans/C-2'; });
     await page.waitForSelector('.editor:not([hidden]) .characteristic');
