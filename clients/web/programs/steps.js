@@ -3,7 +3,8 @@
 import { KINDS } from '../figures/trace.js';
 
 const CALL = /^\s*(?:N?\d+\s+)?\/?\s*TOOL\s+CALL\s+("[^"]*"|Q[LRS]?\d+|\d+(?:\.\d+)?)/i;
-const CALL_ISO = /^\s*(?:N?\d+\s+)?[^(;]*?\bT(\d+)\b/i;
+/** G51 and G99 name a tool without calling it: it is made ready, or defined. */
+const CALL_ISO = /^\s*(?:N?\d+\s+)?(?![^(;]*\bG(?:51|99)\b)[^(;]*?\bT(\d+)\b/i;
 
 /** The names of parameters in a text, each once, at most as many as a run watches. */
 export function parametersIn(text, most = 32) {

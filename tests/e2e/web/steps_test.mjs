@@ -72,6 +72,15 @@ describe('breakpoints', () => {
   });
 });
 
+describe('the time of a tool', () => {
+  it('begins with its call: in DIN/ISO, a tool that is defined or made ready is not called', () => {
+    const lines = ['N10 T5 G17 S900', 'N20 G00 X+0', 'N30 G51 T7', 'N40 G99 T8 L+0 R+5', 'N50 G01 X+9', 'N60 T7 G17', 'N70 G00 Z+0'];
+    const blocks = [0, 1, 1, 1, 2, 2, 3].map((moves, i) => ({ block: i, line: i + 1, program: 'TNC:\\A.I', moves, values: {} }));
+    const steps = new Steps({ length: 3, blocks, at: () => ({ kind: 'rapid', seconds: 1 }) });
+    assert.deepEqual(steps.toolTimes((_, line) => lines[line - 1]).map(({ tool, total }) => [tool, total]), [['5', 2], ['7', 1]]);
+  });
+});
+
 describe('a stored run', () => {
   before(async () => {
     for (const [name, text] of Object.entries({ 'LOOP.H': LOOP, 'INNER.H': INNER, 'POINTS.TAB': TABLE, 'tool.t': TOOLS })) await daemon.send('PUT', `/v1/files/nc_prog/${name}`, text, 'text/plain');
