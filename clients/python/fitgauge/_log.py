@@ -36,6 +36,16 @@ class LogCalls(Transport):
         """What was changed of all that decides, oldest first: `kind`, `name`, `from_` and `to` choose."""
         return self._pages("/v1/changes", "changes", {**filters, "limit": page})
 
+    def changes_after(self, cursor: str | None, **filters: Parameter) -> tuple[list[dict[str, Any]], str | None]:
+        """The changes after a cursor, oldest first, and the cursor for the next call; None is before the first change."""
+        found: list[dict[str, Any]] = []
+        while True:
+            page = self._get("/v1/changes", {**filters, "limit": 1000, "after": cursor})
+            found += page["changes"]
+            cursor = page["last"]
+            if page["next"] is None:
+                return found, cursor
+
     def changes_checkpoint(self) -> str:
         """The signed head of the log of changes."""
         return self._bytes("/v1/log/changes/checkpoint").decode()

@@ -222,10 +222,9 @@ class Transport:
         return loads(self._perform(Request("POST", path, dumps(body).encode(), headers, repeatable=True)).body)
 
     def _pages(self, path: str, name: str, parameters: Mapping[str, Parameter]) -> Iterator[Any]:
-        after: str | None = None
+        page: dict[str, Any] = {"next": parameters.get("after")}
         while True:
-            page = self._get(path, {**parameters, "after": after})
+            page = self._get(path, {**parameters, "after": page["next"]})
             yield from page[name]
-            after = page["next"]
-            if after is None:
+            if page["next"] is None:
                 return

@@ -84,6 +84,9 @@ class EveryRoute(ControlTest):
         recorded = client.record_calibration("G-07", {"from": "2026-03-31", "due": "2027-03-31", "certificate": "K-1"})
         self.assertEqual((recorded["certificate"], client.calibrations("G-07")), ("K-1", [recorded]))
         self.assertEqual([each["after"] for each in client.changes(page=1, kind="calibration", name="G-07")], [recorded])
+        seen, cursor = client.changes_after(None)
+        self.assertEqual([client.changes_after(cursor), [*client.changes(after=cursor)]], [([], cursor), []])
+        self.assertEqual([*client.changes(page=2, after=seen[1]["id"])], seen[2:])
         origin, size = client.changes_checkpoint().split("\n")[:2]
         self.assertEqual(origin, client.changes_keys()[0].split("+")[0])
         self.assertEqual(len(client.changes_tile(f"0/000.p/{size}")), 32 * int(size))
