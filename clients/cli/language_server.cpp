@@ -71,16 +71,27 @@ std::string json_of(const Changes& changes) {
   return fmt::format(R"({{"changes":{}}})", files.text());
 }
 
+std::string json_of(const OpenProgram& program, const SourceRange& range) {
+  const auto [begin, end] = range;
+  const std::size_t line = std::max(begin.line, 1U) - 1;
+  return json_of(program.text.place_of_column(line, begin.column),
+                 program.text.place_of_column(line, end.line == begin.line ? end.column : ~0U));
+}
+
+/// Places in other programs are left out.
 std::string json_of(const OpenProgram& program, const klartext::Diagnostic& found) {
   constexpr int kSeverities[] = {3, 2, 1};  // information, warning, error
-  const auto [begin, end] = found.range;
-  const std::size_t line = std::max(begin.line, 1U) - 1;
+  std::vector<std::string> others;
+  for (const klartext::DiagnosticNote& note : found.notes) {
+    if (!note.program.empty()) continue;
+    others.push_back(fmt::format(R"({{"location":{{"uri":{},"range":{}}},"message":{}}})",
+                                 json_quoted(program.uri), json_of(program, note.range),
+                                 json_quoted(note.message)));
+  }
   return fmt::format(
-      R"({{"range":{},"severity":{},"code":"{}","source":"fitgauge","message":{}}})",
-      json_of(program.text.place_of_column(line, begin.column),
-              program.text.place_of_column(line, end.line == begin.line ? end.column : ~0U)),
-      kSeverities[static_cast<std::size_t>(found.severity)], id(found.code),
-      json_quoted(found.message));
+      R"({{"range":{},"severity":{},"code":"{}","source":"fitgauge","message":{},"relatedInformation":{}}})",
+      json_of(program, found.range), kSeverities[static_cast<std::size_t>(found.severity)],
+      id(found.code), json_quoted(found.message), list_of(others));
 }
 
 std::optional<std::size_t> whole(const JsonValue& value) {

@@ -28,19 +28,34 @@ constexpr std::string_view kCodes[] = {
 #undef KLARTEXT_DIAGNOSTIC
 };
 
-std::string sarif_of(const Diagnostic& found) {
+JsonObject sarif_place(std::string uri, SourceRange range) {
   JsonObject region;
-  region.add_raw("startLine", std::to_string(std::max(found.range.begin.line, 1U)));
-  region.add_raw("startColumn", std::to_string(std::max(found.range.begin.column, 1U)));
-  std::string uri = found.program;
+  region.add_raw("startLine", std::to_string(std::max(range.begin.line, 1U)));
+  region.add_raw("startColumn", std::to_string(std::max(range.begin.column, 1U)));
   std::ranges::replace(uri, '\\', '/');
-  const std::string place =
-      fmt::format(R"({{"physicalLocation":{{"artifactLocation":{{"uri":{}}},"region":{}}}}})",
-                  json_quoted(percent_encoded(uri, "/:")), region.text());
+  JsonObject place;
+  place.add_raw("physicalLocation",
+                fmt::format(R"({{"artifactLocation":{{"uri":{}}},"region":{}}})",
+                            json_quoted(percent_encoded(uri, "/:")), region.text()));
+  return place;
+}
+
+std::string sarif_message(const std::string& text) {
+  return fmt::format(R"({{"text":{}}})", json_quoted(text));
+}
+
+std::string sarif_of(const Diagnostic& found) {
   JsonObject result;
   result.add("ruleId", id(found.code)).add("level", word(found.severity));
-  result.add_raw("message", fmt::format(R"({{"text":{}}})", json_quoted(found.message)));
-  result.add_raw("locations", "[" + place + "]");
+  result.add_raw("message", sarif_message(found.message));
+  result.add_raw("locations", "[" + sarif_place(found.program, found.range).text() + "]");
+  std::string others;
+  for (const klartext::DiagnosticNote& note : found.notes) {
+    JsonObject place = sarif_place(note.program.empty() ? found.program : note.program, note.range);
+    place.add_raw("message", sarif_message(note.message));
+    others += (others.empty() ? "" : ",") + place.text();
+  }
+  if (!others.empty()) result.add_raw("relatedLocations", "[" + others + "]");
   return result.text();
 }
 
@@ -80,11 +95,19 @@ Outcome<std::vector<Diagnostic>> found_there(const Context& context, const std::
     found.message = item.text_of("message");
     found.program = item.text_of("program");
     found.source = item.text_of("source");
-    const auto number = [&item](std::string_view name) {
-      return read_number<std::uint32_t>(item.text_of(name));
+    const auto place_of = [](const JsonValue& of) {
+      const auto number = [&of](std::string_view name) {
+        return read_number<std::uint32_t>(of.text_of(name)).value_or(0);
+      };
+      return SourceRange{.begin = {number("line"), number("column")}, .end = {}};
     };
-    found.range.begin = {number("line").value_or(0), number("column").value_or(0)};
-    found.block = number("block");
+    found.range = place_of(item);
+    found.block = read_number<std::uint32_t>(item.text_of("block"));
+    for (const JsonValue& note : item.member("notes").items) {
+      found.notes.push_back({.message = std::string(note.text_of("message")),
+                             .range = place_of(note),
+                             .program = std::string(note.text_of("program"))});
+    }
   }
   return all;
 }

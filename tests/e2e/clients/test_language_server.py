@@ -143,6 +143,14 @@ class Editing(ServerTest):
         self.client.notify("textDocument/didClose", textDocument={"uri": self.client.uri("SUB.H")})
         self.assertEqual(self.client.findings(), [])
 
+    def test_a_finding_names_its_other_places(self):
+        hole = HOLE.replace("Q1 ", "25 ").replace("Q276=+24.9", "Q276=+Q5")
+        found, = self.client.open("order.h", f"BEGIN PGM ORDER MM\nTOOL CALL 30 Z\nQ5 = +26\n{hole}\nEND PGM ORDER MM\n")
+        self.assertEqual((found["code"], found["range"]["start"]["line"]), ("cycle.order_contradicts", 2))
+        other, = found["relatedInformation"]
+        self.assertEqual((other["location"]["uri"], other["location"]["range"]["start"]["line"], other["message"]),
+                         (self.client.uri("order.h"), 13, "the other number"))
+
     def test_hover_shows_a_cycle_with_units_and_a_parameter_with_its_meaning(self):
         for name, text, head in (("demo.h", PROGRAM, "TCH PROBE 421"), ("demo.i", ISO, "G421")):
             self.client.open(name, text)

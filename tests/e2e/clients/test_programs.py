@@ -54,6 +54,12 @@ class Programs(ClientTest):
         result = json.loads(self.assert_runs(1, "nc", "check", "a b#ü.h", "--format", "sarif"))["runs"][0]["results"][0]
         uri = result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
         self.assertEqual(uri, "a%20b%23%C3%BC.h")
+        self.client.write("order.h", hole.replace("BOSS", "HOLE").replace("TCH", "Q5 = +13\nTCH").replace("Q276=+12", "Q276=+Q5"))
+        result = json.loads(self.assert_runs(1, "nc", "check", "order.h", "--format", "sarif"))["runs"][0]["results"][0]
+        places = [(place["physicalLocation"]["region"]["startLine"], place["physicalLocation"]["artifactLocation"]["uri"])
+                  for place in result["locations"] + result["relatedLocations"]]
+        self.assertEqual(places, [(2, "order.h"), (10, "order.h")])
+        self.assertEqual(result["relatedLocations"][0]["message"]["text"], "the other number")
         self.client.write("b.h", "BEGIN PGM B MM\nCALL PGM a.h\nLX 5\nEND PGM B MM\n")
         text = self.assert_runs(2, "nc", "check", "b.h")
         self.assertIn("a.h:2:", text)
