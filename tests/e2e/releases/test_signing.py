@@ -121,6 +121,15 @@ class Signing(unittest.TestCase):
         for each in files:
             self.assertEqual((again / each).read_bytes(), (self.dist / each).read_bytes(), each)
 
+    def test_a_broken_line_of_the_sums_is_found(self):
+        plain = self.signed("torn")
+        sums = plain / "SHA256SUMS"
+        whole = sums.read_text()
+        sums.write_text(whole + whole.splitlines()[0][1:] + "\n")  # one digit is missing
+        self.assertEqual(self.check(plain).returncode, 1)
+        sums.write_text(whole)
+        self.assertEqual(self.check(plain).returncode, 0)
+
     def test_without_a_key_nothing_is_signed(self):
         plain = self.signed("plain")
         self.assertEqual(self.check(plain).returncode, 0)
