@@ -19,7 +19,8 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) { return app.get_s
 
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
-/// Kinds of values, and the last words of the options that have them; others have any text.
+/// Kinds of values, and the last words of the options that have them. An option may name its kind
+/// itself; others have any text.
 constexpr std::pair<std::string_view, std::string_view> kValueKinds[] = {
     {"FILE", " file files paths programs target contacts state output ca cert key "},
     {"FOLDER", " files-to "},
@@ -28,13 +29,17 @@ constexpr std::pair<std::string_view, std::string_view> kValueKinds[] = {
      "upper reference tolerance retry limit chunk baud count "},
     {"TIME", " from to at "},
     {"URL", " server "},
-    {"HOST:PORT", " address "}};
+    {"HOST:PORT", " address "},
+    {"NAME", " "}};
 
 std::string_view kind_of(const CLI::Option& option) {
   const std::string name = ' ' + option.get_single_name() + ' ';
   const std::string word = ' ' + name.substr(name.find_last_of(" -", name.size() - 2) + 1);
+  const std::string type = option.get_type_name();
   for (const auto& [kind, words] : kValueKinds) {
-    if (words.find(name) != words.npos || words.find(word) != words.npos) return kind;
+    if (type == kind || words.find(name) != words.npos || words.find(word) != words.npos) {
+      return kind;
+    }
   }
   return "TEXT";
 }

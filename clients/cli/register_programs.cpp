@@ -51,8 +51,10 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
   check->add_option("--format", checked->format, "Format of the findings: text, json, sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
   add_levels(*check, checked->levels);
-  check->add_option("--setup", checked->run.setup_file,
-                    "JSON file with a setup; the check also runs the programs on it");
+  check
+      ->add_option("--setup", checked->run.setup_file,
+                   "JSON file with a setup; the check also runs the programs on it")
+      ->type_name("FILE");
   check
       ->add_option("--set", checked->run.parameters,
                    "Parameter that is set before block 0 of this run: Q1=25")
@@ -85,7 +87,8 @@ void add_nc_programs(CLI::App& nc, Action& chosen) {
                   "Local folder for the files that the run writes");
   run->add_flag("--force", options->force, "Replace existing files in this folder");
   const auto setup = run->add_option("--setup", options->setup,
-                                     "JSON file; with --from-control the name of a stored setup");
+                                     "JSON file; with --from-control the name of a stored setup")
+                         ->type_name("FILE");
   run->add_option("--setup-file", options->setup_file, "JSON file with a setup")->excludes(setup);
   run->add_option("--set", options->parameters,
                   "Parameter that is set before block 0: Q1=25, QS1=H7")
@@ -167,7 +170,8 @@ void add_replay(CLI::App& app, Action& chosen) {
       ->add_option("--contacts", options->contacts,
                    "JSON file with a contact for each probing move: [[X, Y, Z], null, …]")
       ->required();
-  const auto setup = replay->add_option("--setup", options->run.setup, "Name of a stored setup");
+  const auto setup = replay->add_option("--setup", options->run.setup, "Name of a stored setup")
+                         ->type_name("NAME");
   replay->add_option("--setup-file", options->run.setup_file, "JSON file with a setup")
       ->excludes(setup);
 }

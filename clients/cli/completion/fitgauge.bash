@@ -43,7 +43,8 @@ _fitgauge() {
     --on-stop) _fitgauge_words 'continue end'; return ;;
     --language) _fitgauge_words 'english german dutch italian polish'; return ;;
     --baud) _fitgauge_words '1200 2400 4800 9600 19200 38400 57600 115200'; return ;;
-    --serial | --key-file | --ca | --cert | --cert-key | --state | --setup | --setup-file | --files-to | --contacts | --output | -o) _fitgauge_files; return ;;
+    --setup) [[ " ${COMP_WORDS[*]} " == *' replay '* ]] || _fitgauge_files; return ;;
+    --serial | --key-file | --ca | --cert | --cert-key | --state | --setup-file | --files-to | --contacts | --output | -o) _fitgauge_files; return ;;
   esac
 
   # The command and what follows it: the words that are neither options nor their values.

@@ -78,6 +78,16 @@ class Manual(unittest.TestCase):
         client = subprocess.run([FITGAUGE, "gauge", "--help"], capture_output=True, text=True, check=True).stdout
         for option in ("--uncertainty-um NUMBER", "--measured-at TIME", "--baud NUMBER", "measured NUMBER"):
             self.assertIn(option, client)
+        for command, kind in ((("nc", "check"), "FILE"), (("nc", "run"), "FILE"), (("replay",), "NAME")):
+            with self.subTest(command):
+                client = subprocess.run([FITGAUGE, *command, "--help"], capture_output=True, text=True, check=True).stdout
+                self.assertIn(f"--setup {kind} ", client)
+                section = self.page("fitgauge.1").split(f".It Cm {' '.join(command)} Ar")[1].split(".It Cm ")[0]
+                self.assertIn(f"Fl -setup Ar {kind.lower()}\n", section.replace(" ,", "\n"))
+                self.assertEqual(bool(completions(*command, "x", "--setup", f"{ROOT}/docs/man/f")), kind == "FILE")
+                fish = subprocess.run([FITGAUGE, "completion", "fish"], capture_output=True, text=True, check=True).stdout
+                offer = next(line for line in fish.splitlines() if f"from {command[-1]}' -l setup " in line)
+                self.assertEqual(offer.endswith(" -r -F"), kind == "FILE")
         self.assertRegex(subprocess.run([FITGAUGE, "list", "--help"], capture_output=True, text=True, check=True).stdout,
                          r"--limit NUMBER.*1.*1000")
 
