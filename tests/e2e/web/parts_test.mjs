@@ -203,24 +203,24 @@ describe('the parts', () => {
     };
     await page.click('.records tbody .quiet >> text=Correct');
     await refused('Part', '25.012', '“25\\.012” is a value, not a name');
-    await refused('Part', 'O:WO-W', 'a scan of something else');
+    await refused('Part', 'O:WO-W', 'belongs to another field');
     await page.locator('dialog').getByLabel('Part').fill('P:SN-V');
-    await refused('Reason', '25.012', 'is a value, not words');
-    await refused('Reason', 'P:SN-W', 'a scan of something else');
+    await refused('Reason', '25.012', 'is a value. Enter words');
+    await refused('Reason', 'P:SN-W', 'belongs to another field');
     await page.locator('dialog').getByLabel('Reason').fill('scanned twice');
     await page.click('dialog .primary');
     await page.waitForFunction(() => /SN-V/.test(document.querySelector('.records tbody').textContent));
     await page.click('.records tbody .quiet >> text=Note');
     for (const label of ['Cause', 'Action', 'Text']) {
-      await refused(label, '01A+00025.012', 'is a value, not words');
+      await refused(label, '01A+00025.012', 'is a value. Enter words');
       await page.locator('dialog').getByLabel(label).fill('');
     }
     await page.$eval('dialog .note', (note) => { note.textContent = ''; });
     await page.focus('dialog [name="cause"]');
     await scan(page, 'SN-17');
-    await page.waitForFunction(() => /a scan of something else/.test(document.querySelector('dialog .note').textContent));
+    await page.waitForFunction(() => /belongs to another field/.test(document.querySelector('dialog .note').textContent));
     await page.fill('dialog [name="cause"]', 'Insert 3 worn');
-    await refused('Operator', `fg_${'0'.repeat(64)}`, 'a scan of something else');
+    await refused('Operator', `fg_${'0'.repeat(64)}`, 'belongs to another field');
     await page.fill('dialog [name="operator"]', 'U:Kim');
     await page.click('dialog .primary');
     await page.waitForFunction(() => /Insert 3 worn · Kim/.test(document.querySelector('.records tbody').textContent));

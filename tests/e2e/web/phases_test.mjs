@@ -35,7 +35,7 @@ describe('a process', () => {
     await page.waitForFunction(() => /Enter the reason/.test(document.querySelector('dialog .note').textContent));
     await page.fill('dialog [name="reason"]', '25.012');
     await page.click('dialog .primary');
-    await page.waitForFunction(() => /is a value, not words/.test(document.querySelector('dialog .note').textContent));
+    await page.waitForFunction(() => /is a value. Enter words/.test(document.querySelector('dialog .note').textContent));
     await page.fill('dialog [name="reason"]', 'Burr at the bore');
     await page.fill('dialog [name="operator"]', 'Kim');
     assert.deepEqual(await findings(page), []);
