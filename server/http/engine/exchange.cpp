@@ -262,7 +262,7 @@ std::optional<Refusal> Exchange::negotiate() {
   const std::vector<std::string>& types = request_.route_->response_types;
   if (codings_.gzip == 0 && codings_.identity == 0) {
     return Refusal{406, ErrorCode::NotAcceptable,
-                   "Accept-Encoding must accept gzip or identity; got neither"};
+                   "Accept-Encoding must allow gzip or identity; got neither"};
   }
   if (types.empty()) return std::nullopt;
   request_.response_type_ = types.front();
@@ -272,7 +272,8 @@ std::optional<Refusal> Exchange::negotiate() {
   const std::string* const best = preferred_type(accept, types);
   if (best == nullptr) {
     return Refusal{406, ErrorCode::NotAcceptable,
-                   fmt::format("Accept must accept {}", fmt::join(types, ", "))};
+                   fmt::format("Accept allows no type of this response: ask for one of: {}",
+                               fmt::join(types, ", "))};
   }
   request_.response_type_ = *best;
   return std::nullopt;

@@ -127,7 +127,9 @@ class Lists(DaemonTest):
         self.assertIn('rel="next"', answer.headers["link"])
 
     def test_an_unacceptable_form(self):
-        self.assertEqual(self.daemon.get("/v1/measurements", Accept="image/png").status, 406)
+        refused = self.daemon.get("/v1/measurements", Accept="image/png")
+        self.assertEqual(refused.status, 406)
+        self.assertIn("Accept allows no type of this response: ask for one of: application/json, ", refused.json["detail"])
 
     def test_groups(self):
         groups = self.daemon.get("/v1/measurements/summary?group_by=machine").json["groups"]
