@@ -168,8 +168,7 @@ void add_standards(Schemas& schemas) {
       {"upper_um", schema::number(), "Upper deviation"},
       {"lower_um", schema::number(), "Lower deviation"},
       {"tolerance_um", schema::number(), ""},
-      {"deviation_um", schema::number(),
-       "Of the position of a thread, the one next to its profile"},
+      {"deviation_um", schema::number(), "Deviation of a thread next to its profile"},
       {"upper_arcmin", schema::number(), "Limit in minutes of arc"},
       {"lower_arcmin", schema::number(), "Limit in minutes of arc"},
   }));
@@ -225,9 +224,10 @@ void add_limits_schemas(Schemas& schemas) {
       {"coverage_factor", schema::number(), "Coverage factor k of guard_band"},
       {"probability", schema::number(0.5, 1),
        "Least probability of conformance of a good part (rule conformance)"},
-      {"conformance_probability", schema::number(0, 1), "Of the part, to 1e-9"},
+      {"conformance_probability", schema::number(0, 1),
+       "Probability that the part conforms, to 1e-9"},
       {"guard_band_um", schema::number(), "Guard band inside both limits (rule conformance)"},
-      {"envelope", schema::words({app::kEnvelopeRequired}), "Of a designation with (E)"},
+      {"envelope", schema::words({app::kEnvelopeRequired}), "Present if the designation has (E)"},
       {"envelope_result", schema::words({"not_verified"}), "No GO gauge verifies it here"},
   });
   schemas.push_back(

@@ -180,7 +180,7 @@ void add_plan_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<step::Drawing>("Drawing"));
   schemas.push_back(answer_schema<step::DrawnPlan>("DrawnPlan"));
   const Fields name = {
-      {"name", schema::text(200), "Of the part", false},
+      {"name", schema::text(200), "Name of the part", false},
       {"part_pattern", schema::text(200),
        "Numbers of its parts, as SN-####: # a figure, ? a character, * any text", false},
       {"drawing",

@@ -112,9 +112,10 @@ void builder_members(auto& v) {
   std::nullptr_t elsewhere{};
   const Elsewhere actions{builder_actions_schema()};
   v.optional("m_functions", elsewhere, actions,
-             "Of the machine's builder, by number: `ignore`, or an object "
-             "whose `call` is the program that stands for it");
-  v.optional("cycles", elsewhere, actions, "Of the machine's builder, likewise");
+             "M functions of the machine's builder, by number: `ignore`, or an object "
+             "whose `call` is the program that replaces the function");
+  v.optional("cycles", elsewhere, actions,
+             "Cycles of the machine's builder, by number: `ignore`, or an object with `call`");
 }
 
 /// Names `decimal_separator`, `fn16_default_path` and `active_datum_table`, which decode_builder

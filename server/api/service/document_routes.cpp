@@ -190,8 +190,9 @@ NamedSchema names_schema(std::string name, std::string_view member, const schema
 }
 
 void add_document_routes(Routes& add, const KindOfDocument& kind) {
-  const http::Parameter name = path_parameter(
-      std::string(parameter_name(kind)), fmt::format("Of {}: {}", kind.one, names_allowed(kind)));
+  const http::Parameter name =
+      path_parameter(std::string(parameter_name(kind)),
+                     fmt::format("Name of {}: {}", kind.one, names_allowed(kind)));
   const std::string pattern = fmt::format("{}/{{{}}}", kind.path, kind.parameter);
   const std::string schema(kind.schema);
   const std::string answered(kind.answered);

@@ -119,7 +119,7 @@ struct LinearityOrder {
   std::vector<metrology::Exact> references{};
 };
 void row_members(auto& v, LinearityOrder& study) {
-  v.member("reference", study.references.emplace_back(), "Of the master");
+  v.member("reference", study.references.emplace_back(), "Size of the master");
   unused_labels(v);
   v.member("value", study.values, OneMore{});
 }

@@ -49,7 +49,7 @@ void members(auto& v, const NamedViolation& named) {
   v.member("chart", named.violation.chart, "Name of the chart");
   v.member("rule", named.violation.rule, Integer{1, metrology::ZoneRules::kCount},
            "Western Electric 1956");
-  v.member("index", named.violation.index, "Of the point, from 0");
+  v.member("index", named.violation.index, "Index of the point, from 0");
   v.optional("id", named.id, "Id of the stored measurement");
   v.optional("subgroup", named.subgroup, "Name of the subgroup of stored values");
 }
@@ -174,8 +174,8 @@ void members(auto& v, const metrology::FittedDistribution& fit) {
   for (const auto& [name, value] : fit.named_parameters()) parameters.push_back({name, value});
   v.member("parameters", parameters);
   v.member("chi_squared", fit.chi_squared,
-           "Of the test of this fit; null for a normal one that the "
-           "test of normality lets stand");
+           "Statistic of the test of this fit; null for a normal distribution that the "
+           "test of normality does not reject");
   v.member("degrees_of_freedom", fit.degrees_of_freedom);
   v.member("p", fit.p);
 }

@@ -21,7 +21,7 @@ struct ValidationAnswer {
 void members(auto& v, const ValidationAnswer& of) {
   v.member("digits", of.digits, "Significant ones of the standard uncertainty");
   v.member("tolerance", of.tolerance, "Half a unit of the last digit");
-  v.member("lower_difference", of.lower, "Of the lower ends of both intervals");
+  v.member("lower_difference", of.lower, "Difference between the lower ends of both intervals");
   v.member("upper_difference", of.upper);
   v.member("validated", std::max(of.lower, of.upper) <= of.tolerance);
 }
@@ -43,7 +43,8 @@ void members(auto& v, const SimulationAnswer& simulated) {
   const metrology::MonteCarloResult& made = simulated.made;
   v.member("trials", made.trials);
   v.member("seed", simulated.seed);
-  v.member("mean", made.mean, "Of the model, else of the deviation from the estimate");
+  v.member("mean", made.mean,
+           "Mean of the model; without a model, mean of the deviation from the estimate");
   v.member("standard_deviation", made.standard_deviation);
   v.member("interval", SimulatedInterval{made.lower, made.upper}, "Equal probability outside");
   v.member("validation", simulated.validation,
@@ -77,8 +78,8 @@ void members(auto& v, const UncertaintyAnswer& answer) {
   v.member("probability", answer.probability);
   v.member("coverage_factor", answer.combined.coverage_factor);
   v.member("expanded_uncertainty", answer.combined.expanded);
-  v.optional("value", answer.value, "Of the model");
-  v.optional("sensitivities", answer.sensitivities, "Of the model");
+  v.optional("value", answer.value, "Value of the model");
+  v.optional("sensitivities", answer.sensitivities, "Sensitivities of the model");
   v.optional("second_order_standard_uncertainty", answer.second_order,
              "With the terms of JCGM 100, note to 5.1.2, of a model without correlations");
   v.optional("monte_carlo", answer.simulated, "Present if requested");

@@ -131,7 +131,8 @@ void members(V& v, WebhookOptions& options) {
   v.member("url", options.url, By{kLongestUrl, read_url}, "https://host/path");
   v.optional("timeout_s", options.timeout, Within{1, 30}, "Timeout of a request; 15 when absent");
   v.optional("headers", options.headers, HeadersForm{},
-             "Of each request, as Authorization. Values are not shown; null keeps the stored value "
+             "Headers of each request, as Authorization. Values are not shown; null keeps the "
+             "stored value "
              "while the url stays, as leaving headers out does");
   v.optional("body", options.body, BodyForm{},
              "JSON with {{field}} of the event; the whole event when absent");
