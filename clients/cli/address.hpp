@@ -22,7 +22,7 @@ std::string percent_encoded(std::string_view text, std::string_view kept = {});
 /// `nc_prog/8255/8255.h` or `TNC:\nc_prog\8255\8255.h` as the service's path of the file.
 std::string file_target(std::string_view path);
 
-/// The same as the control writes it.
+/// Returns the path as the control writes it.
 std::string control_path(std::string_view path);
 
 /// Returns the part after the last slash or backslash.

@@ -35,7 +35,7 @@ Failure failure_of(const LinkFailure& failure) {
   }
 }
 
-/// The same about a file.
+/// Returns the failure with the path of a file before its text.
 Failure failure_of(const std::string& path, const LinkFailure& failure) {
   Failure named = failure_of(failure);
   named.message = path + ": " + named.message;

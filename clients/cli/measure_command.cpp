@@ -233,7 +233,7 @@ class Upload {
   /// Whether it was sent unchanged, and RowInput might accept it.
   bool may_be_table() const { return !RowInput::is_one(options_) && state_.counts.sum() == 0; }
 
-  /// Of a line of the text that is sent.
+  /// Returns the line of the file for a line of the text that is sent.
   std::uint64_t line_in_file(std::uint64_t line) const {
     return RowInput::line_of(context_, options_, line);
   }

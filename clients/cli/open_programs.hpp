@@ -90,7 +90,7 @@ class OpenPrograms {
   /// Fills `found` with the findings of a check.
   void check(OpenProgram& program);
 
-  /// Of a line: URI and line of the label that it calls or jumps to, or of the file that it names.
+  /// Returns URI and line of the label or file that a line names.
   std::optional<std::pair<std::string, std::size_t>> definition(const OpenProgram& program,
                                                                 std::size_t line);
 

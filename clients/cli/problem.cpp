@@ -41,7 +41,7 @@ std::optional<Problem> problem_of(const Answer& answer) {
                   .title = std::string(document->text_of("title")),
                   .detail = std::string(document->text_of("detail")),
                   .where = std::string(document->text_of("where"))};
-  // Of what cannot be read the detail says all.
+  // The detail describes all of an input that cannot be read.
   if (problem.code.ends_with(".malformed")) return problem;
   for (const JsonValue& entry : document->member("errors").items) {
     problem.fields.push_back({.pointer = std::string(entry.text_of("pointer")),

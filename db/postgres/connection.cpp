@@ -181,7 +181,7 @@ void Connection::wait_for_commit() {
     if (!has_committed_) throw;
     throw StorageFailure({ErrorCode::StorageUnavailable, failed.what()});
   }
-  // Of a transaction that failed before, COMMIT makes a ROLLBACK and calls it so.
+  // PostgreSQL answers ROLLBACK to the COMMIT of a transaction that failed earlier.
   if (has_committed_) return;
   throw StorageFailure({ErrorCode::StorageUnavailable, "PostgreSQL rolled the transaction back"});
 }

@@ -28,14 +28,14 @@ class Notifications {
   Notifications& operator=(Notifications&&) = delete;  // neither copied nor moved
   ~Notifications() { close(event_); }
 
-  /// Of the writer: whether the transaction is to notify.
+  /// Returns whether the transaction notifies others. Only the writer calls it.
   bool is_due() {
     const auto now = Clock::now();
     const bool due = now >= next_;
     if (due) next_ = now + kInterval;
     return due;
   }
-  /// Of the writer: it has committed.
+  /// Records a commit. Only the writer calls it.
   void committed(bool notified) {
     if (notified) {
       postponed_ = false;

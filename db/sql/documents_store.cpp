@@ -25,7 +25,8 @@ using sql::Blob;
 constexpr std::string_view kEntry =
     "r.path, r.revision, coalesce(length(r.content), 0), r.modified_at, r.caller";
 constexpr int kContent = 5;  ///< the column after an entry's
-/// Of each file, its deletions among them. Older ones go with the next change.
+/// Number of revisions that are kept of each file, with its deletions. The next change removes
+/// older ones.
 constexpr int kKeptRevisions = 20;
 
 FileEntry read_entry(const Rows& rows) {

@@ -65,7 +65,7 @@ struct FieldPlace {
   int kind = 0;
 };
 
-/// The same of designations.
+/// Place of an entry of designations.
 struct DesignationPlace {
   static constexpr std::size_t kColumn = column_of_field(number_of(IndexField::Designation));
 

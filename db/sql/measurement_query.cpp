@@ -68,7 +68,7 @@ void for_each_condition(const MeasurementFilter& filter, Add&& add) {
   }
 }
 
-/// The same for the node `b` of a block that may have such rows.
+/// Adds the conditions of time for the node `b` of a block that may have such rows.
 template <class Add>
 void for_each_time_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.from_ns) add("b.max_measured_at >= ?", *filter.from_ns);

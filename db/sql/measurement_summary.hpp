@@ -63,7 +63,7 @@ class MeasurementSummary {
   sql::Statement blocks_of_value_;
   sql::Statement corrected_;
 
-  // Of the summary that is being made.
+  // State of the summary that is being made.
   const MeasurementFilter* filter_ = nullptr;
   std::size_t max_groups_ = 0;
   bool fits_ = true;

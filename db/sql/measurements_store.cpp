@@ -35,7 +35,7 @@ constexpr std::string_view kValueColumns =
     "m.nominal_nm + m.lower_deviation_nm, m.nominal_nm + m.upper_deviation_nm, m.subgroup, ";
 constexpr std::string_view kPlaceColumns =
     "coalesce(m.origin, 0), CASE WHEN m.origin > 0 THEN coalesce(m.number, m.seq) ELSE m.id END";
-/// The same if every row is of this folder, because columns at the far end are slow to read.
+/// Columns of the place if every row is of this folder: columns at the far end are slow to read.
 constexpr std::string_view kOwnPlaceColumns = "0, m.id";
 
 /// Counts the rows of a page.

@@ -38,7 +38,7 @@ void for_each_pair(const Visit& visit) {
   }
 }
 
-/// The same with the fields of tuples.
+/// Visits each entry with the fields of tuples.
 template <class Visit>
 void for_each_entry(const IndexNode& node, const Visit& visit) {
   for_each_pair(visit);

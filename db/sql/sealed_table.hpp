@@ -50,8 +50,7 @@ struct SealedTable {
 
   /// `INSERT INTO … (columns, seal) VALUES (?1, …)`: the values of the columns, in their order.
   std::string insert(const sql::Connection& connection) const;
-  /// The same in place of a row that is alike in `unique`; one that was there is deleted and
-  /// inserted, as triggers see it.
+  /// Replaces a row that has equal `unique` columns. Triggers see a deletion and an insertion.
   std::string replace(const sql::Connection& connection) const;
   /// An expression of a SELECT: 0 if a row was altered.
   std::string is_sound(const sql::Connection& connection, std::string_view alias = {}) const;

@@ -64,7 +64,7 @@ class Session {
   /// commits.
   virtual void begin_writing() = 0;
   virtual void commit() = 0;
-  /// Also after a commit() that failed.
+  /// Rolls back; allowed after a commit() that failed.
   virtual void rollback() noexcept = 0;
 
   /// Encloses each of several jobs of a transaction: undo() reverts its changes.
@@ -76,7 +76,7 @@ class Session {
 
   /// Writes something, to find out whether commits work again after one has failed.
   virtual void probe() = 0;
-  /// Of the writer, between two transactions.
+  /// Tidies up between two transactions. Only the writer calls it.
   virtual void tidy_up(WriterCounters& counters) = 0;
 };
 

@@ -6,9 +6,9 @@
 namespace fitgauge::store {
 namespace {
 
-// Of each column first its size in bytes, then how many values it has, the values, and of each row
-// the number of its value. Then the kinds alike, a byte each; the smallest length, the bits of a
-// distance, and the distances of all rows from it; and the padding.
+// A column has its size in bytes, the number of its values, the values, and for each row the number
+// of its value. Then come the kinds, a byte each, the smallest length, the bits of a distance, the
+// distance of each row from that length, and padding.
 
 unsigned bits_for(std::size_t count) { return static_cast<unsigned>(std::bit_width(count - 1)); }
 

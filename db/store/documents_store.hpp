@@ -111,7 +111,7 @@ struct Note {
   std::optional<std::string> operator_id{};
   std::optional<std::string> caller{};
   std::int64_t received_at_ns = 0;
-  // Of a note that a station has forwarded:
+  // For a note that a station has forwarded:
   std::int64_t origin = 0;  ///< OriginsStore::Origin::number; 0 is this folder
   std::int64_t number = 0;  ///< in the id it got there
 };

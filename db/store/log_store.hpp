@@ -44,7 +44,7 @@ class LogStore {
     std::array<std::int64_t, 4> newest{};
   };
   std::vector<Branch> branches() const;  ///< the oldest first
-  /// Of an ended history by its name; 0: it is not known.
+  /// Returns the last change of an ended history by its name; 0 if the history is unknown.
   std::int64_t last_change(std::string_view history) const;
   /// Whether the database is a copy that `backup` made and nobody has started.
   bool is_copy() const;

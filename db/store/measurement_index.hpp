@@ -76,7 +76,7 @@ struct MeasurementFilter {
   std::optional<std::int64_t> to_ns{};             ///< measured_at < to
   std::optional<std::int64_t> received_from_ns{};  ///< from <= received_at
   std::optional<std::int64_t> received_to_ns{};    ///< received_at < to
-  // Of one note of the row:
+  // Fields of one note of the row:
   std::optional<std::string> cause{};           ///< that it names, exactly so
   std::optional<std::int64_t> noted_from_ns{};  ///< from <= its received_at
   std::optional<std::int64_t> noted_to_ns{};    ///< its received_at < to

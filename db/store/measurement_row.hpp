@@ -78,13 +78,13 @@ struct MeasurementRow : app::MeasurementFields {
   std::optional<std::int64_t> coverage_factor{};  ///< k in millionths: 2'000'000 is k = 2
 
   std::optional<std::int64_t> correction_of{};  ///< id of the row this one replaces
-  // Of rule Conformance, and of no other:
+  // Only for rule Conformance:
   std::optional<std::int64_t> probability{};  ///< asked for, in millionths
   std::optional<std::int64_t> conformance{};  ///< found, in 1e-9
   std::optional<std::int64_t> guard_band{};   ///< in fm
 
   std::optional<std::int64_t> corrected_nm{};  ///< the size at 20 °C, if the verdict uses it
-  // Of rows that another folder has forwarded, and of rows stored with them:
+  // Only for rows that another folder has forwarded, and for rows stored with them:
   std::optional<std::int64_t> origin{};  ///< OriginsStore::Origin::number; 0 is this folder
   std::optional<std::int64_t> seq{};     ///< in the log of its origin; none: it is the id
   std::optional<std::int64_t> number{};  ///< in the id it got there; none: it is the seq

@@ -142,7 +142,7 @@ class ExactStatistics {
 
   /// In mm to 1e-12, half away from zero, as the shortest decimal.
   std::string mean_mm() const;
-  /// The same of the standard deviation of n - 1. @pre count() >= 2
+  /// Returns the standard deviation of n - 1 in mm to 1e-12. @pre count() >= 2
   std::string standard_deviation_mm() const;
 
   /// As bytes to be stored, and back; bytes of another size give empty statistics.
@@ -150,7 +150,7 @@ class ExactStatistics {
   std::array<char, kEncodedSize> encode() const;
   static ExactStatistics decode(std::string_view bytes);
 
-  /// The same in some twenty bytes.
+  /// Encodes in some twenty bytes.
   void pack(std::string& out) const;
   static ExactStatistics unpack(PackedNumbers& in);
 

@@ -88,7 +88,7 @@ class MeasurementsStore {
 
   /// The newest id, 0 when there is none.
   std::int64_t last_id() const;
-  /// Of the newest record.
+  /// Returns the time of the newest record.
   std::optional<Timestamp> newest_received_at() const;
 
   /// @errors QueryInvalid when there are more than `max_groups` groups.

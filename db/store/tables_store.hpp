@@ -48,8 +48,8 @@ struct TableContent {
   std::vector<CustomCell> custom{};
 };
 
-/// Of the content in sorted order, whatever the order given (canonical_digest.hpp): the number of
-/// cells, each cell's members in order, then the same for the custom cells.
+/// Digests the content in sorted order, independent of the order given (canonical_digest.hpp): the
+/// number of cells, the members of each cell in order, then number and members of the custom cells.
 Digest digest_of(TableContent content);
 
 struct TableRevision {

@@ -7,9 +7,9 @@
 
 namespace fitgauge::store {
 
-// Of a field there are how many values it has, the values, and of each tuple the number of its
-// value, a byte. Of tuples that stand together how many they are, of each its kind, a byte, and the
-// size of its statistics, a byte, and behind these the statistics.
+// A field has the number of its values, the values, and for each tuple the number of its value, a
+// byte. A group of tuples has their count, the kind of each, a byte, the size of the statistics of
+// each, a byte, and then the statistics.
 
 std::vector<std::uint16_t> NumberedColumn::numbers_of(
     std::span<const std::optional<std::string_view>> values) {

@@ -35,7 +35,7 @@ class NumberedColumn {
   void add(std::uint16_t number) { rows_.push_back(number); }
 
   const std::vector<const std::optional<std::string>*>& values() const { return values_; }
-  /// Of each row the number of its value. @pre fits()
+  /// Returns the number of its value for each row. @pre fits()
   const std::vector<std::uint16_t>& rows() const { return rows_; }
 
  private:
@@ -94,7 +94,7 @@ struct TupleColumn {
   std::vector<std::optional<std::string_view>> values{};
   std::string_view numbers{};
 
-  /// Of bytes that live as long as it is used. @returns false where they are no column.
+  /// Reads bytes, which must outlive this object. @returns false if they are not a column.
   bool read(std::string_view bytes);
 
   /// Takes the tuples with other values than this one out of `tuples`, which has a byte for each.

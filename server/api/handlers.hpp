@@ -21,7 +21,7 @@ inline auto answer_by(SharedResponder shared) {
   };
 }
 
-/// The same of a result that `make` makes the response of.
+/// Answers with the response that `make` makes from a result.
 template <class Make>
 auto answer_with(http::Responder responder, Make make) {
   return [answer = answer_by(share(std::move(responder))), make = std::move(make)](auto found) {

@@ -20,7 +20,7 @@ constexpr Characters characters(std::string_view text) {
 constexpr Characters kQuoted = characters(",;\"\r\n");
 constexpr Characters kQuotedBesideSemicolons = characters(";\"\r\n");
 
-/// Also true for a guarded text, so that reading removes exactly one guard.
+/// Returns true also for a guarded text, so that reading removes exactly one guard.
 bool begins_formula(std::string_view text) {
   const std::size_t first = text.find_first_not_of('\'');
   return first != std::string_view::npos &&

@@ -25,7 +25,7 @@ class Histogram {
   }
 
   std::span<const double> bounds() const { return bounds_; }
-  /// Of the bucket `i`, 0 to N.
+  /// Returns the count of bucket `i`, 0 to N.
   std::uint64_t count(std::size_t i) const { return counts_[i].load(std::memory_order_relaxed); }
   double sum() const { return sum_.load(std::memory_order_relaxed); }
 

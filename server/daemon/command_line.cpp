@@ -100,7 +100,7 @@ std::vector<std::string> environment() {
   return variables;
 }
 
-/// Of the first option that there is not.
+/// Suggests a spelling for the first unknown option.
 std::string spelling_hint(const CLI::App& app) {
   for (const std::string& word : app.remaining(true)) {
     if (!word.starts_with("--")) continue;

@@ -22,7 +22,7 @@ void write_storage_metrics(const app::Application& app, const std::filesystem::p
 /// `process_*` as Prometheus' own clients name them, and the log's lost lines.
 void write_process_metrics(api::Exposition& out);
 
-/// Of every connection, by its name.
+/// Writes the metrics of every connection, by its name.
 void write_connection_metrics(const std::vector<connections::ConnectionState>& connections,
                               const Clock& clock, api::Exposition& out);
 

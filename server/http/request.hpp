@@ -66,7 +66,7 @@ class Request {
 
   /// The decoded body; empty when there is none. kBodyPadding bytes after its end are readable.
   std::string_view body() const { return body_.text; }
-  /// The same, on disk if its route spools.
+  /// Returns the decoded body; on disk if its route spools.
   const FileText& file_body() const { return body_; }
   static constexpr std::size_t kBodyPadding = 64;
   /// The body's media type in lower case without parameters; empty when the request names none.

@@ -57,7 +57,7 @@ struct ServerOptions {
   /// under pressure a sender that has stopped loses its own. A body without a length that has grown
   /// beyond 1 MiB takes its route's limit.
   std::size_t body_budget = std::size_t{64} << 20;
-  /// Of bodies whose route spools them; empty: they stay in memory.
+  /// Folder for bodies whose route spools them; empty: they stay in memory.
   std::string spool_folder{};
   /// Bytes of answers that wait for their readers, all connections together. Beyond it those end
   /// that have been leaving longest, if for longer than `unsent_time`: who reads has his by then.

@@ -243,7 +243,7 @@ Result<void> Connections::remove(const std::string& name,
                                  const std::optional<std::string>& caller) {
   const auto found = find(name);
   if (found && found->definition.name == name && found->is_read_only) return read_only(name);
-  // Also one that was stored and not started.
+  // Removes a connection even if it was stored and not started.
   const auto removed =
       plant_.documents.remove_and_wait(app::DocumentKind::Connection, name, caller);
   if (!removed) return removed.error();

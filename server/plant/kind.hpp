@@ -48,7 +48,7 @@ class Settings {
   virtual std::unique_ptr<Worker> start(const Plant& plant) const = 0;
   /// Tests the other side once, independently of the worker. Blocks up to half a minute.
   virtual ConnectionTest test(const Plant& plant, const std::stop_token& stop) const = 0;
-  /// Of an outgoing connection; else null.
+  /// Returns the options of an outgoing connection; null for others.
   virtual const FollowerOptions* follower() const = 0;
 };
 

@@ -98,7 +98,7 @@ class Outlet {
   /// The rest is delivered again.
   virtual Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) = 0;
 
-  /// The same of events, for outlets whose options ask for some.
+  /// Delivers events, for outlets whose options ask for some.
   virtual Delivery deliver_events(std::span<const OutgoingEvent> events, const std::stop_token&) {
     return {.dealt_with = events.size()};
   }
@@ -173,7 +173,7 @@ class LogFollower final : public Worker {
   const std::unique_ptr<Outlet> outlet_;
   const std::shared_ptr<Bell> bell_;
 
-  // Of the thread.
+  // Used only by the thread.
   Progress progress_;
   std::int64_t read_to_ = 0;  ///< all up to here is pending or dealt with
   std::int64_t log_end_ = 0;  ///< of the log, when it was read last

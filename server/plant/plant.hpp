@@ -38,7 +38,7 @@ struct ConnectionState {
   std::optional<Timestamp> attempt_began_at{};  ///< of the attempt that is under way
   std::chrono::steady_clock::time_point attempt_began{};
 
-  // Of outgoing ones.
+  // Only for outgoing connections:
   std::optional<std::int64_t> position{};  ///< how many measurements of the log are dealt with
   std::int64_t behind = 0;                 ///< how many are not
   std::optional<Timestamp> waits_since{};  ///< time of receipt of the next one to send

@@ -20,7 +20,7 @@ Hash leaf_hash(std::string_view data);
 /// The root of the tree without leaves: SHA-256 of nothing.
 Hash empty_root();
 
-/// The same for many leaves and nodes in turn: the algorithm is set up once. Not thread-safe.
+/// Hashes many leaves and nodes in turn: the algorithm is set up once. Not thread-safe.
 class TreeHasher {
  public:
   TreeHasher() = default;

@@ -24,7 +24,7 @@ class VerifierKey {
   static Result<VerifierKey> parse(std::string_view vkey);
 
   const std::string& name() const { return name_; }
-  /// The same key under another name. @pre is_key_name(name).
+  /// Returns this key under another name. @pre is_key_name(name).
   VerifierKey named(std::string name) const { return {std::move(name), key_}; }
   /// The first four bytes of SHA-256(name || "\n" || 0x01 || key), big-endian.
   std::uint32_t id() const { return id_; }
@@ -61,7 +61,7 @@ class SigningKey {
   std::string text() const;
 
   const VerifierKey& verifier() const { return verifier_; }
-  /// The same key under another name. @pre is_key_name(name).
+  /// Returns this key under another name. @pre is_key_name(name).
   SigningKey named(std::string name) const { return {std::move(name), seed_}; }
   VerifierKey::Signature sign(std::string_view message) const;
 

@@ -69,7 +69,7 @@ struct MeasurementFields {
 /// Values that a request may give a field; none if the service fills it.
 struct Accepted {
   std::size_t longest = 0;  ///< of a text, in bytes, or in characters if it counts those
-  // Of a number, in units of 10^-scale, and both bounds in words:
+  // Bounds of a number, in units of 10^-scale, and in words:
   std::int64_t least = 0;
   std::int64_t most = 0;
   std::string_view range{};

@@ -51,7 +51,7 @@ using GaugeBook = std::map<std::string, GaugeInUse, std::less<>>;
 /// RFC 3339 time. None for other texts.
 std::optional<Timestamp> parse_from(std::string_view text);
 std::optional<Timestamp> parse_due(std::string_view text);
-/// The same text with its time in UTC; a date stays as it is.
+/// Returns the text with its time in UTC; a date stays unchanged.
 std::optional<std::string> due_in_utc(std::string_view text);
 
 /// Standard uncertainty in µm as in measurements, rounded up to the nanometre. None if it is not a

@@ -37,20 +37,20 @@ class Origins {
     std::int64_t newest_of(Counted what) const { return newest.at(static_cast<std::size_t>(what)); }
   };
 
-  /// Of the present history of this folder.
+  /// Digits of the present history of this folder.
   std::string_view own() const { return digits(0); }
-  /// Of the first one: what this folder is called for ever.
+  /// Digits of the first history; they name this folder for ever.
   std::string_view first() const {
     const std::lock_guard lock(mutex_);
     return ended_.empty() ? of(0) : ended_.front().digits;
   }
-  /// Of that in which this folder gave out the number.
+  /// Digits of the history in which this folder gave out the number.
   std::string_view own(Counted what, std::int64_t number) const {
     const std::lock_guard lock(mutex_);
     return own_of(what, number);
   }
 
-  /// Of a measurement's id, or a run's. Empty for an origin that is not known.
+  /// Digits in the id of a measurement or run. Empty if the origin is unknown.
   std::string_view digits(std::int64_t origin, std::int64_t number,
                           Counted what = Counted::Measurement) const {
     const std::lock_guard lock(mutex_);

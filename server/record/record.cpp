@@ -54,7 +54,7 @@ class RecordText {
   }
   /// The inside of a JSON string: at most kEscaped characters for each of the text.
   RecordText& escaped(std::string_view text);
-  /// The same between quotes.
+  /// Writes an escaped text between quotes.
   RecordText& quoted(std::string_view text) { return raw("\"").escaped(text).raw("\""); }
 
   static constexpr std::size_t kEscaped = kEscapeRoom;

@@ -24,7 +24,7 @@ struct ThermalCorrection {
   Length operator()(Length reading) const {
     return gauging::size_at_20_degrees(reading, part, scale);
   }
-  /// Of a corrected size, in pm; none if no uncertainty was given.
+  /// Returns the uncertainty of a corrected size in pm; none if no uncertainty was given.
   std::optional<std::int64_t> added_uncertainty(Length corrected) const {
     if (!has_uncertainties) return std::nullopt;
     return gauging::added_uncertainty(corrected, part, scale);

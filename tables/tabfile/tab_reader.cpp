@@ -36,7 +36,7 @@ bool is_control_character(char c) { return static_cast<unsigned char>(c) < ' ' &
 
 bool is_end(std::string_view line) { return ascii_iequals(trim(line), "[END]"); }
 
-/// Of a name or type: what would end it in a description.
+/// Returns whether the character would end a name or type in a description.
 bool ends_a_word(char c) {
   return c == '"' || c == '(' || c == ')' || c == ',' || static_cast<unsigned char>(c) < ' ';
 }

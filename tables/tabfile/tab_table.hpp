@@ -116,7 +116,7 @@ std::string write_tab(const TabTable& table);
 Result<TabTable> read_tab(std::string_view text, Allowance& allowance);
 Result<TabTable> read_tab(std::string_view text);
 
-/// The same for the bytes of a file: UTF-8, or else Windows-1252 as older controls write it.
+/// Reads the bytes of a file: UTF-8, or Windows-1252 as older controls write it.
 Result<TabTable> read_tab_file(std::string_view bytes, Allowance& allowance);
 
 /// The description of columns in a file, by name, before the line of their names.

@@ -23,7 +23,7 @@ Result<ControlPath> path_of(const http::Request& request) {
   return ControlPath::parse(std::string(app::kDrive) + std::string(*request.text("path")));
 }
 
-/// The same the other way round, as a path of this service.
+/// Returns the path of this service for a path of the control.
 std::string href(std::string_view path) {
   std::string out(app::kFiles);
   for (const char c : path.substr(app::kDrive.size())) {

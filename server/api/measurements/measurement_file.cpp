@@ -104,7 +104,7 @@ std::string rule_of(const app::Measurement& m) {
   };
   if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) say("rule", word(m.rule.kind()));
   if (m.standard_uncertainty) {
-    // Of the size at 20 degrees, which is written.
+    // The uncertainty belongs to the size at 20 degrees, which is written.
     say("uncertainty_um", format_um(gauging::combined_uncertainty(
                               *m.standard_uncertainty, m.added_uncertainty.value_or(0))));
   }

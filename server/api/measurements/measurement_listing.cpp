@@ -234,7 +234,7 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
   if (const auto text = text_of("designation")) {
     auto designation = parse_designation(*text);
     if (!designation) {
-      // Of a path it would be 404 or 422; a filter is an argument.
+      // A path with it would be 404 or 422; a filter is an argument.
       Error error = std::move(designation).error();
       if (error.code != ErrorCode::DesignationMalformed) error.code = ErrorCode::QueryInvalid;
       return error;

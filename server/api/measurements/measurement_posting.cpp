@@ -57,7 +57,7 @@ void judge_and_record(const SharedPosting& posting) {
   record(posting, std::move(batch));
 }
 
-/// The same on a thread that may block: the first rows are stored while the last are being read.
+/// Judges on a thread that may block: the first rows are stored while the last are being read.
 Result<void> judge_while_recording(const SharedPosting& posting) {
   const auto basis = basis_of(posting->services);
   if (!basis) return basis.error();
@@ -196,7 +196,7 @@ void MeasurementAnswer::add(std::span<const app::Measurement> measurements,
   }
 }
 
-/// Of a list only the first ones, each with the id of its record.
+/// Adds warnings; of a list only the first ones, each with the id of its record.
 void MeasurementAnswer::warn_of(const app::Measurement& m) {
   constexpr std::size_t kMost = 20;
   for (Warning& warning : warnings_of(m)) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLongestJson = std::size_t{1} << 20;
 constexpr std::size_t kLongestDrawing = std::size_t{64} << 20;
-/// Of a drawing over HTTP: eight bytes each.
+/// Maximum number of instances in a drawing over HTTP; each takes eight bytes.
 constexpr std::size_t kMostInstances = std::size_t{2} << 20;
 constexpr std::string_view kStep = "model/step";
 

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-/// Of a replay.
+/// Maximum number of contacts of a replay.
 constexpr std::size_t kMostContacts = 10'000;
 
 /// The form of a language of masks.

@@ -69,7 +69,7 @@ auto ordered(const Services& services, const Work& work) {
 
 constexpr std::string_view kRuns = "/v1/runs/";
 
-/// Of a run that is answered before its end.
+/// Marks the response to a run that is answered before its end.
 http::Response with_preference(http::Response response) {
   return std::move(response).with("Preference-Applied", "respond-async");
 }

@@ -40,7 +40,7 @@ void post_run(const Services& services, const http::Request& request, http::Resp
 http::Response run_events(std::shared_ptr<app::ActiveRun> run,
                           std::optional<std::string_view> last);
 
-/// The same of a run that is over. @errors StorageCorrupt when the report cannot be read.
+/// Returns the events of a finished run. @errors StorageCorrupt if the report cannot be read.
 Result<http::Response> finished_run_events(const std::string& report,
                                            std::optional<std::string_view> last);
 

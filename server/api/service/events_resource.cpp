@@ -28,7 +28,7 @@ class EventStream final : public CommitStream {
   void read() override;
   void take(const app::EventService::Page& page);
 
-  // Of the one thread that reads at a time.
+  // Only the one thread that reads uses these.
   app::EventService::Place place_;
   bool gap_ = false;
 };

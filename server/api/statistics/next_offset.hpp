@@ -20,7 +20,7 @@ struct OffsetNews {
 inline constexpr std::string_view kOffsetChanged = "compensation.changed";
 inline constexpr std::string_view kOffsetFailed = "compensation.failed";
 
-/// Of what values the next offset is found.
+/// Selects the values from which the next offset is computed.
 struct OffsetOrder {
   app::MeasurementQuery query{};   ///< newest_first
   std::optional<Length> target{};  ///< none: the middle of the limits

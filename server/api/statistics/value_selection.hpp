@@ -27,7 +27,7 @@ class MeasurementIds {
     return offsets_.size() * sizeof(offsets_.front()) + parts_.size() * sizeof(parts_.front());
   }
   std::string text(std::size_t index) const;
-  /// The same ids in another order, of indices.
+  /// Returns the ids in another order of their indices.
   MeasurementIds in_order(const std::vector<std::uint32_t>& order) const;
 
  private:

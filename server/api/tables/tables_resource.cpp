@@ -82,7 +82,7 @@ std::string table_json(Feature feature, const std::vector<ClassId>& classes,
   });
 }
 
-/// The same as CSV: two columns a class, an undefined class is blank.
+/// Writes the table as CSV with two columns for each class; an undefined class is blank.
 std::string table_csv(const std::vector<ClassId>& classes, const ToleranceTables& tables) {
   std::string out = "over_mm,up_to_mm";
   for (const ClassId id : classes) {

@@ -64,7 +64,7 @@ std::vector<http::Parameter> with_preconditions(http::Parameter path);
 
 /// The name of the key that sent the request, if one did.
 std::optional<std::string_view> caller_name(const http::Request& request);
-/// The same as an owned text.
+/// Returns the name of the key as an owned text.
 std::optional<std::string> caller_text(const http::Request& request);
 
 /// Everything one POST needs until it is answered. The request lives as long as its responder.

@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{4} << 20;
 /// A longer response is sent in place, and a few of them would fill the cache.
 constexpr std::size_t kLongestAnswer = std::size_t{64} << 10;
-/// Of an entry in addition to its texts.
+/// Bytes of an entry in addition to its texts.
 constexpr std::size_t kOverhead = 256;
 
 }  // namespace

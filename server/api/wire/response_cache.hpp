@@ -36,8 +36,9 @@ class ResponseCache {
   /// @errors TablesInconsistent if the tables fail their audit; those of `make`.
   static http::SyncHandler cached(std::shared_ptr<ResponseCache> cache, TableHandler make);
 
-  /// The same; with the parameter `revision` uses older tables, without the cache.
-  /// @errors RevisionUnknown too.
+  /// A handler like cached() that uses older tables, without the cache, if the query has
+  /// `revision`.
+  /// @errors RevisionUnknown, and those of cached().
   static http::AsyncHandler of_revision(std::shared_ptr<ResponseCache> cache, TableHandler make);
 
  private:

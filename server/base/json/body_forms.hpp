@@ -226,7 +226,7 @@ struct Micrometres : Millimetres {
 /// @returns the place of a member's word; reports another word, or none.
 std::optional<std::size_t> find_word(FieldReader& fields, std::string_view name,
                                      std::span<const std::string_view> words);
-/// The same with the message `name is a, b or c`.
+/// Returns the place of a member's word; reports another word as `name is a, b or c`.
 std::optional<std::size_t> find_listed(FieldReader& fields, std::string_view name,
                                        std::span<const std::string_view> words);
 

@@ -50,7 +50,7 @@ using JsonItemHandler = std::function<bool(const JsonValue& item)>;
 /// @errors as parse_json, for each item; any after the handler returned false.
 Result<JsonValue> parse_json(std::string_view text, const JsonItemHandler& handle_item);
 
-/// The same of a text the service has stored itself. @param what names it in the message.
+/// Reads a text that the service has stored itself. @param what names it in the message.
 /// @errors StorageCorrupt.
 Result<JsonValue> parse_stored_json(std::string_view text, std::string_view what,
                                     const JsonItemHandler& handle_item = {});

@@ -39,7 +39,7 @@ std::string words(const std::vector<std::string_view>& words);
 /// A number in a request, which may also come as a string, so that no double comes between.
 std::string exact();
 inline constexpr std::size_t kAnyNumber = 0;
-/// The same with a bound: `maximum`, `exclusiveMinimum`, ...
+/// Adds a bound: `maximum`, `exclusiveMinimum`, ...
 std::string bounded(std::string json, std::string_view bound, double value);
 inline std::string above_zero(std::string json) {
   return bounded(std::move(json), "exclusiveMinimum", 0);
@@ -53,8 +53,8 @@ std::string object(const Fields& fields, Others others = Others::Allowed);
 /// At least one of them fits.
 std::string any_of(const std::vector<std::string>& schemas);
 std::string ref(std::string_view name);
-/// The same with what its absence counts as, in JSON: as `x-default`, since generators of clients
-/// make a member with a `default` one that is always there.
+/// Adds the value that absence stands for, in JSON. The key is `x-default`, because client
+/// generators treat a member with `default` as always present.
 std::string with_default(std::string json, std::string_view value);
 /// Fields that may be left out.
 Fields optional(Fields fields);

@@ -69,9 +69,9 @@ class Description {
   /// or empty.
   const Described* find(const Characteristic& characteristic, int number) const;
   std::string_view text(const Characteristic& characteristic, int number) const;
-  /// Of its part.
+  /// Returns a text of the characteristic's part.
   std::string_view part_text(const Characteristic& characteristic, int number) const;
-  /// Of an entry of a catalogue.
+  /// Returns a text of a catalogue's entry.
   std::string_view catalogue_text(int number, std::uint32_t entry) const;
 
   /// As UTF-8. @errors kMalformed, without a place

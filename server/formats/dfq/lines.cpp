@@ -30,8 +30,8 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 constexpr std::size_t kFieldName = 5;  ///< K0000
 
-/// Of the input that is kept where its lines are short: so little that it is still in the cache
-/// when it is parsed.
+/// Bytes of short lines that are kept at a time: few enough to be still in the cache when they are
+/// parsed.
 constexpr std::size_t kPiece = std::size_t{1} << 18;
 
 /// A number of up to six digits from the front of a text.

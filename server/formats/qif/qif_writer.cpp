@@ -22,7 +22,7 @@ std::string attributes(const Texts& texts) {
   return out += "</Attributes>";
 }
 
-/// Of a part or of all results: QIF has no word for a verdict that is open.
+/// Returns the word for a part or for all results: QIF has no word for an open verdict.
 std::string_view inspection_word(Status status) {
   const bool is_open = status == Status::Indeterminate || status == Status::Undefined;
   return is_open ? "UNKNOWN" : word(status);

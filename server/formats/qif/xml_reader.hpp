@@ -31,7 +31,7 @@ class Element {
   bool has(std::string_view path) const { return !find(path).empty(); }
   /// All elements at the path.
   std::vector<Element> find(std::string_view path) const;
-  /// Of AttributeStr and its brothers below `Attributes`, names and values as they are.
+  /// Returns names and values of AttributeStr and the other elements in `Attributes`, unchanged.
   std::vector<std::pair<std::string, std::string>> named_attributes() const;
 
  private:

@@ -14,7 +14,7 @@ namespace {
 using Vector = std::array<double, 3>;
 using iso286::Feature;
 
-/// Of directions, and of places relative to their size: files have 10 digits and more.
+/// Tolerance of directions, and of places relative to their size: files have 10 digits and more.
 constexpr double kNear = 1e-6;
 
 constexpr std::array<std::string_view, 4> kRound = {"CYLINDRICAL_SURFACE", "CONICAL_SURFACE",

@@ -155,7 +155,8 @@ class Part21Scanner {
     return lexer_.fail("ENDSEC expected");
   }
 
-  /// Of edition 3: anchors and references to other files, which have no sizes.
+  /// Reads the statements. Edition 3 has anchors and references to other files, which have no
+  /// sizes.
   bool statements() {
     for (;;) {
       const std::size_t begin = lexer_.at();

@@ -31,7 +31,7 @@ std::string limits_of(const JsonValue& characteristic) {
   return limits;
 }
 
-/// The same for the same limits, however they are written: 25 g6 and 25g6.
+/// Returns one key for equal limits, however they are written: 25 g6 and 25g6.
 std::string limits_key(const JsonValue& characteristic) {
   const auto text = [&](std::string_view name) { return characteristic.member(name).text; };
   std::string size(text("designation"));

@@ -32,8 +32,8 @@ class Workbook {
   void um(Length length);
   /// @param value in units of 10^-scale
   void decimal(std::int64_t value, int scale);
-  /// Of a clock on the wall: a cell has no offset. Before 1900-03-01, which a sheet cannot count, a
-  /// text.
+  /// Writes a wall-clock time, because a cell has no offset. A time before 1900-03-01, which a
+  /// sheet cannot count, becomes a text.
   void time(Timestamp time);
   void blank();
   void end_row();

@@ -183,7 +183,7 @@ std::size_t append_status(std::string& out, int status, const HttpDate& date);
 
 /// Appends Content-Type and the response's own fields but Vary.
 void append_fields(std::string& out, const Response& response);
-/// The same, of those that a 304 repeats (RFC 9110 section 15.4.5).
+/// Appends only the fields that a 304 repeats (RFC 9110 section 15.4.5).
 void append_not_modified_fields(std::string& out, const Response& response);
 
 /// Value of Vary: the fields of the response, and Accept-Encoding if there is a gzip form.

@@ -42,7 +42,7 @@ bool is_of_proxy(std::string_view name) {
          ascii_iequals(name, "CF-Connecting-IP");
 }
 
-/// Of lines that were not yet read; the parser would wait for their CR.
+/// Finds a bare LF in lines that were not yet read; the parser would wait for their CR.
 bool has_bare_line_feed(std::string_view lines) {
   for (std::size_t at = lines.find('\n'); at != std::string_view::npos;
        at = lines.find('\n', at + 1)) {

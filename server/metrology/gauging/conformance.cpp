@@ -70,8 +70,8 @@ std::optional<double> guard_band_factor(Length tolerance, const KnownUncertainty
   const auto conforms = [&](double guard) {
     return 1 - outside(width - guard, guard, uncertainty.degrees_of_freedom) >= probability;
   };
-  // Of both limits the nearer one counts for nearly all; the other adds less than as much again.
-  // The tails of Student's t reach further.
+  // The nearer limit counts for nearly all; the other adds at most as much again. The tails of
+  // Student's t reach further.
   const double far = std::isinf(uncertainty.degrees_of_freedom) ? 40 : width;
   double enough = std::min(width / 2, far);
   if (!conforms(enough)) return std::nullopt;

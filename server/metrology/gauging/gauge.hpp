@@ -143,7 +143,7 @@ class DecisionRule {
   constexpr Length standard_uncertainty() const { return standard_uncertainty_; }
   constexpr CoverageFactor coverage_factor() const { return coverage_factor_; }
   constexpr ConformanceProbability probability() const { return probability_; }
-  /// Of conformance. @pre Kind::Conformance
+  /// Returns the uncertainty of rule conformance. @pre Kind::Conformance
   KnownUncertainty uncertainty() const { return {standard_uncertainty_, degrees_of_freedom_}; }
 
   friend constexpr bool operator==(const DecisionRule&, const DecisionRule&) = default;

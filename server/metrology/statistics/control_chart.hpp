@@ -47,7 +47,7 @@ struct Chart {
   long double lower_limit = 0;
   long double upper_limit = 0;
   std::vector<double> points{};
-  /// Of a CUSUM chart, the sums downwards, negative; of others empty.
+  /// Downward sums of a CUSUM chart, negative; empty for other charts.
   std::vector<double> lower_points{};
 };
 

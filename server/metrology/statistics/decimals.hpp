@@ -109,7 +109,7 @@ struct GroupedCounts {
   }
 };
 
-/// The same with what it is of.
+/// Values in consecutive groups, which it owns.
 struct Groups {
   Decimals values;
   std::vector<std::size_t> ends;

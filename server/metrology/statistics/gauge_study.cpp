@@ -47,7 +47,7 @@ class Cells {
   std::size_t operators() const { return readings_.operator_count; }
   std::size_t count() const { return groups_.size(); }
   const std::vector<std::vector<Wide>>& groups() const { return groups_; }
-  /// Of a cell, if all have the same number.
+  /// Returns the number of trials in a cell if all cells have equally many.
   std::optional<std::size_t> equal_trials() const {
     for (const auto& group : groups_) {
       if (group.size() != groups_.front().size()) return std::nullopt;

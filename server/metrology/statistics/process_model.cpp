@@ -24,7 +24,7 @@ Integer scatter_of(std::span<const Wide> counts) {
   return Integer(counts.size()) * squares.value() - total * total;
 }
 
-/// The same in 128 bits, if every sum of a group fits; else none.
+/// Returns scatter_of() in 128 bits, if every sum of a group fits; else none.
 std::optional<Wide> short_scatter_of(std::span<const Wide> counts) {
   constexpr std::size_t kFew = std::size_t{1} << 10;
   constexpr Wide kShort = Wide{1} << 40;
@@ -90,7 +90,7 @@ std::vector<std::size_t> ends_of(std::size_t groups, std::size_t size) {
   return ends;
 }
 
-/// The same for whole subgroups; single values are grouped.
+/// Returns the ends of groups of whole subgroups; single values are grouped.
 std::vector<std::size_t> ends_of_groups(const Subgroups& data) {
   const std::size_t size = data.size > 1 ? data.size : kSizeOfValues;
   return ends_of(data.values.size() / size, size);

@@ -36,7 +36,8 @@ class Origin {
     return static_cast<std::size_t>(next - starts_.begin()) - 1;
   }
 
-  /// The same characters if the block has them in this line, else the whole block.
+  /// Returns the place of the text in this line of the block, or of the whole block if the line
+  /// does not have it.
   Slice<char> place(std::size_t first_line, std::size_t last_line, std::string_view text) const {
     if (lines_.empty()) return {};
     const Slice<char> first = lines_[std::min(first_line, lines_.size() - 1)];

@@ -14,7 +14,7 @@ using klartext::Lexer;
 constexpr unsigned kLargestCode = 9999;
 constexpr unsigned kLargestLabel = 65534;
 constexpr unsigned kMostP = 99;
-/// Of a block; a long line of them would take a multiple of its bytes.
+/// Maximum number of words in a block; a long line of them would use a multiple of its bytes.
 constexpr std::size_t kMostWords = 1000;
 
 std::string_view between(const char* begin, const char* end) {

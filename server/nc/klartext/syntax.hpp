@@ -74,7 +74,7 @@ class Program {
   /// END PGM last.
   std::span<const Block> blocks() const { return parts_.blocks; }
 
-  /// Of BEGIN PGM.
+  /// Unit of BEGIN PGM.
   Unit unit() const;
   std::string_view name() const;
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Of an endless box any place will do.
+/// Returns the middle; any place serves for an endless box.
 double middle(double low, double high) {
   const double sum = low + high;
   return std::isfinite(sum) ? sum / 2 : 0;

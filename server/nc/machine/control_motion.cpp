@@ -163,8 +163,8 @@ MachineResult<void> Control::move_arc(const ArcMove& arc) {
   return travel(path, arc.feed);
 }
 
-/// Of a way that is not straight: the end first; then, unless everything that near to the start is
-/// in range, every 0.1 degrees.
+/// Checks a way that is not straight: first its end, then every 0.1 degrees, unless all places as
+/// near to the start are in range.
 MachineResult<void> Control::check_way(const Path& path, double turn_deg) {
   if (auto checked = check_range(path.end); !checked) return checked;
   bool is_clear = true;

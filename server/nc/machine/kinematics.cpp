@@ -161,8 +161,8 @@ std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& shown
       }
     }
   }
-  // Of two that are as near the one with the larger angles of A and B, as the control's manuals
-  // have it in a table of examples (PLANE without SEQ).
+  // If two solutions are equally near, the one with the larger angles of A and B is used, as in the
+  // control's table of examples (PLANE without SEQ).
   const auto order = [&](const Vec3& rotary) {
     return std::pair(std::round(way(current, rotary) / tolerance::kSameAngle),
                      -(rotary.x + rotary.y));

@@ -36,7 +36,7 @@ inline constexpr double kToolVectorDeg = 1e-3;
 
 // Directions: the sine of the angle between them.
 
-/// The same direction: at a lever of a metre it leads to the same nanometre.
+/// Directions are equal up to this sine: at a lever of a metre they lead to one nanometre.
 inline constexpr double kSameDirection = 1e-9;
 /// Lines that do not meet: common points would be rounding.
 inline constexpr double kParallel = 1e-12;

@@ -31,7 +31,8 @@ class TriangleTree {
   };
   /// The point of all triangles that is nearest to `at`, and the triangle it is of.
   Nearest nearest(const Vec3& at) const;
-  /// The same, or nothing if it is not nearer than `within`; quick for small distances.
+  /// Returns the nearest point, or nothing if it is not nearer than `within`; fast for small
+  /// distances.
   std::optional<Nearest> nearest(const Vec3& at, double within) const;
   /// The least way after which the ball touches a triangle, of those it does not overlap at the
   /// start.

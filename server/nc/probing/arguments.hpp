@@ -35,7 +35,7 @@ class Arguments {
   /// @pre complete() succeeded and the parameter is a number.
   double number(ParameterId id) const;
   double number(int parameter) const { return number(q(parameter)); }
-  /// Of a cycle that is written in sub-lines or in Q parameters: the number in either.
+  /// Returns the number of a cycle that is written in sub-lines or in Q parameters.
   double number(ParameterId word, int parameter) const {
     return number(descriptor_->dotted ? word : q(parameter));
   }

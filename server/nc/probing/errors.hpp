@@ -14,7 +14,7 @@ inline constexpr ErrorSet kTouching = kWithProbe | ErrorSet{1014};
 inline constexpr ErrorSet kMeasuring = kTouching | ErrorSet{1108};
 /// Touching without scaling and mirror.
 inline constexpr ErrorSet kUnscaled = kTouching | ErrorSet{1007, 1008};
-/// Also errors of the target of a datum (Q303, Q305).
+/// Adds the errors of the target of a datum (Q303, Q305).
 inline constexpr ErrorSet kDatumTransfer = kUnscaled | ErrorSet{1043, 1078, 1085};
 /// Step angle, points on a line.
 inline constexpr ErrorSet kCircle{1066, 1067, 1081};

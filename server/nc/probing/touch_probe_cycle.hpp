@@ -24,7 +24,7 @@ using ArgumentCheck = CycleResult<void> (*)(const Arguments&);
 struct TouchProbeCycle {
   CycleDescriptor descriptor;
   CycleFunction execute;
-  /// Of the linker, with the values that are written out, and of run_cycle with all; may be null.
+  /// Checks the written values for the linker, and all values for run_cycle; may be null.
   ArgumentCheck check = nullptr;
 };
 
@@ -45,7 +45,7 @@ CycleResult<void> with(const CycleContext& context) {
   return function(context, arguments...);
 }
 
-/// The same for a function that runs after `begin` has made its object.
+/// Runs a function after `begin` has made its object.
 template <auto begin, auto function, auto... arguments>
 CycleResult<void> after(const CycleContext& context) {
   auto begun = begin(context);

@@ -304,7 +304,7 @@ class Contradictions {
     }
   }
 
-  /// Of the cycle's own line, or of a line of nothing else before it.
+  /// Returns the comment in the line of the cycle, or in a comment line before it.
   std::string_view comment_above() const {
     if (!block_->comment.empty()) return program_.text(block_->comment);
     if (before_ == nullptr) return {};

@@ -30,7 +30,7 @@ class ControlPath {
   static Result<ControlPath> resolve(std::string_view text, const ControlPath& program);
 
   const std::string& text() const { return text_; }
-  /// The same for all spellings of one file: the key of a disk.
+  /// Returns the key of a disk, which is equal for all spellings of a file.
   std::string key() const;
   /// With its last `\`: `TNC:\nc_prog\8255\`.
   std::string_view directory() const;

@@ -21,7 +21,7 @@ struct BoundCycle {
   /// One for each parameter of the block; not null, since the linker refuses unknown ones.
   std::vector<const probing::CycleParameter*> parameters{};
 
-  /// Of its parameters; null when it is not available.
+  /// Describes its parameters; null if it is not available.
   const probing::CycleDescriptor* descriptor() const {
     if (probing != nullptr) return &probing->descriptor;
     return machining != nullptr ? &machining->descriptor : global;

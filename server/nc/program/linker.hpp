@@ -30,8 +30,8 @@ struct LinkedFile {
   }
 
   std::shared_ptr<const LinkedProgram> program;  ///< null when a diagnostic is an error
-  /// The same; also there when the only errors are lines that are no Klartext, which are ERROR
-  /// blocks then (decision 32).
+  /// The program, with ERROR blocks for lines that are not Klartext (decision 32); null after other
+  /// errors.
   std::shared_ptr<const LinkedProgram> with_error_blocks;
   std::vector<klartext::Diagnostic> diagnostics;  ///< of the parser and the linker
   std::vector<FileReference> references;          ///< the first 1000

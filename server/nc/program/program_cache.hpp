@@ -21,7 +21,7 @@ class ProgramCache {
   /// The linked file, also when it has errors; null when there is none of that path. The disk reads
   /// its bytes only when it is not at hand.
   std::shared_ptr<const LinkedFile> get(const ControlDisk& disk, const ControlPath& path);
-  /// The same of a file that has been read. Never null.
+  /// Returns the linked form of a file that was read. Never null.
   std::shared_ptr<const LinkedFile> get(ControlFile file);
 
  private:

@@ -20,7 +20,7 @@ NcResult<probing::ArgumentValue> cycle_argument(Channel& channel,
 NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klartext::Cycle& cycle,
                                                   const BoundCycle& bound);
 
-/// The same of an old cycle in sub-lines, from block `first` to `last`.
+/// The values of an old cycle in sub-lines, from block `first` to `last`.
 NcResult<MachiningDefinition> machining_arguments(Channel& channel, const MachiningCycle& cycle,
                                                   std::uint32_t first, std::uint32_t last);
 

@@ -71,7 +71,7 @@ struct RunResult {
   RunStatus status = RunStatus::Completed;
   std::uint64_t blocks_executed = 0;
   double machining_time_s = 0;
-  /// Of the last measuring cycle that has a status (444: from Q183, nothing for -1).
+  /// Verdict of the last measuring cycle that has a status (444: from Q183; none for -1).
   std::optional<gauging::Verdict> verdict;
   /// Every Q, QR and QS and the main program's QL that is defined at the end, in that order.
   std::vector<ParameterValue> parameters;

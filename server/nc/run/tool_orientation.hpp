@@ -12,7 +12,7 @@ namespace fitgauge::interpreter {
 /// last.
 using SpatialAngles = std::array<std::optional<double>, 3>;
 
-/// The same positions by whole turns in the ranges of the axes, each the nearest to `from`.
+/// Returns the positions turned by whole turns into the ranges of the axes, each nearest to `from`.
 std::optional<machine::Vec3> in_range(const machine::MachineState& state, machine::Vec3 rotary,
                                       const machine::Vec3& from);
 

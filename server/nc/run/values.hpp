@@ -14,7 +14,8 @@ class Channel;
 /// is an error that names it (decision 3); the executor adds the block.
 
 NcResult<double> number(Channel& channel, const klartext::Expr& expr);
-/// Of a positioning block: an undefined parameter leaves its axis out (decision 18).
+/// Returns a coordinate of a positioning block. An undefined parameter leaves its axis out
+/// (decision 18).
 NcResult<std::optional<double>> coordinate(Channel& channel, const klartext::Expr& expr);
 /// A number that must be whole and between two bounds, both included. @errors 1011.
 NcResult<int> whole_in(Channel& channel, const klartext::Expr& expr, int least, int most);

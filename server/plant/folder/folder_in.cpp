@@ -59,7 +59,7 @@ class FolderIn final : public Worker {
 
   const FolderInOptions options_;
 
-  // Of the thread.
+  // Used only by the thread.
   Descriptor inotify_;
   int watch_ = -1;
   std::map<std::string, Seen> seen_;

@@ -111,7 +111,7 @@ Delivery Mqtt::publish(const Items& items, const std::stop_token& stop, const Co
   std::deque<Ahead> ahead;
   std::size_t sent = 0;
   while (true) {
-    // Also after a pause of the thread: silence shows nothing about the broker.
+    // Silence after a pause of this thread shows nothing about the broker.
     const bool is_in_time = sent == 0 || std::chrono::steady_clock::now() < until;
     const bool sends_more = is_in_time && !stop.stop_requested();
     while (sends_more && sent < items.size() && ahead.size() < kMostAhead) {

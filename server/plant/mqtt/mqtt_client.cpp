@@ -311,7 +311,7 @@ MqttClient::MqttClient(Broker broker, std::optional<MqttMessage> will, std::func
              [this, will = std::move(will)](const std::stop_token& stop) { run(will, stop); });
 }
 
-/// Also from within libmosquitto, through which no exception may go.
+/// Runs also inside libmosquitto, through which no exception may pass.
 void MqttClient::wake() const noexcept { guarded("a listener of an MQTT connection", wake_); }
 
 /// The whole life of the thread.

@@ -67,7 +67,7 @@ class MqttClient {
   /// The broker has acknowledged it (QoS 0: it was sent). 0, a reason code of MQTT 5 from 128 on,
   /// or kCannotBeSent; removed after it was returned.
   std::optional<int> settled(Ticket ticket);
-  /// The same, waited for. None: it was lost, the time is over, or a stop was asked for.
+  /// Waits until it is settled. None: it was lost, the time is over, or a stop was requested.
   std::optional<int> wait_settled(Ticket ticket, std::chrono::milliseconds most,
                                   const std::stop_token& stop);
   static constexpr int kCannotBeSent = 256;  ///< the library refused it as it is

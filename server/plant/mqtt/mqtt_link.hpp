@@ -26,7 +26,7 @@ class TopicTemplate {
  public:
   /// @errors FieldInvalid: no topic, an unknown name, a `{` without its end.
   static Result<TopicTemplate> parse(std::string_view text);
-  /// The same for one level after others: without `/`, and it may begin with a name.
+  /// Reads one level after others: without `/`; it may begin with a name.
   static Result<TopicTemplate> parse_level(std::string_view text);
 
   /// A text that the measurement lacks is `-`. @returns at most 65,535 bytes: the fields are short.
@@ -42,7 +42,7 @@ class TopicTemplate {
   std::vector<Part> parts_;
 };
 
-/// Of a broker that is asked for an answer.
+/// Longest silence of a broker after a request.
 inline constexpr std::chrono::seconds kLongestSilence{20};
 
 /// The meaning of a broker's reason code, or of the library's error for a message.

@@ -10,7 +10,7 @@ namespace {
 
 using http::error_code;
 
-/// Of a line that an agent sends; a command has a few words.
+/// Bytes of a line that an agent sends; a command has a few words.
 constexpr std::size_t kLongestLine = 1024;
 constexpr std::string_view kPing = "* PING";
 /// An agent that has begun to ping is lost after so many missing pings.

@@ -9,7 +9,7 @@ void add_mtconnect_routes(Routes& add);
 
 /// Whether an error of the request is returned as an MTConnect document.
 bool is_of_mtconnect(const http::Request& request);
-/// The same answer as an MTConnectError document. @param problem as others get it
+/// Returns a problem as an MTConnectError document. @param problem as others get it
 http::Response mtconnect_error(const Services& services, const Error& error,
                                http::Response problem);
 

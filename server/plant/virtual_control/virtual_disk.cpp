@@ -20,7 +20,7 @@ std::string absolute(std::string_view text, std::string_view directory) {
 
 /// Maximum wait for the files of a running program.
 constexpr std::chrono::milliseconds kPatience{50};
-/// Of the names of directories that clients make.
+/// Maximum bytes of the names of directories that clients make.
 constexpr std::size_t kMostMadeBytes = std::size_t{1} << 20;
 constexpr std::string_view kEveryControls[] = {"TNC:\\", "TNC:\\nc_prog\\", "TNC:\\table\\"};
 

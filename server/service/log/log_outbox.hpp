@@ -33,7 +33,8 @@ class LogOutbox {
     /// The history below that one, and how many of its rows; no digits: there is none.
     std::string_view base{};
     std::int64_t base_size = 0;
-    /// Of a history whose key was lost nothing can be signed: it ends here, and the batch is empty.
+    /// Set if the key of the history was lost: nothing is signed, the history ends here, and the
+    /// batch is empty.
     std::optional<std::int64_t> unsigned_to{};
     std::int64_t from = 1;  ///< the place of its first record
     std::string checkpoint{};

@@ -158,7 +158,7 @@ class LogService {
     tlog::Frontier base{};     ///< of a branch that was forwarded: the rows below it
     /// Its earlier names, and the number of rows of each that it continues.
     std::map<std::string, std::uint64_t> former{};
-    /// Of a centre: only its corrections of this folder's records are here.
+    /// true at a centre: only its corrections of this folder's records are here.
     bool is_partial = false;
     std::string_view leaves = "measurements";
   };

@@ -27,7 +27,7 @@ class GaugesInUse {
   /// thread.
   /// @errors StorageUnavailable, StorageBusy.
   void reload(std::function<void(Result<void>)> done);
-  /// The same for a thread that may wait.
+  /// Loads them on a thread that may wait.
   Result<void> load();
 
  private:

@@ -146,7 +146,7 @@ struct RevisionIntake::Job {
 
   void take_correction(const Revision& revision) {
     const Measurement& m = *revision.measurement;
-    // Of the centre's present history or of one below it.
+    // The measurement belongs to the centre's present history or to one before it.
     const std::int64_t centre = origins.number(m.origin, m.id).value_or(0);
     if (centre == 0) return refuse(fmt::format("a correction is of {} itself", m.origin));
     if (stores.measurements.find_forwarded(centre, m.id)) return;

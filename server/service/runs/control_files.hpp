@@ -46,8 +46,7 @@ class TableCatalog;
 /// 82553_hole.tab and 82553_shaft.tab as tolerance tables give them.
 std::vector<interpreter::ProjectingDisk::Projection> project(const iso286::ToleranceTables& tables);
 
-/// The same of the tolerance tables in use, projected once for each of their revisions.
-/// Thread-safe.
+/// Projects the tolerance tables in use, once for each revision. Thread-safe.
 class LiveTables {
  public:
   /// @param catalog outlives this.

@@ -157,7 +157,7 @@ class RunService {
                                         Allowance&);
   Result<Diagnostics> check_with(Check find_all, const interpreter::ControlPath& path,
                                  std::optional<std::string> draft = std::nullopt);
-  /// Of any state, until it is forgotten.
+  /// Returns a run in any state, until it is forgotten.
   std::shared_ptr<ActiveRun> own(std::int64_t id) const;
   void run(const std::shared_ptr<ActiveRun>& run);
   bool withdraw(std::int64_t id);
@@ -166,7 +166,7 @@ class RunService {
   ExecutedRun without_moves(interpreter::RunResult result) const;
   Result<FinishedRun> keep(const RunReport& report, std::string_view trace,
                            const std::optional<std::string>& caller);
-  /// The same of a run that another process left without an end.
+  /// Stores a run that another process left without an end.
   Result<FinishedRun> keep_failed(const store::Run& run, std::string why);
   Result<void> close_interrupted();
   void look_for_abandoned(const std::stop_token& stop);

@@ -17,7 +17,7 @@ double workpiece_angle(const machine::Frames& frames, const WorkingPlane& plane,
 /// of the input system. @pre nothing is mirrored or scaled.
 Vec3 turned_rotation(const machine::Frames& frames, const WorkingPlane& plane,
                      const machine::Matrix3& turn);
-/// The same after a turn around the probe axis.
+/// Returns the spatial angles after a further turn around the probe axis.
 inline Vec3 turned_rotation(const machine::Frames& frames, const WorkingPlane& plane,
                             double angle_deg) {
   return turned_rotation(frames, plane, machine::Matrix3::rotation({0, 0, 1}, angle_deg));
@@ -26,7 +26,8 @@ inline Vec3 turned_rotation(const machine::Frames& frames, const WorkingPlane& p
 /// Measuring and alignment cycles begin without a basic rotation.
 CycleResult<void> reset_basic_rotation(machine::Machine& machine);
 
-/// The same, with a note when there was one. @errors when the run's output budget is used up.
+/// Resets the basic rotation, with a note if there was one. @errors if the output budget of the run
+/// is spent.
 CycleResult<void> begin_without_rotation(const CycleContext& context);
 
 /// Begins every alignment cycle: resets an active basic rotation.

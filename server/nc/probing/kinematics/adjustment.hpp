@@ -58,7 +58,7 @@ class Adjustment {
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
   const Eigen::VectorXd& values() const { return values_; }
   machine::Kinematics corrected() const { return at(values_); }
-  /// Of the unknowns, for centres of variance 1 in each coordinate.
+  /// Returns the covariance of the unknowns, for centres of variance 1 in each coordinate.
   Eigen::MatrixXd covariance() const;
   /// How many residuals are left to judge the scatter by.
   std::size_t freedom() const;
@@ -74,7 +74,7 @@ class Adjustment {
   AdjustedPoses poses_;
   std::vector<Unknown> unknowns_;
   Eigen::VectorXd values_;
-  // Of the Jacobian at the values: the directions of the unknowns and how strongly each is seen.
+  // Singular values of the Jacobian: the directions of the unknowns and the strength of each.
   Eigen::VectorXd sizes_;
   Eigen::MatrixXd directions_;
 };

@@ -24,8 +24,8 @@ Vec3 place_of_sphere(const KinematicsMeasurement& measurement, const MeasuringTo
   return sum * (1 / static_cast<double>(measurement.axes.size()));
 }
 
-/// The same machine seen from a tool that stands `shift` further: what stands on the bed does not
-/// move with it.
+/// Returns the machine as seen from a tool that is `shift` further. Places on the bed do not move
+/// with it.
 Kinematics compensated(const Kinematics& model, const Vec3& shift) {
   std::vector<RotaryAxis> axes = model.axes();
   for (RotaryAxis& axis : axes) {

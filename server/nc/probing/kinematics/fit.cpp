@@ -90,7 +90,7 @@ class Estimate {
   }
 
   bool is_seen() const { return is_seen_; }
-  /// Of the covariance, for centres of variance 1.
+  /// Returns the greatest eigenvalue of the covariance, for centres of variance 1.
   double worst() const {
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance_).eigenvalues()[1];
   }

@@ -21,7 +21,7 @@ struct KinematicsReport {
 /// @errors if the run's output budget is used up.
 CycleResult<void> log_kinematics(const CycleContext& context, const KinematicsReport& report);
 
-/// The same of axes that were measured together.
+/// Writes the log of axes that were measured together.
 CycleResult<void> log_grid(const CycleContext& context, std::string_view mode,
                            std::span<const SpherePose> poses, const KinematicsFit& fit);
 

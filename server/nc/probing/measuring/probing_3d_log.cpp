@@ -36,7 +36,7 @@ Appearance appearance(const std::optional<Verdict>& verdict) {
   }
 }
 
-/// Of the values along the axes and along the normal.
+/// Styles of the values along the axes and along the normal.
 using Styles = std::array<std::string_view, 4>;
 
 /// A row of a value along each axis and one along the normal.

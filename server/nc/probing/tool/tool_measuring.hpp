@@ -28,7 +28,7 @@ class ToolProbing {
   /// @errors 1001 tool axis missing, 1075 the tool is inclined or the coordinates are tilted, 1079
   ///   the tool axis is not Z, 1092 no tool, 1093 a touch probe is in the spindle.
   static CycleResult<ToolProbing> begin(const CycleContext& context, double clearance_height);
-  /// The same with the height that the tip has now, at any distance from the plate.
+  /// Begins with the present height of the tip, at any distance from the plate.
   static CycleResult<ToolProbing> begin_here(const CycleContext& context);
 
   /// Touches the upper side with the tip over a point, and comes back. @return the tip's height.

@@ -14,7 +14,7 @@ struct ProbedLine {
   std::size_t axis = 0;    ///< 0 main, 1 secondary, 2 probe axis: the one touched along
   std::size_t across = 1;  ///< the axis along which the line runs
 
-  /// Of each point along the axis it was touched in.
+  /// Coordinate of each point along the axis it was touched in.
   struct Coordinate {
     double nominal = 0;
     double measured = 0;
