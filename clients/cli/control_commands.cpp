@@ -221,7 +221,7 @@ Outcome<bool> is_there(LinkClient& control, const std::string& path) {
   return failure_of(path, found.error());
 }
 
-/// As the control writes it; a destination that ends with a stroke is a folder.
+/// Returns the destination as the control writes it. A trailing slash makes it a folder.
 std::string destination_of(const std::string& destination, const std::string& file) {
   const bool is_folder = destination.ends_with('\\') || destination.ends_with('/');
   return control_path(is_folder ? destination + std::string(base_name(file)) : destination);

@@ -84,8 +84,8 @@ class Upload {
     return begin_chunks([file](std::span<char> into) { return file->read(into); });
   }
 
-  /// As the service takes it, however large the file is. The same rows become the same text,
-  /// however the file grows.
+  /// Opens the rows as the service accepts them, for files of any size. Equal rows become equal
+  /// text, even if the file grows.
   Outcome<CsvChunks> open_rows() {
     const bool is_ndjson = sheet::is_ndjson(options_.input);
     if (is_ndjson && is_converted(options_)) {

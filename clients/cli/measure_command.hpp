@@ -15,7 +15,7 @@ struct MeasureOptions {
   std::string input;  ///< a CSV file or a DFQ, or `-`
   std::string state_file{};
   std::size_t chunk_rows = 100'000;
-  // How a table of the shop is turned into measurements; none of them: it is sent as it is.
+  // Options that turn a table of the shop into measurements; without them it is sent unchanged.
   std::string encoding{};
   std::vector<std::string> columns{};    ///< `Istwert=measured_mm`
   std::vector<std::string> constants{};  ///< `machine=M3`

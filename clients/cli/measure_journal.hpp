@@ -8,7 +8,7 @@
 
 namespace fitgauge::cli {
 
-/// How many rows got each verdict.
+/// Number of rows with each verdict.
 struct VerdictCounts {
   std::uint64_t good = 0;
   std::uint64_t rework = 0;
@@ -21,7 +21,7 @@ struct VerdictCounts {
   friend bool operator==(const VerdictCounts&, const VerdictCounts&) = default;
 };
 
-/// How far the rows of one input are stored.
+/// Progress of storing the rows of one input.
 struct MeasureState {
   std::string server;
   std::string session;                   ///< begins every idempotency key of this input

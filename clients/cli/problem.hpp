@@ -29,7 +29,7 @@ struct Problem {
 /// @returns nothing when the answer is something else: a proxy's page, another service.
 std::optional<Problem> problem_of(const Answer& answer);
 
-/// Why a request had no success, in one line with what to do.
+/// Returns the failure of a request in one line, with its remedy.
 /// @param url the address that answered
 Failure failure_of(const Answer& answer, const std::string& url);
 

@@ -88,7 +88,7 @@ std::optional<CycleAt> cycle_at(const EditedText& text, std::size_t line) {
   return std::nullopt;
 }
 
-/// How far a Q of a line may be part of a name.
+/// Parameters of a line that may be part of a name.
 enum class Names { Nothing, Paths, All };
 Names names_of(std::string_view line) {
   const std::size_t begin = std::min(line.find_first_not_of(kBeforeCode), line.size());
@@ -117,7 +117,7 @@ std::string figures_of(const CycleParameter& parameter) {
   return std::string(trim(figures));
 }
 
-/// As a control writes it after a value.
+/// Returns the text that a control writes after a value.
 std::string dialog_of(const CycleParameter& parameter) {
   return ascii_upper(parameter.meaning.substr(0, parameter.meaning.find(':')));
 }

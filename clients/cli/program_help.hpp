@@ -35,7 +35,7 @@ struct Remedy {
 };
 std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic& found);
 
-/// As `nc format` does. @errors FieldInvalid for a program with errors.
+/// Formats like `nc format`. @errors FieldInvalid for a program with errors.
 Result<std::string> formatted_text(const OpenProgram& program);
 
 }  // namespace fitgauge::cli

@@ -11,7 +11,7 @@
 
 namespace fitgauge::cli {
 
-// How a subject registers its commands; add_commands() calls each of them.
+// Each subject registers its commands here; add_commands() calls all of them.
 
 void add_gauging(CLI::App& app, Action& chosen);  ///< limits, fits, gauge, measure, statistics
 void add_records(CLI::App& app,

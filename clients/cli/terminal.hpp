@@ -35,7 +35,7 @@ Terminal terminal_of(bool interactive, const Environment& environment);
 /// The terminal of a file descriptor of this process.
 Terminal terminal_of(int descriptor);
 
-/// How far a long upload is.
+/// Progress of a long upload.
 struct Progress {
   std::string name;
   std::uint64_t bytes = 0;

@@ -121,7 +121,7 @@ class SharedDatabase final : public Database {
     return std::make_unique<Session>(options_, clock_, daemon, names_, notifications_);
   }
 
-  /// Any transaction may report changed names.
+  /// Records a notification, which any transaction may send for changed names.
   void heard(bool names) {
     if (names) {
       readers_.submit([](const Stores&) -> Result<bool> { return true; },

@@ -93,7 +93,7 @@ class PairIndex {
   void erase(const IndexNode& node);
 
   bool is_stored(const IndexNode& node, const Node& index);
-  /// How much is stored of nodes that are not there.
+  /// Returns the number of stored entries whose nodes do not exist.
   std::int64_t count_surplus();
 
  private:

@@ -68,7 +68,8 @@ std::array<std::int64_t, 4> numbers_in(const Rows& rows, int column) {
   return numbers;
 }
 
-// As 'centre' not in the comment of log_marks: the number of changes of an ended history.
+// Name of the mark that counts the changes of an ended history; the comment of log_marks does not
+// list it.
 std::string mark_of_changes(std::string_view history) { return fmt::format("changes {}", history); }
 
 sql::Blob blob_of(const Origin& origin) {

@@ -77,7 +77,7 @@ void for_each_time_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.received_to_ns) add("b.min_received_at < ?", *filter.received_to_ns);
 }
 
-/// That all rows of the block meet it.
+/// Adds the conditions that hold if all rows of the block match.
 template <class Add>
 void for_each_inside_condition(const MeasurementFilter& filter, Add&& add) {
   if (filter.from_ns) add("b.min_measured_at >= ?", *filter.from_ns);

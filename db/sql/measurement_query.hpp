@@ -32,9 +32,9 @@ struct AggregatedValue {
   explicit AggregatedValue(const sql::Connection& connection);
 };
 
-/// That no correction takes the place of a row `m`: none names it, and of rivals, which name the
-/// same record, none later than it or a correction that it goes back to. @param last the last id
-/// that counts, or a parameter, which stands once in each.
+/// Conditions that no correction replaces a row `m`. No correction names it. No rival, which names
+/// the same record, is later than it or than a correction it goes back to.
+/// @param last the last id that counts, or a parameter; occurs once in each condition.
 struct CurrentCondition {
   std::string is_not_corrected;
   std::string has_no_later_rival;

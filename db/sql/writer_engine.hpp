@@ -65,7 +65,7 @@ class MaintenancePace {
   /// Jobs were committed: there may be something to do before the next daily round.
   void committed(Time now);
 
-  /// How long to wait for jobs before the next step.
+  /// Returns the time to wait for jobs before the next step.
   std::chrono::milliseconds patience(Time now) const;
   /// Whether a step is due although jobs keep coming.
   bool is_due(Time now) const { return now >= when_busy_; }

@@ -28,7 +28,7 @@ namespace fitgauge::store {
 /// `.` for a name without a folder.
 std::filesystem::path folder_of(const std::filesystem::path& file);
 
-/// Which file a path named when it was opened.
+/// Identifies the file that a path named when it was opened.
 class FileIdentity {
  public:
   /// @errors StorageUnavailable

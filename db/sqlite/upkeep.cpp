@@ -125,7 +125,7 @@ void Scrub::pass(const std::stop_token& stop) {
       health_.damaged(fmt::format("{}. Restore a backup", *finding));
     }
   } catch (const StorageFailure& failure) {
-    // Other failures here (no memory, no descriptors) are for the next pass.
+    // The next pass handles other failures (no memory, no descriptors).
     if (failure.error().code == ErrorCode::StorageCorrupt) health_.damaged(failure.error().message);
   } catch (const std::exception& bug) {
     if (options_.job_threw) {

@@ -63,7 +63,7 @@ class IdempotencyStore {
     StoredAnswer answer{};
     std::int64_t expires_at_ns = std::numeric_limits<std::int64_t>::max();
 
-    /// None if it never expires.
+    /// Returns the end of validity; none if it never expires.
     std::optional<Timestamp> expires_at() const {
       const bool for_ever = expires_at_ns == std::numeric_limits<std::int64_t>::max();
       return for_ever ? std::nullopt : std::optional(Timestamp{expires_at_ns});

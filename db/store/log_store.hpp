@@ -48,7 +48,7 @@ class LogStore {
   std::int64_t last_change(std::string_view history) const;
   /// Whether the database is a copy that `backup` made and nobody has started.
   bool is_copy() const;
-  /// Why no measurement is recorded, if the centre has another log of this name.
+  /// Returns the reason why no measurement is recorded, if the centre has another log of this name.
   std::optional<std::string> forked() const;
   void set_forked(const std::optional<std::string>& reason);
   /// The digits of the history of the centre that this folder met last; none: it has met none.
@@ -117,7 +117,7 @@ class OriginsStore {
 
   /// Keeps nodes of its tree, as LogStore::grow.
   void keep_nodes(std::int64_t origin, std::span<const LogStore::Node> nodes);
-  /// As LogStore::nodes.
+  /// Visits nodes like LogStore::nodes.
   std::int64_t nodes(std::int64_t origin, int level, std::int64_t first, std::int64_t count,
                      const LogStore::Visitor& visit) const;
 

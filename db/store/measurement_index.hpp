@@ -64,7 +64,7 @@ struct DesignationFilter {
   bool has_envelope = false;  ///< only rows that require the envelope
 };
 
-/// Which measurements a list or a summary shows. A text filter matches the whole text exactly.
+/// Selects the measurements of a list or summary. A text filter matches the whole text exactly.
 struct MeasurementFilter {
   std::array<std::optional<std::string>, kTextColumns.size()> texts{};  ///< by index_of()
   std::optional<DesignationFilter> designation{};

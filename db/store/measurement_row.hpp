@@ -15,7 +15,7 @@ namespace fitgauge::store {
 // The codes are stored: never change one, never use one again.
 enum class Source : std::uint8_t { Gauge = 1, Simulation = 2 };
 enum class Feature : std::uint8_t { Hole = 1, Shaft = 2 };
-/// None has no limits, Bare no nominal size either.
+/// Source of the limits. None is without limits; Bare is also without a nominal size.
 enum class Basis : std::uint8_t {
   Iso286 = 1,
   Custom = 2,

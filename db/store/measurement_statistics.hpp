@@ -145,7 +145,7 @@ class ExactStatistics {
   /// Returns the standard deviation of n - 1 in mm to 1e-12. @pre count() >= 2
   std::string standard_deviation_mm() const;
 
-  /// As bytes to be stored, and back; bytes of another size give empty statistics.
+  /// Converts to bytes for the store, and back; bytes of another size give empty statistics.
   static constexpr std::size_t kEncodedSize = 64;
   std::array<char, kEncodedSize> encode() const;
   static ExactStatistics decode(std::string_view bytes);

@@ -48,7 +48,7 @@ class MeasurementsStore {
   /// that was received last.
   std::optional<std::int64_t> corrected_by(std::int64_t id) const;
 
-  /// As corrected_by(); if `id` is a correction with a later rival, the rival.
+  /// Returns corrected_by(); for a correction with a later rival, the rival.
   std::optional<std::int64_t> replaced_by(std::int64_t id) const;
 
   /// Whether several corrections of that row were made apart from each other.
@@ -83,7 +83,7 @@ class MeasurementsStore {
   std::optional<std::int64_t> first_of_newest(const MeasurementFilter& filter,
                                               std::size_t count) const;
 
-  /// How many rows of this folder's own there are.
+  /// Returns the number of rows that this folder itself recorded.
   std::int64_t log_size() const;
 
   /// The newest id, 0 when there is none.

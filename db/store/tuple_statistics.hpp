@@ -135,11 +135,11 @@ class TupleSums {
 using PairStatistics =
     std::map<std::string, std::map<std::optional<std::string>, std::map<int, ExactStatistics>>>;
 
-/// How many statistics these are.
+/// Returns the number of statistics.
 std::size_t count_of(const PairStatistics& pairs);
 
-/// As bytes to be stored: of each value of the first field its size, and by that of the other the
-/// statistics of each kind.
+/// Encodes for the store: the size of each value of the first field, and for each value of the
+/// other field the statistics of each kind.
 std::string encode(const PairStatistics& pairs);
 
 /// Calls `visit(by_value, kind, statistics)` for what the bytes of encode() say of a value.

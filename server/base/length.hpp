@@ -80,7 +80,7 @@ class Length {
 /// The largest magnitude read from text: 1e9 mm. Sums of a few such lengths still fit 64 bits.
 inline constexpr Length kLongest = Length::millimetres(1'000'000'000);
 
-/// Which texts are a length.
+/// Forms of text that are a length.
 struct LengthSyntax {
   bool decimal_comma = false;     ///< `25,5`: paths, queries, designations, CSV
   bool exponent = false;          ///< `2.5e1`: JSON numbers only

@@ -33,7 +33,7 @@ Result<std::unique_ptr<connections::Connections>> start_connections(const Config
 ///   read.
 Result<void> check_forwarding(const Config& config);
 
-/// As the log of the service has it: the event's name and a sentence.
+/// Writes to the service log: the name of an event and a sentence.
 using Tell = std::function<void(std::string_view event, const std::string& detail)>;
 
 /// Returns the centre's state of a history; none without a response within some seconds.
@@ -45,7 +45,8 @@ std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app:
 /// To the log of the service.
 void tell_log(std::string_view event, const std::string& detail);
 
-/// How much of the log the centre does not have, and for how long. @param forwarder may be null.
+/// Writes the number and age of records that the centre does not have. @param forwarder may be
+/// null.
 void write_outbox_metrics(const forwarder::Forwarder* forwarder, const Clock& clock,
                           api::Exposition& out);
 

@@ -24,8 +24,8 @@ namespace {
 
 /// The bodies of usual requests are smaller and pay nothing.
 constexpr int kLargeBlock = 1 << 20;
-/// As many as the C library allows by itself. It would count the processors in the middle of a
-/// run, and open a file for that.
+/// Number of arenas that the C library allows by default. It would count the processors in the
+/// middle of a run, and open a file for that.
 constexpr long kArenasOfAProcessor = 8;
 
 /// For the database with its readers, the listeners, timers and the log.

@@ -14,7 +14,7 @@ namespace fitgauge::daemon {
 
 void write_server_metrics(const http::Server& server, api::Exposition& out);
 void write_application_metrics(app::Application& app, api::Exposition& out);
-/// How far `clock` is ahead of `machine`, the system's clock, since that was set back.
+/// Writes the lead of `clock` over `machine`, the system's clock, after that was set back.
 void write_clock_metrics(const Clock& clock, const Clock& machine, api::Exposition& out);
 /// The database's files and free space, or the state of its server.
 void write_storage_metrics(const app::Application& app, const std::filesystem::path& folder,

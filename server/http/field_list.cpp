@@ -50,7 +50,7 @@ bool is_token(std::string_view text) {
   });
 }
 
-/// How exactly a media range names a type: 0 not at all, 1 by */*, 2 by type/*, 3 exactly.
+/// Returns how exactly a media range names a type: 0 not at all, 1 by */*, 2 by type/*, 3 exactly.
 int specificity(std::string_view range, std::string_view type) {
   if (range == "*/*") return 1;
   const std::size_t slash = range.find('/');

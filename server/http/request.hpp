@@ -18,10 +18,10 @@ namespace fitgauge::http {
 /// The request methods of RFC 9110 that a route can name; every other token is `Other`.
 enum class Method : std::uint8_t { Get, Head, Post, Put, Delete, Patch, Options, Other };
 
-/// `GET`, `HEAD`, …; empty for Other.
+/// Returns `GET`, `HEAD`, …; empty for Other.
 std::string_view name(Method method);
 
-/// Methods are case-sensitive (RFC 9110 section 9.1).
+/// Parses a method, case-sensitively (RFC 9110 section 9.1).
 Method method_named(std::string_view name);
 
 struct RequestHead;
@@ -39,74 +39,78 @@ struct Peer {
 /// value times 10^scale.
 using ArgumentValue = std::variant<std::string_view, std::int64_t, Length, Timestamp>;
 
-/// One request whose route is found and whose parameters are checked. Its views are of a head
-/// that does not move while its body is read, and valid until it is answered: for an asynchronous
-/// handler, as long as its Responder. Filled in by the engine; read by one thread at a time.
+/// One request whose route is found and whose parameters are checked. Its views point to a head
+/// that does not move while the body is read. They are valid until the request is answered; in an
+/// asynchronous handler, as long as its Responder. The engine fills it; one thread reads it at a
+/// time.
 class Request {
  public:
   Method method() const { return method_; }
-  /// The path as sent, not decoded: `/v1/limits/25%20H7`.
+  /// Returns the path as sent, not decoded: `/v1/limits/25%20H7`.
   std::string_view path() const { return path_; }
-  /// The text after the `?` as sent; empty if there is none.
+  /// Returns the text after the `?` as sent; empty if there is none.
   std::string_view query() const { return query_; }
 
-  /// The value of the first field of that name, case-insensitive.
+  /// Returns the value of the first field with this name, case-insensitive.
   std::optional<std::string_view> header(std::string_view name) const;
-  /// All fields of that name joined with ", ", as RFC 9110 section 5.3 allows for lists.
+  /// Returns all fields with this name, joined with ", " (RFC 9110 section 5.3).
   std::optional<std::string> header_list(std::string_view name) const;
 
-  /// The arguments of the route's parameters by name (path, query and header parameters together):
-  /// empty when an optional one is absent. Reading a parameter the route does not declare, or as
-  /// another type than declared, is a bug: std::logic_error.
+  /// Return the argument of a parameter in path, query or header by its name; empty if an optional
+  /// one is absent. An undeclared parameter, or another type than declared, is a bug:
+  /// std::logic_error.
   std::optional<std::string_view> text(std::string_view name) const;
   bool has(std::string_view name) const { return argument(name).has_value(); }
   std::optional<std::int64_t> integer(std::string_view name) const;  ///< Integer and Decimal
   std::optional<Length> length(std::string_view name) const;
   std::optional<Timestamp> time(std::string_view name) const;
 
-  /// The decoded body; empty when there is none. kBodyPadding bytes after its end are readable.
+  /// Returns the decoded body; empty if there is none. kBodyPadding bytes after its end are
+  /// readable.
   std::string_view body() const { return body_.text; }
   /// Returns the decoded body; on disk if its route spools.
   const FileText& file_body() const { return body_; }
   static constexpr std::size_t kBodyPadding = 64;
-  /// The body's media type in lower case without parameters; empty when the request names none.
+  /// Returns the body's media type in lower case without parameters; empty if the request names
+  /// none.
   std::string_view media_type() const { return media_type_; }
-  /// The one of the route's response media types that the client prefers.
+  /// Returns the media type, of those of the route's responses, that the client prefers.
   std::string_view response_type() const { return response_type_; }
 
-  /// Appends a key for the response of a route without other inputs: the route, its arguments as
-  /// they were read (whatever their spelling), and the media type.
+  /// Appends a key for the response of a route without other inputs: the route, its parsed
+  /// arguments, and the media type. Spellings of an argument share one key.
   void append_identity(std::string& out) const;
 
-  /// Unique in this process and unlikely elsewhere.
+  /// Returns an id that is unique in this process and probably elsewhere.
   std::uint64_t id() const { return id_; }
-  /// The client's X-Request-Id if it has 1 to 64 characters of `[A-Za-z0-9._-]`, else id() as 16
-  /// hexadecimal digits.
+  /// Returns the client's X-Request-Id if it has 1 to 64 characters of `[A-Za-z0-9._-]`, or id() as
+  /// 16 hexadecimal digits.
   std::string_view id_text() const {
     return given_id_.empty() ? std::string_view(own_id_.data(), own_id_.size()) : given_id_;
   }
 
   std::string_view peer_address() const { return peer_->address; }  ///< `127.0.0.1`, `::1`
-  /// Has a proxy's field: Forwarded, X-Forwarded-*, Via, X-Real-IP, True-Client-IP,
-  /// CF-Connecting-IP.
+  /// Returns whether it has a field of a proxy: Forwarded, X-Forwarded-*, Via, X-Real-IP,
+  /// True-Client-IP, CF-Connecting-IP.
   bool is_forwarded() const;
-  /// From this machine itself: a loopback peer and no proxy's field.
+  /// Returns whether it comes from this machine: a loopback peer and no field of a proxy.
   bool is_local() const;
   bool is_http_1_0() const;
-  /// Came by the listener for the service's own health check: see ListenAddress::health_only.
+  /// Returns whether it came by the listener for health checks: see ListenAddress::health_only.
   bool is_health_only() const { return peer_->health_only; }
-  /// Origin that the client addressed, `https://host:port` or `http://…`, to compare with Origin. A
-  /// proxy that ends TLS sets X-Forwarded-Proto; a page of another site cannot send it unasked.
+  /// Returns the origin that the client addressed, `https://host:port` or `http://…`, to compare
+  /// with Origin. A proxy that ends TLS sets X-Forwarded-Proto; a page of another site cannot send
+  /// it unasked.
   std::string own_origin() const;
-  /// The request's Origin if it is one of ServerOptions::allowed_origins; else empty.
+  /// Returns the request's Origin if it is in ServerOptions::allowed_origins, or an empty text.
   std::string_view allowed_origin() const { return allowed_origin_; }
   /// Whether Accept-Encoding prefers gzip to no coding.
   bool prefers_gzip() const;
 
-  /// The matched route, or null if the request was refused before.
+  /// Returns the matched route; null if the request was refused before the match.
   const Route* route() const { return route_; }
 
-  /// The sender, as the guard stored it, or null.
+  /// Returns the sender as the guard stored it, or null.
   template <class T>
   const T* caller() const {
     return std::any_cast<T>(&caller_);

@@ -24,11 +24,11 @@ struct Header {
 /// A body that is produced while it is sent.
 struct StreamedBody {
   std::shared_ptr<BodyStream> source;
-  /// Sent whenever the source has been silent for `heartbeat_interval`; empty for none.
+  /// Bytes to send when the source has been silent for `heartbeat_interval`; empty: none.
   std::string heartbeat{};
   std::chrono::milliseconds heartbeat_interval = std::chrono::seconds(15);
-  /// A body without an end: it ends regularly if ServerHooks::may_continue returns false. Any other
-  /// body breaks off, so that no client regards it as complete.
+  /// true for a body without an end: it ends regularly if ServerHooks::may_continue returns false.
+  /// Other bodies break off, so that no client regards them as complete.
   bool is_endless = false;
   std::size_t held = 0;  ///< bytes that only the source keeps until the body has left
 };
@@ -36,26 +36,26 @@ struct StreamedBody {
 /// Owned bytes, immutable shared bytes, or a stream.
 using Body = std::variant<std::string, std::shared_ptr<const std::string>, StreamedBody>;
 
-/// The answer of a handler. The engine adds Date, Content-Length or Transfer-Encoding, Connection,
-/// ETag, X-Request-Id, X-Content-Type-Options, Cross-Origin-Resource-Policy and the fields of CORS;
-/// it leaves the body out for HEAD, and answers 304 by itself when `etag` is set, the request is
-/// GET or HEAD and its If-None-Match names it. It packs bodies of more than 1 KiB (is_packable) for
-/// clients that prefer gzip, under an `etag` of their own.
+/// The response of a handler. The engine adds Date, Content-Length or Transfer-Encoding,
+/// Connection, ETag, X-Request-Id, X-Content-Type-Options, Cross-Origin-Resource-Policy and the
+/// fields of CORS. It omits the body for HEAD. It answers 304 itself if `etag` is set and
+/// If-None-Match of a GET or HEAD names it. Clients that prefer gzip get bodies of more than 1 KiB
+/// (is_packable) packed, with an `etag` for that form.
 struct Response {
   int status = 200;
   std::string content_type{};  ///< empty: no Content-Type field
   Body body{};
   std::vector<Header> headers{};
   std::string etag{};  ///< with its quotes: `"abc"` or `W/"abc"`
-  /// When set, these bytes are the answer and every other member is ignored.
+  /// If set, these bytes are the response and every other member is ignored.
   std::shared_ptr<const PreparedResponse> prepared{};
 
   Response() = default;
   Response(int code, std::string type, Body content)
       : status(code), content_type(std::move(type)), body(std::move(content)) {}
-  /// No body.
+  /// A response without a body.
   explicit Response(int code) : status(code) {}
-  /// A hot answer, serialised once and shared.
+  /// A frequent response, serialised once and shared.
   Response(std::shared_ptr<const PreparedResponse> answer)  // NOLINT(google-explicit-constructor)
       : prepared(std::move(answer)) {}
 
@@ -81,8 +81,9 @@ std::size_t size_in_memory(const PreparedResponse& answer);
 
 class Connection;
 
-/// Receives the next piece of a BodyStream: exactly one call, from any thread. If it is dropped
-/// without a call, or fails, the connection is closed, so that the client detects a truncated body.
+/// Receives the next piece of a BodyStream: exactly one call, from any thread. A sink that is
+/// dropped without a call, or fails, closes the connection, so that the client detects a truncated
+/// body.
 class ChunkSink {
  public:
   explicit ChunkSink(std::shared_ptr<Connection> connection);
@@ -147,10 +148,10 @@ class Responder {
 
 class Posts;
 
-/// Collects what its thread posts to I/O threads, and posts it at the end, to each thread at once.
-/// For a thread that answers many requests together: single responses would wake the I/O thread
-/// each time. At most one on a thread. Responders used under it count as released when it has
-/// ended.
+/// Collects the responses of its thread for I/O threads, and posts them at the end, to each thread
+/// at once. Use it in a thread that answers many requests together, because each single response
+/// would wake the I/O thread. At most one on a thread. Responders used with it are released when it
+/// ends.
 class AnswerBatch {
  public:
   AnswerBatch();

@@ -17,7 +17,7 @@ namespace fitgauge::http {
 
 class RouteTree;
 
-// Types of a parameter. Every type is checked before the handler runs; the error of a refused path
+// Types of a parameter. Every type is checked before the handler runs. The error of a refused path
 // or query value names the parameter and the accepted values.
 
 struct Text {
@@ -27,8 +27,8 @@ struct Integer {
   std::int64_t min = std::numeric_limits<std::int64_t>::min();
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
 };
-/// A decimal number, read as value times 10^scale; a decimal comma is accepted. The range counts in
-/// the same scaled integers.
+/// A decimal number, read as value times 10^scale; a decimal comma is accepted. The range is in
+/// scaled integers.
 struct Decimal {
   int scale = 6;
   std::int64_t min = std::numeric_limits<std::int64_t>::min();
@@ -66,11 +66,11 @@ enum class BodyUse : std::uint8_t {
 
 struct BodyRules {
   BodyUse use = BodyUse::None;
-  /// Lower case, without parameters; empty takes any or none. Charset may only be UTF-8.
+  /// Lower case, without parameters; empty accepts any or none. Charset may only be UTF-8.
   std::vector<std::string> media_types{};
   std::size_t limit = std::size_t{1} << 20;  ///< bytes, after decompression
   bool spools = false;                       ///< one above 1 MiB goes to disk: Request::file_body()
-  std::string when_too_large{};              ///< what to do instead, behind "…: "
+  std::string when_too_large{};              ///< remedy, after "…: "
   std::string schema{};                      ///< of its JSON form, by name
 };
 
@@ -79,48 +79,46 @@ struct Outcome {
   int status = 200;
   std::string meaning{};
   std::string schema{};  ///< of its JSON form, by name
-  /// Empty: those of the route where there is a schema or the status is 200, else no body.
+  /// Empty: the types of the route if there is a schema or the status is 200; otherwise no body.
   std::vector<std::string> media_types{};
 };
 
-/// An expected failure is returned; the error formatter makes the answer of it.
+/// Handlers return an expected failure; the error formatter makes the response.
 using SyncHandler = std::function<Result<Response>(const Request&)>;
 using AsyncHandler = std::function<void(const Request&, Responder)>;
-/// Called on an I/O thread: neither blocks. What takes long goes to a worker with its Responder.
+/// Handlers run on an I/O thread and must not block. Long work goes to a worker with its Responder.
 using Handler = std::variant<SyncHandler, AsyncHandler>;
 
 /// One operation as data: dispatch, validation, error texts and the API's description come from it.
-/// GET answers HEAD too; OPTIONS and 405 are derived.
+/// GET also answers HEAD; OPTIONS and 405 are derived.
 struct Route {
   Method method = Method::Get;
-  /// `/v1/fits/{hole}/{shaft}`; the last segment may be `{path*}`: the rest of the path, at least
-  /// one character, in which an encoded slash is a slash like any other. A literal segment goes
-  /// before a parameter.
+  /// `/v1/fits/{hole}/{shaft}`. The last segment may be `{path*}`: the rest of the path, at least
+  /// one character, with encoded slashes as slashes. A literal segment precedes a parameter.
   std::string pattern{};
   Handler handler{};
   std::string summary{};
   std::string description{};
-  /// Path parameters may be left out: they are then required text.
+  /// Path parameters may be omitted here: they are then required text.
   std::vector<Parameter> parameters{};
   BodyRules body{};
-  /// For Accept: the first is the default; none of them acceptable is 406. Empty skips the check.
+  /// Types for Accept: the first is the default; if none is acceptable, 406. Empty skips the check.
   std::vector<std::string> response_types{"application/json"};
-  std::string access{};        ///< what the guard asks for; the engine does not read it
-  std::string query_access{};  ///< the same with a query; empty: no more than access
-  // For the API's description alone:
+  std::string access{};        ///< required access, for the guard; the engine does not read it
+  std::string query_access{};  ///< required access of a request with a query; empty: like access
+  // Only for the API's description:
   std::string operation{};          ///< the operation's name in generated clients: `getLimits`
-  std::string tag{};                ///< the group of operations it stands in
+  std::string tag{};                ///< group of operations
   std::vector<Outcome> outcomes{};  ///< every success
-  /// Refusals beside those that follow from parameters, body and access: 404, 409, 412, 422.
+  /// Refusals in addition to those of parameters, body and access: 404, 409, 412, 422.
   std::vector<int> refusals{};
 };
 
-/// The routes and their index. Immutable after construction; read by every I/O thread.
+/// Routes and their index. Immutable after construction; every I/O thread reads it.
 class RouteTable {
  public:
   /// @throws std::logic_error for a malformed pattern, two routes of one method and shape, or a
-  /// path
-  ///   parameter that the pattern does not have.
+  ///   path parameter that the pattern does not have.
   explicit RouteTable(std::vector<Route> routes);
   RouteTable(RouteTable&&) noexcept;
   RouteTable& operator=(RouteTable&&) noexcept;

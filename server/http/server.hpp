@@ -20,12 +20,13 @@ namespace fitgauge::http {
 struct ListenAddress {
   std::string host;  ///< a numeric address: `127.0.0.1`, `::1`, `0.0.0.0`
   std::uint16_t port = 0;
-  /// Without TLS, for the service's own health check on this machine: the guard lets nothing but
-  /// the health routes pass (Request::is_health_only).
+  /// Without TLS, for health checks on this machine: the guard allows only the health routes
+  /// (Request::is_health_only).
   bool health_only = false;
 
   bool is_loopback() const;
-  /// The address to reach it by on this machine: `127.0.0.1:8286` for 0.0.0.0, `[::1]:8286` for ::.
+  /// Returns the address that reaches it on this machine: `127.0.0.1:8286` for 0.0.0.0,
+  /// `[::1]:8286` for ::.
   std::string own_address() const;
 };
 
@@ -33,7 +34,7 @@ struct ListenAddress {
 /// @errors ConfigInvalid
 Result<ListenAddress> parse_listen_address(std::string_view text);
 
-/// Whether this machine lets the process listen there. A port in use passes: it may be our own.
+/// Checks that this machine lets the process listen there. A port in use passes: it may be our own.
 /// @errors ListenFailed
 Result<void> check_listen(const ListenAddress& address);
 
@@ -44,33 +45,34 @@ struct TlsOptions {
   bool require_client_certificate = false;
 };
 
-/// Whether a server can start with these files: they can be read, and key and certificate match.
+/// Checks that a server can start with these files: they can be read, and key and certificate
+/// match.
 /// @errors ConfigInvalid naming the file.
 Result<void> check_tls(const TlsOptions& options);
 
 struct ServerOptions {
   std::vector<ListenAddress> listen;
   unsigned io_threads = 1;
-  /// Beyond it a connection is answered 503 and closed.
+  /// Connections above this number are answered with 503 and closed.
   std::size_t max_connections = 1024;
-  /// Bytes of large bodies in memory at once, all connections together. A body waits for its share;
-  /// under pressure a sender that has stopped loses its own. A body without a length that has grown
-  /// beyond 1 MiB takes its route's limit.
+  /// Bytes of large bodies in memory at once, in all connections together. A body waits for its
+  /// share. Under pressure, a silent sender loses its share. A body without a length that grows
+  /// beyond 1 MiB uses the limit of its route.
   std::size_t body_budget = std::size_t{64} << 20;
   /// Folder for bodies whose route spools them; empty: they stay in memory.
   std::string spool_folder{};
-  /// Bytes of answers that wait for their readers, all connections together. Beyond it those end
-  /// that have been leaving longest, if for longer than `unsent_time`: who reads has his by then.
-  /// Memory that several answers share does not count.
+  /// Bytes of answers that wait for their readers, in all connections together. Above it, the
+  /// oldest answers end that have waited longer than `unsent_time`, because active readers finish
+  /// in that time. Memory that several answers share does not count.
   std::size_t unsent_budget = std::size_t{64} << 20;
   std::chrono::milliseconds unsent_time = std::chrono::seconds(10);
-  /// A sender of a body that is silent for so long gives way when others wait for memory.
+  /// A sender that is silent for this time loses its share when others wait for memory.
   std::chrono::milliseconds stall_time = std::chrono::seconds(1);
   std::chrono::milliseconds header_timeout = std::chrono::seconds(10);
   std::chrono::milliseconds request_timeout = std::chrono::seconds(30);  ///< header and body
   std::chrono::milliseconds idle_timeout = std::chrono::seconds(30);
-  std::chrono::milliseconds write_timeout = std::chrono::seconds(30);  ///< a reader takes nothing
-  /// How long stop() waits for requests in flight.
+  std::chrono::milliseconds write_timeout = std::chrono::seconds(30);  ///< if the reader stalls
+  /// Longest time that stop() waits for requests in flight.
   std::chrono::milliseconds drain_timeout = std::chrono::seconds(7);
   std::optional<TlsOptions> tls{};
   /// Origins whose pages may use the service (CORS), as browsers send them: `https://mes.example`.
@@ -79,7 +81,7 @@ struct ServerOptions {
 
 /// One answered request, for logs and metrics.
 struct FinishedRequest {
-  const Request& request;  ///< its head and its caller; it has no body any more
+  const Request& request;  ///< head and caller; the body is gone
   std::string_view route;  ///< the pattern, or empty when none was found
   std::string_view method;
   int status = 0;
@@ -89,18 +91,19 @@ struct FinishedRequest {
 };
 
 struct ServerHooks {
-  /// Makes the document of an error. `status` is set where the engine itself refuses; otherwise the
-  /// error came from a handler or guard and its code decides. Without this hook: plain text.
+  /// Makes the document of an error. `status` is set if the engine itself refuses; otherwise the
+  /// code of the handler's or guard's error decides. Without this hook: plain text.
   std::function<Response(const Error& error, std::optional<int> status, const Request& request)>
       format_error{};
-  /// Runs on the head, before parameters and body are read; a returned response or error is the
-  /// answer.
+  /// Runs on the head, before parameters and body are read. If it returns a response or error, that
+  /// is the answer.
   std::function<Result<std::optional<Response>>(Request& request, const Route& route)> guard{};
   /// Asked a few times a second while a streamed body is sent: false ends the body, because the
-  /// caller of the request may not read on.
+  /// caller may not read on.
   std::function<bool(const Request&)> may_continue{};
   std::function<void(const FinishedRequest&)> finished{};
-  /// A handler threw: `what` is the exception's text. The client got 500 with the request's id.
+  /// Reports that a handler threw: `what` is the exception's text. The client got 500 with the
+  /// request's id.
   std::function<void(const Request&, std::string_view what)> handler_threw{};
 };
 
@@ -112,8 +115,8 @@ struct ServerCounters {
   std::uint64_t body_bytes_in_flight = 0;
 };
 
-/// Owns the listening sockets, the I/O threads and every connection. Hooks and handlers are called
-/// on the I/O threads; the functions below from any thread.
+/// Owns the listening sockets, the I/O threads and every connection. Hooks and handlers run on the
+/// I/O threads; the member functions may be called from any thread.
 class Server {
  public:
   /// Binds, listens and starts the threads.
@@ -124,7 +127,7 @@ class Server {
   ~Server();
   Server& operator=(Server&&) = delete;  // neither copied nor moved
 
-  /// The ports in the order of ServerOptions::listen: the actual ones where 0 was asked for.
+  /// Returns the ports in the order of ServerOptions::listen: the actual ones for port 0.
   const std::vector<std::uint16_t>& ports() const;
 
   ServerCounters counters() const;
@@ -133,9 +136,9 @@ class Server {
   /// @errors ConfigInvalid: the old ones stay in use.
   Result<void> reload_tls();
 
-  /// Stops accepting, closes idle connections, waits for requests in flight (at most
-  /// drain_timeout; streams are cut), closes the rest and ends the I/O threads: when it returns,
-  /// nothing calls a handler, a hook or a stream any more. Answers that come later are dropped.
+  /// Stops accepting, closes idle connections, waits for requests in flight (at most drain_timeout;
+  /// streams are cut), closes the rest and ends the I/O threads. After it returns, nothing calls a
+  /// handler, a hook or a stream. Later answers are dropped.
   void stop();
 
  private:

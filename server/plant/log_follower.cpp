@@ -44,7 +44,7 @@ Result<app::EventService::StoredPage> read_event_page(app::EventService& service
       [&](auto done) { service.read_stored(after, limit, done); });
 }
 
-/// How many measurements the log has.
+/// Returns the number of measurements in the log.
 Result<std::int64_t> end_of_log(app::MeasurementService& service) {
   const auto page = read_page(service, {}, 0, 1, [](const auto&) {});
   if (!page) return page.error();

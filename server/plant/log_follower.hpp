@@ -34,7 +34,7 @@ struct Progress {
   void refuse(DeadLetter letter);
 };
 
-/// None if the connection has not begun. Blocks. @errors those of storage.
+/// Returns the progress; none if the connection has not begun. Blocks. @errors those of storage.
 Result<std::optional<Progress>> load_progress(app::DocumentService& documents,
                                               const std::string& name);
 Result<void> save_progress(app::DocumentService& documents, const std::string& name,
@@ -72,7 +72,7 @@ struct OutgoingEvent : app::EventService::Stored {
 /// The id of such an event on the outside.
 std::string event_text(const OutgoingEvent& event);
 
-/// How far a delivery has come.
+/// Progress of a delivery.
 struct Delivery {
   std::size_t dealt_with = 0;         ///< of the pending ones, from the first
   std::vector<DeadLetter> refused{};  ///< among these: for good
@@ -158,7 +158,7 @@ class LogFollower final : public Worker {
   /// Whether events go out now: when all measurements that were stored before them are dealt with.
   bool has_events() const;
   void deliver_events(const std::stop_token& stop);
-  /// How many of those that are pending go out now.
+  /// Returns the number of pending measurements that go out now.
   std::size_t ripe() const;
   /// @returns the number of the next delivery; none while it cannot be stored.
   std::size_t planned(std::size_t count);

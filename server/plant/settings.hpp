@@ -117,7 +117,7 @@ struct Each {
 template <class Take>
 Each(std::size_t, std::size_t, std::string_view, std::string, Take) -> Each<Take>;
 
-/// Which files and folders of this machine a connection may name.
+/// Files and folders of this machine that a connection may name.
 struct FolderPermissions {
   bool all = false;                            ///< it belongs to the configuration file
   std::vector<std::filesystem::path> roots{};  ///< else these folders and those below them

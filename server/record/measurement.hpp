@@ -199,7 +199,7 @@ struct RecordName {
 Result<RecordName> parse_measurement_id(std::string_view text, const Origins& origins);
 Result<RecordName> parse_run_id(std::string_view text, const Origins& origins);
 std::string note_id_text(std::int64_t id, std::string_view origin);
-/// None of an origin that is not known.
+/// Reads the id of a note; none if its origin is unknown.
 std::optional<RecordName> parse_note_id(std::string_view text, const Origins& origins);
 
 }  // namespace fitgauge::app

@@ -48,7 +48,7 @@ Result<void> finish(FieldErrors& errors) {
   return {};
 }
 
-/// Any JSON, with every error in its place: for input that the fast reader does not accept.
+/// Decodes any JSON, with every error in its place: for input that the fast reader does not accept.
 Result<void> decode_json(std::string_view body, const BatchContext& context,
                          MeasurementBatch& batch) {
   FieldErrors errors;

@@ -47,8 +47,8 @@ struct GaugeInUse {
 /// The gauges in use, by name.
 using GaugeBook = std::map<std::string, GaugeInUse, std::less<>>;
 
-/// When a calibration begins or is due: a date from its beginning or to its end in UTC, or an
-/// RFC 3339 time. None for other texts.
+/// Reads when a calibration begins or is due: a date, which counts from its beginning or to its end
+/// in UTC, or an RFC 3339 time. None for other texts.
 std::optional<Timestamp> parse_from(std::string_view text);
 std::optional<Timestamp> parse_due(std::string_view text);
 /// Returns the text with its time in UTC; a date stays unchanged.

@@ -5,7 +5,7 @@
 #include "tables/iso286/tolerance_class.hpp"
 #include "tables/standards/designated_limits.hpp"
 
-// How a row gives its limits: a designation, a class with its nominal size, or limits of a drawing.
+// A row gives its limits by a designation, a class with its nominal size, or limits of a drawing.
 
 namespace fitgauge::api {
 namespace {

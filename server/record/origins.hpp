@@ -14,22 +14,22 @@
 
 namespace fitgauge::app {
 
-/// An origin as ids end with it: hexadecimal digits.
+/// Length of an origin in hexadecimal digits, as ids end with it.
 inline constexpr std::size_t kDigitsOfOrigin = 16;
 inline bool is_origin_digits(std::string_view text) {
   return text.size() == kDigitsOfOrigin &&
          text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-/// The kinds of things with ids; each is counted by itself.
+/// Kinds of objects with ids; each kind is counted separately.
 enum class Counted : std::uint8_t { Measurement, Run, Event, Note };
 
-/// The ends of the ids of each data folder whose records stand here: 16 hexadecimal digits, the
-/// tag of a history. Number 0 is this folder, whose log may have gone through several. Thread-safe;
-/// what was given out stays valid.
+/// Maps each data folder whose records are here to the end of its ids: 16 hexadecimal digits that
+/// name a history. Number 0 is this folder, whose log may have had several histories. Thread-safe;
+/// returned views stay valid.
 class Origins {
  public:
-  /// A history of this folder before its present one, and the newest numbers of it that are here.
+  /// An ended history of this folder, with its newest numbers that are here.
   struct Ended {
     std::string digits;
     std::array<std::int64_t, 4> newest{};  ///< key: counted by
@@ -75,8 +75,7 @@ class Origins {
     return found == numbers_.end() ? std::nullopt : std::optional(found->second);
   }
 
-  /// The last number of an origin's measurements whose ids end with these digits, as far as it is
-  /// known.
+  /// Returns the last known number of an origin's measurements whose ids end with these digits.
   std::int64_t last_with(std::string_view digits, std::int64_t origin) const {
     const std::lock_guard lock(mutex_);
     for (const Ended& ended : ended_) {
@@ -90,7 +89,7 @@ class Origins {
     const auto [at, is_new] = digits_.try_emplace(number, digits);
     if (is_new) numbers_.emplace(at->second, number);
   }
-  /// The oldest first.
+  /// Adds an ended history; the oldest comes first.
   void remember(Ended ended) {
     const std::lock_guard lock(mutex_);
     ended_.push_back(std::move(ended));

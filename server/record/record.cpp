@@ -26,7 +26,7 @@ class RecordText {
     out_.resize(size());
   }
 
-  /// How long the string is so far.
+  /// Returns the present length of the string.
   std::size_t size() const { return static_cast<std::size_t>(at_ - out_.data()); }
   /// The text from `begin`.
   std::string_view from(std::size_t begin) const { return {out_.data() + begin, size() - begin}; }

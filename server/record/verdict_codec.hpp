@@ -31,10 +31,10 @@ struct ThermalCorrection {
   }
 };
 
-/// None where no expansion is given: a temperature alone corrects nothing.
-/// @errors with the field in `where`: FieldConflict: material beside expansion; FieldInvalid: there
-///   is no such material; FieldMissing: the part's expansion without temperature_c, or an
-///   uncertainty of a body without its expansion.
+/// Returns the correction; none without an expansion: a temperature alone corrects nothing.
+/// @errors with the field in `where`: FieldConflict: material and expansion; FieldInvalid: unknown
+///   material; FieldMissing: the part's expansion without temperature_c, or an uncertainty of a
+///   body without its expansion.
 Result<std::optional<ThermalCorrection>> make_correction(const app::MeasurementFields& fields);
 
 /// The largest measured value: 100 km.

@@ -142,7 +142,7 @@ std::int64_t origin_of(std::string_view note, const LogService::Logs& logs) {
   return 0;
 }
 
-/// How many measurements a checkpoint covers.
+/// Returns the number of measurements that a checkpoint covers.
 std::uint64_t size_of(const Result<std::optional<std::string>>& note) {
   const auto checkpoint = tlog::parse_checkpoint(note && *note ? **note : std::string());
   return checkpoint ? checkpoint->size : 0;

@@ -48,7 +48,7 @@ struct WriterFigures {
   std::uint64_t log_pages = 0;  ///< in the write-ahead log
 };
 
-/// Other figures of the database, for metrics.
+/// Further figures of the database, for metrics.
 struct StorageFigures {
   std::size_t readers_queued = 0;  ///< jobs that wait for a reader
   bool is_on_server = false;       ///< not in files of the data folder
@@ -72,7 +72,7 @@ struct ApplicationOptions {
   std::int64_t idempotency_days = 30;
   std::int64_t run_retention_days = 90;  ///< 0: for ever
   std::int64_t event_retention = 100'000;
-  /// As LogOptions.
+  /// Asks the centre for the state of this log; see LogOptions.
   std::function<std::optional<AtCentre>(std::string_view digits)> ask_centre{};
   bool has_centre = false;              ///< documents of a centre can only be changed there
   std::string origin_name = "station";  ///< of the log of a new data folder
@@ -121,7 +121,7 @@ class Application {
 
   // These block: for the start and for commands.
 
-  /// When the newest measurement was received; none before the first. @errors StorageUnavailable.
+  /// Returns the time of the newest measurement; none before the first. @errors StorageUnavailable.
   Result<std::optional<Timestamp>> newest_measurement() const;
 
   /// Writes a consistent copy of the database, and next to it (`FILE.checkpoint`) the newest

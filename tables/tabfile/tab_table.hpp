@@ -25,7 +25,7 @@ struct TabColumn {
   friend bool operator==(const TabColumn&, const TabColumn&) = default;
 };
 
-/// How the columns are described between the BEGIN line and the line of their names.
+/// Form of the column descriptions between the BEGIN line and the line of their names.
 enum class HeaderForm : std::uint8_t {
   None,              ///< not at all
   StructBlock,       ///< iTNC: #STRUCTBEGIN ... #STRUCTEND

@@ -37,7 +37,7 @@ schema::Fields given_fields() {
   return fields;
 }
 
-/// Other fields of the caller come back as they were stored.
+/// Fields of the caller that are returned as they were stored.
 schema::Fields echoed_fields() {
   schema::Fields fields;
   for (std::size_t i = RowField::Labels; i < RowField::Count; ++i) {

@@ -18,7 +18,7 @@
 
 namespace fitgauge::api {
 
-/// How runs are written: the run object of the contract, its trace, its event.
+/// Returns the forms of a run: the run object of the contract, its trace, its event.
 app::RunFormat run_format();
 
 /// `{"Q1":25,"QS3":"GOOD"}`

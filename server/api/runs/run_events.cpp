@@ -24,7 +24,7 @@ void append_progress(std::string& out, app::RunState state, std::uint64_t blocks
                }));
 }
 
-/// How many lines the reader has received; an id of another form begins at the first line.
+/// Returns the number of lines that the reader has received; an id of another form gives 0.
 std::size_t lines_had(std::optional<std::string_view> last) {
   std::size_t lines = 0;
   if (last) std::from_chars(last->data(), last->data() + last->size(), lines);

@@ -39,7 +39,7 @@ struct CorrectedParts {
   bool is_unfit = false;              ///< the gauge of the newest value is
   std::optional<Error> error{};
 
-  /// As it was stored, and as it is known now: a gauge may be blocked after it has measured.
+  /// Tests the gauge as it was stored and as it is now: it may be blocked after it has measured.
   bool is_gauge_fit(const app::Measurement& value) const {
     if (value.calibration_due || value.gauge_blocked) return false;
     const auto gauge = value.gauge ? gauges->find(*value.gauge) : gauges->end();

@@ -87,7 +87,7 @@ bool Preconditions::hold(std::optional<std::string_view> etag) const {
   return !(if_none_match && etag && http::names_etag_weakly(*if_none_match, *etag));
 }
 
-/// As much as a header section may have.
+/// Bytes of a header section.
 constexpr std::size_t kLongestTags = std::size_t{32} << 10;
 
 std::string next_link(const http::Request& request, std::string_view cursor) {

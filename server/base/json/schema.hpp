@@ -47,7 +47,7 @@ inline std::string above_zero(std::string json) {
 std::string null_or(const std::string& json);
 std::string array(const std::string& item);
 std::string array(const std::string& item, std::size_t least, std::size_t most = kAnyNumber);
-/// Any names, values of one kind.
+/// An object with any names and values of one kind.
 std::string map(const std::string& value);
 std::string object(const Fields& fields, Others others = Others::Allowed);
 /// At least one of them fits.

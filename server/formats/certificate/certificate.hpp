@@ -10,7 +10,7 @@
 
 namespace fitgauge::certificate {
 
-/// How the verdict of a line is set off: on grey, or white on black.
+/// Emphasis of the verdict in a line: none, on grey, or white on black.
 enum class Weight { Plain, Noted, Marked };
 
 /// A line of the table: texts in UTF-8, numbers as they are to be read.

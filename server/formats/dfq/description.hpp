@@ -74,7 +74,7 @@ class Description {
   /// Returns a text of a catalogue's entry.
   std::string_view catalogue_text(int number, std::uint32_t entry) const;
 
-  /// As UTF-8. @errors kMalformed, without a place
+  /// Returns the text in UTF-8. @errors kMalformed, without a place
   Result<std::string> decoded(std::string_view bytes) const;
 
  private:

@@ -98,7 +98,7 @@ struct Comment {
 };
 
 std::string format_comment(const Comment& comment);
-/// Other forms are text.
+/// Parses a comment; other forms are text.
 Comment parse_comment(std::string_view comment);
 
 }  // namespace fitgauge::aqdef

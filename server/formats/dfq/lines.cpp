@@ -45,8 +45,8 @@ std::optional<std::uint32_t> take_index(std::string_view& text) {
   return number;
 }
 
-/// How many bytes are looked at together. The fields of a DFQ are short, so that a branch for each
-/// byte, or for each field, would be guessed wrong too often.
+/// Number of bytes that are scanned together. Fields of a DFQ are short: a branch for each byte or
+/// field would be predicted wrong too often.
 constexpr std::size_t kBlock = 64;
 
 /// Bit i: the byte i of a block is a separator, and one of values.

@@ -95,7 +95,7 @@ class Lines {
   std::optional<Error> failure_;
 };
 
-/// How much more room separate() needs than a text has bytes.
+/// Bytes that separate() needs beyond the size of the text.
 inline constexpr std::size_t kSeparateRoom = 8;
 
 /// End of the output of separate().

@@ -21,7 +21,7 @@ constexpr std::size_t kBatchCell = 4;
 constexpr std::size_t kOperatorCell = 6;
 constexpr std::size_t kMachineCell = 7;
 constexpr std::size_t kGaugeCell = 9;
-/// Those that no field of a measurement is for: events, cavity, process parameters.
+/// Cells without a field in a measurement: events, cavity, process parameters.
 constexpr std::array<std::size_t, 3> kCarriedCells = {3, 5, 8};
 
 constexpr std::size_t kMostAppended = std::size_t{1} << 16;  ///< bytes, before another value

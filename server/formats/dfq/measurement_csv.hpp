@@ -44,7 +44,8 @@ class MeasurementCsv {
   /// is from.
   /// @returns false at the end. @errors kMalformed, TimeMalformed with the line
   Result<bool> append(std::string& rows, std::vector<std::uint32_t>& lines);
-  /// When all is read. @errors kMalformed: counts do not agree, or there is no value.
+  /// Checks the file after the last value. @errors kMalformed: counts do not agree, or there is no
+  /// value.
   Result<void> check() const;
 
  private:
@@ -72,7 +73,7 @@ class MeasurementCsv {
   Result<std::string_view> time_of(std::string_view text);
   /// The text of an entry of a catalogue, or its number; empty for 0.
   std::string_view entry(int first_field, int second_field, std::string_view number) const;
-  /// As UTF-8, living until the next value.
+  /// Returns the text in UTF-8, valid until the next value.
   Result<std::string_view> utf8(std::string_view text);
   std::optional<std::size_t> mapped_place(int number) const;
   void set(std::size_t place, std::string_view text) {

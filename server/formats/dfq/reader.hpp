@@ -97,7 +97,7 @@ class Reader {
   /// The description before the last values.
   const Description& description() const { return description_; }
 
-  /// When all is read: whether counts agree. @errors kMalformed
+  /// Checks after the last value that counts agree. @errors kMalformed
   Result<void> check() const { return description_.check(); }
 
  private:

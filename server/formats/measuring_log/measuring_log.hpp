@@ -73,7 +73,7 @@ Reading read_logs(std::string_view bytes);
 
 enum class Section : std::uint8_t { Head, Nominal, Limits, Actual, Deviations, Further };
 
-/// Which section a title opens.
+/// Returns the section that a title opens.
 std::optional<Section> section_of(std::string_view title);
 
 /// Returns the number of the cycle if a line begins a log.

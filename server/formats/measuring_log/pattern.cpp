@@ -13,7 +13,7 @@
 namespace fitgauge::log_reader {
 namespace {
 
-/// As the fields of a measurement go, with the control's date and time of day.
+/// Names in a pattern: fields of a measurement, and the control's date and time of day.
 constexpr std::array<std::string_view, 19> kFields{
     "measured_mm", "nominal_mm",      "upper_mm", "lower_mm",       "upper_um", "lower_um",
     "feature",     "tolerance_class", "part_id",  "characteristic", "order",    "operation",

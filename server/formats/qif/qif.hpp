@@ -48,7 +48,7 @@ class QifRows {
   /// Appends the row of the next measurement, and the line of the document for each of its lines.
   /// @returns false at the end. @errors CsvMalformed with the line
   Result<bool> append(std::string& rows, std::vector<std::uint32_t>& lines);
-  /// When all is read. @errors CsvMalformed: there was none.
+  /// Checks after the last value. @errors CsvMalformed: there was no value.
   Result<void> check() const;
 
  private:
@@ -81,7 +81,7 @@ struct OutgoingValue {
   std::optional<Length> uncertainty{};  ///< standard
   std::optional<std::string_view> part_id{};
   std::optional<std::string_view> characteristic{};
-  /// Other fields of the record, by the names of /v1/measurements.
+  /// Further fields of the record, with the names of /v1/measurements.
   std::vector<std::pair<std::string_view, std::string>> fields{};
 };
 

@@ -63,7 +63,7 @@ class Definitions {
   std::string_view device(const std::string& id) const { return text(devices_, id); }
   /// `hole`, `shaft` or nothing, of the feature that a characteristic is of.
   std::string_view feature(const Item& item, const Nominal& nominal) const;
-  /// None if neither the document nor the caller has one.
+  /// Returns the unit of the document or of the caller; none if neither has one.
   std::optional<aqdef::LengthUnit> unit() const { return unit_; }
   const std::string& unit_name() const { return unit_name_; }
   const std::string& order() const { return order_; }

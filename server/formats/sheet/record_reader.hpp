@@ -152,7 +152,7 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kL
 /// Returns the field of a member; empty if it was computed or repeats another one.
 std::string_view field_of_export(std::string_view member, bool has_drawn_limits);
 
-/// Why a record of a simulation is none of a gauge.
+/// Error text for a record of a simulation in place of one of a gauge.
 inline constexpr std::string_view kOfSimulation =
     "is simulated, and cannot be imported: export with source=gauge";
 

@@ -15,7 +15,7 @@ namespace fitgauge::sheet {
 /// Texts by names.
 using Words = std::vector<std::pair<std::string, std::string>>;
 
-/// How a shop's table becomes measurements.
+/// Options that turn a shop's table into measurements.
 struct ShopCsvOptions {
   Encoding encoding = Encoding::Detected;
   Words columns{};    ///< the table's name of a column, the field it is; empty: it is left out
@@ -43,7 +43,7 @@ class ShopRows {
   ShopRows& operator=(ShopRows&&) noexcept;
   ~ShopRows();
 
-  /// As many lines as the table has up to the end of its header.
+  /// Returns the header, with as many lines as the table has up to the end of its own.
   const std::string& header() const { return header_; }
   /// Appends the next row. @returns false at the end.
   /// @errors TextEncoding; CsvMalformed and TimeMalformed with the line in `where`.

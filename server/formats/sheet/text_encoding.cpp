@@ -26,7 +26,7 @@ Result<std::size_t> read_on(const Read& read, std::string& bytes) {
   return count;
 }
 
-/// How many of the beginning's bytes at even or odd places are 0.
+/// Returns the number of zero bytes at even or odd places of the beginning.
 std::size_t zeros(std::string_view bytes, std::size_t parity) {
   std::size_t count = 0;
   for (std::size_t i = parity; i < std::min(bytes.size(), kLooked); i += 2) {

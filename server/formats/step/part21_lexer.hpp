@@ -42,7 +42,7 @@ class Lexer {
   }
   /// `ADVANCED_FACE`, `!OWN`, `END-ISO-10303-21`; empty if there is none.
   std::string_view keyword();
-  /// Any parameter with its content. @param deep number of lists that may still be opened
+  /// Reads any parameter with its content. @param deep number of lists that may still be opened
   bool parameter(Parameter& to, int deep);
   /// `(…)`; @param each gets every parameter
   template <class Each>

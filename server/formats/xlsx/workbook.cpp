@@ -24,7 +24,7 @@ class MemoryFile {
 
   bool is_open() const { return descriptor_ >= 0; }
   std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
-  /// Nothing when it cannot be read whole.
+  /// Returns all bytes; none if they cannot be read.
   std::optional<std::string> bytes() const {
     struct stat about {};
     if (fstat(descriptor_, &about) != 0) return std::nullopt;

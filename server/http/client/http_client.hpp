@@ -106,7 +106,7 @@ class HttpClient {
   std::unique_ptr<Handle> handle_;
 };
 
-/// Why a text is no address to call; none: it is one.
+/// Returns the fault of a text as an address to call; none if it is one.
 std::optional<std::string> fault_of_url(const std::string& url);
 
 }  // namespace fitgauge::http_client

@@ -25,7 +25,7 @@ void Connection::skip_buffered_body() {
   }
 }
 
-/// How the rest of the body comes in.
+/// Returns the phase in which the rest of the body is read.
 Connection::Phase Connection::body_phase() const {
   return !head_.chunked && body_.plan().is_verbatim() ? Phase::FillingBody : Phase::ReadingBody;
 }

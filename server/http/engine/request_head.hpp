@@ -12,7 +12,7 @@
 
 namespace fitgauge::http {
 
-/// Why a request is refused before its handler runs.
+/// Refusal of a request before its handler runs.
 struct Refusal {
   int status = 400;
   ErrorCode code = ErrorCode::RequestMalformed;

@@ -66,7 +66,7 @@ struct ConformanceFigures {
   friend bool operator==(const ConformanceFigures&, const ConformanceFigures&) = default;
 };
 
-/// None if not even the middle of the limits conforms with this probability.
+/// Returns the figures; none if not even the middle of the limits conforms with this probability.
 /// @pre as conformance_probability
 std::optional<ConformanceFigures> conformance_figures(const ConformanceLimits& limits,
                                                       Length measured,

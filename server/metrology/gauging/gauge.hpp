@@ -122,7 +122,7 @@ class ConformanceProbability {
 /// `0.95`
 std::string format(ConformanceProbability probability);
 
-/// How a measured value is compared with the limits (ISO 14253-1).
+/// Rule for comparing a measured value with the limits (ISO 14253-1).
 class DecisionRule {
  public:
   enum class Kind : std::uint8_t { Simple, GuardBand, Conformance };

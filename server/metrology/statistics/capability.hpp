@@ -61,7 +61,7 @@ std::optional<FittedDistribution> fit_distribution(const Ranking& ranking, int s
 struct SpecificationLimits {
   std::optional<Exact> lower{};
   std::optional<Exact> upper{};
-  /// None: the middle of both limits. With one limit it has to be given for a cpm, which is then
+  /// Target size; if absent, the middle of both limits. With one limit, a cpm needs it and is
   /// |limit - target| / 3 tau (Chan, Cheng and Spiring 1988).
   std::optional<Exact> target{};
 };
@@ -101,7 +101,7 @@ struct Capability {
   std::optional<FittedDistribution> distribution{};
   std::optional<PercentileCapability> percentile{};
 
-  /// Why indices are none though the limits would give them.
+  /// Returns the reason why there are no indices although there are limits.
   std::optional<std::string_view> reason() const;
 };
 

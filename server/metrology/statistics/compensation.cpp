@@ -28,7 +28,7 @@ struct State {
     level_variance += 2 * covariance + wear_variance + wandering;
     covariance += wear_variance;
   }
-  /// Nothing is known of the level, all of the wear.
+  /// Forgets the level, and keeps the wear.
   void forget_level() {
     level_variance = kUnknown;
     covariance = 0;

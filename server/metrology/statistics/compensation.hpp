@@ -22,7 +22,7 @@ std::string_view word(CompensationState state);
 struct Compensation {
   CompensationState state = CompensationState::Wait;
   std::string_view reason{};  ///< in a sentence
-  // None before there are enough values:
+  // Absent until there are enough values:
   std::optional<double> offset{};         ///< µm that bring the next part to the target
   double offset_uncertainty = 0;          ///< standard uncertainty of it, in µm
   double wear = 0;                        ///< µm a part

@@ -10,7 +10,7 @@
 
 namespace fitgauge::metrology {
 
-/// How likely a hole and a shaft of a fit interfere, their sizes independent and in the middle of
+/// Probabilities that a hole and a shaft interfere. Their sizes are independent and centred in
 /// their tolerances.
 struct FitProbabilities {
   double normal = 0;   ///< standard deviations of a sixth of the tolerance

@@ -16,7 +16,7 @@ constexpr std::size_t kMostClasses = 4096;
 constexpr std::array<std::string_view, 6> kWords = {"normal",  "folded_normal", "rayleigh",
                                                     "weibull", "lognormal",     "mixture"};
 
-/// How many values there are at a place; the classes end in the middle between two places.
+/// Number of values at a place; the classes end in the middle between two places.
 struct Place {
   double x = 0;
   double count = 0;

@@ -12,7 +12,7 @@ struct Biases {
   Exact squares = 0;
 };
 
-/// How surely a value with a standard error is not 0.
+/// Returns the p value for the hypothesis that a value with a standard error is 0.
 long double p_of(long double value, long double standard_error, std::size_t freedom) {
   if (standard_error == 0) return value == 0 ? kUndefined : 0;
   return t_beyond(value / standard_error, static_cast<long double>(freedom));

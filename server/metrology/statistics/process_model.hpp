@@ -61,8 +61,8 @@ struct ModelChoice {
   ModelTests tests;
 };
 
-/// None with fewer than five subgroups: the tests have no power.
-/// @param normal whether all values together are
+/// Returns the model; none with fewer than five subgroups, because the tests have no power.
+/// @param normal true if all values together are normal
 std::optional<ModelChoice> choose_model(const Subgroups& data, bool normal);
 
 }  // namespace fitgauge::metrology

@@ -9,10 +9,10 @@
 
 namespace fitgauge::metrology {
 
-// The constants of control charts for subgroups of n normal values, from their definitions
-// (ISO 7870-2, annex): no table, so any n will do.
+// Constants of control charts for subgroups of n normal values, for any n: computed from their
+// definitions (ISO 7870-2, annex), not read from a table.
 
-/// The mean and the standard deviation of the range of n standard normal values.
+/// Mean and standard deviation of the range of n standard normal values.
 struct RangeConstants {
   double d2 = 0;
   double d3 = 0;
@@ -20,16 +20,19 @@ struct RangeConstants {
 /// @pre n >= 2
 RangeConstants range_constants(std::size_t n);
 
-/// The mean of the standard deviation (of n - 1) of n standard normal values. @pre n >= 2
+/// Returns the mean of the standard deviation (n - 1) of n standard normal values. @pre n >= 2
 double c4(std::size_t n);
 
-/// The divisor of a mean moving range of two: d2 of n = 2 as tables print it, and as every
-/// published chart of individual values uses it. 2 / sqrt(pi) is 0.034 % more.
+/// Divisor of a mean moving range of two: d2 of n = 2 as tables print it, which published charts of
+/// individual values use. 2 / sqrt(pi) is 0.034 % more.
 inline constexpr double kMovingRangeDivisor = 1.128;
 
-/// The rules of the Western Electric handbook (1956) for a control chart, by number:
-/// 1: a point beyond 3 standard deviations; 2: two of three beyond 2 on one side; 3: four of five
-/// beyond 1 on one side; 4: eight in a row on one side. A point on a line is not beyond it.
+/// Rules of the Western Electric handbook (1956) for a control chart:
+/// 1: a point beyond 3 standard deviations
+/// 2: two of three points beyond 2 on one side
+/// 3: four of five points beyond 1 on one side
+/// 4: eight points in a row on one side
+/// A point on a line is not beyond it.
 class ZoneRules {
  public:
   static constexpr int kCount = 4;
@@ -38,7 +41,7 @@ class ZoneRules {
   static constexpr ZoneRules all() { return ZoneRules(0b1111); }
   static constexpr ZoneRules only_first() { return ZoneRules(1); }
 
-  /// @pre 1 <= rule <= kCount, here and below
+  /// @pre 1 <= rule <= kCount, for add() and has()
   constexpr void add(int rule) { bits_ = static_cast<std::uint8_t>(bits_ | (1U << (rule - 1))); }
   constexpr bool has(int rule) const { return ((bits_ >> (rule - 1)) & 1U) != 0; }
   constexpr bool empty() const { return bits_ == 0; }
@@ -54,7 +57,7 @@ class ZoneRules {
   std::uint8_t bits_ = 0;
 };
 
-/// The past of a chart that decides about its next point; it never starts anew after a signal.
+/// Past points of a chart that decide about the next one; a signal does not clear them.
 class ZoneHistory {
  public:
   /// Number of whole standard deviations from the centre, at most 3, with its sign; for 0, `side`
@@ -74,18 +77,18 @@ class ZoneHistory {
         static_cast<std::uint8_t>(unsigned{outside} | completed(now) | completed(now >> kSide)));
   }
 
-  /// Forgets what no later pattern of `rules` can need; histories that then are equal have one
-  /// future.
+  /// Forgets the points that no later pattern of `rules` needs. Histories that are then equal have
+  /// one future.
   void reduce(ZoneRules rules);
 
   friend constexpr auto operator<=>(const ZoneHistory&, const ZoneHistory&) = default;
 
  private:
   // Points on one side of the centre, the newest point in the lowest bit of each part:
-  static constexpr unsigned kBeyond1 = 0;  ///< the last five, whether beyond 1
-  static constexpr unsigned kBeyond2 = 5;  ///< the last three, whether beyond 2
-  static constexpr unsigned kRun = 8;      ///< the last eight, whether on this side at all
-  static constexpr unsigned kSide = 16;    ///< from here on the same of the side below
+  static constexpr unsigned kBeyond1 = 0;  ///< the last five: beyond 1?
+  static constexpr unsigned kBeyond2 = 5;  ///< the last three: beyond 2?
+  static constexpr unsigned kRun = 8;      ///< the last eight: on this side?
+  static constexpr unsigned kSide = 16;    ///< first bit of the side below
   /// All points of each part except the oldest: the state for the next point.
   static constexpr unsigned kPastOfSide = 0b1111U << kBeyond1 | 0b11U << kBeyond2 | 0x7FU << kRun;
   static constexpr unsigned kPast = kPastOfSide | kPastOfSide << kSide;
@@ -95,11 +98,11 @@ class ZoneHistory {
            unsigned{side == 1} << kRun;
   }
 
-  /// The rules 2 to 4, as bits of ZoneRules, that a side's newest point completes.
+  /// Returns the rules 2 to 4, as bits of ZoneRules, that the newest point of a side completes.
   static unsigned completed(unsigned side) {
     return kPatterns[side & 0xFFU] | unsigned{(side >> kRun & 0xFFU) == 0xFFU} << 3U;
   }
-  /// By what is beyond 1 and 2.
+  /// Rules 2 and 3 by the points beyond 1 and beyond 2.
   static constexpr std::array<std::uint8_t, 256> kPatterns = [] {
     std::array<std::uint8_t, 256> patterns{};
     for (unsigned seen = 0; seen < patterns.size(); ++seen) {
@@ -120,19 +123,19 @@ struct RuleViolation {
   std::size_t index = 0;  ///< of the point that completes the pattern, from 0
 };
 
-/// The lines of a location chart, rounded as its points are: a point on a line is not beyond it.
+/// Lines of a location chart, rounded like its points: a point on a line is not beyond it.
 struct ZoneLines {
   double centre = 0;
   std::array<double, 3> above{};  ///< 1, 2 and 3 standard deviations of a point from the centre
   std::array<double, 3> below{};
 };
 
-/// The violations of a whole chart, by point, then rule.
+/// Returns the violations of a whole chart, sorted by point, then by rule.
 std::vector<RuleViolation> find_violations(std::span<const double> points, const ZoneLines& lines,
                                            ZoneRules rules);
 
-// The mean number of points until a chart signals although nothing is wrong: with limits that are
-// known, and normal, independent points.
+// Run length: mean number of points until a chart signals although nothing is wrong. The limits are
+// known, and the points normal and independent.
 
 /// Returns the run length of a Shewhart chart with rules. The Markov chain of its histories is
 /// solved exactly (Champ and Woodall 1987). @pre rules is not empty

@@ -21,7 +21,7 @@ class BlockWriter {
   BlockWriter& parameter(QRef parameter);
   /// With a sign before numbers: `+10`, `-Q5`; texts and QS parameters have none.
   BlockWriter& signed_value(const Expr& expr);
-  /// As signed_value, without `+`.
+  /// Writes like signed_value(), without `+`.
   BlockWriter& value(const Expr& expr);
   /// A formula with the parentheses it needs.
   void formula(const Expr& expr);
@@ -39,7 +39,7 @@ class BlockWriter {
   const Program& program() const { return program_; }
 
  private:
-  /// How tightly an expression binds; the levels of the parser's grammar.
+  /// Binding strength of an expression; the levels of the parser's grammar.
   enum class Level { Concat, Sum, Product, Power, Signed, Alone };
 
   Level level_of(const Expr& expr) const;

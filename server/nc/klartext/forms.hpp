@@ -22,7 +22,7 @@ class FormReader {
   FormReader& mark(char c) { return in_.expect(c), *this; }
   /// A mark that may be left out.
   FormReader& maybe(char c) { return in_.accept(c), *this; }
-  /// As maybe(), joined to what follows.
+  /// Reads like maybe(); the writer joins it to the next text.
   FormReader& joined(char c) { return maybe(c); }
   /// One of two words, joined to what follows.
   FormReader& either(bool& is_first, std::string_view first, std::string_view second) {
@@ -31,7 +31,7 @@ class FormReader {
     return *this;
   }
   FormReader& number(Expr& value) { return value = parse_number(in_), *this; }
-  /// As number(), printed with its sign.
+  /// Reads like number(); the writer prints its sign.
   FormReader& signed_number(Expr& value) { return number(value); }
   /// A path that ends before `stop`.
   FormReader& path(Expr& path, char stop = ';') { return path = parse_path(in_, stop), *this; }

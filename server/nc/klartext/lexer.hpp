@@ -123,7 +123,7 @@ class Lexer {
   bool accept(char c);
   /// A whole word without regard to case: not followed by a letter, a digit or `_`.
   bool accept_word(std::string_view word);
-  /// As accept_word, but a number or parameter may be joined to it: `DEF` of `DEF9.0`.
+  /// Accepts a word that a number or parameter may follow directly: `DEF` of `DEF9.0`.
   bool accept_joined(std::string_view word);
   /// The first characters of a word: `REP` of `REP2`, `DAT` of `DAT+Q50`, `SRC_` of `SRC_QS1`.
   bool accept_prefix(std::string_view prefix);
@@ -154,7 +154,7 @@ class Lexer {
   /// end. May contain wraps.
   std::string_view rest();
 
-  /// As rest(), but up to the first of `stop` (which is left) when there is one.
+  /// Returns rest() up to the first of `stop`, which is not consumed.
   std::string_view rest_until(char stop);
 
  private:
@@ -180,7 +180,7 @@ std::string unwrapped(std::string_view code);
 /// wrap comes into being when it is printed.
 std::string free_text(std::string_view code);
 
-/// As free_text, for a comment: the control wraps it in the middle of words.
+/// Returns the text of a comment. The control wraps comments in the middle of words.
 std::string comment_text(std::string_view comment);
 
 /// An excerpt for a message, of at most so many bytes.

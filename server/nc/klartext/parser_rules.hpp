@@ -13,7 +13,7 @@ namespace fitgauge::klartext {
 Expr parse_formula(BlockReader& in);
 /// A number with an optional sign, or any parameter: `+10`, `-Q5`, `QS1`.
 Expr parse_value(BlockReader& in);
-/// As parse_value, without QS parameters.
+/// Parses a value without QS parameters.
 Expr parse_number(BlockReader& in);
 /// A quoted text or a QS parameter.
 Expr parse_string(BlockReader& in);

@@ -10,7 +10,7 @@ namespace fitgauge::klartext {
 /// equal program. Numbers are printed with the fewest digits that give the same value.
 std::string print_program(const Program& program);
 
-/// As print_program, with every block numbered from 0: how a control lists it.
+/// Prints a program with blocks numbered from 0, as a control lists it.
 std::string format_program(const Program& program);
 
 /// One block without skip mark, number and comment; a cycle with its comments.

@@ -120,7 +120,7 @@ struct Stop {
 
 enum class CycleFamily : std::uint8_t { CyclDef, TchProbe, GlobalDef };
 
-/// As a block of it begins: `CYCL DEF`.
+/// Returns the first words of its blocks: `CYCL DEF`.
 constexpr std::string_view words_of(CycleFamily family) {
   switch (family) {
     case CycleFamily::TchProbe: return "TCH PROBE";
@@ -245,7 +245,7 @@ struct SelectTable {
 
 // --- parameters and functions
 
-/// How an assignment is spelled; it means the same in each form.
+/// Spelling of an assignment; all forms have one meaning.
 enum class AssignmentForm : std::uint8_t { Formula, Fn, DeclareString };
 
 /// `Q5 = ...`, FN 0 to 8, 13 and 18, `DECLARE STRING QS1 = ...`. A QS target has a string value,

@@ -22,8 +22,8 @@ struct Block {
   bool has_number = false;                      ///< it is written
   bool skip = false;          ///< `/`: passed over while the operator's block skip is on
   bool comment_mark = false;  ///< a `;` is there, perhaps with an empty comment
-  /// As written, which is cosmetic and may repeat; a block without one counts on from the block
-  /// before it, from 0, as the control numbers it.
+  /// Block number as written; it has no effect and may repeat. A block without a number continues
+  /// from the number before it, from 0, as on the control.
   std::uint32_t number = 0;
   Slice<char> written{};  ///< its place in the source, all physical lines of it
   Text comment{};         ///< after `;` as written; of a cycle, of its first line

@@ -75,7 +75,7 @@ extern const std::array<Letter, 26> kSingleLetters;
 /// Returns the letter of a word, in upper or lower case; none if there is no such word. Words with
 /// other characters (`DR2`, `P1X`, `#`) are not found here.
 std::optional<Letter> find_letter(std::string_view letters);
-/// As find_letter, for a word of one letter; Letter::Value if there is none.
+/// Finds a letter by a word of one letter; Letter::Value if there is none.
 inline Letter single_letter(char c) {
   const auto i = static_cast<unsigned char>((c | 0x20) - 'a');
   return i < 26 ? kSingleLetters[i] : Letter::Value;

@@ -63,7 +63,7 @@ MachineResult<Vec3> Control::target_rotary(const LinearMove& move) const {
   return rotary;
 }
 
-/// Where the nose ends with the rotary axes at `rotary`; `frames` are those that hold there.
+/// Returns the end position of the nose with the rotary axes at `rotary`; `frames` are valid there.
 MachineResult<Position> Control::target_nose(const LinearMove& move, const Frames& frames,
                                              const Vec3& rotary) const {
   bool has_linear = false;

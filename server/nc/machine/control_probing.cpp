@@ -55,7 +55,8 @@ MachineResult<void> Control::go_back(const Position& start, const Vec3& directio
   return travel(straight_path(axes_->nose(), free), move.retract_feed, true);
 }
 
-/// How far the nose can go along `direction` inside its ranges, at most `distance`.
+/// Returns the distance that the nose can move along `direction` inside its ranges, at most
+/// `distance`.
 double Control::reach(const Vec3& direction, double distance) const {
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
     const auto& range = state_.ranges[index(axis)];

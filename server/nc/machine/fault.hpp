@@ -34,8 +34,8 @@ enum class FaultKind : std::uint8_t {
   ScriptedDifferent,  ///< a scripted machine met a command its log does not have
 };
 
-/// Why the machine could not execute a command. A value of the run, never an exception. The enum
-/// class stays first: see fitgauge::Error.
+/// Reason why the machine could not execute a command. A value of the run, never an exception. The
+/// enum class stays first: see fitgauge::Error.
 struct MachineFault {
   FaultKind kind{};
   int number = 0;    ///< the control's error number (1001 to 1199), 0 if it shows only text

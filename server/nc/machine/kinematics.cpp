@@ -21,7 +21,7 @@ Transform turned(const RotaryAxis& axis, double angle, const Displacements& rest
          Transform::rotation_around(axis.centre, axis.direction, angle);
 }
 
-/// How far the axis is turned where A, B, C show `rotary`.
+/// Returns the turn of the axis if A, B, C show `rotary`.
 double angle_of(const RotaryAxis& axis, const Vec3& rotary) {
   return rotary[index(axis.axis) - 3] + axis.zero_deg;
 }

@@ -37,7 +37,7 @@ struct AxisSetup {
   /// axis.
   static AxisSetup of(Axis axis);
 
-  /// As the control's kinematic model has the rotary axis, and as it really is.
+  /// Returns the rotary axis of the control's kinematic model; built() returns the real one.
   RotaryAxis modelled(Axis axis) const;
   RotaryAxis built(Axis axis) const;
 };

@@ -7,7 +7,7 @@
 
 namespace fitgauge::machine {
 
-/// How fast a move is, in mm/min of the tool tip, in degrees/min when only rotary axes move.
+/// Speed of a move, in mm/min of the tool tip; in degrees/min if only rotary axes move.
 struct Feed {
   bool is_rapid = true;
   double rate = std::numeric_limits<double>::infinity();  ///< of a rapid: at most, if slower

@@ -45,7 +45,7 @@ class ErrorSet {
   std::array<std::uint64_t, 2> words_{};
 };
 
-/// How the block that defines the cycle begins. The same number may mean two cycles: TCH PROBE 3
+/// First words of the block that defines the cycle. One number may mean two cycles: TCH PROBE 3
 /// measures, CYCL DEF 3 mills.
 enum class CycleFamily : std::uint8_t { CyclDef, TchProbe };
 

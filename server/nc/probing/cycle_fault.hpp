@@ -14,8 +14,8 @@ enum class CycleFaultKind : std::uint8_t {
   ToleranceStop  ///< Q309: a measured value is out of tolerance; all results are written
 };
 
-/// Why a cycle ended the run: the control's error number and text. A value of the run, never an
-/// exception. The enum class stays first: see fitgauge::Error.
+/// Reason why a cycle ended the run: the control's error number and text. A value of the run, never
+/// an exception. The enum class stays first: see fitgauge::Error.
 struct CycleFault {
   CycleFaultKind kind{};
   int number = 0;    ///< 1000 to 1199, 0 if the control shows only text

@@ -14,7 +14,7 @@ namespace fitgauge::interpreter {
 inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 inline bool is_defined(double value) { return !std::isnan(value); }
 
-/// As EQU and NE compare; GT and LT are plain.
+/// Compares like EQU and NE; GT and LT compare exactly.
 /// @pre both are defined.
 inline bool are_equal(double a, double b) {
   return std::abs(a - b) <=
@@ -28,7 +28,8 @@ double compute(klartext::Operator op, double a, double b);
 /// Whether `compute` knows the operator.
 bool is_arithmetic(klartext::Operator op);
 
-/// Why `compute` gave a value that is not finite for defined operands: "division by zero".
+/// Returns the reason why `compute` gave a value that is not finite for defined operands: "division
+/// by zero".
 std::string failure(klartext::Operator op, double a, double b);
 
 }  // namespace fitgauge::interpreter

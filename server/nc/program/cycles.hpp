@@ -32,8 +32,8 @@ BoundCycle bind_cycle(const klartext::Program& program, const klartext::Cycle& c
 
 inline constexpr double kMillimetresPerInch = 25.4;
 
-/// How many mm, degrees or mm/min one unit of a cycle parameter is: 25.4 for the lengths of an INCH
-/// program, 2.54 for its feeds (tenths of an inch a minute).
+/// Returns the size of one unit of a cycle parameter in mm, degrees or mm/min: 25.4 for lengths of
+/// an INCH program, 2.54 for its feeds (tenths of an inch a minute).
 double scale_of(probing::Unit unit, bool is_inch);
 
 /// The value of a cycle parameter as far as it is known before the program runs: numbers and texts

@@ -42,7 +42,7 @@ class Linker {
   Linker(const klartext::Program& program, LinkedFile& file)
       : program_(program), file_(file), writer_(program) {}
 
-  /// Nothing, but for the finding, when the program is too large.
+  /// Links the blocks; a program that is too large gives only the finding.
   LinkedParts link() {
     const auto blocks = program_.blocks();
     const std::size_t parsed = program_.memory_bytes();

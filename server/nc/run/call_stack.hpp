@@ -20,7 +20,7 @@ class CallStack {
   const LinkedProgram& program() const { return *programs_.back().program; }
   const LinkedProgram& main_program() const { return *programs_.front().program; }
   bool is_in_main() const { return programs_.size() == 1; }
-  /// How many programs call each other, the main program among them.
+  /// Returns the number of programs that call each other, with the main program.
   std::size_t depth() const { return programs_.size(); }
   /// The program that called this one, or null in the main program.
   const LinkedProgram* caller() const {

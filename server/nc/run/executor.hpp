@@ -4,7 +4,7 @@
 
 namespace fitgauge::interpreter {
 
-/// How the code of a run came to its end.
+/// End of a run's code.
 struct Ending {
   std::uint64_t blocks_executed = 0;
   std::optional<NcError> error;  ///< nothing when the program ended

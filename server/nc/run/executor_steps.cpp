@@ -10,7 +10,7 @@
 
 namespace fitgauge::interpreter {
 
-/// Why the result of an instruction is not finite, or its comparison not possible.
+/// Returns the reason why the result of an instruction is not finite, or why it cannot compare.
 NcError ExecutorSteps::value_error(const Instruction& instruction) const {
   const double a = cells_[instruction.a];
   const double b = cells_[instruction.b];

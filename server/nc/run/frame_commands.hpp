@@ -26,7 +26,7 @@ NcResult<void> rotate(Channel& channel, const Coordinate& angle);
 /// @errors 1011 a factor that is not positive.
 NcResult<void> scale(Channel& channel, const machine::Scaling& scaling);
 
-/// How PLANE brings the rotary axes to a tilted plane.
+/// Moves of PLANE that bring the rotary axes to a tilted plane.
 struct PlaneMoves {
   klartext::PlanePositioning positioning = klartext::PlanePositioning::Stay;
   machine::Feed feed;

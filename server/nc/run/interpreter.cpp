@@ -7,7 +7,7 @@
 namespace fitgauge::interpreter {
 namespace {
 
-/// As if an earlier program had left them.
+/// Sets parameters as if an earlier program had set them.
 NcResult<void> preset(QParameters& parameters, const std::vector<ParameterValue>& values) {
   for (const auto& [parameter, value] : values) {
     const auto* number = std::get_if<double>(&value);

@@ -31,8 +31,8 @@ SpindleState stopped(SpindleState state) {
   }
 }
 
-/// How far the spindle nose can go along `direction` (machine coordinates) before an axis is at its
-/// limit.
+/// Returns the distance that the spindle nose can move along `direction` (machine coordinates)
+/// before an axis reaches its limit.
 double room(const machine::MachineState& state, const machine::Vec3& direction) {
   double room = std::numeric_limits<double>::infinity();
   for (std::size_t axis = 0; axis < 3; ++axis) {

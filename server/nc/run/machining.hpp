@@ -25,7 +25,7 @@ class ToolMotion {
   /// Around `centre` to `end` and to `height`; a sweep beyond 360 degrees is a helix.
   NcResult<void> arc(Vec2 centre, Vec2 end, double sweep_deg, double height,
                      const machine::Feed& feed);
-  /// Nothing for 0.
+  /// Waits; does nothing for 0.
   NcResult<void> dwell(double seconds);
   NcResult<void> set_modes(const machine::Modes& modes);
 

@@ -22,8 +22,8 @@ enum class NcErrorKind : std::uint8_t {
   Cancelled,  ///< from outside
 };
 
-/// Why a run ends at a block. A value, never an exception; the executor adds the place.
-/// The enum class stays first: see fitgauge::Error.
+/// Reason why a run ends at a block. A value, never an exception; the executor adds the place. The
+/// enum class stays first: see fitgauge::Error.
 struct NcError {
   NcErrorKind kind{};
   int number = 0;  ///< the control's error number (FN 14 and 1000 to 1199), 0 without one

@@ -21,7 +21,7 @@ class QParameters {
 
   double* cells() { return cells_.data(); }
 
-  /// Nothing when it is undefined. @pre not a QS
+  /// Returns the value; none if it is undefined. @pre not a QS
   std::optional<double> number(klartext::QRef parameter) const;
   /// @errors when the value is not finite.
   NcResult<void> set(klartext::QRef parameter, double value);

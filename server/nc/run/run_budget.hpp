@@ -44,7 +44,7 @@ class RunBudget {
       return {};
     return *refusal();
   }
-  /// Why the allowance is spent, if an earlier check has found it so: then it is the cause of later
+  /// Returns the refusal of an earlier check, if the allowance is spent: it is the cause of later
   /// failures.
   std::optional<NcError> refusal() const;
 

@@ -14,7 +14,7 @@
 
 namespace fitgauge::interpreter {
 
-/// How a run ended; the words of the HTTP contract.
+/// End of a run; the words of the HTTP contract.
 enum class RunStatus : std::uint8_t { Completed, Stopped, Failed, LimitExceeded, Cancelled };
 
 /// `completed`, `stopped`, `failed`, `limit_exceeded`, `cancelled`.

@@ -200,7 +200,7 @@ Answer limit_data(const MachineState& state, const Address& address) {
 Answer position_data(const MachineState& state, const Address& address, CoordinateSystem system) {
   const auto axis = axis_of(address);
   if (!axis) return std::nullopt;
-  // As results of cycles: to a nanometre, so that equal positions are equal (decision 21).
+  // Rounds like results of cycles to a nanometre, so that equal positions are equal (decision 21).
   const double steps = machine::is_rotary(*axis) ? 1e7 : 1e6;
   return std::round(state.position(system)[*axis] * steps) / steps + 0.0;
 }
@@ -213,7 +213,7 @@ Answer tcpm_data(const MachineState& state, const Address& address) {
   }
 }
 
-/// Which of three M functions is on.
+/// Returns which of three M functions is on.
 Answer m_function_data(const Channel& channel, const Address& address) {
   const machine::Modes& modes = channel.machine().state().modes;
   switch (address.nr) {

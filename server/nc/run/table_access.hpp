@@ -52,7 +52,7 @@ class TableAccess {
     std::int64_t nr = 0;  ///< of the column, as FN 17 ID50 counts
     double value = 0;
   };
-  /// Those since the last call.
+  /// Returns the numbers since the last call.
   std::vector<ToolCell> take_tool_cells() { return std::exchange(tool_cells_, {}); }
 
   /// Writes the changes. @errors limit.

@@ -36,7 +36,7 @@ class CentreLink {
   /// Puts NDJSON, compressed. The key is read anew each time: it may have been replaced.
   /// @param goes_on as HttpClient::call.
   HttpAnswer put(const std::string& path, std::string_view ndjson, const GoesOn& goes_on);
-  /// As put().
+  /// Requests like put().
   HttpAnswer get(const std::string& path, const GoesOn& goes_on);
 
  private:

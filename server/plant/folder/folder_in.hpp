@@ -45,7 +45,7 @@ std::unique_ptr<Worker> make(const FolderInOptions& options, const Plant& plant)
 /// Whether the folder can be read, and files moved in it.
 ConnectionTest test_of(const FolderInOptions& options, const Plant&, const std::stop_token&);
 
-/// As a file looks from outside.
+/// Outward state of a file.
 struct Look {
   std::int64_t size = 0;
   std::int64_t changed_ns = 0;

@@ -21,7 +21,7 @@ using log_reader::MeasuringLog;
 using log_reader::PatternResult;
 using log_reader::Role;
 
-/// As the fields of a measurement allow.
+/// Bytes of the longest text that a measurement allows.
 constexpr std::size_t kLongestText = 200;
 constexpr std::size_t kLongestComment = 2000;
 

@@ -60,7 +60,7 @@ class Collector final : public Worker {
   void request_stop() override { thread_.request_stop(); }
 
  private:
-  /// As a file looked when it was last fetched.
+  /// State of a file when it was last fetched.
   struct Seen {
     std::uint32_t bytes = 0;
     std::uint32_t unix_time = 0;

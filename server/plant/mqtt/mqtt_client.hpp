@@ -56,7 +56,7 @@ class MqttClient {
   /// Waits until the broker has accepted. @returns why it has not.
   std::optional<std::string> wait_connected(const std::stop_token& stop);
   bool is_connected() const;
-  /// Why it was lost or never was.
+  /// Returns the reason why it was lost or never began.
   std::string failure() const;
 
   /// Sends in this order. Messages on a lost connection are never settled.

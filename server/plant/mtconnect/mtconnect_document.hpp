@@ -38,7 +38,7 @@ inline constexpr std::array<DataItem, 10> kDataItems = {{
     {"feature", "FEATURE_MEASUREMENT"},
 }};
 
-/// Which of them a document shows, by their places.
+/// Data items that a document shows, by their places.
 using Selection = std::bitset<kDataItems.size()>;
 inline const Selection kEverything = Selection().set();
 
@@ -71,7 +71,7 @@ struct Agent {
   bool has_asset = false;
 };
 
-/// How many values were judged so, in all; counted for PART_COUNT.
+/// Number of values with each verdict, in all; counted for PART_COUNT.
 using Counts = app::VerdictTally;
 
 Counts counts_of(const std::vector<app::MeasurementGroup>& groups);
@@ -100,7 +100,7 @@ class Streams {
   /// No measurement is known yet.
   void add_unavailable_part();
   void add_unavailable_feature();
-  /// Which asset has changed. @param newest of the measurements it had; 0: there was none.
+  /// Adds the change of the asset. @param newest of the measurements it had; 0: there was none.
   void add_assets(std::int64_t newest, Timestamp at);
   std::size_t count() const { return count_; }
 
@@ -135,10 +135,10 @@ namespace fitgauge::api {
 mtconnect::Agent mtconnect_agent(const Services& services);
 http::Response mtconnect_response(int status, std::string text);
 
-/// That a query may name.
+/// Largest sequence that a query may name.
 inline constexpr std::int64_t kMostSequence = std::int64_t{1} << 53;
 
-/// How many streams are open.
+/// Number of open streams.
 using OpenStreams = std::shared_ptr<std::atomic<int>>;
 inline constexpr int kMostMtconnectStreams = 32;
 

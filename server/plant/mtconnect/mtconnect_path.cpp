@@ -25,7 +25,7 @@ struct Condition {
 struct Step {
   bool is_anywhere = false;  ///< after `//`
   std::string_view name;
-  /// Any of these lists, each of which wants all of its conditions; empty: no condition.
+  /// Alternatives; each is a list of conditions that must all hold. Empty: no condition.
   std::vector<std::vector<Condition>> any{};
 };
 
@@ -39,7 +39,7 @@ class PathReader {
  public:
   explicit PathReader(std::string_view text) : rest_(text) {}
 
-  /// Nothing when it is no path.
+  /// Reads the steps; none if the text is not a path.
   std::optional<std::vector<Step>> read() {
     std::vector<Step> steps;
     while (!rest_.empty()) {

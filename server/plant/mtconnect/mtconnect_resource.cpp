@@ -198,7 +198,7 @@ void asset(const Services& services, const http::Request& request, http::Respond
   });
 }
 
-/// As the standard has them.
+/// Returns the error code of the standard.
 std::string_view code_of(const Error& error, int status) {
   if (status == 401 || status == 403) return "UNAUTHORIZED";
   if (error.code == ErrorCode::Overloaded) return "TOO_MANY";

@@ -72,7 +72,7 @@ Result<Sampled> sampled(const Gathering& gathering, const Sample& sample,
     return sampled(page.next ? mtconnect::part_sequence(*page.next) + 2 : end);
   }
   if (page.next) return sampled(mtconnect::part_sequence(*page.next) - 1);
-  // Nothing comes before the first.
+  // The first sequence has nothing before it.
   if (streams.count() < sample.count) streams.add_availability();
   return sampled(1);
 }

@@ -44,7 +44,7 @@ double um(Length length) { return static_cast<double>(length.count()) / 1e3; }
 
 constexpr std::uint64_t kPositionAlias = 1;
 
-/// As in births, or with only its alias, as in data.
+/// Removes the name, which only births need: data has the alias.
 SparkplugMetric without_name(SparkplugMetric metric) {
   metric.name.clear();
   metric.type.reset();

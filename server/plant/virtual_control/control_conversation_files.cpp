@@ -200,7 +200,7 @@ ControlConversation::Reply ControlConversation::reply(const control_link::Accept
   if (sending == nullptr) return ControlError::Unexpected;
   const std::size_t sent = sending->sent;
   if (sending->is_file && (sent < sending->bytes.size() || sent == 0)) {
-    // As its peers do: a block is ten bytes shorter than the buffer.
+    // A block is ten bytes shorter than the buffer, as other controls send it.
     std::string block = sending->bytes.substr(sent, buffer_ - kHeadBytes - 2);
     sending->sent += std::max<std::size_t>(block.size(), 1);
     return encode(FileBlock{.bytes = {std::move(block)}});

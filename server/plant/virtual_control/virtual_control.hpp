@@ -148,7 +148,7 @@ class ControlConversation final : public control_link::Conversation {
   std::size_t buffer() const override { return buffer_; }
 
  private:
-  /// None if the protocol has no response.
+  /// A response; none if the protocol has no response.
   using Reply = control_link::ControlResult<std::optional<control_link::Telegram>>;
   /// C_FL, until T_FD.
   struct Receiving {

@@ -48,7 +48,7 @@ JsonValue field_of(const JsonValue& event, std::string_view id, std::string_view
   return member_at(event.find(first) != nullptr ? event : event.member("data"), name);
 }
 
-/// As part of a JSON string, without its quotes.
+/// Returns the value as the inside of a JSON string, without quotes.
 std::string in_string(const JsonValue& value) {
   if (value.is(JsonValue::Kind::Null)) return {};
   const bool is_text = value.is(JsonValue::Kind::String) || value.is(JsonValue::Kind::Number);

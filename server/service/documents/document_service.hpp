@@ -82,7 +82,7 @@ class DocumentService {
   void list_each(std::vector<DocumentKind> kinds, bool has_past,
                  Done<std::vector<std::vector<NamedDocument>>> done);
 
-  // As above, for threads that may wait.
+  // Variants of the functions above for threads that may wait.
   Result<NamedDocument> wait_for(DocumentKind kind, const std::string& name);
   Result<std::vector<NamedDocument>> wait_for_list(DocumentKind kind);
   Result<bool> write_and_wait(Change change);

@@ -80,7 +80,7 @@ struct EventPosition {
 /// The opaque id of an event: a reader that stopped there continues after it.
 /// @param history ending of the ids of the folder
 std::string event_id_text(const EventPosition& position, std::string_view history);
-/// None if it is not an id, or of a history that ended before it.
+/// Parses an id of an event; none for other texts, or if the history ended before it.
 std::optional<EventPosition> parse_event_id(std::string_view text, const Origins& origins);
 
 /// One event, with a measurement or a payload; views, valid during the call it is given to.

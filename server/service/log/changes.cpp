@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kLongestEntry = 65'535;
 
-/// As lists of changes name the kind; empty: its changes are not logged.
+/// Returns the word of the kind in lists of changes; empty: its changes are not logged.
 std::string_view word(store::DocumentKind kind) {
   constexpr std::string_view kWords[] = {"budget", "gauge",     "setup",       "plan", "connection",
                                          "",       "catalogue", "calibration", "study"};

@@ -28,8 +28,8 @@ class TableCatalog;
 /// Texts are views of memory that outlives the batch.
 struct ForwardedBatch {
   struct Row {
-    /// As stored by its station. The corrected measurement is in `correction_of` and the digits of
-    /// `corrected_elsewhere`.
+    /// Measurement as its station stored it. The corrected measurement is in `correction_of` and
+    /// the digits of `corrected_elsewhere`.
     Measurement measurement;
     std::string_view record;  ///< its text, which is the leaf
   };

@@ -69,7 +69,7 @@ class LogOutbox {
   bool is_note_of(std::string_view history, std::int64_t number) const;
   /// Keeps the digits of the centre's history. A failure of storage is left to the next call.
   void meet(std::string_view centre) const;
-  /// As LogService.
+  /// Sets the fork; see LogService.
   void set_forked(const std::optional<std::string>& why) const;
 
   struct Waiting {
@@ -78,7 +78,7 @@ class LogOutbox {
   };
   Result<Waiting> waiting(std::int64_t confirmed) const;
 
-  /// How many records there were after the last commit; 0 before the first one since the start.
+  /// Returns the number of records after the last commit; 0 before the first one since the start.
   /// Does not block.
   std::int64_t committed() const;
 

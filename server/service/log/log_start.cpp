@@ -198,7 +198,7 @@ std::optional<std::string> LogService::told_by_checkpoint(const Loaded& loaded) 
   return told ? told : of_changes;
 }
 
-/// Why ids that would be given out next may have been given out before, if they may.
+/// Returns the reason why the next ids may already have been given out; none if they cannot.
 std::optional<std::string> LogService::why_to_branch(const Loaded& loaded) {
   if (!loaded.state.name) return std::nullopt;  // the first start
   if (auto told = told_by_checkpoint(loaded)) return told;

@@ -64,7 +64,7 @@ GaugeBook book_of(const Documents& gauges, const Documents& calibrations, const 
       book.emplace(document.name, std::move(gauge));
     }
   }
-  // What a gauge is now counts from its last change on.
+  // The present state of a gauge counts from its last change on.
   for (const app::NamedDocument& document : past) {
     const auto gauge = book.find(document.name);
     if (gauge == book.end()) continue;

@@ -46,7 +46,7 @@ class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
   using Done = MeasurementService::Done<T>;
   using Render = MeasurementService::Render;
 
-  /// As MeasurementService::record, of measurements that correct none.
+  /// Records like MeasurementService::record, for measurements that correct none.
   void record(std::span<const Measurement> measurements, Render render, Done<Answer> done);
 
  private:

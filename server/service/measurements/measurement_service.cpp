@@ -15,8 +15,8 @@ Error unknown_cursor() {
   return {ErrorCode::CursorInvalid, "after must be the `next` of an earlier page"};
 }
 
-/// None for an absent limit, which is beyond every length. Older versions gave values of cycles
-/// without limits the limits of every length.
+/// Returns the limit; none for an absent one, which is beyond every length. Older versions gave
+/// values of cycles without limits the limits of every length.
 std::optional<Length> limit_of(std::int64_t nanometres) {
   const Length limit = Length::nanometres(nanometres);
   return -kLongest < limit && limit < kLongest ? std::optional(limit) : std::nullopt;

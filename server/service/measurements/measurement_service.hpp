@@ -40,7 +40,7 @@ struct IdempotencyScope {
   bool is_kept_for_ever = false;  ///< not only for the days of the service
 };
 
-/// Which measurements a list shows.
+/// Selects the measurements of a list.
 struct MeasurementQuery : store::MeasurementFilter {
   bool newest_first = false;
   bool shows_notes = false;
@@ -74,7 +74,7 @@ struct ReadValues {
   std::vector<MovedValue> moves;  ///< moves corrections to the places of their targets
 };
 
-/// How many there are of each verdict, by gauging::Verdict.
+/// Number of measurements for each gauging::Verdict.
 using VerdictTally = std::array<std::int64_t, gauging::kVerdicts>;
 using MeasurementGroup = store::SummaryGroup;
 

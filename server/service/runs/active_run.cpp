@@ -169,7 +169,7 @@ void SharedRuns::run(const std::stop_token& stop) {
   }
 }
 
-/// Those that somebody follows still.
+/// Returns the runs that somebody still follows.
 SharedRuns::Followed SharedRuns::followed() {
   const std::lock_guard lock(mutex_);
   std::erase_if(followed_, [](const auto& run) { return run.second.expired(); });

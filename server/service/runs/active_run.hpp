@@ -42,7 +42,7 @@ struct LiveState {
 /// The request of a reader of a run.
 enum class Look : std::uint8_t { Nothing, State, StateAndFiles };
 
-/// How a run ended, for those who wait for it.
+/// End of a run, for those who wait for it.
 struct FinishedRun {
   RunState state = RunState::Failed;
   std::string report;  ///< as it is stored

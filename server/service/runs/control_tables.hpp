@@ -39,7 +39,7 @@ class ControlTablesCache {
   std::shared_ptr<const ControlTables> tables_;
 };
 
-/// Which tables a setup gives itself; of the others it has the default rows.
+/// Tables that a setup defines; the others have default rows.
 struct GivenTables {
   bool tools = false;
   bool probes = false;

@@ -93,7 +93,7 @@ struct WatchedBlocks {
   std::size_t dropped = 0;  ///< blocks that came after that
 };
 
-/// How the moves of a run are written down, one after the other while it moves.
+/// Writes the moves of a run one by one while it moves.
 struct TraceFormat {
   std::string_view head{};
   std::string_view separator{};  ///< between two moves
@@ -112,7 +112,7 @@ struct TraceFormat {
       tail{};
 };
 
-/// How runs are written down; the text is opaque here and in the store.
+/// Writes runs; the text is opaque here and in the store.
 struct RunFormat {
   std::function<std::string(const RunReport&)> report;
   TraceFormat trace;

@@ -4,17 +4,17 @@
 
 namespace fitgauge::probing {
 
-/// The tilted plane in the workpiece system; the identity without one.
+/// Returns the tilted plane in the workpiece system; the identity without one.
 machine::Matrix3 tilt_of(const machine::Frames& frames);
 
-/// The angle, -90 < angle <= 90, from the main axis to a line in the plane: the main axis of the
-/// workpiece system, or of the tilted plane when one is active.
+/// Returns the angle, -90 < angle <= 90, from the main axis to a line in the plane. The main axis
+/// is that of the workpiece system, or of the tilted plane if one is active.
 /// @param direction of the line, in plane coordinates of the input system.
 double workpiece_angle(const machine::Frames& frames, const WorkingPlane& plane,
                        const Vec3& direction);
 
-/// The spatial angles of the active basic rotation after a further turn, given in plane coordinates
-/// of the input system. @pre nothing is mirrored or scaled.
+/// Returns the spatial angles of the active basic rotation after a further turn, in plane
+/// coordinates of the input system. @pre nothing is mirrored or scaled.
 Vec3 turned_rotation(const machine::Frames& frames, const WorkingPlane& plane,
                      const machine::Matrix3& turn);
 /// Returns the spatial angles after a further turn around the probe axis.
@@ -23,7 +23,7 @@ inline Vec3 turned_rotation(const machine::Frames& frames, const WorkingPlane& p
   return turned_rotation(frames, plane, machine::Matrix3::rotation({0, 0, 1}, angle_deg));
 }
 
-/// Measuring and alignment cycles begin without a basic rotation.
+/// Resets the basic rotation: measuring and alignment cycles begin without one.
 CycleResult<void> reset_basic_rotation(machine::Machine& machine);
 
 /// Resets the basic rotation, with a note if there was one. @errors if the output budget of the run
@@ -34,14 +34,14 @@ CycleResult<void> begin_without_rotation(const CycleContext& context);
 /// @errors 1008 and 1007 with mirror and scaling active; those of ProbingMotion::begin.
 CycleResult<ProbingMotion> begin_alignment(const CycleContext& context);
 
-/// Sets the basic rotation, in spatial angles. Row 0: active at once, in no table; -1: also in the
-/// row of the active preset; otherwise only stored in that row (one that does not exist yet begins
-/// as the active preset) until cycle 247 activates it.
+/// Sets the basic rotation, in spatial angles. Row 0: active at once, in no table. Row -1: also in
+/// the row of the active preset. Other rows: stored there until cycle 247 activates it; a new row
+/// begins as the active preset.
 /// @errors 1085 the row is write-protected.
 CycleResult<void> set_basic_rotation(const CycleContext& context, const Vec3& rotation_deg,
                                      int row);
 
-/// The rotary axis that turns around a linear one: A around X, B around Y, C around Z.
+/// Returns the rotary axis that turns around a linear axis: A around X, B around Y, C around Z.
 constexpr machine::Axis rotary_axis_around(machine::Axis linear) {
   return static_cast<machine::Axis>(index(linear) + 3);
 }
@@ -58,8 +58,8 @@ CycleResult<double> table_angle(const machine::MachineState& state, machine::Axi
 CycleResult<void> align_rotary_axis(const CycleContext& context, machine::Axis rotary,
                                     double angle_deg);
 
-/// Makes the present position of a rotary axis read 0: of the active preset at once with row 0,
-/// else in that row of the preset table.
+/// Sets the present position of a rotary axis to 0: with row 0 in the active preset at once,
+/// otherwise in that row of the preset table.
 /// @errors 1085 the row is write-protected.
 CycleResult<void> zero_rotary_axis(const CycleContext& context, machine::Axis rotary, int row);
 

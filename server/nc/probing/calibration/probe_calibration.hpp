@@ -11,7 +11,7 @@ namespace fitgauge::probing {
 
 namespace parameter {
 
-/// How 460, 462 and 463 touch a standard.
+/// Parameters of 460, 462 and 463 for touching a standard.
 inline constexpr CycleParameter kStandardRadius{.id = q(407),
                                                 .meaning = "Exact radius of the standard",
                                                 .unit = Unit::Length,

@@ -50,7 +50,7 @@ class Adjustment {
  public:
   Adjustment(const AdjustedPoses& poses, std::vector<Unknown> unknowns);
 
-  /// Which unknowns the positions determine.
+  /// Returns for each unknown whether the positions determine it.
   std::vector<bool> seen() const;
   /// @pre all unknowns are seen.
   void solve();
@@ -60,7 +60,7 @@ class Adjustment {
   machine::Kinematics corrected() const { return at(values_); }
   /// Returns the covariance of the unknowns, for centres of variance 1 in each coordinate.
   Eigen::MatrixXd covariance() const;
-  /// How many residuals are left to judge the scatter by.
+  /// Returns the number of residuals that are left to judge the scatter by.
   std::size_t freedom() const;
   /// The standard deviation of one coordinate of a centre; 0 without freedom.
   double scatter() const;

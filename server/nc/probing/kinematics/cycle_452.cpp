@@ -15,7 +15,8 @@ using machine::RotaryAxis;
 constexpr std::array kEnd{kTouchesOfSphere, kBacklashAngle};
 constexpr auto kParameters = join(kSphereApproach, join(kRotaryAxes, kEnd));
 
-/// Where the sphere stands by the corrected model with all axes at zero: the mean of the axes.
+/// Returns the place of the sphere by the corrected model with all axes at zero: the mean of the
+/// axes.
 Vec3 place_of_sphere(const KinematicsMeasurement& measurement, const MeasuringTool& tool) {
   Vec3 sum;
   for (const AxisMeasurement& axis : measurement.axes) {

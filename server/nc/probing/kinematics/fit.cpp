@@ -42,8 +42,8 @@ bool drop_unseen(std::vector<Unknown>& unknowns, const std::vector<bool>& seen) 
   return std::erase_if(unknowns, is_lost) > 0;
 }
 
-/// How many axes come to rest anew between the groups in a way that looks like a location error of
-/// `axis`: those that stand still in the machine while it turns a table, or in its own system while
+/// Counts the axes that come to rest anew between the groups, which looks like a location error of
+/// `axis`. They stand still in the machine if `axis` turns a table, or in the system of `axis` if
 /// it turns a tool.
 double restless_axes(const Kinematics& model, Axis axis) {
   const auto& axes = model.axes();
@@ -195,7 +195,7 @@ void mark_corrected(std::vector<AxisErrors>& errors, const std::vector<Unknown>&
   }
 }
 
-/// Which of `axes` carries the k-th of them, if it does so at once and across it.
+/// Returns which of `axes` carries the k-th of them, directly and across it; none if no axis does.
 std::optional<std::size_t> carrier_of(const Kinematics& model, std::span<const Axis> axes,
                                       std::size_t k) {
   const auto& chain = model.axes();
@@ -216,7 +216,7 @@ std::vector<Spread> spreads(std::span<const PoseGroup> groups, const Kinematics&
   return all;
 }
 
-/// How the place on the table moves with the angle of the axis, in mm per degree.
+/// Returns the movement of the place on the table with the angle of the axis, in mm per degree.
 Vec3 way_per_degree(const SpherePose& pose, const Kinematics& model, const MeasuringTool& tool,
                     Axis axis) {
   constexpr double kStepDeg = 1e-3;
@@ -300,7 +300,7 @@ double fit_backlash(const PoseGroup& from_below, const PoseGroup& from_above,
   double products = 0;
   double squares = 0;
   for (std::size_t k = 0; k < from_below.size(); ++k) {
-    // How the place moves when the axis stands elsewhere than it says.
+    // Movement of the place if the axis is not where it reports to be.
     const Vec3 per_degree = way_per_degree(from_below[k], model, tool, axis);
     const Vec3 way = on_table(from_above[k], model, tool) - on_table(from_below[k], model, tool);
     products += dot(per_degree, way);

@@ -24,7 +24,7 @@ std::string components(const Vec3& v, std::string (*text)(double)) {
   return fmt::format("X {}, Y {}, Z {}", text(v.x), text(v.y), text(v.z));
 }
 
-/// Where the measured axes stood: `A -30.0000 C 90.0000`.
+/// Writes the positions of the measured axes: `A -30.0000 C 90.0000`.
 std::string position_text(const SpherePose& pose, std::span<const Axis> axes) {
   std::string text;
   for (const Axis axis : axes) {

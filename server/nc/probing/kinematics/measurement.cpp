@@ -38,7 +38,7 @@ CycleResult<void> check_range(Axis axis, double position, const machine::AxisRan
                                     range.min, range.max));
 }
 
-/// Where the axis is going to stand: at its positions, at 0, at its incidence.
+/// Checks the places where the axis will be: its positions, 0, its incidence.
 CycleResult<void> check_reach(const AxisPlan& plan, double backlash,
                               const machine::AxisRange& range) {
   std::vector<double> reached{plan.incidence};
@@ -95,7 +95,7 @@ CycleResult<Approaches> measure_axis(KinematicsProbing& probing, const AxisPlan&
   return found;
 }
 
-/// Why the backlash of an axis is not measured, or nothing.
+/// Returns the reason why the backlash of an axis is not measured; empty: it is.
 std::string_view no_backlash(const AxisPlan& plan, double radius, double backlash_angle) {
   constexpr double kSmallestCircle = 1;  // mm
   if (backlash_angle == 0) return "not asked for (Q432)";

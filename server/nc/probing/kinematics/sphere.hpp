@@ -56,7 +56,7 @@ class SphereProbe {
   int touches_;
 };
 
-/// As `lift`, but beyond the range of an axis is 1101.
+/// Lifts a result like `lift`; a move beyond the range of an axis is error 1101.
 CycleResult<void> lift_move(const machine::MachineResult<void>& moved);
 
 }  // namespace fitgauge::probing

@@ -34,7 +34,7 @@ CycleResult<void> measure(const CycleContext& context) {
                                .error_too_large = 1062,
                                .error_too_small = 1063};
   const auto [centre_main, centre_secondary] = centre_values(arguments, probed->circle.centre);
-  // Where holes lie is no matter of the tool's radius: it is only watched for breakage.
+  // The place of holes does not depend on the tool's radius: the tool is only watched for breakage.
   return finish_measurement(context,
                             {.values = {centre_main, centre_secondary, diameter},
                              .measuring_height = to_length(arguments.number(261)),

@@ -20,7 +20,7 @@ constexpr HtmlLog k444Log{"TCHPR444.html", "Measuring log of cycle 444",
                           "Measuring log of touch-probe cycle 444 PROBING IN 3-D",
                           "Along the normal, positive is away from the material."};
 
-/// How a verdict looks: by colour, by its border and in words.
+/// Style of a verdict: colour, border and word.
 struct Appearance {
   std::string_view style;
   std::string_view words;

@@ -43,7 +43,7 @@ std::vector<MeasuredValue> values_of(const CycleDescriptor& cycle, const ObjectF
   return values;
 }
 
-/// How a verdict stands in Q183 and in the log.
+/// Texts of a verdict in Q183 and in the log.
 struct ObjectStatus {
   int q183 = -1;
   std::string_view style = "none";

@@ -81,8 +81,8 @@ Status judge(Length deviation, double tolerance, double breakage) {
   return exceeds(tolerance) ? Status::Worn : Status::WithinTolerance;
 }
 
-/// How the spindle behaves for each touch: turning for the longest edge, then, with Q341, standing
-/// for each tooth.
+/// Returns the spindle's behaviour for each touch. It turns for the longest edge. With Q341 it then
+/// stands for each tooth.
 CycleResult<std::vector<Spindle>> touches_of(const CycleContext& context, bool turns) {
   std::vector<Spindle> touches{turns ? Spindle::Turns : Spindle::Stands};
   if (!tool_order_of(context.arguments).single_teeth) return touches;

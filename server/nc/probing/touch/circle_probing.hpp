@@ -11,8 +11,8 @@ namespace fitgauge::probing {
 
 enum class Side : std::uint8_t { Inside, Outside };
 
-/// How a circle in the working plane is touched; angles in degrees from the main axis, lengths in
-/// plane coordinates.
+/// Plan for touching a circle in the working plane; angles in degrees from the main axis, lengths
+/// in plane coordinates.
 struct CirclePlan {
   Side side = Side::Inside;
   Point2 centre;

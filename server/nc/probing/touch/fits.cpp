@@ -21,7 +21,7 @@ using machine::Vec3;
 using Points = Matrix<double, Eigen::Dynamic, 2>;
 using Columns3 = Matrix<double, Eigen::Dynamic, 3>;
 
-/// Where the search ends, of the points' spread; a short arc has noise above less.
+/// The search ends at this part of the points' spread; below it a short arc has only noise.
 constexpr double kSettled = 1e-10;
 
 /// Centre x, y and radius of the algebraic fit (Kåsa), exact for points on a circle.

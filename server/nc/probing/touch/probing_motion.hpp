@@ -14,7 +14,7 @@ namespace fitgauge::probing {
 
 using machine::Vec3;
 
-/// How the probe moves from one touch to the start of the next.
+/// Path of the probe from one touch to the start of the next.
 enum class Transit : std::uint8_t {
   Straight,         ///< at measuring height, over the waypoints
   Arc,              ///< on the pitch circle, at measuring height
@@ -99,7 +99,7 @@ CycleResult<void> refuse_mirror_and_scaling(const machine::Frames& frames);
 void publish_touch(const machine::MachineState& state, CycleHost& host,
                    const machine::ContactPoint& contact);
 
-/// As the Result of a cycle.
+/// Converts a machine's result to a cycle's.
 template <class T>
 CycleResult<T> lift(machine::MachineResult<T> result) {
   if (!result) return from_machine(result.error());

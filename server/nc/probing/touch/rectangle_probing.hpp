@@ -4,7 +4,7 @@
 
 namespace fitgauge::probing {
 
-/// How a rectangle along the axes of the plane is touched: twice along each axis, through its
+/// Plan for touching a rectangle along the axes of the plane: twice along each axis, through its
 /// nominal centre.
 struct RectanglePlan {
   Side side = Side::Inside;

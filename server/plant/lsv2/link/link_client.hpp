@@ -19,7 +19,7 @@ struct ControlIdentity {
 /// The words for the code of a T_ER: "file not found".
 std::string_view refusal_text(std::uint8_t code);
 
-/// How a file travels: its bytes, or its lines as the control keeps programs and tables.
+/// Form of a transferred file: its bytes, or its lines as the control stores programs and tables.
 enum class Transfer : bool { Lines, Binary };
 
 /// One session with a control: each call sends a telegram and waits for its response. Used by one

@@ -22,7 +22,7 @@
 
 namespace fitgauge::control_link {
 
-/// Why a connection ends; empty: the client has left.
+/// Reason for the end of a connection; empty: the client has left.
 struct Ending {
   std::string_view why{};
 };
@@ -39,7 +39,7 @@ class Connection {
   const std::string& peer() const { return peer_; }
   /// The awaited event.
   pollfd interest() const;
-  /// When it is to end unless something happens, and why.
+  /// Returns the time at which it ends unless something happens, and the reason.
   std::pair<Time, std::string_view> deadline(const LinkServerOptions& options) const;
 
   std::optional<Ending> read(Time now);

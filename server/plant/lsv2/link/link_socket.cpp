@@ -19,7 +19,7 @@ namespace {
 
 using Kind = LinkFailure::Kind;
 
-/// How soon a stop is seen.
+/// Longest time until a stop is noticed.
 constexpr std::chrono::milliseconds kStopSlice{100};
 
 /// A control may answer a little more than the buffer that was agreed.

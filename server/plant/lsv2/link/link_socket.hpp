@@ -57,7 +57,7 @@ struct ControlAddress {
 
 /// `10.0.0.7`, `tnc.local:19000`, `[fe80::1]:19000`. None if it is malformed.
 std::optional<ControlAddress> parse_control_address(std::string_view text);
-/// As parse_control_address reads it.
+/// Writes the form that parse_control_address reads.
 std::string to_text(const ControlAddress& address);
 
 struct LinkClientOptions {
