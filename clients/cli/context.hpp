@@ -30,7 +30,7 @@ struct Context {
   /// A document of the service, and a line end.
   void print_document(std::string_view document) const { print("{}\n", document); }
 
-  /// A remark for the one who looks on.
+  /// Prints a remark for the user.
   void note(std::string_view text) const { fmt::print(stderr, "fitgauge: {}\n", text); }
 
   /// Sends a request until it is answered, as send_until_answered(), with a remark at each wait.

@@ -16,7 +16,7 @@ bool is_made(const interpreter::ControlPath& path) {
   return ascii_iequals(name, "82553_hole.tab") || ascii_iequals(name, "82553_shaft.tab");
 }
 
-/// Made when a program reads one, because it takes longer than a check.
+/// The tables are made when a program reads one, because this takes longer than a check.
 const interpreter::ControlDisk& made_tables() {
   static const interpreter::MemoryDisk kNothing;
   static const interpreter::ProjectingDisk kTables(

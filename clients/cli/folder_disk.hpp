@@ -28,7 +28,7 @@ class FolderDisk final : public interpreter::ControlDisk {
   std::optional<std::string> revision(const interpreter::ControlPath& path) const override;
   bool has_directory(std::string_view directory) const override;
 
-  /// A file of this disk as this machine names it; as it is if it is not there.
+  /// Returns the name of a file on this machine; unchanged if the file does not exist.
   std::string name_here(const std::string& path) const;
 
  private:

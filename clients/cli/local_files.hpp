@@ -12,7 +12,7 @@
 
 namespace fitgauge::cli {
 
-/// An open file or standard input, read from front to back. Closed when it goes.
+/// An open file or standard input, read once from its begin. The destructor closes it.
 class InputFile {
  public:
   /// @param path `-` is standard input. @errors LocalFile

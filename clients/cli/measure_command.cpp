@@ -47,7 +47,7 @@ bool rows_are_refused(const Answer& answer) {
          std::end(kRefusals);
 }
 
-/// The one input of a run on its way to the service.
+/// Sends one input to the service.
 class Upload {
  public:
   Upload(const Context& context, const MeasureOptions& options, MeasureJournal journal)

@@ -97,9 +97,9 @@ struct StatisticsOptions {
   std::string figure;       ///< summary, anova, …, or uncertainty
   std::string file;         ///< JSON, or a value a line; - is standard input
   std::string lower{};      ///< of capability
-  std::string upper{};      ///< likewise
+  std::string upper{};      ///< of capability
   std::string reference{};  ///< of type1
-  std::string tolerance{};  ///< likewise
+  std::string tolerance{};  ///< of type1
 };
 
 /// `fitgauge statistics summary values.txt`: prints figures that the service computes; nothing is

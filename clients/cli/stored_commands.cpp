@@ -18,7 +18,7 @@ Outcome<ExitCode> done(const Outcome<Answer>& answer) {
   return answer ? Outcome<ExitCode>(ExitCode::Good) : answer.error();
 }
 
-/// Prints the document that a GET gives as it is, or `line` of each of its items.
+/// Prints the document of a GET unchanged, or `line` for each of its items.
 template <class Line>
 Outcome<ExitCode> list(const Context& context, const std::string& target, std::string_view items,
                        const Line& line) {

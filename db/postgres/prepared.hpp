@@ -26,7 +26,7 @@ void append_number(std::string& bytes, Integer value) {
   bytes.append(written.data(), written.size());
 }
 
-/// Adds the number of bytes that `make` adds, and then those.
+/// Adds the bytes that `make` adds, with their number before them.
 template <class Make>
 void append_counted(std::string& bytes, const Make& make) {
   const std::size_t place = bytes.size();

@@ -97,8 +97,8 @@ std::string_view direction(ListOrder order) {
 
 }  // namespace
 
-// The later of two rival corrections counts, at each end alike, whatever their order of arrival. If
-// they were received at the same time, their leaves decide.
+// The later of two rival corrections counts, in any order of arrival and so equally at each end. If
+// they were received at one time, their leaves decide.
 CurrentCondition::CurrentCondition(std::string_view last)
     : is_not_corrected(
           fmt::format("NOT EXISTS (SELECT 1 FROM measurements c WHERE c.correction_of = m.id AND "
@@ -251,7 +251,7 @@ std::vector<FieldValue> MeasurementQuery::postings_of(const MeasurementFilter& f
   return postings;
 }
 
-/// A source is mostly looked at in the rows: nearly all have the one that is asked for.
+/// Sources are compared in the rows, because nearly all rows have the requested one.
 bool MeasurementQuery::is_source(const FieldValue& posting) {
   return posting.field == number_of(IndexField::Source);
 }

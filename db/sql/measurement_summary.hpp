@@ -68,7 +68,7 @@ class MeasurementSummary {
   std::size_t max_groups_ = 0;
   bool fits_ = true;
   bool is_additive_ = true;         ///< nodes answer the filter
-  std::vector<FieldValue> others_;  ///< by other fields than the one grouped by
+  std::vector<FieldValue> others_;  ///< by other fields than group_by
   IdSpan left_;                     ///< adjacent rows to read
   std::map<std::optional<std::string>, Group, std::less<>> groups_;
   std::vector<IdSpan> aggregated_;  ///< sums of nodes, without corrected rows

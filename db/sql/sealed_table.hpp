@@ -46,7 +46,7 @@ struct SealedTable {
   std::string_view name;
   std::string_view key;       ///< names a row in a finding; the primary key if it has one column
   std::string_view columns;   ///< separated by ", "; without an id that the database gives
-  std::string_view unique{};  ///< the columns that no two rows have alike, for replace()
+  std::string_view unique{};  ///< columns that are unique together, for replace()
 
   /// `INSERT INTO … (columns, seal) VALUES (?1, …)`: the values of the columns, in their order.
   std::string insert(const sql::Connection& connection) const;

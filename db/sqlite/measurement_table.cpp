@@ -13,7 +13,8 @@ namespace fitgauge::store::sqlite {
 namespace {
 
 constexpr std::size_t kMostRowsPerStatement = 32;
-/// Cached statements, one for each combination of fields; beyond that, the one with all columns.
+/// Number of cached statements, one for each combination of fields; other combinations use the
+/// statement with all columns.
 constexpr std::size_t kMostStatements = 64;
 
 template <class T>

@@ -133,7 +133,7 @@ class KeysStore {
   Result<ApiKey> create(std::string_view name, Role role, std::string_view token,
                         std::int64_t now_ns, std::optional<std::int64_t> expires_at_ns = {});
 
-  /// The valid key of that name; else the one that was revoked last.
+  /// Returns the valid key with this name; if there is none, the key that was revoked last.
   std::optional<ApiKey> newest(std::string_view name) const;
   /// Stores a key of a centre by its hash. @returns false: another key has the name or the hash.
   bool receive(std::string_view name, Role role, const Digest& token_hash, std::int64_t now_ns,

@@ -80,8 +80,8 @@ class LogStore {
   std::unique_ptr<Statements> statements_;
 };
 
-/// The other data folders whose records their stations forward to this one; and the forwarded part
-/// of this folder's own log.
+/// Other data folders whose stations forward records to this one, and the forwarded part of the log
+/// of this folder.
 class OriginsStore {
  public:
   explicit OriginsStore(sql::Connection& connection);

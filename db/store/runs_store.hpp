@@ -26,7 +26,7 @@ enum class RunStatus : std::uint8_t {
   Failed = 5,
   LimitExceeded = 6,
   Cancelled = 7,
-  Cancelling = 8,  ///< not over yet; another daemon of the database has asked the one that runs it
+  Cancelling = 8,  ///< still running; another daemon of the database requested its end
 };
 constexpr RunStatus last_of(RunStatus) { return RunStatus::Cancelling; }
 

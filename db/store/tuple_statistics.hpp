@@ -48,9 +48,9 @@ class NumberedColumn {
 /// Finds the tuples of rows, and adds up the statistics of each.
 class TupleWriter {
  public:
-  /// Takes fields that fit in, those with the fewest values first, as long as no more than `most`
-  /// tuples come of them. @param columns by column_of_field() @param kinds 8 * source + verdict of
-  /// each row, which all columns that fit have
+  /// Adds fields that fit, fields with few values first, while the tuples are at most `most`.
+  /// @param columns by column_of_field()
+  /// @param kinds 8 * source + verdict of each row, in all columns that fit
   TupleWriter(std::span<const NumberedColumn> columns, std::span<const std::uint8_t> kinds,
               std::size_t most);
 
@@ -130,7 +130,7 @@ class TupleSums {
   std::string_view statistics_;
 };
 
-/// Statistics of rows by the value of a field, by that of another, which may be none, and by kind
+/// Statistics of rows by the value of a field, by the value of another field or none, and by kind
 /// (8 * source + verdict).
 using PairStatistics =
     std::map<std::string, std::map<std::optional<std::string>, std::map<int, ExactStatistics>>>;

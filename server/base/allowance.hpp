@@ -27,7 +27,7 @@ class Allowance {
 
   /// Unlimited.
   Allowance() = default;
-  /// From now on.
+  /// Begins now.
   Allowance(std::chrono::duration<double> time, std::size_t memory_bytes, std::stop_token stop);
   Allowance& operator=(Allowance&&) = delete;  // neither copied nor moved
 

@@ -51,7 +51,7 @@ namespace fitgauge::tlog {
 /// RFC 4648, section 4, with padding.
 std::string to_base64(std::span<const std::uint8_t> bytes);
 
-/// @returns none for anything but the one spelling that to_base64 gives.
+/// @returns none except for the spelling that to_base64 gives.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
 
 }  // namespace fitgauge::tlog

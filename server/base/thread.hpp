@@ -41,7 +41,7 @@ bool guarded(std::string_view place, Function&& function) noexcept {
   return false;
 }
 
-/// Waits so long, or until a stop is asked for. @returns whether none is.
+/// Waits for this time, or until a stop is requested. @returns false after a stop.
 bool wait_unless_stopped(const std::stop_token& stop, std::chrono::milliseconds time);
 
 /// A thread that survives exceptions: an exception is reported as a bug at `place`, and the body

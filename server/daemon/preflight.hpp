@@ -29,7 +29,7 @@ void give_large_blocks_back();
 /// @returns how many connections can be open then.
 std::int64_t allow_connections(std::int64_t connections);
 
-/// The addresses of `listen`. @errors ConfigInvalid naming the one that is none.
+/// Returns the addresses of `listen`. @errors ConfigInvalid naming the malformed one.
 Result<std::vector<http::ListenAddress>> listen_addresses(const Config& config);
 
 /// The TLS settings of the server; none without a certificate.

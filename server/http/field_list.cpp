@@ -9,7 +9,7 @@
 namespace fitgauge::http {
 namespace {
 
-/// A weight in thousandths; malformed counts as 0.
+/// Returns a weight in thousandths; 0 if it is malformed.
 int weight(std::string_view text) {
   if (text.empty() || text.size() > 5 || (text[0] != '0' && text[0] != '1')) return 0;
   int value = (text[0] - '0') * 1000;

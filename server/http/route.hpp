@@ -69,7 +69,7 @@ struct BodyRules {
   /// Lower case, without parameters; empty accepts any or none. Charset may only be UTF-8.
   std::vector<std::string> media_types{};
   std::size_t limit = std::size_t{1} << 20;  ///< bytes, after decompression
-  bool spools = false;                       ///< one above 1 MiB goes to disk: Request::file_body()
+  bool spools = false;                       ///< above 1 MiB on disk: Request::file_body()
   std::string when_too_large{};              ///< remedy, after "…: "
   std::string schema{};                      ///< of its JSON form, by name
 };

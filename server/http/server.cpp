@@ -186,7 +186,7 @@ void Server::Impl::stop() {
   // notified.
   threads_.front()->post([this, first = Place(shared_.connections)] {
     for (const auto& listener : listeners_) listener->close();
-    // Sockets accepted before are dealt: later posts come after them.
+    // Deals the sockets that are already accepted: later posts follow them.
     for (const auto& thread : threads_) {
       thread->post([&each = *thread, place = Place(shared_.connections)] { each.drain(); });
     }

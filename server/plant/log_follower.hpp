@@ -125,7 +125,7 @@ struct FollowerOptions {
   bool plans = false;
 };
 
-/// Stores the start of a new connection, so that it misses nothing from now on. Blocks. @errors
+/// Stores the start of a new connection, so that it misses no later measurement. Blocks. @errors
 /// those of storage.
 Result<Progress> begin_progress(const FollowerOptions& options, const Plant& plant);
 

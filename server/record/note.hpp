@@ -11,7 +11,7 @@
 #include "base/json/body_forms.hpp"
 #include "record/measurement.hpp"
 
-// A note as it is answered, in events and on its way to the centre.
+// A note in responses, in events and on its way to the centre.
 
 namespace fitgauge::api {
 

@@ -344,7 +344,7 @@ Result<Application::Verification> Application::verify(
   const RowNames names = later.names();
   const auto logs = LogService::logs(*database_);
   if (!logs && logs.error().code != ErrorCode::StorageCorrupt) return logs.error();
-  if (!logs) {  // what the log says of itself is damaged: that is a finding, and there may be more
+  if (!logs) {  // the log contradicts itself: a finding, and there may be more
     return verification_of(database_->verify([&](const store::MeasurementRow& row) {
       return finding_of(std::nullopt, check_verdict(row, names));
     }));

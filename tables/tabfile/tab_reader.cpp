@@ -159,7 +159,7 @@ class Reader {
     }
     const std::string_view line = lines_[next_];
     std::vector<TabColumn> columns;
-    std::size_t counted = 0;  // bytes of the line, whose characters are
+    std::size_t counted = 0;  // bytes of the line whose characters are counted
     std::size_t characters = 0;
     std::size_t at = line.find_first_not_of(' ');
     while (at != std::string_view::npos) {

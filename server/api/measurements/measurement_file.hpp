@@ -32,7 +32,7 @@ class MeasurementFile {
 /// DFQ of Q-DAS. An empty list is an error: a DFQ without a characteristic is none.
 std::unique_ptr<MeasurementFile> make_dfq_file(aqdef::DfqOptions options);
 
-/// QIF 3.0; an empty list is an error likewise.
+/// Makes a QIF 3.0 file; an empty list is an error here too.
 std::unique_ptr<MeasurementFile> make_qif_file();
 
 /// XLSX, with the columns of the CSV. @param zone of its times; none: UTC

@@ -34,8 +34,8 @@ void post_measurements(const Services& services, const http::Request& request,
 /// not registered while others are, is blocked, or is overdue for calibration.
 std::vector<Warning> warnings_of(const app::Measurement& measurement);
 
-/// The 201 to stored measurements, in the form the client prefers: the record of one, the records
-/// of all, their number with the counts of verdicts, or nothing.
+/// The 201 for stored measurements, in the form that the client prefers: one record, all records,
+/// only their number with the counts of verdicts, or nothing.
 class MeasurementAnswer final : public app::Rendering {
  public:
   explicit MeasurementAnswer(Preference wanted) : wanted_(wanted) {}

@@ -26,8 +26,8 @@ struct OneMore {
   }
 };
 
-/// Members that every method takes. The tolerance is of the parts, and a model of `auto` leaves the
-/// choice.
+/// Members of every method. The tolerance belongs to the parts; with the model `auto` the method
+/// chooses.
 struct StudyChoices {
   StudyModel model = StudyModel::Auto;
   std::optional<metrology::Exact> tolerance{};

@@ -52,8 +52,8 @@ inline void add_last_event_id(std::vector<http::Parameter>& parameters) {
                         .description = "The id of the last event that was read"});
 }
 
-/// The id of the last event, if given. The header, which a browser sends when it connects again,
-/// goes before the query it first sent.
+/// Returns the id of the last event, if given. A browser sends the header when it connects again;
+/// it overrides the query of the first request.
 inline std::optional<std::string_view> last_event_id(const http::Request& request) {
   auto named = request.text("Last-Event-ID");
   if (!named) named = request.text("last_event_id");

@@ -32,9 +32,8 @@ std::optional<std::string_view> repeated_name(const JsonValue& object) {
   return twice == names.end() ? std::nullopt : std::optional(*twice);
 }
 
-/// nlohmann::json but for the type of its floating-point numbers: the library refuses what
-/// overflows that type as unreadable, and 1e999 is readable JSON whose value is for the field to
-/// judge.
+/// Uses long double for floating-point numbers: nlohmann::json refuses numbers that overflow
+/// double, but 1e999 is readable JSON whose value the field must judge.
 using WideJson = nlohmann::basic_json<std::map, std::vector, std::string, bool, std::int64_t,
                                       std::uint64_t, long double>;
 

@@ -190,7 +190,7 @@ std::vector<std::string> TaggedPdf::wrapped(std::string_view text, float size, f
   std::vector<std::string> lines;
   while (!text.empty()) {
     std::size_t end = 0;    // of what fits
-    std::size_t blank = 0;  // behind the last blank in it
+    std::size_t blank = 0;  // after its last blank
     for (std::size_t at = 0, width = 0; at < text.size();) {
       const char32_t character = next_character(text, at);
       width += font_.width(character);

@@ -46,7 +46,7 @@ struct OutgoingValue {
 
 struct DfqOptions {
   std::string part_number = "-";          ///< K1001 of measurements without one
-  std::string part_description = "-";     ///< K1002 likewise
+  std::string part_description = "-";     ///< K1002 of measurements without one
   std::optional<sheet::TimeZone> zone{};  ///< of the times; none: UTC
 };
 

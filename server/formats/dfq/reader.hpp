@@ -33,8 +33,8 @@ struct ValueField {
   std::string_view text;
 };
 
-/// Things in a row. Its room stays when it is emptied, so that a line of values is written into it
-/// without a question at each.
+/// A sequence of items. It keeps its memory when it is emptied, so that a line of values is written
+/// without a check for each.
 template <class Thing>
 class Row {
  public:

@@ -66,7 +66,7 @@ class TimeZone {
   std::optional<Rule> rule_;  ///< after the last change
 };
 
-/// A wall time as an instant in UTC; a text that is none stays as it is.
+/// Returns a wall time as an instant in UTC; other texts stay unchanged.
 /// @param zone none: a wall time is refused. @errors TimeMalformed: `has the time '…' …`.
 Result<std::string> instant_text(std::string_view text, const std::optional<TimeZone>& zone);
 

@@ -33,7 +33,7 @@ struct Shape {
   std::int64_t count = 1;                    ///< of axes: `4X` is four bores
   std::int64_t faces = 0;                    ///< that were read: `4X R2` are four
   bool is_round = false;                     ///< the first of them is
-  bool is_open = false;                      ///< all of them are
+  bool is_open = false;                      ///< true if all faces are
 };
 
 /// Round faces: material outside of them is a hole, inside a shaft. Of planes each with the nearest

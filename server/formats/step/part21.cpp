@@ -94,7 +94,7 @@ double number_of(const Parameter& parameter) {
   return read.ec == std::errc::result_out_of_range && !is_tiny ? HUGE_VAL : number;
 }
 
-/// The one pass over a whole file.
+/// Reads a whole file in one pass.
 class Part21Scanner {
  public:
   Part21Scanner(Part21& file, std::span<const std::string_view> names, std::size_t most)

@@ -58,7 +58,7 @@ class Part21 {
 
   /// One record, or the records of a complex instance. A missing instance is a failure at `from`.
   std::vector<Record> records(std::uint32_t id, std::uint32_t from) const;
-  /// The parameters of a list; of a typed parameter the one in it.
+  /// Returns the parameters of a list, or the parameter in a typed parameter.
   std::vector<Parameter> parameters(std::string_view list) const;
 
   /// Fails at the instance; the first failure stays.

@@ -46,7 +46,7 @@ namespace {
 
 constexpr double kColumnWidth = 16;
 constexpr double kSecondsPerDay = 86'400;
-/// The serial number of 1970-01-01, and that of 1900-03-01: the days before are counted wrongly.
+/// Serial numbers of 1970-01-01 and of 1900-03-01: sheets count the days before 1900-03-01 wrongly.
 constexpr double kEpochDay = 25'569;
 constexpr double kFirstDay = 61;
 

@@ -68,7 +68,7 @@ bool is_private_address(const sockaddr& address);
 
 struct HttpClientOptions {
   bool may_reach_private = true;  ///< addresses of this machine and its networks
-  bool may_ask_proxy = false;     ///< the one that the environment names
+  bool may_ask_proxy = false;     ///< the proxy that the environment names
   std::string authorities{};      ///< PEM file; the system's when empty
 };
 

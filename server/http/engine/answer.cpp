@@ -88,8 +88,8 @@ void end_head(std::string& out, std::string_view vary, const AnswerForm& form) {
   out.append("\r\n");
 }
 
-/// Whether the gzip form goes to the client: of a long body if it prefers that, of a short one only
-/// if it refuses the plain form.
+/// Returns whether to send the gzip form: a long one if the client prefers it, a short one only if
+/// the client refuses the plain form.
 bool takes_packed(const Codings& codings, bool is_long) {
   return codings.gzip > 0 && (codings.identity == 0 || (is_long && codings.prefers_gzip()));
 }

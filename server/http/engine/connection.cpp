@@ -9,7 +9,7 @@ namespace {
 
 /// Answers wait for each other up to this size, then they are sent.
 constexpr std::size_t kBatch = std::size_t{64} << 10;
-/// A sender that was refused is waited for until it is silent for so long.
+/// After a refusal, the connection waits until the sender is silent for this time.
 constexpr auto kLinger = std::chrono::seconds(2);
 
 const Refusal kTimedOut{408, ErrorCode::RequestTimeout,

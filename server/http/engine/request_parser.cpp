@@ -34,7 +34,7 @@ bool is_digits(std::string_view text) {
   return !text.empty();
 }
 
-/// A field without a name in Beast's list, in which a proxy names its client.
+/// Returns whether a proxy names its client in this field, which Beast's list of fields lacks.
 bool is_of_proxy(std::string_view name) {
   constexpr std::string_view kPrefix = "X-Forwarded-";
   return ascii_iequals(name.substr(0, kPrefix.size()), kPrefix) ||

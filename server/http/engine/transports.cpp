@@ -247,7 +247,7 @@ void Listener::accept() {
   acceptor_.async_accept([this](const error_code& error, Socket socket) {
     if (!acceptor_.is_open()) return;
     if (!error) {
-      // Out of memory: this client goes, the next one may stay.
+      // Out of memory: drops this client; the next one may stay.
       guarded("a new connection", [&] { deal(std::move(socket)); });
       return accept();
     }

@@ -48,7 +48,7 @@ struct AttributeStudy {
   std::vector<Operator> operators{};
   std::vector<Pair> pairs{};
   long double between = kUndefined;  ///< kappa of all ratings: Fleiss
-  AttributeShare alike{};            ///< parts rated alike by all in all trials
+  AttributeShare alike{};            ///< parts with equal ratings in all trials
   std::optional<AttributeShare> right{};
 };
 inline constexpr std::size_t kMostOperators = 50;

@@ -109,7 +109,7 @@ struct Spread {
   std::vector<double> points;
   long double mean = 0;
   double per_mean = 1;       ///< mean of the statistic for a standard deviation of 1
-  double per_deviation = 1;  ///< standard deviation of the statistic, likewise
+  double per_deviation = 1;  ///< standard deviation of the statistic for a standard deviation of 1
 };
 
 Spread moving_ranges(const Source& source) {
@@ -170,8 +170,8 @@ Chart spread_chart(Spread spread, long double sigma) {
   return chart;
 }
 
-/// The centre of the points, and the same rounded as they are: values without spread then never
-/// leave it, not by a bit.
+/// Centre of the points, exact and rounded like the points, so that values without spread stay on
+/// it exactly.
 struct Centre {
   explicit Centre(const Exact& value) : exactly(nearest(value)), as_point(nearest_double(value)) {}
 

@@ -38,7 +38,7 @@ struct ChartPlan {
   std::optional<Exact> standard_deviation{};
   double lambda = 0.2;           ///< weight of the newest point, EWMA
   double reference_value = 0.5;  ///< k, CUSUM, in standard deviations of a point
-  double decision_interval = 5;  ///< h, likewise
+  double decision_interval = 5;  ///< h, in standard deviations
 };
 
 struct Chart {

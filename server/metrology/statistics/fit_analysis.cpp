@@ -63,9 +63,9 @@ std::vector<std::size_t> by_size(const std::vector<Length>& sizes) {
   return order;
 }
 
-/// For each of the fewer, in order, the one of the more it goes with: fewer[i] with more[i + skip],
-/// the skips never falling. Empty where the thread's allowance is spent.
-/// @param distance of the i-th of the fewer and the j-th of the more from the target
+/// Pairs each item of the smaller list, in order, with an item of the larger: fewer[i] with more[i
+/// + skip], with skips that never fall. Empty if the allowance of the thread is spent.
+/// @param distance of the pair of fewer[i] and more[j] from the target
 template <class Distance>
 std::vector<std::size_t> assign(std::size_t fewer, std::size_t more, const Distance& distance) {
   const std::size_t skips = more - fewer + 1;

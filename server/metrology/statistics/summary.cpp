@@ -142,8 +142,8 @@ namespace bm = boost::math;
 
 namespace {
 
-/// From here on the series of Cornish and Fisher is as good as the incomplete gamma function, whose
-/// series in Boost fails beyond 1e10.
+/// Above this number the series of Cornish and Fisher is as good as the incomplete gamma function,
+/// whose series in Boost fails beyond 1e10.
 constexpr long double kManyDegreesOfFreedom = 1e7L;
 
 /// Cornish and Fisher 1960: the omitted terms are below 1e-16 of the quantile.

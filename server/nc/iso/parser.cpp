@@ -15,7 +15,7 @@ using klartext::Program;
 using klartext::Slice;
 
 constexpr std::size_t kLongestShownLine = 1000;
-/// A place within a longer line is that of the whole block.
+/// In a longer line, a finding names the whole block.
 constexpr std::size_t kLongestSearched = 1000;
 
 /// The places of a translation's Klartext in the text it was made of.

@@ -28,8 +28,8 @@ struct Row {
   std::string head;
 };
 
-/// `$x` is put as it is, `$m` and `$i` with the unit behind them, `$0` with `,0`, `$,` behind a
-/// comma, `$c` as a centre.
+/// Rows of words: `$x` is written unchanged, `$m` and `$i` with their unit, `$0` with `,0`, `$,`
+/// after a comma, `$c` as a centre.
 std::vector<Row> all_rows() {
   constexpr unsigned kLastFunction = 38;
   std::vector<Row> rows{{"BEGIN PGM $m MM", "%"},

@@ -184,7 +184,7 @@ class Translator {
     return is_cycle && !failed;
   }
 
-  /// A cycle goes on over the lines of its parameters, each with its comment, up to its `*`.
+  /// Reads a cycle: the lines of its parameters, each with its comment, up to its `*`.
   std::size_t cycle(std::size_t begin, std::size_t end) {
     for (bool is_first = true;; is_first = false) {
       const Line line(text(begin, end));
@@ -418,7 +418,7 @@ class Translator {
     for (Word& word : words.words) {
       if (word.name == "M") break;
       if (word.name != "F" || addition != "FMAX" || word.used) continue;
-      // A feed beside rapid is that of the blocks that follow.
+      // A feed next to rapid applies to the blocks that follow.
       line_.start_line();
       line_.put("L").put(word);
       word.used = true;

@@ -32,8 +32,8 @@ class BlockWriter {
   void items(Slice<Expr> items);
 
   void word(const Word& word);
-  /// Words with a blank before each that does not begin the block; `mark` is written before the
-  /// first word of `before`, or last.
+  /// Writes words, each after a blank unless it begins the block. `mark` comes before the first
+  /// word of `before`, or at the end.
   void words(Slice<Word> words, std::string_view mark = {}, LetterSet before = LetterSet());
 
   const Program& program() const { return program_; }

@@ -5,8 +5,8 @@
 #include "nc/klartext/parser_rules.hpp"
 
 /// Formulas. The levels, from the loosest: `||`, `+ -`, `* / %`, `^` (right to left), functions,
-/// the algebraic sign, and what stands alone. The sign binds tighter than `^`: `- 2 ^ 2` is 4, and
-/// a function takes what follows it at once: `SIN 30 ^ 2` is the square of the sine.
+/// the algebraic sign, and operands. The sign binds tighter than `^`: `- 2 ^ 2` is 4. A function
+/// applies to the next operand only: `SIN 30 ^ 2` is the square of the sine.
 namespace fitgauge::klartext {
 namespace {
 

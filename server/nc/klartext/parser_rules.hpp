@@ -18,7 +18,7 @@ Expr parse_number(BlockReader& in);
 /// A quoted text or a QS parameter.
 Expr parse_string(BlockReader& in);
 
-/// The arguments of a function of texts whose name is next; false when none is.
+/// Reads a function of texts with its arguments; false if no name of one is next.
 bool parse_string_function(BlockReader& in, Expr& value);
 
 // parser_flow.cpp

@@ -77,8 +77,8 @@ class BoxTree {
     }
   }
 
-  /// Calls visit(begin, end, way) for the leaves the ball may touch after at most `longest`, which
-  /// it may lessen, mostly in the order of the ways to their boxes.
+  /// Calls visit(begin, end, way) for the leaves that the ball may touch within `longest`, mostly
+  /// nearest boxes first. `visit` may reduce `longest`.
   template <class Visit>
   void along(const BallPath& ball, const double& longest, const Visit& visit) const {
     if (is_empty()) return;

@@ -12,8 +12,8 @@ namespace fitgauge::machine {
 
 /// The control above the axes: tables, frames, modes, tool calls, targets of moves, axis ranges,
 /// machining time. The axes report contacts on the way. Its three files are the tables and frames,
-/// the motion, and the probing. Owns its state and its axes. Not thread-safe; after a fault the
-/// state is that of the finished part.
+/// the motion, and the probing. Owns its state and its axes. Not thread-safe. After a fault, the
+/// state contains the finished part of the command.
 class Control : public Machine {
  public:
   /// @param allowance what its moves look at while they last; null: nothing interrupts them

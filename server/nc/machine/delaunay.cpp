@@ -85,7 +85,8 @@ class Sweep {
   }
 
  private:
-  /// The leading points on one line and the first one beside it; @returns the next point to join.
+  /// Joins the leading points on one line with the first point beside it; @returns the next point
+  /// to join.
   std::uint32_t first_fan() {
     const auto count = static_cast<std::uint32_t>(points_.size());
     std::uint32_t apex = 2;

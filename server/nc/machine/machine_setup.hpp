@@ -176,7 +176,7 @@ struct Setup {
   MachineSetup machine;
   std::vector<Feature> features;  ///< joined in order; coordinates fixed to the table
   std::uint64_t seed = 1;
-  std::vector<Feature> fixtures{};  ///< clamps and vices, likewise: not gauged, and they collide
+  std::vector<Feature> fixtures{};  ///< clamps and vices: not gauged, but they collide
 };
 
 /// Calls `use(pointer, feature)` for every feature and fixture: "/workpiece/features/3".

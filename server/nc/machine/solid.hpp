@@ -27,9 +27,9 @@ class Solid {
   virtual Field field(const Vec3& at) const = 0;
   /// Whether `contact` is not exact, so that the path must be traced step by step.
   virtual bool is_traced() const { return false; }
-  /// Distance until the ball touches, 0 if it touches at the start. The default is for convex
-  /// bodies, whose distance is convex along a line: Newton's steps never pass the contact, one to a
-  /// face, a few to a rounding.
+  /// Returns the distance until the ball touches, 0 if it touches at the start. The default is for
+  /// convex bodies, whose distance is convex along a line. Newton's steps never pass the contact:
+  /// one for a face, a few for a rounding.
   virtual std::optional<double> contact(const BallPath& ball) const;
   /// Box around the material; infinite if the material is.
   virtual Box box() const = 0;

@@ -100,8 +100,8 @@ bool MeshSolid::is_inside(const Vec3& in_body, const Vec3& nearest) const {
   return dot(in_body - nearest, body_->normal_at(nearest)) < 0;
 }
 
-/// Whether the start lies inside is told where the ball is about to touch: nothing lies between,
-/// and there the nearest point of the mesh is found at once.
+/// Tests whether the start is inside at the place where the ball would touch: nothing is between
+/// them, and the nearest point of the mesh is quickly found there.
 std::optional<double> MeshSolid::contact(const BallPath& ball) const {
   const BallPath path{to_body_.point(ball.start), to_body_.direction(ball.direction), ball.radius,
                       ball.longest};

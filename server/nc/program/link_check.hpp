@@ -12,7 +12,7 @@ namespace fitgauge::interpreter {
 /// all sub-lines of a dotted cycle but its last do not.
 bool has_effect(const klartext::Program& program, std::uint32_t block);
 
-/// The block that opens the dotted cycle whose sub-line `block` is, else `block` itself.
+/// Returns the block that opens the dotted cycle of the sub-line `block`; for other blocks `block`.
 std::uint32_t first_part(const klartext::Program& program, std::uint32_t block);
 
 /// Reports faults of the cycle of a block (unknown or invalid parameters: errors; an unavailable

@@ -182,8 +182,9 @@ NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_
 
 namespace {
 
-/// CYCL CALL POS: goes there in the working plane. What it says of the tool axis shifts the cycle
-/// like a datum; the old cycles, which begin where the tool stands, and programs go there.
+/// CYCL CALL POS moves there in the working plane. Its coordinate along the tool axis shifts the
+/// cycle like a datum. Old cycles, which begin at the present height, and programs also move along
+/// the tool axis.
 NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
   if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
   machine::AxisWords target;

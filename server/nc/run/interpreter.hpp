@@ -36,8 +36,8 @@ struct RunOptions {
   /// otherwise they refuse the program.
   bool keeps_unreadable = false;
   bool decimal_comma = true;  ///< of FN 15
-  /// A file in the folder for logs and for files of FN 16 without a folder (fn16DefaultPath);
-  /// without this folder in that of the program.
+  /// Any file in the folder for logs and for files of FN 16 without a folder (fn16DefaultPath).
+  /// None: the program's folder is used.
   std::optional<ControlPath> print_folder;
   /// The datum table that is active at the start, until SEL TABLE.
   std::optional<ControlPath> datum_table;

@@ -339,7 +339,7 @@ NcResult<void> mill_thread(Machining& cycle) {
   // in a hole and down on a bolt. 265 drills the thread on its way down.
   const bool follows_hand = (cycle.value(351) < 0) == (cycle.value(239) < 0);
   const bool up = number != 265 && follows_hand == (number != 267);
-  // 265 has no Q355 and mills the whole depth; 263 and 264 take one turn at it, for a tool whose
+  // 265 has no Q355 and mills the whole depth. 263 and 264 mill it in one turn, with a tool whose
   // teeth cut all threads.
   const double per_step = number == 265 ? 1 : cycle.value(355);
   const double depth = heights.surface - heights.bottom;

@@ -36,7 +36,8 @@ void read(const Program& program, const klartext::Expr& value, std::vector<QRef>
   }
 }
 
-/// The parameters that a block reads; of a cycle those alone whose values the error names, if any.
+/// Returns the parameters that a block reads; for a cycle with an error only those whose values the
+/// error names.
 std::vector<QRef> read_by(const Program& program, const Block& block, const std::string& error) {
   std::vector<QRef> all;
   std::vector<QRef> named;

@@ -19,9 +19,9 @@
 
 namespace fitgauge::interpreter {
 
-/// The tables of a run: the freely definable one that FN 26 has open (one at a time) and the datum
-/// table. Each file is read once in a run; what FN 27 writes goes to the run's files when the table
-/// is closed. Not thread-safe.
+/// Tables of a run: the freely definable table that FN 26 has open (one at a time), and the datum
+/// table. Each file is read once in a run. When the table is closed, the changes of FN 27 go to the
+/// run's files. Not thread-safe.
 class TableAccess {
  public:
   /// All must outlive this object.

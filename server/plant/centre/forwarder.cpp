@@ -199,7 +199,7 @@ Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root)
     return failed(Sent::Refused, "the centre returned a malformed root");
   std::copy(bytes->begin(), bytes->end(), there.begin());
   const app::LogService::History& history = outbox_.history_of(confirmed_ + 1);
-  if (history.end && size >= *history.end) {  // what it has beyond went on elsewhere
+  if (history.end && size >= *history.end) {  // the further records continued elsewhere
     took(*history.end);
     return Sent::Taken;
   }

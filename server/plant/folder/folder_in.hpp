@@ -33,7 +33,7 @@ struct FolderInOptions {
   sheet::ShopCsvOptions csv{};                     ///< of files that are not NDJSON by their name
   std::optional<aqdef::LengthUnit> length_unit{};  ///< of a DFQ or QIF without a unit
   std::chrono::seconds interval{10};  ///< between two scans; the kernel reports changes at once
-  std::chrono::seconds rest{2};       ///< size and time must have been the same for so long
+  std::chrono::seconds rest{2};       ///< size and time must be unchanged for this time
   std::size_t most_file_bytes = std::size_t{32} << 20;
   std::size_t most_entries = 100'000;  ///< of one look
 };

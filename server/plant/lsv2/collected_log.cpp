@@ -225,9 +225,8 @@ void collect_by(const log_reader::PatternReading& reading, const Origin& origin,
   }
 }
 
-/// A log with a time is told apart from its equals by their order. What has no time is told apart
-/// by all that stands before it: a file that is written anew has new results, one that grows has
-/// not.
+/// Numbers equal logs: logs with a time by their order, logs without one by everything before them.
+/// A file that is written anew has new results; a file that grows does not.
 void number(std::vector<std::shared_ptr<CollectedLog>>& logs, const Origin& origin) {
   std::map<Digest, std::size_t> seen;
   std::string before;

@@ -49,7 +49,7 @@ class MqttClient::Loop {
     mosquitto_int_option(handle_.get(), MOSQ_OPT_PROTOCOL_VERSION,
                          client.broker_.version_5 ? MQTT_PROTOCOL_V5 : MQTT_PROTOCOL_V311);
     mosquitto_int_option(handle_.get(), MOSQ_OPT_TCP_NODELAY, 1);
-    mosquitto_max_inflight_messages_set(handle_.get(), 0);  // whoever sends bounds them
+    mosquitto_max_inflight_messages_set(handle_.get(), 0);  // the sender limits them
     mosquitto_connect_v5_callback_set(handle_.get(), &on_connect);
     mosquitto_disconnect_v5_callback_set(handle_.get(), &on_disconnect);
     mosquitto_publish_v5_callback_set(handle_.get(), &on_publish);
@@ -230,8 +230,8 @@ int MqttClient::Loop::carry_out_orders() {
   return MOSQ_ERR_SUCCESS;
 }
 
-/// If a write fails, data that the broker sent before is still unread: acknowledgements, whose
-/// messages need not be repeated, and the reason of its end.
+/// After a failed write, data of the broker is still unread: acknowledgements, whose messages need
+/// not be repeated, and the reason of its end.
 void MqttClient::Loop::read_the_rest() {
   constexpr int kMostPackets = 1000;  // a broker that never ends is not heard out
   pollfd arrived{mosquitto_socket(handle_.get()), POLLIN, 0};

@@ -63,7 +63,7 @@ class MqttLink {
   /// Ends the connection; the broker publishes the will.
   /// @returns why it was lost or, if it was not, `why` with the broker's name.
   std::string give_up(std::string_view why);
-  /// @pre connect went well
+  /// @pre connect succeeded
   MqttClient& client() { return *client_; }
 
  private:

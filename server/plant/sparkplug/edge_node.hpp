@@ -26,10 +26,9 @@ struct SparkplugOptions {
   Broker broker{};
   std::string group{};
   std::string node{};
-  /// Whose last measurement a device shows.
+  /// Names the device of a measurement; a device shows its newest one.
   TopicTemplate device = TopicTemplate::parse_level("{machine}:{characteristic}").value();
-  std::string
-      primary_host{};  ///< nothing goes out while it is offline; empty: nobody is waited for
+  std::string primary_host{};  ///< nothing is sent while this host is offline; empty: no host
   std::size_t most_devices = 1000;
 };
 

@@ -238,7 +238,7 @@ VirtualDisk::Answer<void> VirtualDisk::rename(const Path& source, const Path& ta
   return remove(source);
 }
 
-/// The stored file counts from now on, not the one of the run.
+/// Uses the stored file from now on, not the run's file.
 void VirtualDisk::hide(const Path& path) {
   if (run_files().contains(path.key())) hidden_.insert(path.key());
 }

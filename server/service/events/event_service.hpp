@@ -30,7 +30,7 @@ class CommitListener {
   virtual void committed() = 0;
 };
 
-/// Notifies its listeners of commits, on its own thread: the writer only sets a flag, whatever the
+/// Notifies its listeners of commits, on its own thread: the writer only sets a flag, for any
 /// number of listeners. Commits in quick succession are one notification. Thread-safe.
 class CommitSignal {
  public:
@@ -109,7 +109,7 @@ class EventService {
 
   /// The place of a reader: readers at the same place get the same page.
   struct Place {
-    std::optional<EventPosition> after{};  ///< none: from now on, so that there is no event
+    std::optional<EventPosition> after{};  ///< none: only events after now
     std::optional<Source> source{};        ///< of the measurements; none: all
 
     friend auto operator<=>(const Place&, const Place&) = default;

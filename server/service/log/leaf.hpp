@@ -29,7 +29,7 @@ class LeafMaker {
 
  private:
   std::string records_;
-  std::vector<std::size_t> begins_;  ///< of each record, and of the one that would follow
+  std::vector<std::size_t> begins_;  ///< of each record, and of the next one
   std::vector<tlog::Hash> leaves_;
   tlog::TreeHasher hasher_;
 };

@@ -104,7 +104,8 @@ std::shared_ptr<const LogService::Head> LogService::countersigned(const store::S
   return head;
 }
 
-/// Asks again for those whose measurement is covered now, and refuses those whose time is over.
+/// Repeats the request of waiters whose measurement is now covered, and refuses waiters after their
+/// time.
 void LogService::end_waiters(std::unique_lock<std::mutex>& lock) {
   const auto now = Steady::now();
   const std::uint64_t size = head_.get()->checkpoint.size;

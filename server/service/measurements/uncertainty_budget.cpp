@@ -31,7 +31,7 @@ namespace {
 
 using metrology::Distribution;
 
-/// The form of figures and sensitivities, whose products to the fourth power are doubles then.
+/// Form of figures and sensitivities, whose products to the fourth power then fit in doubles.
 struct Magnitude {
   static constexpr double kLeast = 1e-30;
   static constexpr double kMost = 1e15;

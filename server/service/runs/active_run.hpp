@@ -64,7 +64,7 @@ class ActiveRun {
   const std::string& program() const { return order_->program.text(); }
   Timestamp created_at() const { return created_at_; }
   RunState state() const;
-  /// Its end is being stored: from now on the store knows more than this.
+  /// Returns whether its end is being stored: the store then knows more than this.
   bool is_being_stored() const { return being_stored_; }
 
   /// Seen within a few thousand blocks; a run that is over does not mind.
@@ -93,9 +93,9 @@ class ActiveRun {
   /// Calls `done` once when the run is over; at once if it is.
   void on_end(std::function<void(const Result<FinishedRun>&)> done);
 
-  /// Returns the state of the machine, as reported within `patience`; else the last reported one,
-  /// and the files likewise if they are not requested. A finished run has reported its last state.
-  /// Blocks.
+  /// Returns the state of the machine as reported within `patience`, or the last reported one.
+  /// Files that are not requested are also the last reported ones. A finished run has reported its
+  /// last state. Blocks.
   LiveState look(Look what, std::chrono::milliseconds patience);
 
   // For the thread that runs or ends it.

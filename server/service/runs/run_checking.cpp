@@ -111,7 +111,7 @@ Result<void> RunService::check_start(const RunOrder& order) try {
   const interpreter::ProjectingDisk disk(stored_, live_tables_.projections());
   const auto file = programs_.get(disk, order.program);
   const auto program = file == nullptr ? nullptr : file->runnable(order.options.keeps_unreadable);
-  if (program == nullptr || program->instruction_of(*start)) return {};  // the run says the former
+  if (program == nullptr || program->instruction_of(*start)) return {};  // null: the run reports it
   const std::string refused =
       fmt::format("{} has no block {}; its last block is {}", order.program.text(), *start,
                   program->program().blocks().back().number);

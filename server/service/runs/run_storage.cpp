@@ -189,7 +189,7 @@ void RunService::cancel(std::int64_t id, Done<void> done) {
     database_.writer().submit(
         [id](store::Stores& stores) { return stores.runs.ask_to_cancel(id); },
         [run = std::move(run->active), at_end, done](const Result<void>& asked) {
-          // A run that has ended in between has its status.
+          // A run that has ended meanwhile reports its status.
           if (!asked && asked.error().code != ErrorCode::RunFinished) return done(asked.error());
           run->on_end([run, at_end](const Result<FinishedRun>& end) { at_end(end); });
         });

@@ -86,7 +86,7 @@ struct TracePlace {
   int cycle = 0;                         ///< that commands the machine, 0 for the block itself
 };
 
-/// The blocks of a run that is watched, as they are written down.
+/// Blocks of a watched run, as text.
 struct WatchedBlocks {
   static constexpr std::size_t kLongest = std::size_t{4} << 20;
   std::string text{};       ///< at most kLongest bytes
@@ -118,7 +118,7 @@ struct RunFormat {
   TraceFormat trace;
   /// The seed of the setup in an order as it was stored.
   std::function<std::uint64_t(const std::string& request)> seed;
-  /// An order as it was stored, which names nothing outside but the control's disk.
+  /// Reads a stored order, which names nothing outside except the control's disk.
   std::function<Result<RunOrder>(const std::string& request, const ControlTables&)> order{};
   /// The payload of the event run.finished.
   std::function<std::string(const RunReport&)> event;

@@ -31,8 +31,8 @@ constexpr std::array k462Parameters{kStandardRadius, kSetUpClearance, kStandardT
 constexpr std::array k463Parameters{kStandardRadius, kSetUpClearance, kMoveToClearance,
                                     kStandardTouches, kFirstAngle};
 
-/// The height of the ball centre: in a ring where it stands. A stud's upper edge is taken to lie
-/// the clearance below the probe, and is touched one ball diameter lower.
+/// Returns the height of the ball centre. In a ring it is the present height. The upper edge of a
+/// stud is assumed at the clearance below the probe, and is touched one ball diameter lower.
 double measuring_height(ProbeCalibrator& calibrator, Side side, double q320) {
   const ProbingMotion& motion = calibrator.motion();
   const double height = calibrator.start().z;

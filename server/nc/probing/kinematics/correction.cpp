@@ -10,8 +10,8 @@
 namespace fitgauge::probing {
 namespace {
 
-/// `location of axis C (0.0012 mm, twice its uncertainty 0.0300 mm)` of the first that is
-/// insignificant: a location tells enough of its axis.
+/// Returns `location of axis C (0.0012 mm, twice its uncertainty 0.0300 mm)` for the first
+/// insignificant value; of an axis, its location is sufficient.
 std::string insignificant(const AxisErrors& errors) {
   struct Kind {
     std::string_view name;

@@ -26,8 +26,8 @@ bool is_of(const Unknown& unknown, std::size_t axis, ErrorKind kind) {
 
 bool is_angle(const Unknown& unknown) { return unknown.kind != ErrorKind::Location; }
 
-/// Gives up what is not seen: the direction of an axis goes as a whole, angles before any location.
-/// @return whether something was given up.
+/// Drops undetermined unknowns: directions of an axis only together, angles before locations.
+/// @return whether something was dropped.
 bool drop_unseen(std::vector<Unknown>& unknowns, const std::vector<bool>& seen) {
   std::vector<Unknown> lost;
   for (std::size_t j = 0; j < unknowns.size(); ++j) {
@@ -182,8 +182,7 @@ bool drop_insignificant(std::vector<Unknown>& unknowns, const std::vector<AxisEr
   return false;
 }
 
-/// An unknown that is insignificant beside others may be significant without them: the remaining
-/// ones are corrected.
+/// An insignificant unknown may become significant without the others, so the rest is corrected.
 void mark_corrected(std::vector<AxisErrors>& errors, const std::vector<Unknown>& unknowns) {
   for (std::size_t k = 0; k < errors.size(); ++k) {
     for (const ErrorKind kind : kKinds) {

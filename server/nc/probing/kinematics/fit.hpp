@@ -81,8 +81,8 @@ struct KinematicsFit {
 
 struct FitOptions {
   bool directions = true;  ///< of the axes, in addition to their locations
-  /// With directions: what an axis that is fitted too is tilted by around the one that carries it
-  /// is the error of the carrier's zero.
+  /// With directions: the tilt of a fitted axis around its carrier, which is also fitted, counts as
+  /// the error of the carrier's zero.
   bool zeros = false;
   bool only_significant = false;  ///< corrects no error that is not significant
 };

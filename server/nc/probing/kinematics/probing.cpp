@@ -116,7 +116,7 @@ CycleResult<void> KinematicsProbing::turn(const Vec3& rotary) {
   return turn_axes(rotary);
 }
 
-/// Q120 to Q122, from which an M function of the builder takes its targets (mStrobeRotAxPos).
+/// Sets Q120 to Q122, the targets for an M function of the builder (mStrobeRotAxPos).
 void KinematicsProbing::publish_targets(const Vec3& rotary) {
   for (std::size_t letter = 0; letter < 3; ++letter) {
     if (!state().kinematics_options.strobed[letter]) continue;

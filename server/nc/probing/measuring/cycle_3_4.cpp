@@ -84,7 +84,7 @@ machine::ProbeMove probe_move(const Arguments& arguments, const Vec3& direction,
   return move;
 }
 
-/// Touches from where the probe stands. The position at contact goes to four parameters: X, Y, Z
+/// Touches from the present position. Four parameters receive the position at contact: X, Y, Z
 /// without compensation of the ball, then 0, or -1 when nothing was touched.
 CycleResult<void> measure(const CycleContext& context, const Vec3& direction, bool goes_on) {
   const Arguments& arguments = context.arguments;

@@ -89,7 +89,7 @@ CycleResult<void> measure(const CycleContext& context, ProbingMotion& motion) {
   for (std::size_t i = 0; i < 3; ++i) publish_angle(kResults[2 + i], spatial[i]);
   MeasuringRecord record{.cycle = arguments.descriptor().number};
   for (std::size_t i = 0; i < 3; ++i) {
-    // The ball touches beside its lowest point: the plane lies below its centre by radius / cosine.
+    // The ball touches next to its lowest point: the plane is below its centre by radius / cosine.
     const Vec3& centre = (*contacts)[i].ball_centre;
     const Length height = to_length(centre.z - motion.ball_radius() / std::abs(n.z));
     context.host.set_q(kResults[5 + i].q, height.to_mm(), Unit::Length);

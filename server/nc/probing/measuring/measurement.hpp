@@ -43,8 +43,8 @@ struct Measurement {
   std::optional<Form> form{};
 };
 
-/// Begins every measuring cycle: resets an active basic rotation and, with a status among its
-/// results, clears Q180 to Q182.
+/// Begins every measuring cycle: resets an active basic rotation, and clears Q180 to Q182 if the
+/// cycle has a status.
 /// @errors 1108 scaling factors that differ by axis: a circle would be an ellipse; those of
 ///   ProbingMotion::begin.
 CycleResult<ProbingMotion> begin_measurement(const CycleContext& context);

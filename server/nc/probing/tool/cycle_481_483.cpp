@@ -126,7 +126,7 @@ CycleResult<double> measure_radius(const CycleContext& context, ToolProbing& pro
   return largest;
 }
 
-/// Enters a measured value into the tool row as Q340 says, and its deviation into Q115 or Q116.
+/// Writes a measured value into the tool row as Q340 requests, and its deviation into Q115 or Q116.
 Status enter(const CycleContext& context, const Dimension& dimension, double measured, Tool& tool) {
   const Mode mode = tool_order_of(context.arguments).mode;
   const Length found = to_length(measured);

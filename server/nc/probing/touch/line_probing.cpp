@@ -22,7 +22,7 @@ struct Edge {
   Point2 second;
 };
 
-/// The edge beside the line through two ball centres, on the side that was touched.
+/// Returns the edge on the touched side of the line through two ball centres.
 Edge edge_of(const Contact& first, const Contact& second, const Vec3& touched, double radius) {
   const Vec3 along = second.ball_centre - first.ball_centre;
   Vec3 normal{-along.y, along.x, 0};

@@ -11,7 +11,7 @@ namespace fitgauge::probing {
 struct ProbedLine {
   Vec3 first;  ///< ball centres: the line through them is parallel to the edge
   Vec3 second;
-  std::size_t axis = 0;    ///< 0 main, 1 secondary, 2 probe axis: the one touched along
+  std::size_t axis = 0;    ///< the touched axis: 0 main, 1 secondary, 2 probe axis
   std::size_t across = 1;  ///< the axis along which the line runs
 
   /// Coordinate of each point along the axis it was touched in.

@@ -165,7 +165,7 @@ std::string framed(const Telegram& telegram);
 /// telegram announces; after an error the connection is unusable.
 class TelegramReader {
  public:
-  /// Telegrams of `bytes` and more, head included, are refused from now on.
+  /// Refuses later telegrams of `bytes` and more, with their heads.
   void set_buffer(std::size_t bytes) { buffer_ = bytes; }
 
   void feed(std::string_view bytes) { bytes_ += bytes; }
