@@ -7,7 +7,8 @@
 
 namespace fitgauge::cli {
 
-/// The address of a service as it is used: `localhost:8286` is http, a stroke at the end goes.
+/// Returns the address of a service in its used form: `localhost:8286` becomes http, a trailing
+/// slash is removed.
 /// @errors Usage for another scheme or no host.
 Outcome<std::string> service_url(std::string_view text);
 

@@ -100,7 +100,7 @@ int complain(const Failure& failure, bool json) {
 }
 
 /// Names the first unknown word, command or option, and the nearest known one.
-/// @returns none if all are known, and something else is wrong.
+/// @returns none if all are known, and another error applies.
 std::optional<std::string> what_is_unknown(const CLI::App& command,
                                            const std::vector<std::string>& words) {
   const auto option = std::find_if(words.begin(), words.end(),
@@ -143,7 +143,7 @@ int run_command_line(int argc, char** argv) {
   CommonOptions common;
   Action action;
   app.require_subcommand(1);
-  app.fallthrough();  // common options may stand behind the command
+  app.fallthrough();  // common options may follow the command
   app.set_version_flag("--version", "fitgauge " FITGAUGE_VERSION);
   add_common(app, common);
   add_commands(app, action);

@@ -112,7 +112,7 @@ CsvChunk CsvChunks::take(std::size_t size, std::size_t rows, std::uint64_t lines
 
 Outcome<CsvMatch> CsvChunks::skip_to(const CsvPosition& place) {
   if (place.bytes < position_.bytes) return CsvMatch::Different;
-  bool at_line_end = true;  // of the header, else there is nothing behind it
+  bool at_line_end = true;  // of the header; false: the header is the last line
   std::uint64_t left = place.bytes - position_.bytes;
   while (left > 0) {
     if (const auto filled = fill_empty(); !filled) return filled.error();

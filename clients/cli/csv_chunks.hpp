@@ -78,8 +78,8 @@ class CsvChunks {
   /// Skips the input before `place`, unless it is another input. @errors LocalFile
   Outcome<CsvMatch> skip_to(const CsvPosition& place);
 
-  /// The next rows, as many as the limits allow; none at the end. @errors LocalFile, also for a row
-  /// that is larger than a chunk.
+  /// Returns as many of the next rows as the limits allow; none at the end.
+  /// @errors LocalFile, also for a row that is larger than a chunk.
   Outcome<std::optional<CsvChunk>> next();
 
   /// The rows up to `end`, which a chunk ended at before; nothing when the input is another one.
@@ -99,7 +99,7 @@ class CsvChunks {
 
   Read read_;
   Limits limits_;
-  std::string buffer_;  // what was read and not yet taken
+  std::string buffer_;  // read, but not yet used
   std::string header_;
   std::size_t header_lines_ = 0;
   char separator_ = ',';

@@ -18,8 +18,8 @@ std::optional<std::filesystem::path> find_below(const std::filesystem::path& fol
                                                 std::string_view path);
 
 /// The folder of a file as the disk of a control; each file is read when it is requested. Programs
-/// find files in this folder, which is TNC:\. Without own files, 82553_hole.tab and 82553_shaft.tab
-/// are those of ISO 286.
+/// find files in this folder, which is TNC:\. The folder's 82553_hole.tab and 82553_shaft.tab
+/// replace the tables of ISO 286.
 class FolderDisk final : public interpreter::ControlDisk {
  public:
   explicit FolderDisk(const std::string& file);

@@ -36,7 +36,7 @@ class SerialPort {
   SerialPort& operator=(SerialPort&&) = delete;
 
   struct Line {
-    std::string text;   ///< without what ends it; a long one is cut
+    std::string text;   ///< without its end mark; a long one is cut
     bool whole = true;  ///< false: too long, or it began before the port was listened to
   };
   /// Waits for the next line that is not empty. @errors LocalFile if the port is gone.

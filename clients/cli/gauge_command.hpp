@@ -13,7 +13,7 @@ namespace fitgauge::cli {
 /// The command line of `fitgauge gauge`, as it was typed; an empty text was not given.
 struct GaugeOptions {
   std::string designation;  ///< or the nominal size, with limits of a drawing
-  std::string measured{};   ///< mm, with a point or a comma; or else:
+  std::string measured{};   ///< mm, with a point or a comma; alternatively:
   std::string serial{};     ///< a port whose lines are values
   unsigned baud = 9600;
   std::string pattern{};  ///< of a line; its first group is the value

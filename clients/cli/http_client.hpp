@@ -19,7 +19,7 @@ namespace fitgauge::cli {
 /// Address of the service and credentials.
 struct Connection {
   std::string url;                 ///< as service_url() gives it
-  std::string key{};               ///< API key; empty sends none
+  std::string key{};               ///< API key; empty: no key is sent
   std::string authority_file{};    ///< PEM; the system's authorities when empty
   std::string certificate_file{};  ///< PEM, of this client
   std::string certificate_key_file{};
@@ -30,7 +30,7 @@ struct Request {
   std::string method = "GET";
   std::string target;                  ///< path and query, after the address of the service
   std::vector<std::string> headers{};  ///< `Name: value`
-  std::string content_type{};          ///< of the body; none is sent when empty
+  std::string content_type{};          ///< of the body; empty: not sent
   std::string_view body{};
 };
 

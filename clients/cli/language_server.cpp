@@ -134,7 +134,7 @@ void publish(Server& server) {
   }
 }
 
-/// Calls `answer(program)` with what textDocument names.
+/// Calls `answer(program)` with the program that textDocument names.
 template <class Answer>
 Reply with_program(Server& server, const JsonValue& params, const Answer& answer) {
   auto& all = server.programs.all();

@@ -100,7 +100,7 @@ std::string format_standard(const JsonValue& standard, const Terminal& /*termina
   return text;
 }
 
-/// Asks for a document and prints it, or what `format` makes of it.
+/// Requests a document and prints it, or the text that `format` makes from it.
 template <class Format>
 Outcome<ExitCode> show(const Context& context, const std::string& target, const Format& format) {
   const auto answer = get(context, target);

@@ -24,7 +24,7 @@ Failure failed(const std::string& name, const char* what) {
 
 namespace fs = std::filesystem;
 
-/// The rights of a new file, which mkstemp() does not give.
+/// Returns the usual rights of a new file: mkstemp() gives fewer.
 mode_t usual_rights() {
   const mode_t mask = umask(0);
   umask(mask);

@@ -63,7 +63,7 @@ class OutputFile {
 
   /// @returns whether everything was written so far.
   bool write(std::string_view bytes);
-  /// Gives the file its name. @errors LocalFile: all of it was not written, and why.
+  /// Gives the file its name. @errors LocalFile if not all of it was written, with the reason.
   Outcome<void> finish();
 
  private:

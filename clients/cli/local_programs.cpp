@@ -205,8 +205,8 @@ std::string ReadProgram::as_written(std::string_view text) const {
   return written;
 }
 
-/// A local program, or one of the service. @errors those of reading it, and ProgramFailed for one
-/// with errors.
+/// Reads a local program or one of the service.
+/// @errors those of reading it, and ProgramFailed for a program with errors.
 Outcome<ReadProgram> read_program(const Context& context, const std::string& file,
                                   bool from_control) {
   std::string bytes;

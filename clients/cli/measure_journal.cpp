@@ -49,7 +49,7 @@ std::string format_position(const CsvPosition& place) {
 void forget_oldest_states(const std::filesystem::path& folder) {
   constexpr std::size_t kMostStates = 1000;
   std::vector<std::pair<std::filesystem::file_time_type, std::filesystem::path>> states;
-  std::error_code ignored;  // another fitgauge may forget the same
+  std::error_code ignored;  // another fitgauge may remove it too
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     if (entry.path().extension() == ".state") {
       states.emplace_back(entry.last_write_time(ignored), entry.path());
@@ -94,7 +94,7 @@ std::optional<MeasureState> parse_state(std::string_view line) {
                        read_count(counts, "rework", state.counts.rework) &&
                        read_count(counts, "reject", state.counts.reject) &&
                        read_count(counts, "indeterminate", state.counts.indeterminate);
-  // A state that an older version has left counts none.
+  // The state of an older version has no such count.
   if (counts.find("unjudged") != nullptr) read_count(counts, "unjudged", state.counts.unjudged);
   return counted ? std::optional(std::move(state)) : std::nullopt;
 }

@@ -24,7 +24,7 @@ void apply_levels(const Levels& levels, std::vector<klartext::Diagnostic>& found
 
 struct FormatOptions {
   std::vector<std::string> files;
-  bool in_place = false;  ///< writes the files, else prints
+  bool in_place = false;  ///< writes the files; otherwise prints
   bool from_control = false;
 };
 
@@ -35,7 +35,7 @@ Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& opt
 struct ConvertOptions {
   std::string file;
   std::string target;         ///< a file here
-  bool from_control = false;  ///< `file` is one of the service
+  bool from_control = false;  ///< `file` is on the service
   bool force = false;         ///< replace a file that is there
 };
 

@@ -48,7 +48,7 @@ class EditedText {
   Place place_of_column(std::size_t line, std::size_t column) const;
   Place end() const { return place(lines() - 1, text_.size()); }
   void replace(Place begin, Place end, std::string_view by);
-  /// No two texts have the same.
+  /// Returns a number that is different for each text.
   std::uint64_t revision() const { return revision_; }
 
  private:

@@ -55,7 +55,7 @@ Outcome<JsonValue> get_document(const Context& context, const std::string& targe
 /// `fitgauge list`: a page of records, one a line, and on standard error how to get the next.
 Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query);
 
-/// `fitgauge export`: every record that matches, written as it comes.
+/// `fitgauge export`: writes every matching record as it arrives.
 Outcome<ExitCode> run_export(const Context& context, const RecordQuery& query);
 
 /// `fitgauge summary`: count, verdicts, mean and scatter of each group.

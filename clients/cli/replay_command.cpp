@@ -88,7 +88,7 @@ const LogValue* partner(const std::vector<LogValue>& values, const LogValue& wan
                                                                                : nullptr;
 }
 
-/// Prints what differs. @returns how many results do.
+/// Prints the differences. @returns the number of different results.
 class Comparison {
  public:
   explicit Comparison(const Context& context) : context_(context) {}

@@ -16,7 +16,7 @@ class RowInput {
  public:
   /// Whether the input is one of them, by its name and the options for tables.
   static bool is_one(const MeasureOptions& options);
-  /// Whether line numbers are those of the file.
+  /// Returns whether line numbers refer to the file.
   static bool keeps_lines(const MeasureOptions& options);
 
   /// @param context and options outlive it. @errors Usage, LocalFile

@@ -24,7 +24,7 @@ std::string joined(const JsonValue& document, std::initializer_list<std::string_
   return text;
 }
 
-/// Reads events for as long as the service lets it.
+/// Reads events until the service ends the stream.
 class Watch {
  public:
   Watch(const Context& context, const WatchOptions& options)

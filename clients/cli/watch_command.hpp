@@ -47,7 +47,7 @@ class EventReader {
 struct WatchOptions {
   std::string source{};     ///< gauge, simulation or all
   std::string after{};      ///< the id of the last event that is known
-  std::uint64_t count = 0;  ///< ends after so many; 0 never does
+  std::uint64_t count = 0;  ///< ends after this number; 0: never
 };
 
 /// A record in one line: time, id, size, value, verdict, and labels.

@@ -47,7 +47,8 @@ struct Head {
 /// After a StorageFailure it is closed and another one is opened.
 class Connection final : public sql::Connection {
  public:
-  /// @param address `postgresql://…`, as libpq reads it; of several hosts the one that writes.
+  /// @param address `postgresql://…`, as libpq reads it; of several hosts, it uses the writable
+  ///   one.
   /// @throws StorageFailure
   explicit Connection(const std::string& address);
   ~Connection() override;
@@ -102,7 +103,7 @@ class Connection final : public sql::Connection {
   std::vector<std::string> sent_;    ///< of each the name it prepares, or nothing
   std::set<std::string> prepared_;   ///< names the server knows
   std::vector<std::string> unused_;  ///< names that the server may forget
-  bool has_committed_ = false;       ///< COMMIT was among what wait() has waited for
+  bool has_committed_ = false;       ///< wait() has waited for a COMMIT
   std::uint64_t names_ = 0;
   std::string warning_;
   std::unique_ptr<sql::MeasurementTable> measurements_;

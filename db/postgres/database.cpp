@@ -39,7 +39,7 @@ Result<std::size_t> taken_steps(Connection& connection) {
 /// @errors DatabaseNewer, DatabaseForeign; StorageUnavailable if it must not be created.
 Result<void> prepare_schema(const std::string& address, bool may_change, std::int64_t now_ns) {
   Connection connection(address);
-  // The number is nobody else's: the first eight letters of "fitgauge".
+  // The number of the lock is unique to us: the first eight letters of "fitgauge".
   connection.send("BEGIN");
   connection.send("SELECT pg_advisory_xact_lock(7379538914411767653)");
   connection.wait();

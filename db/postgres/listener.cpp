@@ -83,17 +83,17 @@ void Listener::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     try {
       listen(stop);
-    } catch (const std::exception&) {  // the writer tells what is wrong with the database
+    } catch (const std::exception&) {  // the writer reports faults of the database
       std::this_thread::sleep_for(kBetweenAttempts);
     }
-    notifications_.postpone();  // what was notified may be lost
+    notifications_.postpone();  // the notification may be lost
     if (!stop.stop_requested()) told_(std::nullopt);
   }
 }
 
 void Listener::listen(const std::stop_token& stop) {
   Connection connection(address_);
-  connection.send("SET synchronous_commit = local");  // a standby need not have what is told
+  connection.send("SET synchronous_commit = local");  // a standby does not need notifications
   connection.send("LISTEN fitgauge");
   connection.send(fmt::format("SELECT pg_advisory_lock_shared({}, {})", kDaemonLocks, daemon_));
   connection.wait();

@@ -88,7 +88,7 @@ class MeasurementTable final : public sql::MeasurementTable {
   explicit MeasurementTable(Connection& connection);
 
   void append(std::span<const MeasurementRow> rows) override;
-  /// In a transaction that writes as the head has it; else as it was committed.
+  /// Returns the head's last id in a transaction that writes, and the committed one in others.
   std::int64_t last_id() override { return connection_.head.last_id; }
   std::optional<std::int64_t> own_rows() override { return connection_.head.own_rows; }
 

@@ -12,9 +12,9 @@ constexpr const char* kHead =
     "SELECT last_id, own_rows, names, (pg_current_wal_insert_lsn() - '0/0')::bigint FROM head";
 constexpr const char* kFlushed = "SELECT (pg_current_wal_flush_lsn() - '0/0')::bigint";
 
-/// A transaction that waits for a row is woken twice, as the next one and as the owner, and then
-/// reads it again: who waits here finds it free. The row still keeps out those who do not wait
-/// here.
+/// A waiting transaction is woken twice, as the next one and as the owner, and then reads the row
+/// again. A transaction that waits for this lock finds the row free. The row still excludes
+/// transactions that do not use the lock.
 constexpr const char* kQueueForHead = "SELECT pg_advisory_xact_lock(6044937214080451862)";
 
 /// The commit releases the row before the WAL is on the disk; the session waits for the disk
@@ -130,7 +130,7 @@ void Session::rollback() noexcept {
 void Session::settle_undone() {
   try {
     settle();
-  } catch (const std::logic_error&) {  // concerns what is taken back
+  } catch (const std::logic_error&) {  // concerns work that is rolled back
   }
 }
 

@@ -55,17 +55,17 @@ class MeasurementTable {
   virtual void append(std::span<const MeasurementRow> rows) = 0;
   /// 0 when there is none.
   virtual std::int64_t last_id() = 0;
-  /// Number of rows of this folder, if the engine counts them and numbers them in their log; else
-  /// none.
+  /// Returns the number of rows of this folder, if the engine counts them and numbers them in their
+  /// log.
   virtual std::optional<std::int64_t> own_rows() { return std::nullopt; }
 };
 
 /// In what engines differ.
 struct Dialect {
-  bool has_seals = false;         ///< rows carry a digest of their own, `row_digest` of the others
-  bool streams = false;           ///< rows come while they are asked for; else all of them at once
+  bool has_seals = false;         ///< rows carry a digest, `row_digest` of the other columns
+  bool streams = false;           ///< rows arrive one by one; false: all together
   bool is_shared = false;         ///< other processes append measurements to the same database
-  bool keys_may_be_null = false;  ///< and two NULLs are alike
+  bool keys_may_be_null = false;  ///< and two NULLs are equal
 };
 
 /// A connection of an engine. Used by one thread at a time. Every failure of the storage is thrown

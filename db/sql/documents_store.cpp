@@ -147,7 +147,7 @@ FilesStore::FilesStore(sql::Connection& connection)
 FilesStore::~FilesStore() = default;
 
 FilesStore::PutOutcome FilesStore::put(const FileWrite& file) {
-  // Otherwise the pages of earlier large files would fill the cache.
+  // Deletes in steps: the pages of large files would fill the cache.
   constexpr std::size_t kLarge = std::size_t{256} << 10;
   if (file.content.size() > kLarge) statements_->insert.release_pages();
   const std::string key = ascii_upper(file.path);

@@ -46,12 +46,12 @@ class IndexNodes {
   bool lacks(const IndexNode& node, std::span<const FieldValue> values,
              const MeasurementFilter& filter);
 
-  /// Rows of value, kind, statistics and whether there is no value: of all values, or of one, which
-  /// has none where the field has none either or where it has aggregates at all.
+  /// Returns rows of value, kind, statistics and whether the value is absent, for all values or for
+  /// one. The absent value has a row only if some rows lack the field or the field has aggregates.
   sql::Rows aggregates(const IndexNode& node, int field);
   sql::Rows aggregates(const IndexNode& node, int field, std::string_view value);
 
-  /// At most a row: what PairIndex keeps of the two fields.
+  /// Returns at most one row: the entry of PairIndex for the two fields.
   sql::Rows pairs(const IndexNode& node, int field, int by_field);
 
   /// @param bytes storage of the column, which is a view of it

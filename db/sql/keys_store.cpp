@@ -176,7 +176,7 @@ struct KeysStore::Statements {
       "UPDATE api_keys SET revoked_at = ?2 WHERE name = ?1 AND revoked_at IS NULL "
       "RETURNING id"};
   sql::Statement forget_replaced{
-      // its successor was made as it was revoked
+      // revoked when its successor was made
       c,
       "DELETE FROM api_keys WHERE token_hash = ?1 AND name = ?2 AND role = ?3 AND revoked_at IN "
       "(SELECT created_at FROM api_keys WHERE name = ?2)"};

@@ -70,7 +70,7 @@ struct DesignationPlace {
   static constexpr std::size_t kColumn = column_of_field(number_of(IndexField::Designation));
 
   std::int64_t nominal_nm = 0;
-  RowSet* rows = nullptr;  ///< those of it, if there is one
+  RowSet* rows = nullptr;  ///< rows of the designation; null: none
 };
 
 /// Removes the aggregates of a field with too many values.
@@ -192,7 +192,7 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
   BlockColumnsWriter columns;
   DesignationPlace designation;
   int kind = 0;
-  RowSet* sources = nullptr;  // those of the kind's source
+  RowSet* sources = nullptr;  // rows of the kind's source
   RowSet* verdicts = nullptr;
   bool is_plain = true;
   RowSet corrected;

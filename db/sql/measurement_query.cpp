@@ -339,8 +339,8 @@ bool MeasurementQuery::has_none(const Reading& reading, std::span<const FieldVal
                    (reading.is_current && nodes_.lacks(node, postings, reading.filter)));
 }
 
-/// The blocks that have all values, each with whether all its times match, if that is asked, and
-/// with the rows of each value.
+/// Returns the blocks that have all values, with the rows of each value; on request also whether
+/// all times of a block match.
 Statement& MeasurementQuery::matching_blocks(const Reading& reading,
                                              std::span<const FieldValue> postings,
                                              bool tells_inside) {

@@ -42,8 +42,8 @@ struct CurrentCondition {
   explicit CurrentCondition(std::string_view last);
 };
 
-/// Finds the measurements that match a filter, in either order: in indexed blocks only those with
-/// the requested values, and all newer rows.
+/// Finds the measurements that match a filter, in either order. It reads all rows that are not yet
+/// indexed; in indexed blocks it reads only rows with the requested values.
 class MeasurementQuery {
  public:
   /// @param columns to select from the table `m`; the id follows them.
@@ -110,8 +110,8 @@ class MeasurementQuery {
   std::map<std::string, sql::Statement> statements_;  ///< by their text
 };
 
-/// A query for a part of a log: in a folder with its own rows alone, and up to the first row of
-/// another, a row's place is its id; behind that, by its origin and place.
+/// A query for a part of a log. In a folder with only its own rows, and before the first row of
+/// another folder, a row's place is its id. After that, it is the origin and the place there.
 struct LogQuery {
   LogQuery(sql::Connection& c, std::string_view columns)
       : by_id(c, fmt::format("SELECT {} FROM measurements WHERE id > ? AND id <= ? ORDER BY id "

@@ -86,7 +86,7 @@ void MeasurementSummary::look_at_filter() {
                  !filter.text(TextField::Tool);
 }
 
-/// Whether the blocks with a value are so few that they are found sooner than nodes.
+/// Returns whether the value is in so few blocks that reading them is faster than reading nodes.
 bool MeasurementSummary::is_rare(const FieldValue& wanted) {
   return blocks_of_value_.returning<std::int64_t>(wanted.field, wanted.value, kFanOut + 1) <=
          kFanOut;

@@ -41,7 +41,7 @@ constexpr Kind kind_of_value() {
   }
 }
 
-/// Refuses what no enumerator has. @throws StorageFailure (StorageCorrupt)
+/// Refuses a number without an enumerator. @throws StorageFailure (StorageCorrupt)
 [[noreturn]] void refuse_code(std::int64_t stored);
 
 /// An enumeration is stored by its codes, from 1 to the code of `last_of(Code)`, which is declared
@@ -77,7 +77,7 @@ class Statement {
   Statement(Connection& connection, std::string sql)
       : connection_(&connection), sql_(std::move(sql)) {}
 
-  /// Runs to the end, for what gives no rows.
+  /// Runs a statement without result rows to its end.
   template <class... Values>
   void run(const Values&... values);
 

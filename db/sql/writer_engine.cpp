@@ -172,7 +172,7 @@ std::optional<Error> Writer::Engine::try_commit(Jobs& jobs,
 void Writer::Engine::commit_transaction() {
   const std::int64_t own_rows = session().stores().measurements.log_size();
   session().commit();
-  counters_.own_rows = own_rows;  // before the outcomes are told
+  counters_.own_rows = own_rows;  // before the outcomes are delivered
 }
 
 /// The transaction has only this job: it needs no savepoint, and its postponed statements may fail

@@ -132,7 +132,7 @@ class Writer::Engine {
   WriterCounters counters_;
   std::mutex under_way_mutex_;
   std::set<RequestKey> under_way_;
-  std::unique_ptr<sql::Session> session_;  // the thread's own from here on
+  std::unique_ptr<sql::Session> session_;  // from here on used only by the thread
   bool failing_ = false;
   MaintenancePace pace_;
   Retention retention_;

@@ -101,7 +101,7 @@ Prepared::Prepared(Connection& connection, std::string sql)
 }
 
 bool Prepared::step() {
-  errno = 0;  // what a failure finds there is of this step
+  errno = 0;  // a failure then finds only errors of this step
   const int code = sqlite3_step(statement_.get());
   if (code == SQLITE_ROW) return true;
   if (code != SQLITE_DONE) throw_failure(connection_.handle(), code, "storage");

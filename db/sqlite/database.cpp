@@ -127,7 +127,7 @@ class FileDatabase final : public Database {
     return *std::move(identity);
   }
 
-  /// Whether lock and database are still the ones that were opened.
+  /// Checks that lock and database are still the opened files.
   Result<void> check_files() const {
     if (const auto own = lock_ ? lock_->check() : Result<void>(); !own) return own;
     return identity_.check();

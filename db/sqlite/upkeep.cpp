@@ -71,7 +71,7 @@ void Checkpointer::run() {
     lock.unlock();
     try {
       checkpoint();
-    } catch (const std::exception&) {  // the file cannot be opened: commits will say so
+    } catch (const std::exception&) {  // the file cannot be opened: commits will report it
     }
     lock.lock();
     state_ = State::Finished;

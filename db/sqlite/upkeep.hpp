@@ -55,8 +55,8 @@ class Checkpointer {
 /// the first finding to the monitor. The destructor stops it.
 class Scrub {
  public:
-  /// @param check_file_first whether SQLite's quick_check comes before: the file was too large to
-  /// have that checked at the start.
+  /// @param check_file_first runs SQLite's quick_check first, if the file was too large for it at
+  ///   the start.
   Scrub(const OpenOptions& options, const Clock& clock, HealthMonitor& health,
         bool check_file_first);
 

@@ -54,10 +54,10 @@ class CanonicalDigest {
     ++size_;
   }
 
-  // Stores all eight bytes, significant ones first: a store of variable size takes longer.
+  // Stores all eight bytes, significant ones first: a variable size takes longer.
   void add_integer(std::int64_t value) {
     const auto bits = static_cast<std::uint64_t>(value);
-    // One bit more than the magnitude has, for the sign.
+    // The sign needs one bit more than the magnitude.
     const auto width = static_cast<unsigned>(std::bit_width(value < 0 ? ~bits : bits));
     const unsigned count = value == 0 ? 0 : (width + 1 + 7) / 8;
     const std::uint64_t leading = big_endian(count == 0 ? 0 : bits << (64 - 8 * count));

@@ -22,7 +22,7 @@ enum class DocumentKind : std::uint8_t {
   Setup = 3,
   Plan = 4,
   Connection = 5,
-  ConnectionProgress = 6,  ///< how far the connection of that name has come
+  ConnectionProgress = 6,  ///< progress of the connection with that name
   Catalogue = 7,
   Calibration = 8,  ///< of a gauge in use, named by app::calibration_name()
   Study = 9,        ///< of a gauge in use

@@ -65,8 +65,8 @@ class CallableJob final : public Job<Stores> {
   std::optional<Outcome> outcome_;
 };
 
-/// Submits `work` to `queue` and waits for its outcome. Not for I/O threads, nor for the queue's
-/// own thread. The outcome counts as memory of the calling thread, the job does not.
+/// Submits `work` to `queue` and waits for its outcome. Not for I/O threads or the thread of the
+/// queue. The memory of the outcome counts for the calling thread; the job's memory does not.
 template <class Queue, class Stores, class Work>
 auto wait_for(Queue& queue, Work work) {
   using Outcome = std::invoke_result_t<Work&, Stores&>;

@@ -102,7 +102,7 @@ struct ApiKey {
   bool is_expired(std::int64_t now_ns) const { return expires_at_ns && *expires_at_ns <= now_ns; }
 };
 
-inline constexpr std::size_t kShortestToken = 16;  ///< characters of one that was not made here
+inline constexpr std::size_t kShortestToken = 16;  ///< characters of a key that was made elsewhere
 
 /// `fg_` and 256 random bits in hexadecimal. Shown once, never stored.
 std::string new_token();
@@ -142,7 +142,7 @@ class KeysStore {
   /// @errors NotFound when no valid key has the name.
   Result<void> revoke(std::string_view name, std::int64_t now_ns);
 
-  std::vector<ApiKey> list() const;  ///< oldest first, revoked ones too
+  std::vector<ApiKey> list() const;  ///< oldest first, with revoked keys
 
   /// The keys that are not revoked. Other processes create and revoke keys too: load it again every
   /// few seconds.

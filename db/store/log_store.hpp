@@ -27,7 +27,7 @@ class LogStore {
 
   struct State {
     std::array<std::uint8_t, 16> origin{};  ///< random, made with the database, never changed
-    std::optional<std::string> name{};      ///< what its checkpoints begin with; none yet
+    std::optional<std::string> name{};      ///< first words of its checkpoints; none: not set yet
     std::int64_t size = 0;                  ///< rows that are in the tree
   };
   State state() const;
@@ -51,7 +51,8 @@ class LogStore {
   /// Returns the reason why no measurement is recorded, if the centre has another log of this name.
   std::optional<std::string> forked() const;
   void set_forked(const std::optional<std::string>& reason);
-  /// The digits of the history of the centre that this folder met last; none: it has met none.
+  /// Returns the digits of the last history of the centre that this folder has met; none: it has
+  /// met no centre.
   std::optional<std::string> centre() const;
   void set_centre(std::string_view digits);
   /// Ends the history that state() names with the `size` rows there are, and begins another.
@@ -89,10 +90,10 @@ class OriginsStore {
 
   struct Origin {
     std::int64_t number = 0;                  ///< in MeasurementRow::origin, from 1 on
-    std::string digits{};                     ///< what its ids end with
+    std::string digits{};                     ///< end of its ids
     std::optional<std::int64_t> first_row{};  ///< the id of its first row here
-    std::int64_t size = 0;                    ///< rows of it that are here
-    std::string checkpoint{};  ///< the signed head of so many; empty before the first
+    std::int64_t size = 0;                    ///< its rows that are here
+    std::string checkpoint{};                 ///< its signed head; empty before the first
   };
   std::vector<Origin> list() const;  ///< by number
   std::optional<Origin> find(std::string_view digits) const;
@@ -184,7 +185,7 @@ class RevisionsStore {
 
   struct Received {
     std::int64_t number = 0;
-    Digest digest{};  ///< of the content as it was written here
+    Digest digest{};  ///< of the content as written here
   };
   std::optional<Received> received(RevisionKind kind, std::string_view name) const;
   void set_received(RevisionKind kind, std::string_view name, const Received& received);
@@ -203,7 +204,7 @@ struct Change {
   std::string kind{};
   std::string name{};
   std::string action{};
-  std::optional<std::string> before{};  ///< JSON; none: it was not there
+  std::optional<std::string> before{};  ///< JSON; none: it did not exist
   std::optional<std::string> after{};   ///< JSON; none: deleted
 };
 

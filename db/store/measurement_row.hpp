@@ -51,18 +51,18 @@ constexpr Verdict last_of(Verdict) { return Verdict::Unjudged; }
 constexpr Quantity last_of(Quantity) { return Quantity::Deviation; }
 constexpr Rule last_of(Rule) { return Rule::Conformance; }
 
-/// One measurement as it is stored. Lengths in nm, times in ns since 1970 (UTC), scaled numbers in
-/// millionths. Texts are views: of the caller's memory until the job that appends them is done, or
-/// of the database's own while a visitor runs.
+/// One stored measurement. Lengths in nm, times in ns since 1970 (UTC), scaled numbers in
+/// millionths. Texts are views. In an append they point to the caller's memory until the job is
+/// done. In a visitor they point to the database's memory while it runs.
 struct MeasurementRow : app::MeasurementFields {
   std::int64_t id = 0;  ///< rising without gaps
   Source source = Source::Gauge;
   std::int64_t measured_at_ns = 0;
   std::int64_t received_at_ns = 0;
 
-  std::optional<Quantity> quantity{};                 ///< none in rows before there were several
+  std::optional<Quantity> quantity{};                 ///< none in rows of older versions
   std::int64_t nominal_nm = 0;                        ///< 0 when the basis is Bare
-  std::optional<std::string_view> tolerance_class{};  ///< none when the basis is none of a standard
+  std::optional<std::string_view> tolerance_class{};  ///< none unless the basis is a standard
   Feature feature = Feature::Hole;
   std::int64_t upper_deviation_nm = 0;          ///< without that limit: 2e15
   std::int64_t lower_deviation_nm = 0;          ///< and here -2e15
@@ -86,8 +86,8 @@ struct MeasurementRow : app::MeasurementFields {
   std::optional<std::int64_t> corrected_nm{};  ///< the size at 20 °C, if the verdict uses it
   // Only for rows that another folder has forwarded, and for rows stored with them:
   std::optional<std::int64_t> origin{};  ///< OriginsStore::Origin::number; 0 is this folder
-  std::optional<std::int64_t> seq{};     ///< in the log of its origin; none: it is the id
-  std::optional<std::int64_t> number{};  ///< in the id it got there; none: it is the seq
+  std::optional<std::int64_t> seq{};     ///< in the log of its origin; none: equals the id
+  std::optional<std::int64_t> number{};  ///< in its id there; none: equals the seq
   /// The id of correction_of in the folder that stored it; none: this folder.
   std::optional<std::int64_t> corrected_origin{};
   std::optional<std::int64_t> corrected_number{};
@@ -109,7 +109,7 @@ struct MeasuredValue {
   std::int64_t measured_nm = 0;  ///< at 20 °C if it was corrected
   std::int64_t lower_limit_nm = 0;
   std::int64_t upper_limit_nm = 0;
-  std::optional<std::string_view> subgroup{};  ///< the database's own while a visitor runs
+  std::optional<std::string_view> subgroup{};  ///< memory of the database while a visitor runs
 };
 
 /// Values of one folder, in storage order, that share their limits and their subgroup.

@@ -91,7 +91,7 @@ class PackedNumbers {
   bool is_sound_ = true;
 };
 
-/// Numbers of the same width in bits, any of which is read without those before it.
+/// Numbers of equal width in bits; each can be read without the numbers before it.
 class NumberRow {
  public:
   static constexpr unsigned kMostBits = 57;

@@ -58,14 +58,14 @@ class MeasurementsStore {
   /// its log, in the log's order.
   void list_log(std::int64_t origin, std::int64_t after, std::int64_t limit,
                 const Visitor& visit) const;
-  /// The hashes of those rows. @returns how many there were.
+  /// Receives the hashes of those rows. @returns their number.
   using HashVisitor = std::function<void(const Digest&)>;
   std::int64_t log_hashes(std::int64_t origin, std::int64_t after, std::int64_t limit,
                           const HashVisitor& visit) const;
 
-  /// Visits up to `limit` rows that match, in storage order or from the newest on, those that come
-  /// after `after` on this way (0: from its beginning). @returns the cursor for the next page, or
-  /// none when this was the last.
+  /// Visits up to `limit` matching rows, in storage order or newest first. Starts after the row
+  /// `after` in that order (0: at the beginning). @returns the cursor for the next page; none after
+  /// the last page.
   std::optional<std::int64_t> list(const MeasurementFilter& filter, std::int64_t after,
                                    std::size_t limit, const Visitor& visit,
                                    ListOrder order = ListOrder::OldestFirst) const;
@@ -79,7 +79,7 @@ class MeasurementsStore {
   using CorrectionVisitor = std::function<void(std::int64_t id, std::int64_t correction_of)>;
   void list_corrections(std::int64_t last, const CorrectionVisitor& visit) const;
 
-  /// The oldest of the newest `count` rows that match; none when none does.
+  /// Returns the oldest of the newest `count` matching rows; none if no row matches.
   std::optional<std::int64_t> first_of_newest(const MeasurementFilter& filter,
                                               std::size_t count) const;
 

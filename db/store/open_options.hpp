@@ -86,10 +86,10 @@ struct OpenOptions {
   /// to the jobs. If it is not set, the writer delivers them.
   std::function<void(const std::function<void()>&)> around_outcomes{};
 
-  /// Called once for each change of health, on the thread that found out. Neither blocks nor throws
-  /// nor asks for the health.
+  /// Called once for each change of health, on the thread that noticed it. It must not block, throw
+  /// or request the health.
   std::function<void(const Health&)> health_changed{};
-  /// Called for each job that threw: a bug, answered with Internal. Neither blocks nor throws.
+  /// Called for each job that threw: a bug, answered with Internal. It must not block or throw.
   std::function<void(const Error&)> job_threw{};
 
   /// Runs and idempotency keys expire by it; without it by the clock, which then never jumps.

@@ -95,7 +95,7 @@ class RunsStore {
     std::vector<Run> runs;
     std::optional<std::int64_t> next;  ///< cursor of the next page
   };
-  /// Newest first, those before the cursor.
+  /// Returns the runs before the cursor, newest first.
   Page list(const RunFilter& filter, std::optional<std::int64_t> after, std::size_t limit) const;
 
   /// Returns up to `limit` unfinished runs whose daemon has ended: all unfinished runs if only one

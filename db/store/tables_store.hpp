@@ -23,13 +23,13 @@ struct TableCell {
   std::string column{};
   std::int64_t over_nm = 0;
   std::int64_t up_to_nm = 0;
-  std::optional<std::int64_t> value_nm{};  ///< none: the standard defines nothing there
+  std::optional<std::int64_t> value_nm{};  ///< none: not defined by the standard
 
   // NOLINTNEXTLINE(modernize-use-nullptr): the zero is the compiler's
   friend auto operator<=>(const TableCell&, const TableCell&) = default;
 };
 
-/// One size range of a shop's own column.
+/// One size range of a custom tolerance class.
 struct CustomCell {
   std::string table{};
   std::string column{};
@@ -53,7 +53,7 @@ struct TableContent {
 Digest digest_of(TableContent content);
 
 struct TableRevision {
-  std::int64_t number = 0;  ///< 1, 2, …: what a measurement refers to
+  std::int64_t number = 0;  ///< 1, 2, …: measurements refer to it
   /// Number and the first eight digits of the digest, `1-3f9a0c21`; of a revision that came from a
   /// centre, the centre's.
   std::string id{};
@@ -76,7 +76,7 @@ struct TableImport {
   std::string source{};
   std::optional<std::int64_t> parent{};
   std::optional<std::string> caller{};
-  std::optional<std::string> id{};  ///< what the centre that it came from calls it
+  std::optional<std::string> id{};  ///< id at the centre that it came from
 };
 
 /// The end of an id: the first eight digits of the digest.

@@ -24,8 +24,7 @@ namespace fitgauge::store {
 
 inline constexpr std::size_t kTuplesTogether = 256;
 
-/// The values of a field in all rows so far, each by a number, if they are no more than
-/// kMostColumnValues.
+/// Numbers the values of a field in all rows so far, if there are at most kMostColumnValues.
 class NumberedColumn {
  public:
   bool fits() const { return fits_; }
@@ -67,7 +66,7 @@ class TupleWriter {
       visit(field_of_column(column), encode(columns_[column]));
     }
   }
-  /// Calls `visit(bytes)` for what TupleSums reads of each kTuplesTogether tuples.
+  /// Calls `visit(bytes)` with the input of TupleSums for each kTuplesTogether tuples.
   template <class Visit>
   void visit_sums(const Visit& visit) const {
     for (std::size_t first = 0; first < row_of_tuple_.size(); first += kTuplesTogether) {
@@ -97,12 +96,13 @@ struct TupleColumn {
   /// Reads bytes, which must outlive this object. @returns false if they are not a column.
   bool read(std::string_view bytes);
 
-  /// Takes the tuples with other values than this one out of `tuples`, which has a byte for each.
-  /// @returns whether any has it.
+  /// Clears in `tuples`, which has a byte for each tuple, the tuples with other values than this
+  /// one.
+  /// @returns whether any tuple has it.
   bool keep(std::string_view value, std::span<std::uint8_t> tuples) const;
 };
 
-/// The statistics of tuples that stand together. What it says are views of the bytes it has read.
+/// Statistics of a group of tuples. Its results are views of the bytes that it read.
 class TupleSums {
  public:
   /// @returns false where the bytes are none.
@@ -142,7 +142,7 @@ std::size_t count_of(const PairStatistics& pairs);
 /// other field the statistics of each kind.
 std::string encode(const PairStatistics& pairs);
 
-/// Calls `visit(by_value, kind, statistics)` for what the bytes of encode() say of a value.
+/// Calls `visit(by_value, kind, statistics)` for each entry of a value in the bytes of encode().
 template <class Visit>
 void visit_pairs_of(std::string_view bytes, const Visit& visit) {
   PackedNumbers in(bytes);
@@ -173,12 +173,12 @@ class PairCounter {
   /// Blocks in their order: sums count from the first value.
   void add(const BlockColumns& block);
 
-  /// Calls `visit` for each two columns that have few enough values, and where no more than `most`
-  /// statistics come of them, in both orders.
+  /// Calls `visit` for each pair of columns, in both orders, if both have few enough values and the
+  /// pair has at most `most` statistics.
   using Visitor = std::function<void(std::size_t column, std::size_t by_column, PairStatistics)>;
   void visit_pairs(std::size_t most, const Visitor& visit) const;
 
-  /// By the fields that no more than `most` tuples come of. Views what is counted here.
+  /// Makes tuples of the fields, at most `most`. Its views point to these counts.
   TupleWriter tuples(std::size_t most) const;
 
  private:

@@ -35,7 +35,7 @@ inline Result<http::Response> json_response(Result<std::string> body) {
   return http::Response(200, "application/json", *std::move(body));
 }
 
-/// A GET whose If-Match names another state than the current one.
+/// Error for a GET whose If-Match names a state other than the current one.
 inline Error other_state() {
   return {ErrorCode::PreconditionFailed,
           "the current state does not match If-Match: read it again without If-Match"};

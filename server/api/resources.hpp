@@ -65,7 +65,7 @@ void add_verdicts_routes(Routes& add);
 void add_measurements_routes(Routes& add);
 /// /v1/measurements/{id}/notes: causes and actions of a measurement.
 void add_notes_routes(Routes& add);
-/// /v1/catalogues: which causes and measures there are to choose from.
+/// /v1/catalogues: lists of causes and measures to choose from.
 void add_catalogues_routes(Routes& add);
 /// /v1/log and the proof of a measurement.
 void add_log_routes(Routes& add);
@@ -164,8 +164,8 @@ inline std::string source_words() { return schema::words({"gauge", "simulation"}
 
 /// The content of examples.json.
 extern const std::string_view kExamples;
-/// Gives each schema its example: from examples.json, else from its members and the examples of
-/// their schemas.
+/// Gives each schema its example: from examples.json, or from its members and the examples of their
+/// schemas.
 void add_examples(Schemas& schemas);
 
 /// The OpenAPI 3.1 document of the routes. @param of_plant as make_schemas

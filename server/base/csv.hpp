@@ -48,10 +48,9 @@ class CsvReader {
   const std::vector<std::string>& header() const { return header_; }
   char separator() const { return separator_; }
 
-  /// The next record with text, or none at the end; blank lines are passed over.
-  /// @errors CsvMalformed naming the line: an open quote, text after a closing quote, another
-  /// number
-  ///   of cells than the header has.
+  /// Returns the next record with text, or none at the end; skips blank lines.
+  /// @errors CsvMalformed naming the line: an open quote, text after a closing quote, or a number
+  ///   of cells that differs from the header.
   Result<const std::vector<CsvCell>*> next();
 
   /// The line the last record began on, from 1.

@@ -21,7 +21,7 @@ class GzipWriter {
   ~GzipWriter() { deflateEnd(&stream_); }
 
   void add(std::string_view text) { pack(text, Z_NO_FLUSH); }
-  /// The packed bytes so far; finish() returns those that follow.
+  /// Returns the packed bytes so far; finish() returns the rest.
   std::string take() { return std::exchange(packed_, {}); }
   /// All that was added, packed. @post add() must not follow.
   std::string finish();
@@ -54,7 +54,7 @@ class Gunzip {
   /// Unpacks as much of `input` as `output` has room for.
   Step put(std::string_view input, std::span<char> output);
 
-  /// The input so far is whole members.
+  /// Returns whether the input so far consists of whole members.
   bool is_complete() const { return at_end_; }
   /// The output was full: there may be more without further input.
   bool has_more() const { return has_more_; }

@@ -17,7 +17,7 @@ struct FileText {
   FileText(std::string_view all = {}, bool mapped = false) : text(all), is_mapped(mapped) {}
   FileText(const std::string& all) : text(all), is_mapped(false) {}
 
-  /// Lets the pages of a mapped file go; one that is read again comes again.
+  /// Releases pages of a mapped file; reading them again loads them again.
   void let_go(std::size_t from, std::size_t to) const;
 
   /// Calls `take` for the first `size` bytes in stretches, and releases each stretch afterwards.

@@ -16,7 +16,7 @@ void to_stderr(std::string_view place, std::string_view what) {
 
 std::atomic<BugReport> report_in_use{to_stderr};
 
-/// So that a bug that comes again at once fills neither the log nor a processor.
+/// Pause, so that a repeated bug fills neither the log nor a processor.
 constexpr std::chrono::milliseconds kRest{100};
 
 /// Gives a thread a name that `top -H` shows.

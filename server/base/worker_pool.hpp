@@ -58,7 +58,7 @@ class BoundedQueue {
     return take(items_.begin());
   }
 
-  /// Removes the first item that fulfils `is_it`; none if there is none.
+  /// Removes the first item for which `is_it` is true; none if there is no such item.
   template <class Predicate>
   std::optional<Item> withdraw(Predicate is_it) {
     const std::lock_guard lock(mutex_);
@@ -168,8 +168,7 @@ class JobPool {
     if (!is_queued) done(is_called_off() ? ended() : full());
   }
 
-  /// Refuses the jobs that wait and those to come, and ends bounded ones that are under way. Waits
-  /// for their threads.
+  /// Refuses waiting and later jobs, and ends bounded jobs that run. Waits for their threads.
   void call_off() {
     stopping_.request_stop();
     pool_.stop();

@@ -34,10 +34,9 @@ Result<int> run_key_list(const Config& config);
 /// requires client certificates.
 std::filesystem::path health_port_file(const Config& config);
 
-/// Asks the service that runs with this configuration for /readyz, as a container's health check
-/// does without curl.
-/// @errors NotReady saying what came back: no connection, no answer in 3 s, another status than
-/// 200.
+/// Requests /readyz of the service with this configuration, as a health check of a container does
+/// without curl.
+/// @errors NotReady with the reason: no connection, no answer in 3 s, or a status other than 200.
 Result<void> healthcheck(const Config& config);
 
 /// fitgauged: reads flags, environment and file, then serves or runs a command.

@@ -101,7 +101,7 @@ Result<void> assign(const Setting& setting, std::string_view text, Config& confi
 /// Checks across settings, such as a certificate without a key.
 Result<void> check(const Config& config);
 
-/// The whole configuration as TOML, which reads back to the same.
+/// Returns the whole configuration as TOML, which reads back equal.
 std::string to_toml(const Config& config);
 
 }  // namespace fitgauge::daemon

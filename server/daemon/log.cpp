@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kLevels[] = {"debug", "info", "warning", "error", "off"};
 
-/// A field of a request is the client's text: longer than an address or a few, it is none.
+/// A field of a request is text of the client: if it is longer than a few addresses, it is ignored.
 constexpr std::size_t kMostForwarded = 200;
 constexpr std::size_t kMostMethod = 32;
 
@@ -105,7 +105,7 @@ void begin(Line& line, LogLevel level) {
   line.put(R"(","event":)");
 }
 
-/// Client of a proxy: its field, but printable ASCII and cut to the limit of the log.
+/// Returns the client that a proxy names: only printable ASCII, cut to the limit of the log.
 std::optional<std::string> forwarded_for(const http::Request& request) {
   if (!request.is_forwarded()) return std::nullopt;
   const auto field = request.header("X-Forwarded-For");

@@ -81,7 +81,7 @@ struct LogQueue::State {
     return true;
   }
 
-  /// Writes `text`; what cannot be written is counted as lost.
+  /// Writes `text`; counts unwritten text as lost.
   void write_all(std::string_view text) {
     while (!text.empty()) {
       const std::string_view piece = regular ? text : next_piece(text);

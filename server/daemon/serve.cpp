@@ -53,7 +53,7 @@ http::ServerOptions server_options(const Config& config,
     options.listen.push_back({.host = "127.0.0.1", .port = 0, .health_only = true});
   }
   options.io_threads = static_cast<unsigned>(config.io_threads);
-  // Beyond these a client gets 503 rather than no answer.
+  // Clients beyond this number get 503 instead of no answer.
   options.max_connections = static_cast<std::size_t>(allow_connections(config.max_connections));
   options.spool_folder = config.data;
   options.tls = tls_options(config);
@@ -262,7 +262,7 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   wait_for_end(server, !config.tls_cert.empty(), clock);
   log_info("stopping", "");
   const Thread deadline("the end's deadline", end_in_time);
-  // Runs are cancelled first, so that those who wait for one get their answer.
+  // Cancels runs first, so that their waiting clients get an answer.
   app.jobs().call_off();
   app.runs().stop();
   control->reset();

@@ -56,7 +56,7 @@ const std::string* preferred_type(std::string_view accept, const std::vector<std
 /// section 12.5.3); 0 refuses a coding.
 struct Codings {
   int gzip = 0;
-  int identity = 1;  ///< of a value that does not name it: accepted, after every other
+  int identity = 1;  ///< if not named: accepted, after all others
 
   bool prefers_gzip() const { return gzip > 0 && gzip >= identity; }
 };

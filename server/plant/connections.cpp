@@ -14,7 +14,7 @@
 namespace fitgauge::connections {
 namespace {
 
-/// The kind of a body, or none, which is reported.
+/// Returns the kind of a body; reports an unknown one.
 const Kind* named_kind(const JsonValue& body, api::FieldErrors& errors) {
   api::FieldReader fields(body, "", errors);
   const auto word = fields.text("kind");
@@ -34,7 +34,7 @@ constexpr std::string_view kSecrets = "secrets";
 constexpr std::string_view kPassword = "password";
 constexpr std::string_view kHeaders = "headers";
 
-/// Whether both have the same text there, or none.
+/// Returns whether both have the same text there, or both no text.
 bool is_same(const JsonValue& a, const JsonValue& b, std::string_view name) {
   const JsonValue* const in_a = a.find(name);
   const JsonValue* const in_b = b.find(name);
@@ -78,7 +78,7 @@ void keep_secrets(JsonValue& body, const Definition& before) {
     if (secret != nullptr && body.find(name) == nullptr) body.members.emplace_back(name, *secret);
   };
   keep(kSecrets);
-  // It goes over the line: nobody who does not know it may send it elsewhere.
+  // The password goes over the line: only a caller who knows it may send it elsewhere.
   const bool is_same_broker = is_same(body, *known, "broker") && is_same(body, *known, "user") &&
                               is_same(body, *known, "ca_file");
   if (is_same_broker) keep(kPassword);

@@ -24,8 +24,8 @@ namespace fitgauge::connections {
 struct Definition {
   std::string name{};
   std::string kind{};
-  std::string text{};   ///< JSON, as it is stored
-  std::string shown{};  ///< the same without its secrets
+  std::string text{};   ///< JSON, as stored
+  std::string shown{};  ///< text without its secrets
   std::shared_ptr<const Settings> settings{};
 };
 
@@ -48,12 +48,12 @@ Result<Definition> read_definition(std::string name, const JsonValue& body,
 /// The most connections there may be.
 inline constexpr std::size_t kMostConnections = 100;
 
-/// All running connections: those of the configuration file and the stored ones. Changes and tests
-/// run in turn on their own thread. Thread-safe.
+/// All running connections, from the configuration file and from the storage. Changes and tests run
+/// in turn on a separate thread. Thread-safe.
 class Connections {
  public:
-  /// Starts the connections of `configured` and the storage. A stored one that cannot be read, or
-  /// that has the name of one in the file, is logged and not started.
+  /// Starts the connections of `configured` and of the storage. A stored connection that is
+  /// unreadable, or has a name of the file, is logged and not started.
   /// @errors those of the storage.
   static Result<std::unique_ptr<Connections>> start(std::vector<Definition> configured,
                                                     Plant plant);
@@ -79,8 +79,9 @@ class Connections {
   /// Ends a connection and deletes its position. @errors ConnectionUnknown, ConnectionReadOnly,
   /// those of storage.
   Result<void> remove(const std::string& name, const std::optional<std::string>& caller);
-  /// Sends again from a place, with the same ids. @errors ConnectionUnknown; RequestInvalid, also
-  /// of an incoming connection; those of JSON and storage.
+  /// Sends again from a place, with the same ids.
+  /// @errors ConnectionUnknown; RequestInvalid, also for an incoming connection; those of JSON and
+  ///   storage.
   Result<void> replay(const std::string& name, std::string_view body);
   /// @errors ConnectionUnknown.
   Result<ConnectionTest> test(const std::string& name);

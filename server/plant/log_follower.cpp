@@ -64,7 +64,7 @@ Result<Progress> begin_progress(const FollowerOptions& options, const Plant& pla
   const bool is_new = !*loaded;
   Progress progress = is_new ? Progress() : **std::move(loaded);
   const bool begins_events = !options.events.empty() && !progress.event;
-  // One that asks for none, and later for some again, begins anew.
+  // A connection without events begins anew when it requests some again.
   if (options.events.empty()) progress.event.reset();
   if (!is_new && !begins_events) return progress;
   if (is_new && !options.from_beginning) {
@@ -270,7 +270,7 @@ std::size_t LogFollower::ripe() const {
   if (pending_.empty()) return 0;
   const std::int64_t age =
       plant_.clock.now().nanoseconds - (*pending_.front())->received_at.nanoseconds;
-  // After a kill the delivery that was decided before goes first, when all of it is read.
+  // After a kill, the planned delivery comes first, when all of it is read.
   if (progress_.planned > progress_.position) {
     const bool is_read = read_to_ >= progress_.planned || pending_.size() >= kPage;
     return is_read ? pending_.size() : 0;
@@ -353,7 +353,7 @@ bool LogFollower::save(bool at_once) {
   if (!is_dirty_) return true;
   if (!at_once && now < saved_at_ + kBetweenSaves) return false;
   saved_at_ = now;
-  // One that fails is made up for by the next.
+  // The next save repairs a failed one.
   is_dirty_ = !save_progress(plant_.documents, options_.name, progress_).has_value();
   return !is_dirty_;
 }

@@ -74,7 +74,7 @@ std::string event_text(const OutgoingEvent& event);
 
 /// Progress of a delivery.
 struct Delivery {
-  std::size_t dealt_with = 0;         ///< of the pending ones, from the first
+  std::size_t dealt_with = 0;         ///< of the pending measurements, from the first
   std::vector<DeadLetter> refused{};  ///< among these: for good
   std::uint64_t files = 0;
   std::uint64_t bytes = 0;
@@ -118,8 +118,8 @@ struct FollowerOptions {
   LogFilter filter{};
   /// Events that are sent in addition to measurements; while settings are read, with measurements.
   std::set<std::string, std::less<>> events{std::string(kRecorded)};
-  bool from_beginning = false;             ///< of the log; else from now on
-  std::chrono::seconds longest_wait{300};  ///< between two attempts in vain
+  bool from_beginning = false;             ///< of the log; otherwise from now on
+  std::chrono::seconds longest_wait{300};  ///< between two failed attempts
   std::chrono::seconds gather{0};          ///< younger data waits for more
   /// A batch is decided before it is sent, so that the same batch is sent after a kill.
   bool plans = false;
@@ -149,7 +149,7 @@ class LogFollower final : public Worker {
   bool begin();
   /// Reads the next data, if there is room. @errors those of storage.
   Result<void> read();
-  /// Reads the events that come next, if there is room.
+  /// Reads the next events, if there is room.
   Result<void> read_events();
   /// Finds the new offsets after the values that were delivered.
   void find_offsets(const std::stop_token& stop);

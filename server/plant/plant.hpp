@@ -27,12 +27,12 @@ struct ConnectionState {
   std::string name{};
   std::string kind{};
   std::string settings{};     ///< JSON object: all but its secrets
-  bool is_outgoing = false;   ///< follows the log; else it brings measurements
+  bool is_outgoing = false;   ///< follows the log; otherwise it brings measurements
   bool is_read_only = false;  ///< belongs to the configuration file
 
-  bool is_failing = false;   ///< its last attempt was in vain
+  bool is_failing = false;   ///< its last attempt failed
   bool is_stopped = false;   ///< for good: the other side wants no more
-  std::string last_error{};  ///< of the last attempt that failed; empty: none did
+  std::string last_error{};  ///< of the last failed attempt; empty: none failed
   std::optional<Timestamp> last_attempt_at{};
   std::optional<Timestamp> last_success_at{};
   std::optional<Timestamp> attempt_began_at{};  ///< of the attempt that is under way
@@ -52,7 +52,7 @@ struct ConnectionState {
   std::uint64_t measurements = 0;  ///< stored, or sent to the other side
   std::uint64_t values_kept = 0;   ///< angles and figures of axes, which stay in their file
   std::uint64_t unreadable = 0;    ///< places that no reader understood, files that were refused
-  std::uint64_t refused = 0;       ///< dead letters, with those that are no more listed
+  std::uint64_t refused = 0;       ///< dead letters, with those that are not listed any longer
 };
 
 /// Nanoseconds since the last progress; none before the first success. Outgoing: age of the next
@@ -125,7 +125,7 @@ struct Plant {
   std::function<void(std::string_view event, const std::string& detail)> tell{};
 };
 
-/// A running connection, on its own thread that ends with it.
+/// A running connection, on a thread that ends with it.
 class Worker {
  public:
   /// @param name of the connection. @param plant outlives it.
@@ -134,7 +134,7 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
   virtual ~Worker() = default;
 
-  /// Begins to end: for many that are to end together. Thread-safe.
+  /// Begins to end. Call it for many before you wait. Thread-safe.
   virtual void request_stop() = 0;
   /// The counts of the connection, without its definition. Thread-safe.
   ConnectionState state() const {

@@ -82,7 +82,7 @@ std::optional<std::int64_t> event_number(std::string_view id, std::string_view o
   return is_own ? std::optional(number) : std::nullopt;
 }
 
-/// The row of the first measurement that was received then or later; none: there is none.
+/// Returns the row of the first measurement that was received then or later; none if there is none.
 Result<std::optional<std::int64_t>> first_row_from(Timestamp time, const Plant& plant) {
   app::MeasurementQuery query;
   query.source.reset();

@@ -47,7 +47,7 @@ inline Error invalid_field(std::string message) {
   return {ErrorCode::FieldInvalid, std::move(message)};
 }
 
-/// A whole number, or so many seconds.
+/// A whole number, or a number of seconds.
 struct Within : api::Integer {
   static constexpr bool kHasDefault = false;
 };
@@ -120,7 +120,7 @@ Each(std::size_t, std::size_t, std::string_view, std::string, Take) -> Each<Take
 /// Files and folders of this machine that a connection may name.
 struct FolderPermissions {
   bool all = false;                            ///< it belongs to the configuration file
-  std::vector<std::filesystem::path> roots{};  ///< else these folders and those below them
+  std::vector<std::filesystem::path> roots{};  ///< otherwise these folders and their subfolders
 };
 
 /// An absolute path of this machine.

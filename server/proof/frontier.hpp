@@ -75,7 +75,7 @@ class Frontier {
   TreeHasher hasher_;
 };
 
-/// Gives the hash of a complete subtree; may throw what its storage throws.
+/// Returns the hash of a complete subtree; may throw errors of its storage.
 using NodeReader = std::function<Hash(const Node& node)>;
 
 /// The audit path of the leaf `index` in the tree of `size` leaves, from the leaf up (RFC 6962,

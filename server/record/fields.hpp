@@ -35,7 +35,7 @@ struct MeasurementFields {
   std::optional<std::int64_t> scale_expansion{};
   std::optional<std::string_view> part_material{};  ///< instead of the expansion
   std::optional<std::string_view> scale_material{};
-  // Standard uncertainties of these, in the same units:
+  // Standard uncertainties of temperatures and expansions, in their units:
   std::optional<std::int64_t> temperature_uncertainty{};
   std::optional<std::int64_t> scale_temperature_uncertainty{};
   std::optional<std::int64_t> part_expansion_uncertainty{};
@@ -106,7 +106,7 @@ inline constexpr Accepted kTruth{.most = 1, .is_truth = true};
 inline constexpr Accepted kNotGiven{};
 inline constexpr Accepted kTruthNotGiven{.is_truth = true};
 
-/// One of MeasurementFields, wherever it is read, written, stored and described.
+/// Describes a field of MeasurementFields for reading, writing, storing and documents.
 struct MeasurementField {
   using Text = std::optional<std::string_view> MeasurementFields::*;
   using Number = std::optional<std::int64_t> MeasurementFields::*;

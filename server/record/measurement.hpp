@@ -61,7 +61,7 @@ inline constexpr Length kNoLimit = Length::nanometres(2 * kLongest.count());
 struct Elsewhere {
   std::int64_t row = 0;
   std::int64_t origin = 0;    ///< as Origins numbers them
-  std::string_view digits{};  ///< what its ids end with
+  std::string_view digits{};  ///< end of its ids
 };
 
 /// One judged measurement, before and after it is stored. Its texts are views of the memory it was
@@ -97,11 +97,11 @@ struct Measurement : MeasurementFields {
   std::optional<gauging::ConformanceFigures> conformance;  ///< of that rule
 
   std::optional<Length> corrected;               ///< the size at 20 °C, if the verdict uses it
-  std::optional<std::int64_t> correction_of;     ///< the number in the id of the one it replaces
+  std::optional<std::int64_t> correction_of;     ///< number in the replaced id
   std::optional<Elsewhere> corrected_elsewhere;  ///< if that measurement is of another folder
   std::optional<std::int64_t> corrected_by;      ///< known if a single measurement was requested
   std::string_view corrected_by_origin{};        ///< empty: the origin of this measurement
-  bool has_unknown_gauge = false;  ///< while it is judged: others are registered, this one is not
+  bool has_unknown_gauge = false;  ///< while it is judged: gauges are registered, but not this one
   /// Another correction of the same record was made apart from this one. Known as corrected_by, and
   /// in lists.
   bool conflict = false;
@@ -136,7 +136,7 @@ class KeptMeasurement {
   Measurement measurement_;
 };
 
-/// A number of a measurement as a request gives it.
+/// Returns a number of a measurement in the form of requests.
 std::string number_text(const MeasurementField& field, std::int64_t number);
 
 /// Sets the limits of a class of the tables.

@@ -27,7 +27,7 @@ struct GaugePeriod {
   std::optional<Length> standard_uncertainty{};
   std::optional<std::int64_t> degrees_of_freedom{};  ///< of the budget, in millionths
   std::string calibration_due{};                     ///< a date, or a time in UTC; empty: none
-  std::optional<Timestamp> due{};                    ///< the same; a date lasts to its end in UTC
+  std::optional<Timestamp> due{};                    ///< as a time; a date lasts to its end in UTC
   std::optional<std::string> certificate{};
   std::optional<std::string> laboratory{};
   bool is_blocked = false;
@@ -64,7 +64,7 @@ class FieldErrors;
 struct MeasurementBatch {
   std::vector<app::Measurement> rows{};
   bool single = false;                  ///< the body was one object, not a list
-  std::shared_ptr<const void> texts{};  ///< keeps what had to be copied out of the body
+  std::shared_ptr<const void> texts{};  ///< owns texts that were copied from the body
   bool is_begun = false;                ///< BatchContext::take already received rows
   /// The fast reader passed rows before it met an error or an escaped key. The caller discards them
   /// and decodes the whole body without `take`.
@@ -87,10 +87,10 @@ struct BatchContext {
   const iso286::ToleranceTables& tables;
   Timestamp received_at;
   std::optional<std::string_view> caller{};  ///< of every row
-  const GaugeBook* gauges = nullptr;         ///< those in use; null: none
+  const GaugeBook* gauges = nullptr;         ///< gauges in use; null: none
   /// Passes rows to `take` in batches of kRowsAtATime, as long as there are no errors.
   std::function<void(std::vector<app::Measurement>)> take{};
-  /// Finds every error with its place, also with `take`.
+  /// Finds every error with its place, even with `take`.
   bool is_exact = false;
 };
 
@@ -99,7 +99,7 @@ void take_full(MeasurementBatch& batch, const BatchContext& context, const Field
 
 /// The most rows one request may have.
 inline constexpr std::size_t kMostRows = 100'000;
-/// So many that they stay in the cache of the processor.
+/// Few enough to stay in the cache of the processor.
 inline constexpr std::size_t kRowsAtATime = 256;
 
 /// Reads and judges the rows of a body, all or none, into an empty batch. What was taken before an

@@ -44,7 +44,7 @@ struct RowField {
   Kind kind = Kind::Text;
   std::size_t longest = 0;  ///< of a text, in bytes
   std::string_view meaning{};
-  const app::MeasurementField* plain = nullptr;  ///< stored as it is; otherwise the reader uses it
+  const app::MeasurementField* plain = nullptr;  ///< stored unchanged; otherwise the reader uses it
 };
 
 /// By RowField::Index: the fields that the readers accept and /openapi.json describes.
@@ -97,7 +97,7 @@ struct RawValue {
   bool decimal_comma = false;  ///< CSV with `;` or quotes
 };
 
-/// A parsed JSON value as one. @returns a view of it.
+/// Converts a parsed JSON value. @returns a view of it.
 RawValue raw_value(const JsonValue& value);
 
 /// Turns the fields of one row into a judged measurement, whichever format they came in: begin()
@@ -116,10 +116,10 @@ class MeasurementRowReader {
   bool field(std::string_view name, const RawValue& value);
   void report_unknown(std::string_view name);
 
-  /// Gives the row the limits of another measurement; then its own fields must not have limits.
+  /// Gives the row the limits of another measurement; the row must not have limits itself.
   void take_limits(const app::Measurement& other);
 
-  /// Gives the row the gauge's data of another measurement, instead of looking the gauge up.
+  /// Gives the row the gauge data of another measurement, and does not look the gauge up.
   void take_gauge(const app::Measurement& other);
 
   /// The judged measurement, until the next row begins; null when the row has errors.

@@ -72,7 +72,7 @@ inline std::string_view envelope_result(M m) {
   return m.has_failed_envelope() ? "failed" : "verified";
 }
 
-/// Members that are more than one of MeasurementFields.
+/// Members that are computed from several MeasurementFields.
 inline constexpr std::tuple kComputed = {
     RecordMember{"basis", 12, [](M m, auto to) { to.word(word(m.basis)); }},
     RecordMember{"calibration_overdue", 48,

@@ -9,7 +9,7 @@
 namespace fitgauge::api {
 namespace {
 
-/// The facts of a body other than its temperature.
+/// Facts of a body in addition to its temperature.
 struct BodyWords {
   std::string_view name;  ///< part or scale
   const std::optional<std::int64_t>& expansion;

@@ -79,8 +79,8 @@ std::optional<std::string> check_verdict(const store::MeasurementRow& row, const
 
 constexpr std::string_view kOfNoOrigin = "is of a folder that is not known: its origin was altered";
 
-/// Names of the numbers in rows, also of rows that another daemon has stored since it was
-/// attached. One thread at a time.
+/// Names of the numbers in rows. It reads them again for rows that another daemon has stored since
+/// the start. One thread at a time.
 class LaterNames {
  public:
   LaterNames(store::Database& database, const TableCatalog& tables, const Origins& origins)

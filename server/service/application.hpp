@@ -103,7 +103,7 @@ class Application {
   LogService& log() { return *log_; }
   LogIntake& intake() { return *intake_; }
   RevisionFeed& revisions() { return *revisions_; }
-  /// Stores revisions from the centre. @param tell as for the log.
+  /// Stores revisions from the centre. @param tell receives events for the log.
   RevisionIntake revision_intake(RevisionIntake::Tell tell);
   LogOutbox outbox() { return {*database_, *tables_, *log_}; }
   MeasurementService& measurements() { return *measurements_; }

@@ -19,14 +19,14 @@ struct FundamentalDeviation {
   enum class Limit { Upper, Lower, Symmetric };
 
   Limit limit = Limit::Symmetric;
-  std::string column{};         ///< where it stands; empty for JS and js
+  std::string column{};         ///< its column; empty for JS and js
   bool delta_is_added = false;  ///< the finer hole classes K to ZC (ISO 286-1, 4.3.2.5)
 };
 
 using Limit = FundamentalDeviation::Limit;
 
-/// The classes of holes below the nominal size. Up to a last grade the deviation is the shaft's
-/// with the opposite sign plus a delta, so that H and the hole class give the same fits.
+/// Classes of holes below the nominal size. Up to a last grade the deviation is the shaft's with
+/// the opposite sign plus a delta, so that H and the hole class give equal fits.
 FundamentalDeviation hole_below(const ToleranceClass& c) {
   const std::string column = "ES_" + std::string(text(c.letter, c.feature));
   if (c.letter >= Letter::P) return {Limit::Upper, column + "_gt_IT7", c.grade <= Grade::IT7};

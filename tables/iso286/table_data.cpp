@@ -17,7 +17,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-/// The files are our own: what cannot be read there is a bug, so value() may throw.
+/// The files are our own: unreadable data is a bug, so value() may throw.
 void append_cells(TableData& data, TableId table, std::string_view csv) {
   constexpr std::size_t kFirstColumn = 2;  // after over_mm, to_mm
   std::vector<std::string_view> header;

@@ -37,7 +37,7 @@ struct TableCell {
   friend bool operator==(const TableCell&, const TableCell&) = default;
 };
 
-/// A row of a shop's own column.
+/// A row of a custom tolerance class.
 struct CustomRow {
   NominalSizeRange range;
   LimitDeviations deviations;

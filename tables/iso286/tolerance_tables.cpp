@@ -136,7 +136,7 @@ Result<ClassId> ToleranceTables::find_class(std::string_view name) const {
 Result<LimitsOfSize> ToleranceTables::limits_of_size(NominalSize size, ClassId id) const {
   const auto deviations = limit_deviations(size, id);
   if (!deviations) return undefined(size, id);
-  const CustomRow* row = custom_row(size, id);  // none of a class of the standard
+  const CustomRow* row = custom_row(size, id);  // none for a class of the standard
   return LimitsOfSize{size,        id,
                       feature(id), basis(id),
                       *deviations, row != nullptr ? row->range : tolerance_steps_[slot(size)]};

@@ -77,8 +77,8 @@ class ToleranceTables {
   /// @errors FitMalformed unless the classes are of a hole and a shaft; those of limits_of_size.
   Result<Fit> fit(NominalSize size, ClassId hole, ClassId shaft) const;
 
-  /// Suggests a class: the nearest grade of the same letter, else the nearest letter of the same
-  /// grade; the finer grade or the earlier letter if two are equally near.
+  /// Suggests a class: the nearest grade of the same letter, or the nearest letter with the same
+  /// grade. If two are equally near, the finer grade or the earlier letter.
   std::optional<ClassId> nearest_defined(NominalSize size, ClassId id) const;
 
  private:
@@ -123,7 +123,7 @@ class ToleranceTables {
   std::vector<Cell> cells_;
   std::vector<ClassInfo> classes_info_;
   std::array<std::vector<ClassId>, 2> classes_;
-  std::map<std::string, ClassId, std::less<>> custom_ids_;  ///< names the standard has not
+  std::map<std::string, ClassId, std::less<>> custom_ids_;  ///< names that the standard lacks
 };
 
 }  // namespace fitgauge::iso286

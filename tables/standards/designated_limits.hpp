@@ -30,8 +30,8 @@ struct DesignatedLimits {
   std::string designation() const;
 };
 
-/// Whether a designation is meant to be one of these: it begins with M, R or C and a digit, or
-/// names ISO 2768. None of them is one of ISO 286.
+/// Returns whether a designation is meant to be one of these: it begins with M, R or C and a digit,
+/// or names ISO 2768. No such designation belongs to ISO 286.
 bool is_designation(std::string_view text);
 /// Whether a class follows a nominal size: `ISO 2768-m`.
 bool is_class(std::string_view text);

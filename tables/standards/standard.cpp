@@ -19,7 +19,7 @@ struct Ending {
   std::string_view text;
   Unit unit;
   Member member;
-  std::optional<Member> negative{};  ///< gets the same with the other sign
+  std::optional<Member> negative{};  ///< receives the value with the opposite sign
 };
 /// The longest that fits counts: they are looked up in this order.
 constexpr std::array<Ending, 7> kEndings = {{

@@ -98,8 +98,8 @@ ColumnDescriptions read_table_description(std::string_view text) {
 
 namespace {
 
-/// Whether a column has data that its name and place do not define, other than the width of the
-/// last one.
+/// Returns whether a column has data that its name and place do not define. The width of the last
+/// column does not count.
 bool is_described(const TabTable& table, const TabColumn& column) {
   const bool is_last = &column == &table.columns().back();
   return !column.type.empty() || column.decimals || is_last;

@@ -36,7 +36,7 @@ enum class HeaderForm : std::uint8_t {
 struct TabHeader {
   std::string name;       ///< with its suffix, as written: `82101_IT .TAB`
   std::string unit{};     ///< `MM`, `INCH` or empty
-  std::string version{};  ///< what follows the unit, as written
+  std::string version{};  ///< text after the unit, as written
   HeaderForm form = HeaderForm::StructBlock;
 
   friend bool operator==(const TabHeader&, const TabHeader&) = default;
@@ -101,7 +101,7 @@ class TabTable {
   std::map<std::int64_t, std::size_t> rows_by_number_;
 };
 
-/// The file of a table in the form its header names; read_tab gives the same table back.
+/// Writes a table in the form that its header names; read_tab returns an equal table.
 std::string write_tab(const TabTable& table);
 
 /// Reads a table file in any form of the controls: columns described by #STRUCTBEGIN, by

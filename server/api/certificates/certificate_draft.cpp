@@ -105,8 +105,8 @@ std::string rule_words(const gauging::DecisionRule& rule) {
       format(rule.probability()));
 }
 
-/// `1.6 (k 2, 95.45 %)`: the expanded uncertainty with its factor and what that covers. A record
-/// without a factor gets the one of 95.45 %.
+/// Writes `1.6 (k 2, 95.45 %)`: the expanded uncertainty with its factor and coverage. A record
+/// without a factor gets the factor for 95.45 %.
 std::string uncertainty_text(const app::Measurement& m) {
   using gauging::DecisionRule;
   const auto kind = m.rule.kind();

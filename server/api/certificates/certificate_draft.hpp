@@ -62,7 +62,7 @@ class CertificateDraft {
     std::string budget{};
     std::optional<Length> standard_uncertainty{};  ///< of the budget
     std::string overdue_since{};
-    std::string certificate{};  ///< of its calibration in date
+    std::string certificate{};  ///< of the calibration that was valid
     std::string laboratory{};
     bool is_blocked = false;  ///< when it measured
 

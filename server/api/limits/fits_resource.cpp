@@ -161,7 +161,7 @@ http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
   };
 }
 
-/// A path's parameters with those that choose stored values.
+/// Adds the parameters that select stored values to those of a path.
 std::vector<http::Parameter> with_filters(std::vector<http::Parameter> parameters) {
   const auto filters = fit_filter_parameters();
   parameters.insert(parameters.end(), filters.begin(), filters.end());

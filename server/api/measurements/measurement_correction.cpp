@@ -48,7 +48,7 @@ struct Sources {
   std::shared_ptr<const GaugeBook> gauges;
 };
 
-/// Gives the row a field of the original; one that it has stays.
+/// Gives the row a field of the original, unless the row already has it.
 void offer(MeasurementRowReader& reader, std::string_view name,
            const std::optional<std::string_view>& text) {
   if (text) reader.field(name, {.kind = RawValue::Kind::String, .text = *text});
@@ -98,7 +98,7 @@ void take_over(MeasurementRowReader& reader, const JsonValue& body,
     const bool is_replaced = std::ranges::any_of(kReplaced, [&](const Replaced& pair) {
       return pair.field == field.name && body.find(pair.by) != nullptr;
     });
-    // The degrees of freedom of a budget come with its uncertainty.
+    // A budget gives its degrees of freedom together with its uncertainty.
     const bool is_of_budget =
         field.number == &app::MeasurementFields::degrees_of_freedom &&
         (original.uncertainty_budget || body.find("uncertainty_um") != nullptr);

@@ -70,7 +70,7 @@ void append_row(std::string& out, Form form, const app::Measurement& measurement
 /// Start of a page.
 struct Cursor {
   std::int64_t after = 0;                 ///< the row before its first
-  std::optional<std::int64_t> as_of;      ///< the state its list is read in; none: the newest
+  std::optional<std::int64_t> as_of;      ///< state of the list; none: the newest
   std::optional<app::RecordName> record;  ///< or it begins after this one
 };
 
@@ -153,7 +153,7 @@ class MeasurementStream final : public http::BodyStream,
   std::int64_t after_;
   Form form_;
   std::string piece_;
-  bool is_read_ = false;  ///< `piece_` is to be sent
+  bool is_read_ = false;  ///< `piece_` must still be sent
   bool is_last_ = false;
 };
 
@@ -248,7 +248,7 @@ Result<app::MeasurementQuery> measurement_query(const Services& services,
     }
     query.run_id = run->number;
     query.run_origin = run->origin;
-    query.source.reset();  // what a run stores is no gauge's
+    query.source.reset();  // a run's measurements have no gauge
   }
   if (const auto verdict = text_of("verdict")) {
     query.verdict = app::code_of<store::Verdict>(*gauging::verdict_from_word(*verdict));

@@ -13,8 +13,8 @@ namespace fitgauge::api {
 /// @param prefix of their names, if a request has several selections: `hole_`
 std::vector<http::Parameter> measurement_filter_parameters(std::string_view prefix = {});
 
-/// The query of a request to a route with these parameters.
-/// @errors QueryInvalid; DesignationMalformed and what else a designation may be.
+/// Reads the query of a request to a route with these parameters.
+/// @errors QueryInvalid; DesignationMalformed and other errors of designations.
 Result<app::MeasurementQuery> measurement_query(const Services& services,
                                                 const http::Request& request,
                                                 std::string_view prefix = {});

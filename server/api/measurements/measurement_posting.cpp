@@ -78,7 +78,7 @@ Result<void> judge_while_recording(const SharedPosting& posting) {
       posting->services.measurements.record_while_reading(read, posting->scope, rendering);
   // The exact reader runs outside the job, so that the writer is free for other requests.
   if (batch.wants_whole) {
-    // Mostly for an error: it is found without holding the rows, which take more than the body.
+    // Usually finds an error without holding the rows, which need more memory than the body.
     BatchContext context = context_of(*posting, *basis);
     context.is_exact = true;
     context.take = [](const std::vector<app::Measurement>&) {};
@@ -172,7 +172,7 @@ std::vector<Warning> warnings_of(const app::Measurement& m) {
 }
 
 void MeasurementAnswer::expect(std::size_t body_size) {
-  constexpr std::size_t kRecordPerRow = 4;  // a record is seldom longer than so many rows
+  constexpr std::size_t kRecordPerRow = 4;  // a record is rarely longer than this for each row
   if (wanted_ == Preference::Representation) answer_.body.reserve(kRecordPerRow * body_size);
 }
 

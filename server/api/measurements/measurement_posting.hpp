@@ -42,7 +42,7 @@ class MeasurementAnswer final : public app::Rendering {
 
   /// Before add(): whether the body was one object, not a list.
   void set_single(bool single) { single_ = single; }
-  /// Reserves memory for a response of so many bytes.
+  /// Reserves memory for a response of this number of bytes.
   void expect(std::size_t body_size);
 
   void add(std::span<const app::Measurement> measurements, std::string_view records) override;

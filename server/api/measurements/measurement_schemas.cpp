@@ -100,7 +100,7 @@ schema::Fields record_fields() {
   });
   schema::Fields limits = limits_fields();
   for (schema::Field& field : limits) {
-    // A drawing may have one of the two, a value none; a position is no hole or shaft.
+    // A drawing may have one limit, a value no limit; a position is neither hole nor shaft.
     field.required = field.name == "basis";
     if (field.name == "basis") field.json = basis_of_records();
   }
@@ -118,7 +118,7 @@ std::string verdict_counts() {
        {"unjudged", schema::count(), "Values without limits; absent if there are none", false}});
 }
 
-/// The field the groups are of comes first, by its own name.
+/// The field of group_by comes first, with its name.
 schema::Fields group_fields() {
   schema::Fields fields;
   for (const std::string_view name : app::kTextFilters) {

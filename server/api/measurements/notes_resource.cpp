@@ -102,7 +102,7 @@ struct Entries {
 };
 
 struct Catalogue {
-  std::nullptr_t checked{};  ///< it is stored as it was sent
+  std::nullptr_t checked{};  ///< stored as sent
 };
 void members(auto& v, Catalogue& catalogue) {
   v.member("causes", catalogue.checked, Entries{}, "Causes in the order of the list; each once");

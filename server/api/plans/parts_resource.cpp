@@ -16,7 +16,7 @@ namespace {
 
 using app::NamedDocument;
 
-constexpr std::size_t kMostValues = 10'000;  ///< of one part; the older ones are not looked at
+constexpr std::size_t kMostValues = 10'000;  ///< of one part; older ones are ignored
 
 struct PartValue {
   std::optional<std::string> characteristic{};
@@ -100,8 +100,8 @@ void hold_against(const std::vector<Reaction>& plan, Part& part) {
   }
 }
 
-/// Compares the part with the plan of that name, else of the part's name, else the only plan with
-/// all measured characteristics. @errors QueryInvalid if the named plan does not exist.
+/// Compares the part with a plan: the named plan, the plan with the part's name, or the only plan
+/// with all measured characteristics. @errors QueryInvalid if the named plan does not exist.
 Result<void> plan_part(const std::vector<NamedDocument>& plans,
                        std::optional<std::string_view> named, Part& part) {
   std::vector<std::pair<std::string, std::vector<Reaction>>> fitting;

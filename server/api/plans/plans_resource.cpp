@@ -41,8 +41,9 @@ Result<step::Drawing> drawing_of(const Services& services, const FileText& text)
   return step::read_drawing(text, **tables, kMostInstances);
 }
 
-/// The plan of a drawing, with what people gave the characteristics of the plan before.
-/// @param stored gets the text of that plan; empty if there is none
+/// Makes the plan of a drawing, with the members that people added to the characteristics of the
+/// stored plan.
+/// @param stored receives the text of that plan; empty if there is none
 Result<step::DrawnPlan> drawn_plan(const Services& services, const step::Drawing& drawing,
                                    const std::string& part, std::string& stored) {
   auto found = services.documents.wait_for(app::DocumentKind::Plan, part);

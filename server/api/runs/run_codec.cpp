@@ -11,8 +11,8 @@ namespace {
 using interpreter::ParameterValue;
 using interpreter::RunMessage;
 
-/// Fifteen digits: every decimal a program can write comes back as it was, and not with the last
-/// bit of a sum (25 + 21/1000 is 25.021).
+/// Fifteen digits: every decimal of a program is printed as written, without the last bit of a sum
+/// (25 + 21/1000 is 25.021).
 constexpr int kDigits = 15;
 
 struct Digits {
@@ -207,7 +207,7 @@ std::string report_json(const app::RunReport& report) {
                              .result = &report.result});
 }
 
-/// An order is stored as it was accepted, with its defaults.
+/// Orders are stored as accepted, with their defaults.
 std::uint64_t seed_of(const std::string& request) {
   const auto order = parse_json(request);
   const JsonValue* setup = order ? order->find("setup") : nullptr;

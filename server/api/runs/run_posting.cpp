@@ -20,7 +20,7 @@ JsonValue number(std::int64_t value) {
   return {.kind = Kind::Number, .text = std::to_string(value)};
 }
 
-/// The body of a POST that orders the same.
+/// Returns the body of a POST with this order.
 JsonValue body_of(const std::string& program, const std::string& setup) {
   JsonValue body{.kind = Kind::Object};
   body.members.emplace_back("program", text(program));
@@ -155,7 +155,7 @@ Result<app::RunOrder> read_order(const SharedPosting& posting) {
   return order;
 }
 
-/// Starts a run, and answers unless it is to end first.
+/// Starts a run, and answers unless the response waits for its end.
 Result<void> start(const SharedPosting& posting) {
   app::RunService& runs = posting->services.runs;
   if (posting->scope) {

@@ -103,7 +103,7 @@ struct Elsewhere {
   }
 };
 
-/// The schemas of what decode_builder reads.
+/// Schemas of the members that decode_builder reads.
 std::string builder_actions_schema();
 std::string decimal_separator_schema();
 

@@ -80,7 +80,7 @@ const CycleDescriptor* find_descriptor(int number) {
   return machining == nullptr ? nullptr : &machining->descriptor;
 }
 
-/// A number may mean two cycles; the one for probing goes first.
+/// If a number means two cycles, the one for probing precedes.
 Result<http::Response> find_cycle(const http::Request& request) {
   const int number = static_cast<int>(*request.integer("number"));
   const CycleDescriptor* cycle = find_descriptor(number);

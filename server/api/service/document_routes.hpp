@@ -20,7 +20,7 @@ struct CheckedDocument {
   std::string text{};                        ///< the stored text, which a GET returns
   std::string answer{};                      ///< to its PUT; empty: nothing
   std::optional<std::string> uncertainty{};  ///< a budget that must be there
-  std::optional<std::string> gauge{};        ///< the same of a gauge in use
+  std::optional<std::string> gauge{};        ///< reference of a gauge in use
   std::optional<std::string> before{};       ///< the text it was made from; another refuses it
 };
 

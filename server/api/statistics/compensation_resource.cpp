@@ -172,8 +172,8 @@ void find_offset(const OffsetOrder& order, app::MeasurementService& measurements
       });
 }
 
-/// Sends the proposal at the beginning, and again whenever its state changes; instead of it the
-/// reason while the values give none.
+/// Sends the proposal at the beginning, and again when its state changes. If the values give none,
+/// it sends the reason.
 class OffsetStream final : public CommitStream {
  public:
   OffsetStream(const Services& services, OffsetOrder order)
@@ -194,7 +194,7 @@ class OffsetStream final : public CommitStream {
 
   const Services& services_;
   const OffsetOrder order_;
-  std::string told_{};  ///< of the one thread that reads at a time
+  std::string told_{};  ///< used by one reading thread at a time
 };
 
 void propose(const Services& services, const http::Request& request, http::Responder responder) {

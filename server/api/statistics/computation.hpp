@@ -11,8 +11,8 @@
 
 namespace fitgauge::api {
 
-// Decimals of a body, exactly: JSON numbers and strings with one. What cannot be read goes to the
-// FieldErrors with its pointer.
+// Exact decimals of a body: JSON numbers, or strings with a number. Unreadable values go to the
+// FieldErrors with their pointer.
 
 /// Appends one decimal to `to`; reports a value that is neither a number nor a string.
 void add_exact(const JsonValue& value, const std::string& pointer, metrology::Decimals& to,
@@ -54,7 +54,7 @@ struct FormOf<metrology::Decimals> {
   using Type = ExactNumbers;
 };
 
-/// Groups of decimals, none of them empty.
+/// Groups of decimals; no group is empty.
 struct ExactGroups {
   std::string schema(Side side) const { return schema::array(ExactNumbers().schema(side), 1); }
   bool read(FieldReader& fields, std::string_view name, metrology::Groups& to) const;
@@ -93,7 +93,7 @@ Error at_member(std::string_view name, Error error);
 /// A figure that is computed from a JSON body and nothing else.
 struct Computation {
   std::string_view head;                                  ///< pattern and operation
-  Result<std::string> (*compute)(const JsonValue& body);  ///< gives the JSON of the answer
+  Result<std::string> (*compute)(const JsonValue& body);  ///< returns the JSON of the response
   std::string reads;                                      ///< the schema of the body, by name
   std::string answers;                                    ///< the schema of the answer, by name
   std::string summary;
@@ -105,7 +105,7 @@ void add_computation(Routes& add, const Computation& computation);
 
 /// Bodies of values have the limit of measurements.
 inline constexpr std::size_t kLargestValuesBody = std::size_t{32} << 20;
-/// The remedy for more values than a body may have.
+/// Remedy for more values than the body allows.
 inline constexpr std::string_view kOfManyValues =
     "store the values with POST /v1/measurements and use GET /v1/measurements/summary, /capability "
     "and /chart";

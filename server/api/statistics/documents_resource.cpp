@@ -25,7 +25,7 @@ Result<CheckedDocument> check_budget(const Services&, const std::string&, std::s
   return CheckedDocument{.text = std::string(text), .answer = *std::move(computed)};
 }
 
-/// Measurements are judged by what is stored from its answer on.
+/// The stored document judges measurements from its response on.
 void reload_gauges(const Services& services, std::function<void(Result<void>)> done) {
   services.gauges.reload(std::move(done));
 }
@@ -202,7 +202,7 @@ struct FigureText {
   void write(JsonWriter& json, std::string_view from) const { json.raw(from); }
 };
 
-/// A study of a gauge, whose result its input gives.
+/// A study of a gauge; its input defines its result.
 struct StudyOrder {
   std::string gauge{};
   std::string at{};

@@ -13,7 +13,7 @@ namespace fitgauge::api {
 // The capability of ISO 22514-7 as part of a study: of the measuring system by a study on a master,
 // of the measuring process by one on parts.
 
-/// Data of a study other than its readings, in their unit.
+/// Data of a study in addition to its readings, in their unit.
 template <bool is_process>
 struct MeasuringOrder {
   double resolution = 0;

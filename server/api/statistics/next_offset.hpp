@@ -13,8 +13,8 @@ namespace fitgauge::api {
 /// The next offset of some values, for readers of events.
 struct OffsetNews {
   std::string_view event{};  ///< kOffsetChanged or kOffsetFailed
-  std::string data{};        ///< JSON: the proposal, or why there is none
-  std::string told{};        ///< the same as long as it is no news: the state, or the failure
+  std::string data{};        ///< JSON: the proposal, or the reason for none
+  std::string told{};        ///< text that changes only with news: the state, or the failure
   std::string newest{};      ///< id of the newest value; empty: there is none
 };
 inline constexpr std::string_view kOffsetChanged = "compensation.changed";

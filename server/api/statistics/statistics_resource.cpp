@@ -197,7 +197,7 @@ struct Sizes {
   }
 };
 
-/// A body has either name of each list.
+/// A body may use either name of each list.
 struct PairingOrder {
   std::string_view holes_name = "holes";
   std::string_view shafts_name = "shafts";

@@ -146,7 +146,7 @@ void find_chart(const Services& services, const http::Request& request, http::Re
                 if (!made) return made.error();
                 selected->data = {};
                 std::string out;
-                constexpr std::size_t kOfAPoint = 12;  // what is not written to is no memory
+                constexpr std::size_t kOfAPoint = 12;  // unused room needs no memory
                 out.reserve(2 * kOfAPoint * selected->count);
                 JsonWriter json(out);
                 write_body(json,

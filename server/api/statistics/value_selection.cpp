@@ -110,7 +110,7 @@ Result<void> ValueSelection::add(const app::MeasuredRun& run) {
                              counts_.size())};
   }
   if (counts_.empty())
-    counts_.reserve(most_bytes_ / sizeof(Wide));  // only what is written to is memory
+    counts_.reserve(most_bytes_ / sizeof(Wide));  // only written pages need memory
   for (const auto& value : run.values) {
     counts_.push_back(value.measured.count());
     ids_.add(value.id, run.origin);

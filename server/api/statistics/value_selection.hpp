@@ -50,7 +50,7 @@ struct SelectedValues {
   std::optional<Length> lower_limit;
   std::optional<Length> upper_limit;
   MeasurementIds ids{};                  ///< of single values
-  std::vector<std::string> subgroups{};  ///< the names of the subgroups, else
+  std::vector<std::string> subgroups{};  ///< otherwise the names of the subgroups
   std::size_t count = 0;
   std::string first_id{};  ///< in the order of a chart
   std::string last_id{};

@@ -29,7 +29,7 @@ Preference preference_of(const http::Request& request);
 /// Whether `Prefer: respond-async` asks for an answer before the work is done.
 bool prefers_async(const http::Request& request);
 
-/// Whether CSV is requested instead of JSON, by `format`, else by Accept.
+/// Returns whether CSV is requested instead of JSON, by `format` or, without it, by Accept.
 bool wants_csv(const http::Request& request);
 /// The query parameter of such a route.
 http::Parameter csv_or_json();
@@ -52,7 +52,7 @@ Preconditions preconditions_of(const http::Request& request);
 
 /// Strong: texts that differ in a byte have different tags.
 std::string etag_of_text(std::string_view text);
-/// Decides from the current text, none if there is none; empty if the request has no condition.
+/// Decides from the current text, if there is one; empty if the request has no condition.
 using TextPrecondition = std::function<bool(std::optional<std::string_view> text)>;
 TextPrecondition text_precondition_of(const http::Request& request);
 

@@ -16,7 +16,7 @@ namespace fitgauge::api {
 void tables_of(app::TableCatalog& catalog, const http::Request& request,
                app::TableCatalog::Callback<app::TableCatalog::Tables> done);
 
-/// Whether a query has `revision` and nothing else.
+/// Returns whether `revision` is the only member of a query.
 bool asks_for_revision_alone(const http::Request& request);
 
 http::Parameter revision_parameter();

@@ -50,8 +50,8 @@ struct Bare<const T*> {
 template <class T>
 using BareType = typename Bare<std::remove_const_t<T>>::Type;
 
-/// Form that a description gives after a member's variable; the usual form if it gives none. The
-/// meaning follows if the name is not enough.
+/// Form of a member, which its description may give after the variable; without it, the usual form.
+/// The meaning follows if the name is not enough.
 template <class T>
 typename FormOf<BareType<T>>::Type form_of(std::string_view = {}) {
   return {};
@@ -143,7 +143,7 @@ class BodyReader {
   }
   /// @param look gets the FieldReader, to report what does not go together
   void check(const auto& look) { look(fields_); }
-  /// Ends the body: what no member asked for is refused.
+  /// Ends the body: refuses members that nothing has read.
   void end() { fields_.refuse_unknown(); }
 
  private:

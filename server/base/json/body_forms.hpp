@@ -89,7 +89,7 @@ struct FormOf<std::array<T, size>> {
   using Type = List<T>;
 };
 
-/// A text of at most so many bytes.
+/// A text with a limit of bytes.
 struct Text {
   std::size_t longest = 0;  ///< 0: as long as a body may be
 

@@ -99,7 +99,7 @@ std::string json_object(const Write& write) {
   return out;
 }
 
-/// A value as it was read: numbers keep their digits.
+/// Writes a value as read: numbers keep their digits.
 void write_json(JsonWriter& json, const JsonValue& value);
 std::string json_text(const JsonValue& value);
 

@@ -36,7 +36,7 @@ std::string text();
 std::string text(std::size_t longest_bytes);
 std::string time();  ///< RFC 3339
 std::string words(const std::vector<std::string_view>& words);
-/// A number in a request, which may also come as a string, so that no double comes between.
+/// A number in a request. It may also be a string, so that no double comes between.
 std::string exact();
 inline constexpr std::size_t kAnyNumber = 0;
 /// Adds a bound: `maximum`, `exclusiveMinimum`, ...

@@ -56,7 +56,7 @@ class Writer {
   float left() const { return kMargin; }
   float y() const { return y_; }
   void advance(float height) { y_ -= height; }
-  /// Whether there is no room for so much above the footer.
+  /// Returns whether the space above the footer is lower than this height.
   bool is_full(float height) const { return y_ - height < kMargin + 2 * kSmall; }
 
   void begin_page() {
@@ -104,7 +104,7 @@ std::string drawing(float place, float x, float y, float width, float height) {
          box(at - tick / 2, y - height / 4, tick, height * 1.5F);
 }
 
-/// The text of a verdict, set off as it is to be.
+/// Writes the text of a verdict with its emphasis.
 std::string verdict(TaggedPdf& pdf, const Line& line, float x, float y, float size,
                     const std::string& text) {
   if (line.weight == Weight::Plain) return pdf.text(x, y, size, text);

@@ -55,7 +55,7 @@ std::string_view outline(std::uint32_t glyph) {
   return table("glyf").substr(begin, number(places, 4 * glyph + 4, 4) - begin);
 }
 
-/// A glyph with those that it is composed of.
+/// Adds a glyph and its components.
 void add_glyph(std::set<std::uint32_t>& glyphs, std::uint32_t glyph) {
   if (!glyphs.insert(glyph).second) return;
   const std::string_view form = outline(glyph);

@@ -12,8 +12,8 @@ namespace fitgauge::certificate {
 /// Returns the character at `at`, and moves `at` behind it. @pre at < text.size()
 char32_t next_character(std::string_view text, std::size_t& at);
 
-/// The compiled-in font (TrueType) as one document uses it: characters get codes from 1 on as they
-/// come. One that the font lacks is drawn as a box, and is the same character when it is copied.
+/// The compiled-in font (TrueType) for one document. Characters get codes from 1 in the order of
+/// their use. A character that the font lacks is drawn as a box, but can be copied.
 class EmbeddedFont {
  public:
   struct Used {

@@ -39,7 +39,7 @@ class TaggedPdf {
   void close();
   /// Operators of the page: the content of the open element.
   void mark(const std::string& operators);
-  /// Operators of the page that mean nothing to who hears it.
+  /// Writes operators that a screen reader skips.
   void decorate(const std::string& operators);
 
   /// The operators of one line.
@@ -47,7 +47,7 @@ class TaggedPdf {
   float width_of(std::string_view line, float size);
   /// The text in pieces no wider than `room`, at blanks, which end a piece.
   std::vector<std::string> wrapped(std::string_view text, float size, float room);
-  /// Adds the one picture of the document. @returns its operators
+  /// Adds the only picture of the document. @returns its operators
   std::string picture(const Picture& picture, float x, float y, float width, float height);
   /// A text as a string of PDF.
   static std::string string(std::string_view text);

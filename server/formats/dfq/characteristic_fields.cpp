@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 10> kUserFields = {
 
 constexpr std::size_t kMostBytes = std::size_t{8} << 20;  ///< of the texts of all prepared
 
-/// A characteristic that has none of them has no limits.
+/// A characteristic without any of them has no limits.
 constexpr std::array<int, 5> kTolerances = {k::kToleranceClass, k::kLowerLimit, k::kUpperLimit,
                                             k::kLowerAllowance, k::kUpperAllowance};
 

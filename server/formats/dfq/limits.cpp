@@ -62,7 +62,7 @@ class ToleranceReader {
   }
   const Described* find(int number) const { return description_.find(characteristic_, number); }
   Result<std::optional<Length>> length(int number) const;
-  /// One of the two, from its limit or its allowance.
+  /// Returns the upper or lower deviation, from its limit or its allowance.
   Result<std::optional<Length>> limit(int limit_number, int allowance_number,
                                       int type_number) const;
   Result<void> check_class(const LimitsOfClass& limits_of) const;

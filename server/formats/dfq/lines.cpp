@@ -211,7 +211,7 @@ FITGAUGE_IN_BOTH_FORMS Separated separate(std::string_view text, std::uint32_t* 
                                           std::uint32_t* values) {
   constexpr std::uint32_t kAtOnce = kSeparateRoom;
   std::uint32_t found = 0;
-  std::array<char, kBlock> last{};  // what is left at the end, and zeros
+  std::array<char, kBlock> last{};  // rest at the end, and zeros
   for (std::size_t at = 0; at < text.size(); at += kBlock) {
     const char* block = text.data() + at;
     if (text.size() - at < kBlock) {

@@ -61,7 +61,7 @@ class Lines {
     at_ = last_at_;
     number_ = last_number_;
   }
-  /// All from the next line on is to stay.
+  /// Keeps everything from the next line on.
   void mark() {
     mark_ = at_;
     marked_number_ = number_;

@@ -89,8 +89,8 @@ class MeasurementCsv {
   ValueSet set_;
   std::size_t next_value_ = 0;         ///< of the set
   std::vector<std::string_view> row_;  ///< of the value that is appended
-  std::deque<std::string> texts_;      ///< of that value, in another form than the file's
-  std::string last_time_;              ///< as the file has it, and as it was read
+  std::deque<std::string> texts_;      ///< of that value, converted from the file's form
+  std::string last_time_;              ///< as in the file, and as read
   std::string last_instant_;
   bool has_values_ = false;
   bool has_left_out_ = false;

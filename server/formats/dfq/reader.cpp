@@ -22,7 +22,7 @@ bool must_be_whole(int number) {
          number == k::kGuid || place_of(number) != std::string_view::npos;
 }
 
-/// Gives a value room for all cells, with those it has.
+/// Gives a value room for all cells, and keeps the cells it has.
 void set_apart(Value& value, ValueSet& set) {
   const auto first = static_cast<std::uint32_t>(set.apart.size());
   const auto cells = std::max<std::uint32_t>(value.cells, kCells.size());

@@ -23,7 +23,7 @@ enum class Role : std::uint8_t {
 /// nanometre.
 struct LogValue {
   std::string name;       ///< "Diameter", "Centre, main axis"; another one as the log has it
-  bool is_length = true;  ///< else degrees or a figure, only in `printed`
+  bool is_length = true;  ///< otherwise degrees or a figure, only in `printed`
   Role role = Role::Hole;
   std::optional<Length> nominal{};
   std::optional<Length> upper{};  ///< limits: both or none
@@ -39,7 +39,7 @@ struct MeasuringLog {
   std::optional<sheet::WallTime> time{};  ///< of the control's clock
   bool inch = false;
   std::vector<LogValue> values{};  ///< in the order of the log
-  std::string text{};              ///< only of this log, as it was fetched
+  std::string text{};              ///< only of this log, as fetched
 };
 
 struct Unread {
@@ -47,13 +47,13 @@ struct Unread {
   std::string why{};
 };
 
-/// Later ones are not reported.
+/// Further ones are not reported.
 inline constexpr std::size_t kMostUnread = 100;
 
 /// Content of a file.
 struct Reading {
   std::vector<MeasuringLog> logs{};
-  std::vector<Unread> unread{};  ///< what no reader understands; the rest is read all the same
+  std::vector<Unread> unread{};  ///< lines that no reader knows; the rest is still read
   bool is_unfinished = false;    ///< the last log has no end yet: the cycle may still write it
 };
 
@@ -95,7 +95,7 @@ std::optional<Bound> bound_of(std::string_view label);
 
 bool is_angle(std::string_view label);
 
-/// The name by which records of that quantity and cycle go.
+/// Returns the name in records for that quantity and cycle.
 std::string name_of(Quantity quantity, int cycle);
 Role role_of(Quantity quantity, int cycle);
 

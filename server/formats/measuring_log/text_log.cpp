@@ -27,7 +27,7 @@ bool is_number(std::string_view text) {
 
 constexpr std::size_t kMostEntries = 100;  ///< more than any cycle has
 
-/// A line of dashes, stars or the like, and nothing else.
+/// Returns whether the line has only dashes, stars or similar signs.
 bool is_rule(std::string_view line) {
   return line.find_first_not_of("-_*= ") == std::string_view::npos;
 }
@@ -60,7 +60,7 @@ class TextReader {
   std::string time_;
   Section section_ = Section::Head;
   Entries entries_;
-  Entry waiting_;  ///< a label whose number stands on the next line
+  Entry waiting_;  ///< a label with its number in the next line
 };
 
 void TextReader::begin(int cycle) {
@@ -95,7 +95,7 @@ void TextReader::take(std::string_view raw, std::size_t number, bool is_whole) {
   }
   if (cycle_of_title(lower) || is_rule(line)) return;
   if (!is_inside_) {
-    // The first line of another text represents all of it.
+    // The first line of a foreign text represents all of it.
     if (!has_stray_)
       reading_.unread.push_back({number, "this is not a log of a touch-probe cycle"});
     has_stray_ = true;

@@ -24,8 +24,8 @@ constexpr std::array kSizes = {
     "Diameter"sv, "SphericalDiameter"sv, "Width"sv,  "Thickness"sv,       "Length"sv, "Height"sv,
     "Depth"sv,    "DistanceBetween"sv,   "Radius"sv, "LinearCoordinate"sv};
 
-/// The quantity of a kind, beside what the document says of its feature. A length that is no hole
-/// and no shaft is a distance.
+/// Returns the quantity of a kind; the document gives its feature separately. A length that is
+/// neither hole nor shaft is a distance.
 std::string_view quantity_of(std::string_view kind, bool has_feature) {
   if (kind == "Radius") return "radius";
   if (kind == "LinearCoordinate") return "position";
@@ -193,7 +193,7 @@ Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t 
     fill(aqdef::kQuantity, std::string(quantity_of(kind, !fields_[aqdef::kFeature].empty())));
   }
   const auto quantity = gauging::quantity_from_word(fields_[aqdef::kQuantity]);
-  if (!quantity || gauging::has_feature(*quantity)) {  // else the modifiers mean nothing here
+  if (!quantity || gauging::has_feature(*quantity)) {  // otherwise the modifiers mean nothing
     const auto* const nominal = definitions_.nominal(item->nominal);
     const auto* const definition = definitions_.definition(nominal->definition);
     fill(kSizeOperator, definition->size_operator);

@@ -81,7 +81,7 @@ class Definitions {
     const auto* const found = find(by_id, id);
     return found == nullptr ? std::string_view() : std::string_view(*found);
   }
-  /// An element of one of the lists. Keeps no more of it than is used.
+  /// Reads an element of one of the lists. Stores only the used parts.
   void take(std::string_view list, const Element& element);
 
   ById<Item> items_{};

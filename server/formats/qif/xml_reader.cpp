@@ -51,7 +51,7 @@ struct Element::Tree {
     Attributes attributes;
     std::size_t text_begin = 0;
     std::size_t text_end = 0;  ///< with that of all below
-    std::size_t next = 0;      ///< the place behind all below
+    std::size_t next = 0;      ///< the place after all nested elements
   };
 
   std::vector<Node> nodes{};
@@ -211,8 +211,7 @@ void XmlReader::State::begin(std::string_view name, const char** attributes) {
   }
 }
 
-/// Gives the parser the next piece: always a whole one, so that the same document is read the same
-/// way.
+/// Gives the parser the next piece, always a whole one, so that equal documents are read alike.
 void XmlReader::State::feed() {
   auto* const room = static_cast<char*>(XML_GetBuffer(parser, kPiece));
   if (room == nullptr) throw std::bad_alloc();

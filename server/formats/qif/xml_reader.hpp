@@ -68,7 +68,7 @@ class XmlReader {
   std::string_view name_space() const { return name_space_; }
   std::uint32_t line() const { return line_; }
 
-  /// Passes over all of it.
+  /// Skips all of it.
   void pass_over() { passed_ = names_.size(); }
   /// All of the element, which next() then passes over. @errors CsvMalformed with the line
   Result<Element> take();

@@ -58,7 +58,7 @@ class ShopRows::Converter {
   RecordReader records_;
   Record record_;
   std::vector<std::string> header_;   ///< fields; empty: left out
-  bool has_clock_ = false;            ///< date and time in columns of their own
+  bool has_clock_ = false;            ///< date and time are in separate columns
   std::optional<std::size_t> basis_;  ///< of an export: the columns that decide
   std::optional<std::size_t> source_;
   bool has_drawn_limits_ = true;  ///< the row of an export that is converted

@@ -32,7 +32,7 @@ class TimeZone {
   /// From the bytes of a file in the form of RFC 8536. @errors ConfigInvalid
   static Result<TimeZone> parse(std::string_view bytes);
 
-  /// The instant. An hour that comes twice is the first, as it is before the clock goes back.
+  /// Returns the instant. An hour that occurs twice is the first one, before the clock goes back.
   /// @errors TimeMalformed: the clock has skipped it.
   Result<Timestamp> instant(const WallTime& time) const;
   /// Returns the local time at an instant, as if it were UTC.

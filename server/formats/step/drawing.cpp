@@ -214,7 +214,8 @@ class Walker {
     }
     return name;
   }
-  /// Name of its callout, else of the dimension, else of its entity in words.
+  /// Returns the name of its callout; without one, of the dimension; without both, of its entity in
+  /// words.
   std::string name_of(std::uint32_t id, std::string_view entity) {
     std::string name = callout_of(id);
     if (name.empty()) name = text_in(file_, id, entity, 0);
@@ -448,7 +449,7 @@ class Walker {
   static constexpr std::size_t kMostLinks = std::size_t{2} << 20;
   static constexpr std::size_t kMostLooked = 1024;  ///< faces for the side of a copy
   static constexpr std::size_t kMostListed = 20'000;
-  static constexpr std::size_t kLongestName = 180;  ///< of 200, so that a number fits behind it
+  static constexpr std::size_t kLongestName = 180;  ///< of 200, so that a number can be added
   static constexpr std::size_t kLongestClass = 64;
 
   const Part21& file_;

@@ -19,7 +19,7 @@ namespace fitgauge::step {
 
 /// A size that a characteristic of a plan is made of: with a class or with deviations.
 struct DrawnSize {
-  std::string name{};  ///< of its callout, else of its kind; unique in the drawing
+  std::string name{};  ///< of its callout, or of its kind; unique in the drawing
   Length nominal{};
   std::optional<std::string> tolerance_class{};
   std::optional<Length> upper{};

@@ -20,7 +20,7 @@ inline Error error_at(const FileText& text, std::size_t at, std::string_view mes
           fmt::format("line {}", line)};
 }
 
-/// The tokens of a text, each checked as it is passed.
+/// Reads the tokens of a text, and checks each.
 class Lexer {
  public:
   explicit Lexer(const FileText& text) : file_(text), text_(text.text) {}

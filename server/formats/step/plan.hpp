@@ -9,7 +9,8 @@
 
 namespace fitgauge::step {
 
-/// A plan that was made of a drawing, and what its characteristics have that those before had not.
+/// A plan that was made from a drawing, with the differences of its characteristics from the stored
+/// plan.
 struct DrawnPlan {
   std::string text{};  ///< JSON
   std::string digest{};

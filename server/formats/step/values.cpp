@@ -38,7 +38,7 @@ std::vector<Parameter> record_of(const Part21& file, std::uint32_t id, std::stri
 std::string text_in(const Part21& file, std::uint32_t id, std::string_view name, std::size_t at,
                     std::uint32_t from) {
   const auto all = record_of(file, id, name, from);
-  // Many may have the same long text.
+  // Many entries may share one long text.
   constexpr std::size_t kLongestText = 1000;
   std::string text = at < all.size() ? std::string(trim(text_of(all[at]))) : std::string();
   text.resize(first_characters(text, kLongestText).size());

@@ -147,7 +147,7 @@ class TextStream final : public BodyStream {
   std::string_view rest_;
 };
 
-/// The body's bytes, with an owner if they are so many that they are sent without a copy.
+/// Returns the body's bytes, with an owner if the body is large enough to be sent without a copy.
 std::pair<std::shared_ptr<const std::string>, std::string_view> bytes_of(Body& body) {
   if (auto* shared = std::get_if<std::shared_ptr<const std::string>>(&body)) {
     return {*shared, *shared ? std::string_view(**shared) : std::string_view{}};
@@ -240,7 +240,8 @@ void pack(Response& response, SentAnswer& sent) {
   response.body = StreamedBody{.source = std::make_shared<TextStream>(owner, body), .held = held};
 }
 
-/// Whether the response has a gzip form; short ones have it for clients that accept nothing else.
+/// Returns whether the response has a gzip form. Short ones have it for clients that accept only
+/// gzip.
 struct PackedForm {
   bool exists = false;
   bool is_sent = false;

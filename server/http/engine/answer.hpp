@@ -94,7 +94,7 @@ class OutputQueue {
   std::string& shared_;
   std::string kept_;      ///< before the shared text
   std::string later_;     ///< after kept_, which is being sent and must not move
-  std::size_t sent_ = 0;  ///< of kept_, or of the shared text when there is none
+  std::size_t sent_ = 0;  ///< of kept_, or of the shared text without it
   std::shared_ptr<const void> owner_;
   std::string_view long_body_;
   std::size_t owned_ = 0;  ///< bytes after owner_
@@ -105,7 +105,7 @@ class OutputQueue {
 struct PreparedHead {
   std::string text;
   std::size_t date_offset = 0;
-  std::size_t shared_size = 0;  ///< up to here both forms are alike
+  std::size_t shared_size = 0;  ///< both forms are equal up to here
 };
 
 /// A serialised answer and its 304; without the fields that depend on the request: those that every
@@ -157,7 +157,7 @@ struct AnswerForm {
   std::string if_none_match{};
   Codings codings{};
   std::string_view request_id{};
-  std::string_view allowed_origin{};  ///< the request's own, if its page may read the answer
+  std::string_view allowed_origin{};  ///< the request's origin, if its page may read the answer
   bool varies_by_origin = false;
 };
 
@@ -181,7 +181,7 @@ inline constexpr std::string_view kLastChunk = "0\r\n\r\n";
 /// @returns the offset of the Date's text in `out`.
 std::size_t append_status(std::string& out, int status, const HttpDate& date);
 
-/// Appends Content-Type and the response's own fields but Vary.
+/// Appends Content-Type and the other fields of the response except Vary.
 void append_fields(std::string& out, const Response& response);
 /// Appends only the fields that a 304 repeats (RFC 9110 section 15.4.5).
 void append_not_modified_fields(std::string& out, const Response& response);

@@ -82,7 +82,7 @@ BodyReader::Outcome BodyReader::add_decoded(std::string_view& piece) {
   while (!piece.empty() || gunzip_->has_more()) {
     if (!plan_.discard && size_ == capacity_) {
       if (capacity_ == plan_.limit) {
-        // Full: one more byte of output is too much, the end of the stream is not.
+        // The output is full: the stream may end, but another byte is too much.
         char one = 0;
         const Gunzip::Step step = gunzip_->put(piece, {&one, 1});
         if (step.produced > 0) return Outcome::TooLarge;

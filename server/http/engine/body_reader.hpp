@@ -34,7 +34,7 @@ class ByteBudget {
   void end_wait() { waiting_.fetch_sub(1, std::memory_order_relaxed); }
 
   std::size_t used() const { return used_.load(std::memory_order_relaxed); }
-  /// Somebody waits: a sender that has stopped must give way.
+  /// Returns whether somebody waits: a stopped sender must then give up its memory.
   bool is_short() const { return waiting_.load(std::memory_order_relaxed) > 0; }
 
  private:
@@ -120,7 +120,7 @@ class BodyReader {
     let_go_ = size_;
   }
 
-  /// The body has ended: Malformed when its coding has not.
+  /// Ends the body: Malformed if its coding is incomplete.
   Outcome finish() const;
 
   FileText bytes() const { return {{data(), size_}, spooled_.bytes() != nullptr}; }

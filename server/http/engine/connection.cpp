@@ -185,7 +185,7 @@ void Connection::finish_request() {
   head_.clear();
   parser_.reset();
   pending_piece_ = {};
-  if (!reading_) body_.clear();  // otherwise close() does, when nothing reads into it any more
+  if (!reading_) body_.clear();  // otherwise close() does it when nothing reads into it
   input_.next_request();
   phase_ = Phase::Idle;
 }

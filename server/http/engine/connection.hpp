@@ -182,15 +182,15 @@ class Connection : public std::enable_shared_from_this<Connection> {
  private:
   enum class Phase : std::uint8_t {
     Opening,      ///< the transport shakes hands
-    Idle,         ///< between requests: no byte of the next has come
-    Head,         ///< the first byte of a request has come
+    Idle,         ///< between requests: no byte of the next request has arrived
+    Head,         ///< the first byte of a request has arrived
     ReadingBody,  ///< through the parser or a decoder
-    FillingBody,  ///< as it comes: the socket fills its memory
+    FillingBody,  ///< the socket writes into the body's memory
     Budget,       ///< a body waits for its share of memory
     InHandler,
     Stream,     ///< a streamed body: its last piece is on its way
     Piece,      ///< a streamed body: its next piece is awaited
-    Lingering,  ///< answered and shut down; what still comes is thrown away, so that no reset
+    Lingering,  ///< answered and shut down; further bytes are discarded, to prevent a reset
                 ///< overtakes the answer
     Closed,
   };
@@ -256,7 +256,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<RequestParser> parser_;
   Exchange exchange_;
   BodyReader body_;
-  std::size_t body_left_ = 0;       ///< still to come of a body with a length
+  std::size_t body_left_ = 0;       ///< remaining bytes of a body with a length
   std::string_view pending_piece_;  ///< read, and not yet consumed by body_
   std::optional<StreamedBody> stream_;
   /// Used by the thread that has the sink of the stream, even while the connection closes.

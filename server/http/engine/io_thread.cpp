@@ -8,7 +8,7 @@
 namespace fitgauge::http {
 namespace {
 
-/// One turn in vain among so many answers is not felt.
+/// A useless turn after this number of answers costs nothing noticeable.
 constexpr unsigned kUntilRetry = 256;
 
 /// Deadlines are checked at a quarter of the shortest one, and at least every quarter of a second,
@@ -59,7 +59,7 @@ void IoThread::join() {
   if (!thread_.has_begun()) return;
   context_.stop();
   thread_.stop();
-  close_all();  // on this thread: the other one has ended
+  close_all();  // on this thread, after the other one has ended
 }
 
 void IoThread::add(std::shared_ptr<Connection> connection, Place place) {
@@ -77,7 +77,7 @@ void IoThread::remove(Connection& connection) {
 
 template <class Function>
 void IoThread::for_each_connection(Function function) {
-  // From the back: one that closes is replaced by one that was visited.
+  // Backwards: a connection that closes is replaced by one that was visited.
   for (std::size_t i = connections_.size(); i-- > 0;) {
     const std::shared_ptr<Connection> connection = connections_[i];
     function(*connection);
@@ -117,9 +117,9 @@ void IoThread::sweep() {
   bound_unsent();
 }
 
-/// Ends the responses that their clients have not read for the longest time, until the others have
-/// room: so slow readers, however many, cannot hold all memory. The newest continues, however long
-/// it is.
+/// Ends the responses that clients have not read for the longest time, until the others have room.
+/// So any number of slow readers cannot hold all memory. The newest response continues at any
+/// length.
 void IoThread::bound_unsent() {
   const std::size_t most = shared_.options.unsent_budget / std::max(shared_.options.io_threads, 1U);
   std::size_t held = 0;

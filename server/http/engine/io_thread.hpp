@@ -20,7 +20,7 @@
 
 namespace fitgauge::http {
 
-/// Counts who has a Place inside, and lets one wait until all have left. Thread-safe.
+/// Counts the Places inside, and lets a thread wait until all have left. Thread-safe.
 class Gate {
  public:
   std::uint64_t inside() const {
@@ -86,7 +86,7 @@ class NextReads {
   asio::io_context& context_;
   std::vector<std::shared_ptr<Connection>> waiting_;
   std::vector<std::shared_ptr<Connection>> turn_;  ///< being read
-  unsigned until_retry_ = 0;  ///< so many are not put off before a turn tries again
+  unsigned until_retry_ = 0;                       ///< number of posts until a turn tries again
 };
 
 class Connection;

@@ -34,8 +34,8 @@ class RequestParser final : private boost::beast::http::basic_parser<true> {
   /// Parses on from `input` and adds the number of bytes used to `used`.
   Step put(std::string_view input, std::size_t& used);
 
-  /// A chunk that announces more than this, with those before it, is refused as soon as its size is
-  /// read. Unlimited until it is called.
+  /// Limits the body: a chunk that exceeds this number together with the earlier chunks is refused
+  /// as soon as its size is read. Without a call the body is unlimited.
   void limit_body(std::uint64_t bytes) { body_left_ = bytes; }
 
   std::string_view piece() const { return piece_; }

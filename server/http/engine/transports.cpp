@@ -94,7 +94,7 @@ void TlsConnection::await_record(std::size_t awaited) {
   const std::size_t come = socket_.available(error);
   const bool waits = possible && come >= awaited && (read < head.size() || come < record);
   socket_.set_option(Socket::receive_low_watermark(waits ? static_cast<int>(record) : 1), error);
-  if (!waits) return shake_hands();  // also when no more comes: OpenSSL refuses it
+  if (!waits) return shake_hands();  // even at the end of the input: OpenSSL then refuses it
   const auto ready = [this, self = shared_from_this(), record](const error_code& failed) {
     if (failed || !fitgauge::guarded("a handshake", [&] { await_record(record); })) close();
   };

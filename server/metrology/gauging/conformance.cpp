@@ -12,7 +12,7 @@ double in_uncertainties(Length length, Length u) {
   return static_cast<double>(length.count()) / static_cast<double>(u.count());
 }
 
-/// The probability of a value above so many standard uncertainties.
+/// Returns the probability of a value above this number of standard uncertainties.
 double beyond(double distance, double degrees_of_freedom) {
   if (std::isinf(degrees_of_freedom)) return metrology::normal_below(-distance);
   const auto tails = static_cast<double>(metrology::t_beyond(distance, degrees_of_freedom));

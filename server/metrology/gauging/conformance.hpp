@@ -80,7 +80,7 @@ std::optional<ConformanceFigures> conformance_figures(const ConformanceLimits& l
 struct ThermalBody {
   std::int64_t temperature = 20'000'000;
   std::int64_t expansion = 0;
-  // Standard uncertainties of the two, in the same units:
+  // Standard uncertainties of temperature and expansion, in their units:
   std::int64_t temperature_uncertainty = 0;
   std::int64_t expansion_uncertainty = 0;
 

@@ -22,7 +22,7 @@ struct Ratings {
   std::optional<std::size_t> good{};     ///< the category of parts that are accepted
 };
 
-/// So many of so many, with the interval of 95 % of Clopper and Pearson 1934.
+/// A share of parts, with the 95 % interval of Clopper and Pearson 1934.
 struct AttributeShare {
   std::size_t count = 0;
   std::size_t of = 0;
@@ -34,7 +34,7 @@ struct AttributeShare {
 struct AttributeStudy {
   struct Operator {
     std::string name{};
-    AttributeShare consistent{};                    ///< parts rated alike in all trials
+    AttributeShare consistent{};                    ///< parts with equal ratings in all trials
     long double within = kUndefined;                ///< kappa of the trials: Fleiss 1971
     std::optional<AttributeShare> effectiveness{};  ///< parts rated right in all trials
     long double reference = kUndefined;             ///< kappa with the reference: Cohen 1960

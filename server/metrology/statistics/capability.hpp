@@ -84,9 +84,9 @@ struct PercentileCapability {
   std::optional<long double> pp{};
   std::optional<long double> ppk{};
 };
-/// Indices without meaning because of a missing limit are none. For values that are not normal,
-/// `pp` and `ppk` use the percentile method, also `cp`, `cpl`, `cpu` and `cpk` if location and
-/// dispersion are constant; none, and no `cpm`, if no distribution fits.
+/// Indices that need a missing limit are absent. For values that are not normal, `pp` and `ppk` use
+/// the percentile method. So do `cp`, `cpl`, `cpu` and `cpk` if location and dispersion are
+/// constant; otherwise they are absent. There is no `cpm` if no distribution fits.
 struct Capability {
   std::size_t count = 0;
   long double mean = 0;
@@ -94,7 +94,7 @@ struct Capability {
   long double overall = 0;  ///< standard deviation, n - 1
   std::optional<CapabilityIndex> cp{}, cpk{}, cpl{}, cpu{}, pp{}, ppk{}, cpm{}, cm{}, cmk{};
   bool stable = false;
-  std::vector<ChartViolation> violations{};  ///< of rules 1 to 4: what `stable` answers
+  std::vector<ChartViolation> violations{};  ///< of rules 1 to 4: the reasons for `stable`
   std::optional<NormalityTest> normality{};
   std::optional<ModelChoice> model{};
   /// From kFewestForFit values on; normal if the test of normality accepts it.

@@ -24,11 +24,11 @@ struct Compensation {
   std::string_view reason{};  ///< in a sentence
   // Absent until there are enough values:
   std::optional<double> offset{};         ///< µm that bring the next part to the target
-  double offset_uncertainty = 0;          ///< standard uncertainty of it, in µm
+  double offset_uncertainty = 0;          ///< standard uncertainty of the offset, in µm
   double wear = 0;                        ///< µm a part
   double scatter = 0;                     ///< standard deviation of a part about the level, in µm
-  double dead_band = 0;                   ///< an offset within it costs more than it saves, in µm
-  std::optional<std::int64_t> next_in{};  ///< parts until the next one has to be measured
+  double dead_band = 0;                   ///< smaller offsets cost more than they save, in µm
+  std::optional<std::int64_t> next_in{};  ///< parts until the next measurement is due
 };
 
 /// Fewer values cannot distinguish wear from scatter.

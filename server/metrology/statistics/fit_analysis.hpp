@@ -74,7 +74,7 @@ struct PressFit {
 
 /// The joint of an interference.
 struct Pressure {
-  double effective_um = 0;      ///< interference less what pressing flattens, 0.4 (Rz + Rz)
+  double effective_um = 0;      ///< interference without the flattened part, 0.4 (Rz + Rz)
   double pressure_mpa = 0;      ///< in the joint
   double hub_stress_mpa = 0;    ///< equivalent stress (von Mises) in the bore of the hub
   double shaft_stress_mpa = 0;  ///< the same at the shaft: in its bore when it is hollow

@@ -85,7 +85,7 @@ struct GaugeStudy {
   std::optional<StudyModel> model{};  ///< of Anova: Interaction or Pooled
   long double interaction_p = kUndefined;
   std::vector<AnovaLine> anova{};             ///< of all but AverageRange, the total last
-  std::optional<StudyIntervals> intervals{};  ///< none of AverageRange and without repeatability
+  std::optional<StudyIntervals> intervals{};  ///< absent for AverageRange and without repeatability
 };
 
 /// Numbers of readings may differ: the components are those of unweighted means.

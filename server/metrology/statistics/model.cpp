@@ -113,8 +113,8 @@ class Neighbourhood {
     at_[j] = budget_.contributions[j].estimate;
     return found;
   }
-  /// Half of the change between steps to either side, by a small part of it: a whole step may leave
-  /// the domain.
+  /// Returns half of the change between small steps to either side: a whole step may leave the
+  /// domain.
   double rise(std::size_t i) { return (away(i, kPart) - away(i, -kPart)) / (2 * kPart); }
 
   /// The change by a step to either side, without the value itself, which may be at a pole.
@@ -135,8 +135,8 @@ class Neighbourhood {
     const auto fits = [&](double h) { return std::abs((away(i, h) - value_) / h - slope) <= open; };
     return fits(near) && fits(-near);
   }
-  /// Half of the slope's jump at the value, above rounding: the bend of both sides, which vanishes
-  /// with the step if the model is smooth.
+  /// Half of the slope's jump at the value, above rounding. In a smooth model it vanishes with the
+  /// step.
   double kink(std::size_t i) {
     const double near = std::max(width(i) / 4096, 5e-5);
     const auto bend = [&](double h) { return (away(i, h) + away(i, -h) - 2 * value_) / h; };

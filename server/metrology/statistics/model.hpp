@@ -13,8 +13,8 @@ inline constexpr std::size_t kLongestName = 100;    ///< characters, as muParser
 /// Quantities with an uncertainty: some 10^5 values of the model.
 inline constexpr std::size_t kMostOfSecondOrder = 25;
 
-/// Whether a model can name a quantity so: at most 100 letters, digits and `_`, the first no digit,
-/// and neither a function nor `pi`.
+/// Returns whether a model can use this name for a quantity: at most 100 letters, digits and `_`,
+/// not beginning with a digit, not a function, and not `pi`.
 bool can_be_quantity(std::string_view name);
 
 /// Reads `P*V/(R*(1+a*(T-T0)))`: + - * / ^ and brackets over quantities, numbers with a point,

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kHundredThousand = 100'000;
 constexpr std::size_t kManyToSort = 4'096;
-constexpr Wide kNarrow = Wide{1} << 20;  ///< a table of so many counts is worth its 4 MiB
+constexpr Wide kNarrow = Wide{1} << 20;  ///< up to this range, a table of counts is worth its 4 MiB
 
 /// The logarithm of the probability below z. Its asymptote far out, if erfc is 0.
 double log_below(double z) {
@@ -203,7 +203,7 @@ NormalityTest test_normality(const Ranking& ranking, double mean, double standar
   std::size_t begin = 0;
   for (std::size_t i = 0; i < ranking.values().size(); ++i) {
     const std::size_t end = ranking.ends()[i];
-    // From the least value, so that leading digits all share cost nothing.
+    // Computed from the least value, so that common leading digits cost no precision.
     const double z =
         (static_cast<double>(ranking.values()[i] - ranking.front()) - mean) / standard_deviation;
     // ln F(x_i) has the weight 2i + 1, ln(1 - F(x_i)) the weight of its place from the other end:

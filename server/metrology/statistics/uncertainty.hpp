@@ -48,7 +48,7 @@ struct Budget {
 struct CombinedUncertainty {
   double combined = 0;
   double welch_satterthwaite = 0;  ///< may be infinite
-  double degrees_of_freedom = 0;   ///< the same, truncated to a whole number, at least 1
+  double degrees_of_freedom = 0;   ///< truncated to a whole number, at least 1
   double coverage_factor = 0;      ///< of the t distribution
   double expanded = 0;
 };
@@ -71,8 +71,8 @@ inline constexpr std::uint64_t kMostDraws = 50'000'000;  ///< trials times contr
 struct Simulation {
   std::uint64_t trials = 1'000'000;  ///< of an adaptive one at most
   std::uint64_t seed = 1;
-  /// Significant digits of the standard uncertainty that the mean, it and the interval are to be
-  /// known to: as many trials as JCGM 101, 7.9.4 wants. None: `trials`.
+  /// Significant digits of the standard uncertainty that its trials must confirm, also for mean and
+  /// interval (JCGM 101, 7.9.4). None: `trials` is used.
   std::optional<int> digits{};
 };
 

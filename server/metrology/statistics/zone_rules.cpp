@@ -127,8 +127,8 @@ void ZoneHistory::reduce(ZoneRules rules) {
   for (const unsigned shift : {0U, kSide}) {
     const unsigned side = past_ >> shift;
     unsigned beyond_1 = side >> kBeyond1 & 0b1111U;
-    // A point is the oldest of a pattern of four in five only if the newer ones that are beyond and
-    // the points still to come inside its five are three.
+    // A point is the oldest of a pattern of four in five only if three of its five are beyond,
+    // counting newer points and points to come.
     for (int age = 4; age >= 1; --age) {
       const unsigned bit = 1U << static_cast<unsigned>(age - 1);
       const int newer = std::popcount(beyond_1 & (bit - 1U));

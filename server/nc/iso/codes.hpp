@@ -24,7 +24,7 @@ enum class CodeKind : std::uint8_t {
 struct Code {
   unsigned number;
   CodeKind kind;
-  std::string_view klartext;       ///< a word, a pattern, or of Absent what to do instead
+  std::string_view klartext;       ///< a word or pattern; for Absent the remedy
   std::string_view addition = {};  ///< of a path: FMAX, or the direction of rotation
 };
 

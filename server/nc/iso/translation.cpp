@@ -57,7 +57,8 @@ struct Line {
   bool is_end = false;
 };
 
-/// A first word of more than one letter: controls take Klartext into DIN/ISO programs.
+/// Returns whether the first word has several letters: controls accept Klartext in DIN/ISO
+/// programs.
 bool is_klartext_word(std::string_view name) {
   static const std::vector<std::string_view> kWords = klartext::block_keywords();
   return name.size() > 1 &&
@@ -228,7 +229,7 @@ class Translator {
     codes();
   }
 
-  /// The rest of the block as it stands.
+  /// Copies the rest of the block unchanged.
   void verbatim(std::string_view head) {
     line_.start_line();
     line_.put(head).put(rest());
@@ -370,7 +371,7 @@ class Translator {
     bool has_coordinates = false;
     bool moves = words.has_path || !words.compensation.empty();
     for (const Word& word : words.words) {
-      // The words behind one of these M functions belong to it.
+      // Words after one of these M functions belong to it.
       if (word.name == "M" &&
           std::count(std::begin(kWithArguments), std::end(kWithArguments), word.value) != 0)
         break;

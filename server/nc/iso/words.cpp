@@ -21,7 +21,7 @@ std::string_view between(const char* begin, const char* end) {
   return trim({begin, static_cast<std::size_t>(end - begin)});
 }
 
-/// ` P02`: the next P word starts here, behind a blank.
+/// ` P02`: the next P word begins here, after a blank.
 bool at_next_p(const char* at, const char* end) {
   return end - at > 2 && klartext::is_blank(at[0]) && ascii_upper(at[1]) == 'P' &&
          klartext::is_digit(at[2]);
@@ -31,7 +31,7 @@ void fail(Lexer& in, const char* begin, std::string message) {
   in.fail(klartext::DiagnosticCode::SyntaxError, in.place(begin, in.at()), std::move(message));
 }
 
-/// One code, behind its G.
+/// Reads one code, after its G.
 void read_code(Lexer& in, const char* begin, BlockWords& block, Modes& modes) {
   const unsigned number = in.digits(kLargestCode, "the number of the G code");
   const Code* code = find_code(number);
@@ -106,7 +106,7 @@ std::string_view read_value(Lexer& in) {
 std::string_view read_label(Lexer& in) {
   in.skip_blanks();
   if (!klartext::is_digit(in.peek())) return read_value(in);
-  const char* begin = in.at();  // the comma behind it is no decimal one
+  const char* begin = in.at();  // the comma after it is not a decimal comma
   in.digits(kLargestLabel, "the label");
   return between(begin, in.at());
 }

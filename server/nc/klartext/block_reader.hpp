@@ -24,7 +24,7 @@ class BlockReader : public Lexer {
   // --- texts
   /// Comment of the block's first line, if a cycle has read it.
   Text& block_comment() { return comment_; }
-  /// An empty text is always the same one.
+  /// Adds a text; all empty texts share one.
   Text add_text(std::string_view text);
   std::string_view text(Text text) const {
     return std::string_view(parts_.texts).substr(text.first, text.size);

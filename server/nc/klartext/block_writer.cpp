@@ -32,8 +32,8 @@ bool may_be_bare(std::string_view path) {
 void BlockWriter::quoted(Text text) { write("\"").write(text).write("\""); }
 
 void BlockWriter::number(double number) {
-  // Room for a literal of the control: at most ten digits before the point; the shortest text that
-  // reads back has no more than 17 significant ones, after up to 300 zeros for a tiny one.
+  // Room for a literal: at most ten digits before the point. The shortest text that reads back has
+  // at most 17 significant digits, after up to 300 zeros for a tiny number.
   char digits[400];
   const auto end =
       std::to_chars(std::begin(digits), std::end(digits), number, std::chars_format::fixed).ptr;

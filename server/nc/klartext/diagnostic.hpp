@@ -13,7 +13,7 @@
 namespace fitgauge::klartext {
 
 enum class Severity : std::uint8_t {
-  Note,     ///< the program runs as it is meant, though it is not written as it should be
+  Note,     ///< the program runs as intended, but is not written as it should be
   Warning,  ///< the program runs; what is named fails only when its block is reached, or is
             ///< cosmetic
   Error     ///< the program is refused
@@ -35,7 +35,7 @@ std::string_view id(DiagnosticCode code);
 struct DiagnosticNote {
   std::string message{};
   SourceRange range{};
-  std::string program{};  ///< the file's name; empty: the one of the finding
+  std::string program{};  ///< the file's name; empty: the file of the finding
 
   friend bool operator==(const DiagnosticNote&, const DiagnosticNote&) = default;
 };
@@ -53,7 +53,7 @@ struct Diagnostic {
   std::vector<DiagnosticNote> notes{};
 };
 
-/// One of them refuses the text.
+/// Returns whether one of them refuses the text.
 bool contains_error(const std::vector<Diagnostic>& diagnostics);
 
 /// The finding as text of three lines:
@@ -71,8 +71,8 @@ class DiagnosticList {
   void add(Severity severity, DiagnosticCode code, Slice<char> place, std::string message,
            std::optional<std::uint32_t> block = std::nullopt, bool is_unreadable = false);
 
-  /// The findings; if there were too many, the last one has the number of missing findings, and is
-  /// an error if one of them is.
+  /// Returns the findings. If there were too many, the last one has the number of missing findings,
+  /// and is an error if a missing one is.
   std::vector<Diagnostic> take();
 
  private:

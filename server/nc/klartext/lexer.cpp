@@ -16,7 +16,7 @@ bool continues_word(char c) { return is_ascii_letter(c) || is_digit(c) || c == '
 /// Literals have at most nine digits before the point.
 constexpr double kLargestNumber = 1e9;
 
-/// The end of the wrap that starts at `~`, behind its line end, or `at` when it is none.
+/// Returns the end of the wrap that starts at `~`, after its line end; `at` if there is no wrap.
 const char* wrap_end(const char* at, const char* end) {
   const char* next = std::find_if_not(at + 1, end, is_blank);
   return next != end && *next == '\n' ? next + 1 : at;

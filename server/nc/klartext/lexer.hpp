@@ -183,7 +183,7 @@ std::string free_text(std::string_view code);
 /// Returns the text of a comment. The control wraps comments in the middle of words.
 std::string comment_text(std::string_view comment);
 
-/// An excerpt for a message, of at most so many bytes.
+/// Returns an excerpt for a message, with a limit of bytes.
 std::string excerpt(std::string_view text, std::size_t longest = 40);
 
 }  // namespace fitgauge::klartext

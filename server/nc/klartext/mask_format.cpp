@@ -41,7 +41,7 @@ class FormatReader {
  public:
   FormatReader(Lexer& in, MaskFormat& format) : in_(in), format_(format) {}
 
-  /// From behind the opening quote to behind the closing one.
+  /// Reads from the opening quote to the closing one.
   void read() {
     const char* opening = in_.at() - 1;
     while (in_.at() != in_.end() && in_.peek() != '"') {

@@ -62,7 +62,7 @@ std::size_t Parser::find_line_end(std::size_t begin) const {
   return std::min(parts_.source.find('\n', begin), parts_.source.size());
 }
 
-/// The physical line ends with `~`, perhaps with blanks behind it.
+/// Returns whether the physical line ends with `~`, also before blanks.
 bool Parser::wraps(std::size_t begin, std::size_t end) const {
   while (end != begin && is_blank(parts_.source[end - 1])) --end;
   return end != begin && parts_.source[end - 1] == '~';

@@ -93,7 +93,7 @@ bool at_paraxial_block(std::string_view name) {
   return found && is_axis(*found);
 }
 
-/// `C+45`: the axis, not the arc `C X+5 Y+5`, whose words stand behind a blank.
+/// `C+45`: the axis; in the arc `C X+5 Y+5` the words follow a blank.
 bool at_c_axis(BlockReader& in, std::string_view name) {
   return ascii_iequals(name, "C") &&
          (in.peek() == '+' || in.peek() == '-' || in.at_number() || in.at_parameter());

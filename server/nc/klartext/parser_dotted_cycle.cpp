@@ -2,15 +2,15 @@
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/parser_words.hpp"
 
-/// Sub-lines of dotted cycles. Those of words alone are read strictly. The others carry dialog text
-/// in the language of the control (`9.1 DWELL 0.5`, `9.1 V.ZEIT 0.5`), so words and numbers are
-/// picked out of it.
+/// Sub-lines of dotted cycles. Sub-lines with only words are read strictly. The others have dialog
+/// text in the language of the control (`9.1 DWELL 0.5`, `9.1 V.ZEIT 0.5`), so words and numbers
+/// are picked out of it.
 namespace fitgauge::klartext {
 namespace {
 
 constexpr std::uint32_t kLargestPart = 99;
 
-/// Sub-lines (from 1) that hold these words and nothing else.
+/// Sub-lines (from 1) that have only these words.
 struct StrictPart {
   CycleFamily family;
   unsigned number;

@@ -155,7 +155,7 @@ void WordReader::parse_m_number(Word& word) {
   if (in_.peek() == '.' && !is_digit(in_.peek(1))) in_.move_to(in_.at() + 1);  // `M128.`
   word.value = static_cast<double>(number);
   arguments_ = LetterSet();
-  // Behind an M function the general way tells its arguments from words of the block.
+  // After an M function, the general way separates its arguments from words of the block.
   plain_ = LetterSet();
   for (const MArguments& row : kMArguments) {
     if (row.m != number) continue;

@@ -37,7 +37,7 @@ class WordReader {
   LetterSet bare_;
   LetterSet incremental_;
   LetterSet seen_;
-  LetterSet plain_;      ///< those still to come that may be read the short way
+  LetterSet plain_;      ///< remaining letters that may be read the short way
   LetterSet arguments_;  ///< of the M function read last
   bool arguments_are_bare_ = false;
   std::uint32_t first_;

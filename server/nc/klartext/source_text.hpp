@@ -17,7 +17,7 @@ std::string decode_source(std::string bytes);
 /// The number of characters (code points) of a UTF-8 text.
 std::size_t count_characters(std::string_view utf8);
 
-/// One more than the line ends.
+/// Returns the number of line ends plus 1.
 std::size_t count_lines(std::string_view source);
 
 /// Returns the place of an offset; `line_starts` has the offset of each line's first byte.

@@ -5,7 +5,7 @@
 namespace fitgauge::klartext {
 namespace {
 
-/// Comments may stand before BEGIN PGM.
+/// Comments may precede BEGIN PGM.
 const BeginProgram* begin_of(const std::vector<Block>& blocks) {
   for (const Block& block : blocks) {
     if (const auto* begin = std::get_if<BeginProgram>(&block.statement)) return begin;

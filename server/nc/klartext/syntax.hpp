@@ -25,7 +25,7 @@ struct Block {
   /// Block number as written; it has no effect and may repeat. A block without a number continues
   /// from the number before it, from 0, as on the control.
   std::uint32_t number = 0;
-  Slice<char> written{};  ///< its place in the source, all physical lines of it
+  Slice<char> written{};  ///< its place in the source, with all physical lines
   Text comment{};         ///< after `;` as written; of a cycle, of its first line
 
   /// The place does not count.

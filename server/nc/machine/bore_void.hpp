@@ -34,7 +34,7 @@ class BoreVoid {
   double floor_top() const;
 
  private:
-  struct Local;  ///< a point in the bore's own coordinates
+  struct Local;  ///< a point in the coordinates of the bore
 
   Local local(const Vec3& at) const;
   double nearest_angle(const Local& point) const;
@@ -44,7 +44,7 @@ class BoreVoid {
   Matrix3 from_local_;
   double depth_;
   double radius_;
-  double amplitude_;  ///< 0 or more; a negative one is a phase
+  double amplitude_;  ///< 0 or more; a negative amplitude is a phase
   double lobes_;
   double phase_;   ///< radians
   double slope_;   ///< change of the radius per mm of depth

@@ -185,7 +185,7 @@ class Sweep {
     }
   }
 
-  /// Half-edge `edge` takes the place of `old` beside `twin`, or on the hull.
+  /// Half-edge `edge` replaces `old` next to `twin`, or on the hull.
   void take(std::uint32_t edge, std::uint32_t twin, std::uint32_t old) {
     link(edge, twin);
     if (twin == kNone && outer_[corners_[edge]] == old) outer_[corners_[edge]] = edge;

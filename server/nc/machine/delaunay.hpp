@@ -14,9 +14,9 @@ struct Triangulation {
   std::vector<std::uint32_t> hull;                      ///< counter-clockwise
 };
 
-/// Empty if all points are on one line. Of points at the same X and Y only one is used.
-/// Orientations are decided exactly on a grid of 1 nm; four points on one circle may have either
-/// diagonal. @pre coordinates are within ±1e6 mm.
+/// Triangulates the points; empty if all are on one line. Points at one X and Y are used once.
+/// Orientations are exact on a grid of 1 nm; four points on one circle may have either diagonal.
+/// @pre coordinates are within ±1e6 mm.
 Triangulation delaunay(const std::vector<Vec3>& points);
 
 }  // namespace fitgauge::machine

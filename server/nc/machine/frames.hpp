@@ -77,8 +77,8 @@ class Frames {
   bool is_rotated() const { return rotation_.angle_deg != 0; }
   bool is_tilted() const { return plane_.has_value(); }
 
-  /// Points in mm. Machine and Reference have the same axes and zero, so both leave a point as it
-  /// is: which point of the tool is meant is MachineState's matter.
+  /// Converts points in mm. Machine and Reference have the same axes and zero, so both leave a
+  /// point unchanged: MachineState decides which point of the tool is meant.
   Vec3 to_machine(const Vec3& point, CoordinateSystem system = CoordinateSystem::Input) const;
   Vec3 from_machine(const Vec3& point, CoordinateSystem system = CoordinateSystem::Input) const;
 

@@ -29,8 +29,8 @@ double angle_of(const RotaryAxis& axis, const Vec3& rotary) {
 /// The part of `v` across the unit vector `axis`.
 Vec3 across(const Vec3& v, const Vec3& axis) { return v - axis * dot(v, axis); }
 
-/// The angle in degrees that turns `from` to `to` around `axis`, or `free` where none matters
-/// because `from` lies along the axis.
+/// Returns the angle in degrees that turns `from` to `to` around `axis`; `free` if `from` is
+/// parallel to the axis, because then any angle serves.
 double angle_between(const Vec3& from, const Vec3& to, const Vec3& axis, double free) {
   const Vec3 a = across(from, axis);
   const Vec3 b = across(to, axis);

@@ -41,8 +41,8 @@ class Kinematics {
   const Vec3& offset() const { return offset_; }
   const RotaryAxis* find(Axis axis) const;
 
-  /// Table-fixed coordinates to machine coordinates, with the axes at `rotary` (degrees). What an
-  /// axis carries is displaced along the directions of what carries the axis.
+  /// Transforms table-fixed to machine coordinates, with the axes at `rotary` (degrees). The load
+  /// of an axis is displaced along the directions of the axes that carry it.
   Transform table(const Vec3& rotary, const Displacements& rest = {}) const;
 
   /// Vector from the indicated position of the spindle nose to the point of the tool at `length`

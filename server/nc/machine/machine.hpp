@@ -39,11 +39,11 @@ struct ProbeMove {
   Feed retract_feed;
 };
 
-/// The result of a contact. Points are those the control computes from its scales, the effective
-/// length and radius and CAL_OF; input coordinates at the moment of contact unless named otherwise.
+/// Result of a contact. The control computes the points from its scales, the effective length and
+/// radius and CAL_OF. They are input coordinates at the moment of contact unless named otherwise.
 struct ContactPoint {
   Vec3 tip;            ///< the ball's south pole (a cutter's tip on the tool touch probe)
-  Vec3 ball_centre;    ///< what circles and spheres are fitted through
+  Vec3 ball_centre;    ///< circles and spheres are fitted through these
   Vec3 surface;        ///< ball centre moved by the effective radius along the probing direction
   Vec3 tip_machine;    ///< `tip` in Machine coordinates
   Position nose;       ///< Reference: neither length nor radius compensated (Q115 to Q119)

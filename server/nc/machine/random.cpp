@@ -30,7 +30,7 @@ double Random::normal() {
   constexpr int kBits = 48;
   std::uint64_t sum = 0;
   for (int term = 0; term < 12; ++term) sum += next() >> (64 - kBits);
-  // Each term stands for the middle of its step of 2^-48.
+  // Each term represents the middle of its step of 2^-48.
   const auto centred = static_cast<std::int64_t>(sum) + 6 - (std::int64_t{6} << kBits);
   return static_cast<double>(centred) / static_cast<double>(std::int64_t{1} << kBits);
 }

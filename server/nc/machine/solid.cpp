@@ -19,7 +19,7 @@ double with_sign_of(double sign, double value) { return sign < 0 ? -value : valu
 }  // namespace
 
 std::optional<double> Solid::contact(const BallPath& ball) const {
-  constexpr int kSteps = 200;  // a tangent comes nearer by halves
+  constexpr int kSteps = 200;  // a tangent halves its distance in each step
   double way = 0;
   for (int step = 0; step < kSteps; ++step) {
     const Field at = field(ball.at(way));

@@ -102,7 +102,7 @@ struct ProbeRow {
   int number = 1;        ///< NO
   std::string type;      ///< TYPE, such as TS460
   double cal_of1 = 0;    ///< CAL_OF1: ball centre minus spindle centre, main axis, in mm
-  double cal_of2 = 0;    ///< CAL_OF2: the same in the secondary axis
+  double cal_of2 = 0;    ///< CAL_OF2: misalignment in the secondary axis
   double cal_ang = 0;    ///< CAL_ANG: spindle angle of CAL_OF1 and CAL_OF2, in degrees
   double feed = 500;     ///< F: probing feed, in mm/min
   double rapid = 3000;   ///< FMAX: rapid for pre-positioning, in mm/min

@@ -8,8 +8,8 @@ namespace fitgauge::tolerance {
 
 // Lengths in mm.
 
-/// The smallest reported length: a smaller overlap of ball and material is a contact, and a smaller
-/// error is none.
+/// Smallest reported length: a smaller overlap of ball and material is a contact, and a smaller
+/// error counts as zero.
 inline constexpr double kNanometre = 1e-6;
 /// Points nearer than this are equal, and a point so near to a face or a limit is on it: a
 /// thousandth of the smallest reported length, so that sums of hundreds of roundings do not show.

@@ -161,7 +161,7 @@ std::optional<double> TriangleTree::contact(const BallPath& ball) const {
 }
 
 Vec3 TriangleTree::normal_at(const Vec3& point) const {
-  constexpr double kThere = tolerance::kSamePoint;  // STL's floats tell less apart
+  constexpr double kThere = tolerance::kSamePoint;  // STL's floats do not resolve less
   constexpr double kSquared = 1.01 * kThere * kThere;
   Vec3 sum;
   tree_.near(point, kSquared, [&](std::uint32_t begin, std::uint32_t end) {

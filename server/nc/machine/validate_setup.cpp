@@ -15,7 +15,7 @@ namespace {
 constexpr double kLongestMm = 1e6;
 constexpr double kLargestDeg = 36000;
 
-/// Collects what is wrong, each with its JSON pointer.
+/// Collects the faults, each with its JSON pointer.
 class Findings {
  public:
   void add(std::string where, std::string message, ErrorCode code = ErrorCode::FieldInvalid) {

@@ -45,10 +45,10 @@ std::optional<Vec3> nearest_on_edge(const Vec3& at, Vec3 from, const First& firs
 
 /// One solid less the bores after it.
 struct Workpiece::Part {
-  /// A bore as one of the solids before it sees it.
+  /// A bore as seen by a solid before it.
   struct Cut {
     std::shared_ptr<const BoreVoid> bore;
-    bool is_through = false;  ///< no material of that solid lies below the bottom
+    bool is_through = false;  ///< no material of that solid is below the bottom
 
     /// Positive inside the void: how deep below the nearer of wall and bottom.
     Field field(const Vec3& at) const {
@@ -65,7 +65,7 @@ struct Workpiece::Part {
 
   std::unique_ptr<const Solid> solid;
   std::vector<Cut> cuts;
-  BoxTree tree;          ///< of the cuts, which stand in its order
+  BoxTree tree;          ///< of the cuts, in its order
   double roughness = 0;  ///< the largest of the cuts
 
   /// All cuts are there.
@@ -81,7 +81,7 @@ struct Workpiece::Part {
                     });
   }
 
-  /// The cut, other than `except`, that has `point` inside its void.
+  /// Returns the cut, other than `except`, whose void contains `point`.
   const Cut* cut_at(const Vec3& point, const Cut* except) const {
     const Cut* found = nullptr;
     any_cut(point, [&](const Cut& cut) {
@@ -250,7 +250,7 @@ Workpiece::Workpiece(const std::vector<Feature>& features) {
   for (Part& part : parts_) {
     part.complete();
     boxes.push_back(part.solid->box());
-    // A ball that touches may stand a rounding beside it.
+    // A touching ball may be beside it by a rounding.
     boxes.back().grow(tolerance::kSamePoint);
   }
   std::vector<std::uint32_t> order;

@@ -116,7 +116,7 @@ struct CycleParameter {
   ValueKind kind = ValueKind::Number;
   ValueRange range{};
   std::optional<double> default_value{};  ///< of a parameter that the block leaves out
-  bool required = true;   ///< without default: an error when it is missing, else just absent
+  bool required = true;   ///< without default: an error if it is missing; otherwise absent
   bool newer = false;     ///< not in the blocks of older controls
   std::uint8_t part = 0;  ///< of a dotted cycle: its sub-line, `3.2` is 2
 
@@ -144,7 +144,7 @@ struct CycleDescriptor {
   std::span<const CycleOutput> results{};
   ErrorSet errors{};             ///< that it ends with, in addition to 1004 and 1011 of its values
   std::string_view simulated{};  ///< behaviour in the simulation
-  std::string_view not_simulated{};  ///< what of the control's cycle changes nothing; may be empty
+  std::string_view not_simulated{};  ///< parts of the cycle without effect here; may be empty
 
   const CycleParameter* find(ParameterId id) const;
 };

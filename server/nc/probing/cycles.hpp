@@ -17,7 +17,7 @@ namespace fitgauge::probing {
 /// Every cycle of this library, by family and number: TCH PROBE first, then CYCL DEF.
 std::span<const TouchProbeCycle* const> cycles();
 
-/// The cycle, or null when there is none: the program then names one that is not available.
+/// Returns the cycle; null if there is none: the program then names an unavailable one.
 const TouchProbeCycle* find_cycle(CycleFamily family, int number);
 
 }  // namespace fitgauge::probing

@@ -34,7 +34,7 @@ struct MeasuredSize {
 /// The judgement of form that the number of points of a circular feature allows.
 struct Form {
   bool assessable = false;
-  std::string reason{};                 ///< which deviations stay invisible
+  std::string reason{};                 ///< deviations that stay invisible
   std::optional<double> residual_mm{};  ///< largest distance of a point from the fitted circle
   double diameter_factor = 1;  ///< standard deviation of the diameter divided by that of one touch
   std::size_t points = 0;

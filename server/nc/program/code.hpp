@@ -51,7 +51,7 @@ enum class Op : std::uint8_t {
   JumpDefined,    ///< cell a
   JumpUndefined,  ///< cell a
   JumpWhen,       ///< the condition node of index a (strings)
-  // additions in one step with what follows, which stays as it is for who jumps there
+  // additions in one step with the next instruction, which stays for jumps to it
   AddThenAdd,
   AddThenJumpLess,       ///< the end of a counted loop
   AddTwiceThenJumpLess,  ///< Add, then AddThenJumpLess

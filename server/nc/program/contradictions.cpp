@@ -122,7 +122,7 @@ class Contradictions {
     return program_.range(block.written).begin.line;
   }
 
-  // --- what stands before a block that probes
+  // --- blocks before a block that probes
   void visit(const auto&) {}
   void visit(const klartext::LabelDefinition& label) {
     forget();
@@ -143,7 +143,7 @@ class Contradictions {
   void forget() { spindle_ = cutter_ = nullptr; }
   void leave() { forget(), constants_.clear(), calls_programs_ = true; }
 
-  // --- what is read and set
+  // --- values that are read and set
   void visit(const klartext::Assignment& assignment) {
     check_line_before(assignment.target);
     read(assignment.value);
@@ -233,7 +233,7 @@ class Contradictions {
   void visit(const klartext::Cycle& cycle) {
     const CycleDescriptor* descriptor = bind_cycle(program_, cycle).descriptor();
     if (descriptor == nullptr) {
-      leave();  // a program may stand for it
+      leave();  // a program may replace it
       return;
     }
     for (const auto& written : program_.view(cycle.parameters)) read(written.value);

@@ -12,8 +12,8 @@
 
 namespace fitgauge::interpreter {
 
-/// A cycle block in Q parameters with its cycle and parameters found, so that a run looks nothing
-/// up by name. At most one of the cycles; none: it is not available.
+/// A cycle block in Q parameters, with its cycle and parameters already found, so that a run
+/// searches nothing by name. Has at most one of the cycles; none: it is unavailable.
 struct BoundCycle {
   const probing::TouchProbeCycle* probing = nullptr;
   const MachiningCycle* machining = nullptr;
@@ -36,8 +36,8 @@ inline constexpr double kMillimetresPerInch = 25.4;
 /// an INCH program, 2.54 for its feeds (tenths of an inch a minute).
 double scale_of(probing::Unit unit, bool is_inch);
 
-/// The value of a cycle parameter as far as it is known before the program runs: numbers and texts
-/// written out. Nothing for parameters, formulas and PREDEF.
+/// Returns the value of a cycle parameter that is known before the program runs: a written number
+/// or text. None for parameters, formulas and PREDEF.
 std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
                                               const klartext::CycleParameter& written,
                                               const probing::CycleParameter& parameter);

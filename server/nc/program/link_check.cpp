@@ -27,7 +27,8 @@ bool is_comment(const Block& block) {
          std::holds_alternative<klartext::Structure>(block.statement);
 }
 
-/// The sub-line before (`step` -1) or after (1) the one at `index`, if it is of the same cycle.
+/// Returns the sub-line before (`step` -1) or after (1) the sub-line at `index`, if it belongs to
+/// that cycle.
 std::optional<std::uint32_t> neighbour(const klartext::Program& program, std::uint32_t index,
                                        int step) {
   const auto blocks = program.blocks();

@@ -319,7 +319,7 @@ class Linker {
   LinkedParts parts_;
   std::vector<Jump> jumps_;
   const Expr* opened_ = nullptr;
-  bool is_one_table_ = true;  ///< the same by each FN 26, and not written
+  bool is_one_table_ = true;  ///< each FN 26 opens the same one, and it is not written
   std::vector<std::pair<const Block*, const klartext::TableRead*>> reads_;
 };
 

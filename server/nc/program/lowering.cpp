@@ -90,7 +90,7 @@ void CodeWriter::lower_node(std::uint32_t target, NodeIndex index) {
     default: break;
   }
   add(instruction);
-  used_temporaries_ = used;  // those of the operands are free again
+  used_temporaries_ = used;  // the cells of the operands are free again
 }
 
 void CodeWriter::join_pairs() {

@@ -53,8 +53,8 @@ class CodeWriter {
   static constexpr std::uint32_t counter(std::uint32_t index) { return kCounters + index; }
 
  private:
-  // Until the number of constants is known, cells of counters and temporaries have numbers of
-  // their own. A program has fewer than 2^22 blocks, and an expression fewer nodes than that.
+  // Provisional numbers of counters and temporaries, until the number of constants is known. A
+  // program has fewer than 2^22 blocks, and an expression fewer nodes than that.
   static constexpr std::uint32_t kCounters = 1U << 30;
   static constexpr std::uint32_t kTemporaries = 1U << 31;
 

@@ -27,7 +27,7 @@ class CallStack {
     return is_in_main() ? nullptr : programs_[programs_.size() - 2].program.get();
   }
 
-  /// The blocks behind the calls of what is being run, the innermost first.
+  /// Returns the calling blocks of the present block, the innermost first.
   std::vector<Place> behind_calls() const;
 
   /// @errors 1025 too deep.

@@ -33,8 +33,8 @@ class Channel {
   const LinkedProgram& linked() const { return calls.program(); }
   const klartext::Program& program() const { return linked().program(); }
   Place place() const { return {&linked(), block}; }
-  /// The block, or of FN 14 the jump to it if every block is followed; then those behind the calls
-  /// that lead to it.
+  /// Returns the block (for FN 14, the jump to it if every block is traced), then the blocks that
+  /// called it.
   std::vector<Place> chain() const;
   /// mm in one unit of a programmed length.
   double length_unit() const { return linked().is_inch() ? 25.4 : 1.0; }
@@ -65,7 +65,7 @@ class Channel {
   RunFiles files;
   QParameters parameters;
   CallStack calls;
-  std::uint32_t block = 0;         ///< index of the one that runs
+  std::uint32_t block = 0;         ///< index of the running block
   std::uint32_t block_before = 0;  ///< of the one that ran before it, if every block is followed
 
   Contour contour;

@@ -61,7 +61,7 @@ class ContourCycle {
   }
 
  private:
-  /// The allowance on the side: Q14 of side finishing, else Q3.
+  /// Returns the allowance on the side: Q14 for side finishing, otherwise Q3.
   double allowance() const { return number_ == 24 ? cycle_.value(14) : data_.value(3); }
   double reach() const { return motion_.tool_radius() + allowance(); }
   bool is_climb() const { return (number_ == 24 ? cycle_.value(9) : data_.value(9)) >= 0; }

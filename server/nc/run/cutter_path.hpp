@@ -63,7 +63,7 @@ class CutterPath {
   bool is_pending() const { return last_.has_value(); }
   int side() const { return side_; }
 
-  /// Moves along an element as it is.
+  /// Moves along an element without offset.
   static NcResult<void> move(machine::Machine& machine, const Element& element);
   static double radius(const machine::Machine& machine);
 

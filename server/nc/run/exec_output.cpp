@@ -19,7 +19,7 @@ using klartext::MaskLanguage;
 /// FN 15: output that a control collects during a program run.
 constexpr std::string_view kPrintFile = "%FN15RUN.A";
 
-/// A number with its sign always, a text as it is.
+/// Prints a number with its sign, a text unchanged.
 NcResult<std::string> printed(Channel& channel, const klartext::Expr& item) {
   const auto* parameter = std::get_if<klartext::QRef>(&item);
   if (std::holds_alternative<klartext::Text>(item) ||
@@ -124,7 +124,7 @@ NcResult<void> execute(Channel& channel, const klartext::FormattedPrint& print) 
   if (!target) return target.error();
   const auto path = channel.resolve(*name);
   if (!path) return path.error();
-  if (ascii_iequals(trim(*target), "SCLR:")) return {};  // closes the window; what it showed stays
+  if (ascii_iequals(trim(*target), "SCLR:")) return {};  // closes the window; its lines stay
   const auto mask = channel.printer.mask(*path);
   if (!mask) return mask.error();
   const auto printed = run_mask(channel, **mask);

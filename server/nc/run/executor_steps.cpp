@@ -20,7 +20,7 @@ NcError ExecutorSteps::value_error(const Instruction& instruction) const {
       instruction.op == Op::Divide ? klartext::Operator::Divide : instruction.function, a, b));
 }
 
-/// Whether an undefined operand was one that the control gives a value.
+/// Returns whether the control gives the undefined operand a value.
 bool ExecutorSteps::give_preassigned(const Instruction& instruction) {
   for (const std::uint32_t cell : {instruction.a, instruction.b}) {
     if (!is_defined(cells_[cell]) && is_preassigned(cell)) {

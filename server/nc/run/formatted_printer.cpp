@@ -46,7 +46,7 @@ Value keyword_value(const Channel& channel, MaskKeyword keyword) {
   return 0.0;
 }
 
-/// Puts digits into the width: `0` fills behind the sign.
+/// Pads digits to the width: `0` fills after the sign.
 std::string padded(std::string text, const MaskPlaceholder& placeholder, bool is_number) {
   const auto width = static_cast<std::size_t>(placeholder.width);
   const std::size_t size = tabfile::count_characters(text);

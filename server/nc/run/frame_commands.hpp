@@ -30,7 +30,7 @@ NcResult<void> scale(Channel& channel, const machine::Scaling& scaling);
 struct PlaneMoves {
   klartext::PlanePositioning positioning = klartext::PlanePositioning::Stay;
   machine::Feed feed;
-  bool turns_table = false;  ///< TABLE ROT: a free rotary axis turns, else the coordinates do
+  bool turns_table = false;  ///< TABLE ROT: a free rotary axis turns; otherwise the coordinates
   std::optional<MCall> retraction{};  ///< MB: before the axes turn
   double distance = 0;  ///< DIST: from the tip along the tool to the point that keeps its place
   bool is_symmetric = false;  ///< SYM: the sign counts from the middle of the axis' range

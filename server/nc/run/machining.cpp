@@ -9,7 +9,7 @@
 namespace fitgauge::interpreter {
 namespace {
 
-/// Cycle 240 may give the diameter of the countersink instead of its depth.
+/// Cycle 240 may define the diameter of the countersink instead of its depth.
 double depth(const MachiningDefinition& definition, const machine::Tool* tool) {
   if (definition.value(343) != 1) return definition.value(201);
   const double point = tool == nullptr ? 0 : tool->point_angle;

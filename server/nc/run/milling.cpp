@@ -133,12 +133,12 @@ double stud_allowance(const Machining& cycle) {
   return cycle.definition.gives(215) ? side_allowance(cycle) : cycle.value(368);
 }
 
-/// The rounds of a stud whose blank is larger by `excess` on each side. `point(part, beside)`
-/// begins the round that leaves this part of the excess, `around(part, depth)` goes along it.
+/// Mills the rounds of a stud whose blank is larger by `excess` on each side. `point(part, beside)`
+/// begins the round that leaves this part of the excess; `around(part, depth)` mills it.
 template <class Point, class Around>
 NcResult<void> mill_outside(Machining& cycle, double excess, const Point& point,
                             const Around& around) {
-  constexpr double kBeside = 2;  // mm beside the blank, the control's own
+  constexpr double kBeside = 2;  // mm beside the blank; the control's value
   const double step = cycle.value(370) * cycle.motion.tool_radius();
   if (step <= 0) return does_not_fit(1002, cycle.motion.tool_radius());
   if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
@@ -217,7 +217,7 @@ NcResult<void> mill_bore(Machining& cycle) {
   if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
   if (auto done = cycle.start(); !done) return done;
   const Feed feed = cycle.feed(206);
-  if (radius < tolerance::kSamePoint) {  // a hole of the tool's own diameter is drilled
+  if (radius < tolerance::kSamePoint) {  // a hole with the diameter of the tool is drilled
     if (auto done = motion.to_height(heights.bottom, feed); !done) return done;
   } else {
     const Vec2 centre = motion.point();

@@ -51,7 +51,7 @@ NcError from_error(const Error& error);
 template <class T>
 using NcResult = boost::system::result<T, NcError>;
 
-/// The result of a machine command as one of the interpreter.
+/// Converts the result of a machine command to one of the interpreter.
 inline NcResult<void> checked(const machine::MachineResult<void>& result) {
   if (result.has_error()) return from_machine(result.error());
   return {};

@@ -37,7 +37,7 @@ std::vector<klartext::Diagnostic> findings_of(const RunResult& result) {
     add(message, klartext::Severity::Error, klartext::DiagnosticCode::RunFailed, message.text);
   }
   for (const Measurement& each : result.measurements) {
-    const auto& sizes = each.record.sizes;  // positions come last, and are those of a size
+    const auto& sizes = each.record.sizes;  // positions come last, and belong to a size
     if (sizes.empty() || sizes.front().is_position || each.record.cycle == 427) continue;
     for (const probing::MeasuredSize& size : sizes) {
       const double measured = size.measured.to_mm();

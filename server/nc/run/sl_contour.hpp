@@ -15,7 +15,7 @@ class Channel;
 /// A contour of cycle 14: closed curves, one after the other, in input coordinates.
 struct SlContour {
   std::vector<Curve> curves;
-  bool is_pocket = true;  ///< machined inside; else an island, which stays
+  bool is_pocket = true;  ///< machined inside; otherwise an island, which stays
 };
 
 /// The kind of contour in the label's subprogram. RL around to the left and RR to the right are a
@@ -36,9 +36,9 @@ struct SlPath {
 /// material remains. @param reach from the contour to the tool's centre
 SlPath path_along(const SlContour& contour, double reach, bool is_climb);
 
-/// The contour of a subprogram of an SL cycle, stored instead of moved. It may transform
-/// coordinates: the curves are those of the input system in which the cycle was called. Depths,
-/// feeds and M functions do not count there.
+/// Stores the contour of a subprogram of an SL cycle instead of moving. It may transform
+/// coordinates: the curves are in the input system in which the cycle was called. Depths, feeds and
+/// M functions have no effect there.
 class SlDrawing {
  public:
   /// Begins at the position of the machine, which must outlive this.

@@ -60,7 +60,7 @@ Answer program_data(const Channel& channel, const Address& address) {
     case 1: return channel.calls.main_program().is_inch() ? 1 : 0;
     case 3: return channel.active_cycle.number;
     case 6: return channel.active_cycle.last_probing;
-    case 103: {  // whether the active cycle's block gives the parameter Q IDX
+    case 103: {  // whether the block of the active cycle has the parameter Q IDX
       const auto* machining = std::get_if<MachiningDefinition>(&channel.active_cycle.definition);
       if (machining == nullptr || !address.index) return std::nullopt;
       return machining->gives(*address.index) ? 1 : 0;

@@ -26,14 +26,14 @@ bool is_tool_length(std::int64_t nr);
 
 class Channel;
 
-/// Whether a cell is one of Q108 to Q111, Q113, Q114, which the control gives a value. They are
-/// undefined until a program reads them or calls a tool.
+/// Returns whether a cell is Q108 to Q111, Q113 or Q114, to which the control gives a value. They
+/// are undefined until a program reads them or calls a tool.
 constexpr bool is_preassigned(std::uint32_t cell) {
   return cell >= kFirstQ + 108 && cell <= kFirstQ + 114 && cell != kFirstQ + 112;
 }
 
-/// Gives them the values of the active tool, spindle, coolant and unit. To be called after what
-/// changes these.
+/// Sets them to the values of the active tool, spindle, coolant and unit. Call it after a change of
+/// these.
 void update_preassigned(Channel& channel);
 
 /// Q120 to Q122: the rotary positions that PLANE or cycle 19 has computed, in degrees.

@@ -97,7 +97,7 @@ void Forwarder::follow(const CentreLink::GoesOn& goes_on) {
   if (!there->notes) return noted_.reset();
   const std::int64_t noted = noted_.value_or(0);
   const bool is_told = outbox_.is_note_of(there->history, std::max(noted, *there->notes));
-  noted_ = is_told ? *there->notes : noted;  // what it has already is left out there
+  noted_ = is_told ? *there->notes : noted;  // the centre ignores notes that it already has
 }
 
 /// With the records it may have lost notes, also of histories before the newest.
@@ -126,7 +126,8 @@ void Forwarder::run(const std::stop_token& stop) {
       pause_ = std::clamp(2 * pause_, kFirstPause, kLongestPause);
     }
     if (sent == Sent::Taken) continue;
-    // Half of it by chance, so that stations do not come together when their centre is back.
+    // Half of the pause is random, so that stations do not connect all at once when their centre is
+    // back.
     const milliseconds pause = sent == Sent::Nothing ? kBetweenLooks : pause_;
     auto jitter = std::uniform_int_distribution<milliseconds::rep>(0, pause.count() / 2);
     wait(stop, pause - milliseconds(jitter(random_)));
@@ -211,7 +212,7 @@ Forwarder::Sent Forwarder::elsewhere(std::int64_t size, const std::string& root)
     took(size);
     return Sent::Taken;
   }
-  if (*same == true && noted_.value_or(0) > 0) {  // it lacks notes that those of the batch follow
+  if (*same == true && noted_.value_or(0) > 0) {  // it lacks notes before those of the batch
     refused_note_ = std::exchange(noted_, 0);
     return Sent::Taken;
   }
@@ -249,7 +250,7 @@ Forwarder::Sent Forwarder::failed(Sent how, const std::string& why) {
 }
 
 void Forwarder::took(std::int64_t size) {
-  static_cast<void>(outbox_.confirm(options_.centre.url, size));  // else the centre tells it again
+  static_cast<void>(outbox_.confirm(options_.centre.url, size));  // or the centre reports it again
   confirmed_ = size;
   outbox_.set_forked(std::nullopt);
   std::unique_lock lock(mutex_);

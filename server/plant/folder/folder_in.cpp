@@ -146,7 +146,7 @@ std::optional<std::string> FolderIn::look(const std::stop_token& stop) {
   for (const auto& [time, name] : ready) at_rest_.insert(name);
   for (const auto& [time, name] : ready) {
     if (stop.stop_requested()) break;
-    if (is_description(name)) continue;  // it goes with its DFX
+    if (is_description(name)) continue;  // read together with its DFX
     begin_attempt();
     if (auto why = take(*folder, name, seen_[name]); why && !first) first = std::move(why);
   }

@@ -68,7 +68,7 @@ class RestingFile {
   Read from_begin() const;
   /// @errors StorageUnavailable
   Result<void> add_to(Sha256& digest) const;
-  /// Whether it looks as it did when it was opened.
+  /// Returns whether the file looks as it did when it was opened.
   bool is_unchanged() const;
 
  private:

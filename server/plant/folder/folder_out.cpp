@@ -136,7 +136,7 @@ Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::s
   const auto folder = Folder::open(options_.folder);
   if (!folder) return {.failure = folder.error().message};
   for (const File& file : files_of(measurements, refused)) {
-    if (file.text.empty()) continue;  // nothing of it can be written
+    if (file.text.empty()) continue;  // nothing of it is writable
     if (const auto written = folder->write(name_of(file), file.text); !written) {
       delivery.failure = written.error().message;
       return delivery;

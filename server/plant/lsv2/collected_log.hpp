@@ -64,8 +64,8 @@ struct CollectedLog {
 
   std::string text{};
   bool has_time = false;  ///< the control's, in its text
-  std::string key{};      ///< the same for the same log of the same machine and path, and no other
-  std::vector<app::Measurement> measurements{};  ///< none: nothing in it is a length
+  std::string key{};      ///< unique to this log of this machine and path
+  std::vector<app::Measurement> measurements{};  ///< empty: it has no length
   std::size_t values_kept = 0;  ///< angles and figures of axes, they stay in the file
 
   app::TableCatalog::Tables tables{};

@@ -30,7 +30,7 @@ control_link::LinkResult<LinkClient> connect(const MachineOptions& machine,
   if (!control) return control;
   for (const char* login : {"INSPECT", "FILE"}) {
     if (const auto done = control->login(login); !done) return done.error();
-    // Between them, since the buffer is among what INSPECT may ask.
+    // Set between the logins, because INSPECT may request the buffer.
     if (login == std::string_view("INSPECT")) {
       if (const auto agreed = control->agree_buffer(); !agreed) return agreed.error();
     }

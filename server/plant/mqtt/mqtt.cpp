@@ -57,7 +57,7 @@ class Mqtt final : public Outlet {
   };
 
   std::optional<std::string> connect(const std::stop_token& stop);
-  /// Publishes in order what `compose` makes of each.
+  /// Publishes the message that `compose` makes from each item, in order.
   template <class Items, class Compose>
   Delivery publish(const Items& items, const std::stop_token& stop, const Compose& compose);
 
@@ -123,8 +123,8 @@ Delivery Mqtt::publish(const Items& items, const std::stop_token& stop, const Co
     const auto reason = link_.client().wait_settled(ahead.front().ticket, kLongestSilence, stop);
     if (!reason || (*reason != 0 && !is_of_the_message(*reason))) {
       if (stop.stop_requested()) return delivery;
-      // Messages on their way are sent again over a new connection: a broker that is out of step
-      // ends.
+      // Ends the connection of a broker that is out of step: a new connection sends pending
+      // messages again.
       delivery.failure =
           link_.give_up(reason ? mqtt_reason(*reason) : "the broker does not acknowledge messages");
       return delivery;

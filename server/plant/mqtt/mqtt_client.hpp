@@ -20,11 +20,11 @@ struct mosquitto;
 
 namespace fitgauge::connections {
 
-/// A broker, and who we are to it.
+/// A broker, and our identity there.
 struct Broker {
   control_link::ControlAddress address{};
   bool tls = false;
-  std::filesystem::path ca_file{};  ///< who vouches for it; empty: the system's authorities
+  std::filesystem::path ca_file{};  ///< empty: the authorities of the system
   std::string user{};
   std::string password{};
   std::string client_id{};
@@ -53,7 +53,7 @@ class MqttClient {
   MqttClient(const MqttClient&) = delete;
   MqttClient& operator=(const MqttClient&) = delete;
 
-  /// Waits until the broker has accepted. @returns why it has not.
+  /// Waits until the broker has accepted. @returns the reason for a failure.
   std::optional<std::string> wait_connected(const std::stop_token& stop);
   bool is_connected() const;
   /// Returns the reason why it was lost or never began.
@@ -70,9 +70,9 @@ class MqttClient {
   /// Waits until it is settled. None: it was lost, the time is over, or a stop was requested.
   std::optional<int> wait_settled(Ticket ticket, std::chrono::milliseconds most,
                                   const std::stop_token& stop);
-  static constexpr int kCannotBeSent = 256;  ///< the library refused it as it is
+  static constexpr int kCannotBeSent = 256;  ///< the library refused the message itself
 
-  /// The oldest message that has come over a subscription.
+  /// Returns the oldest unread message of a subscription.
   std::optional<MqttMessage> take_arrived();
 
   /// Ends the connection in good order: the broker keeps the will to itself. Waits at most 2 s.

@@ -154,7 +154,7 @@ std::string mqtt_reason(int reason) {
 }
 
 std::optional<std::string> MqttLink::connect(const std::stop_token& stop) {
-  client_ = nullptr;  // the broker knows one of that name at a time
+  client_ = nullptr;  // the broker allows one client of that name
   client_ = std::make_unique<MqttClient>(broker_, will_, wake_);
   return client_->wait_connected(stop);
 }

@@ -16,9 +16,9 @@
 
 namespace fitgauge::connections {
 
-/// A text as one level of a topic, or a part of one: `% + # /`, control characters and what MQTT
-/// gives no place (1.5.4) become `%XX` of their bytes, and no two texts become alike. An empty text
-/// is `-`, a text `-` is `%2D`.
+/// Returns a text as one level of a topic, or a part of one. `% + # /`, control characters and
+/// characters that MQTT forbids (1.5.4) become `%XX` of their bytes. Different texts stay
+/// different. An empty text is `-`, a text `-` is `%2D`.
 std::string topic_level(std::string_view text);
 
 /// A topic with the texts of a measurement in it: `plant/{machine}/{characteristic}`.

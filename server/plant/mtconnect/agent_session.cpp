@@ -50,7 +50,7 @@ void AgentSession::take_lines() {
   for (std::size_t end = 0; (end = input_.find('\n', from)) != input_.npos; from = end + 1) {
     const std::string_view line = std::string_view(input_).substr(from, end - from);
     if (!line.starts_with(kPing)) continue;
-    // One that asks without listening is not answered without end.
+    // A client that sends without reading gets no endless answers.
     if (is_full()) continue;
     send(std::make_shared<const std::string>(
         fmt::format("* PONG {}\n", options_.heartbeat.count())));

@@ -39,7 +39,7 @@ std::string_view status_of(Verdict verdict) {
   return "INDETERMINATE";
 }
 
-/// From 1 on, the same for the same history of a data folder.
+/// Returns a number from 1, equal for equal histories of a data folder.
 std::uint64_t instance_of(const Agent& agent) {
   std::uint32_t number = 0;
   const std::string_view digits = agent.history.substr(0, 7);

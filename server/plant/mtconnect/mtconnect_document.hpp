@@ -64,7 +64,7 @@ constexpr std::int64_t measurement_at(std::uint64_t sequence) {
 /// The agent's part of every document.
 struct Agent {
   std::string_view origin;   ///< of the data folder for ever: 16 hexadecimal digits
-  std::string_view history;  ///< what its ids end with now
+  std::string_view history;  ///< present end of its ids
   Timestamp now;
   Timestamp began;          ///< since when the gauge is there
   std::int64_t newest = 0;  ///< measurements in the log

@@ -66,7 +66,7 @@ struct Current {
   std::uint64_t at = 0;  ///< the last sequence that is seen
   /// The newest measurement that is seen whole.
   std::unique_ptr<app::KeptMeasurement> newest{};
-  /// The one after it, of which only the part is seen.
+  /// Next measurement, of which only the part is read.
   std::unique_ptr<app::KeptMeasurement> begun{};
 
   /// All up to here are seen whole.

@@ -123,7 +123,7 @@ class SampleStream final : public http::BodyStream,
     {
       const std::lock_guard lock(mutex_);
       sink_ = std::move(sink);
-      if (std::exchange(begun_, true)) return;  // the next document comes an interval later
+      if (std::exchange(begun_, true)) return;  // the next document follows an interval later
       reading_ = true;
     }
     read();
@@ -168,7 +168,7 @@ class SampleStream final : public http::BodyStream,
 
   const Services& services_;
   const OpenStreams open_;
-  Sample sample_;  ///< of the one thread that reads
+  Sample sample_;  ///< used by one reading thread
   const milliseconds heartbeat_;
 
   std::mutex mutex_;

@@ -166,7 +166,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
     agent->start();
     agent->send(shared(shdr_availability(clock_.now())));
     if (phase_ == Phase::Idle) return begin();
-    // One that comes while the newest is read gets it with the others.
+    // An agent that connects while the newest is read gets it with the others.
     if (phase_ == Phase::Following) greet(*agent);
   }
 

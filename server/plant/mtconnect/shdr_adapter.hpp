@@ -92,7 +92,7 @@ std::string shdr_text(std::string_view text);
 
 struct AdapterOptions {
   http::ListenAddress listen{};
-  std::size_t most_agents = 16;  ///< beyond it one is closed at once
+  std::size_t most_agents = 16;  ///< further agents are closed at once
   SessionOptions session{};
   /// Reports an agent that was refused or disconnected: its address and the reason. On the
   /// adapter's thread.

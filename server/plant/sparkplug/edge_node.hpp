@@ -45,8 +45,8 @@ enum class SparkplugType : std::uint32_t {
 using SparkplugValue = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
 struct SparkplugMetric {
-  std::string name{};                    ///< in births and deaths; else empty
-  std::optional<std::uint64_t> alias{};  ///< goes for the name in data
+  std::string name{};                    ///< in births and deaths; otherwise empty
+  std::optional<std::uint64_t> alias{};  ///< replaces the name in data
   std::optional<SparkplugType> type{};   ///< in births and deaths
   Timestamp at{};
   SparkplugValue value{};
@@ -64,8 +64,8 @@ inline constexpr std::string_view kRebirth = "Node Control/Rebirth";
 /// Whether a command requests all births. A malformed payload requests nothing.
 bool asks_for_rebirth(std::string_view payload);
 
-/// Metrics of a device's last measurement: the same metrics for every quantity, so
-/// that a birth names all that will ever come.
+/// Metrics of a device's last measurement, equal for every quantity, so that a birth names all
+/// later metrics.
 struct DeviceMetric {
   std::string_view name;
   SparkplugType type;
@@ -103,7 +103,7 @@ class EdgeNode {
     std::uint64_t first_alias = 0;
     std::vector<SparkplugMetric> metrics{};  ///< as last reported
   };
-  using Devices = std::list<Device>;  ///< the one that was silent longest first
+  using Devices = std::list<Device>;  ///< the longest silent device first
 
   void send(std::string_view type, std::string_view device,
             const std::vector<SparkplugMetric>& metrics);
@@ -125,7 +125,7 @@ class EdgeNode {
 /// Whether the primary host is there, by the STATE messages that have come.
 class HostState {
  public:
-  /// One that is older than the last, or no STATE at all, changes nothing.
+  /// Reads a STATE message. An older one, or another payload, changes nothing.
   void take(std::string_view payload);
   /// Begins a new connection: everything is sent to the broker again.
   void forget() { is_online_ = false; }

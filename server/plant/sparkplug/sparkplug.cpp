@@ -127,7 +127,7 @@ Delivery Sparkplug::deliver(std::span<const Outgoing> measurements, const std::s
   if (delivery.failure) return delivery;
   const auto some = measurements.first(std::min(measurements.size(), kMostAtOnce));
   for (const Outgoing& outgoing : some) {
-    // A command goes before data. A new connection would not know what went over the lost one.
+    // Handles commands before data. A new connection would not know the messages of the lost one.
     if (!link_.is_up() || !obey()) {
       delivery.failure = link_.give_up("the session has ended");
       return delivery;

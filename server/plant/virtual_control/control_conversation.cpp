@@ -33,7 +33,7 @@ std::optional<std::size_t> agreed_buffer(std::uint16_t command) {
 std::optional<Telegram> ControlConversation::answer(const Telegram& telegram) {
   const auto request = read_request(telegram);
   if (!request) return refusal(request.error());
-  // A transfer ends with the first telegram that is none of it.
+  // A transfer ends with the first foreign telegram.
   const bool is_of_transfer = std::holds_alternative<FileBlock>(*request) ||
                               std::holds_alternative<EndOfData>(*request) ||
                               std::holds_alternative<Accepted>(*request);

@@ -41,7 +41,7 @@ struct ControlModel {
 };
 
 std::span<const ControlModel> control_models();
-/// Null if there is none of that name.
+/// Finds a model; null if the name is unknown.
 const ControlModel* find_model(std::string_view name);
 
 }  // namespace fitgauge::virtual_control
@@ -55,7 +55,7 @@ namespace fitgauge::virtual_control {
 struct VirtualControlOptions {
   control_link::LinkServerOptions link;
   std::string model;         ///< a name of control_models()
-  bool is_writable = false;  ///< else files and the machine can only be read
+  bool is_writable = false;  ///< false: files and the machine can only be read
   machine::Setup setup;      ///< of the machine it shows
   StartProgram start;
   std::function<void(std::string_view peer, std::string_view why)> sent_away{};

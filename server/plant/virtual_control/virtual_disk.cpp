@@ -219,7 +219,7 @@ VirtualDisk::Answer<void> VirtualDisk::remove(const Path& path) {
   if (!found) return found.error();
   const auto removed = wait_for<bool>(
       [&](auto done) { files_.remove(path, std::nullopt, {}, {}, std::move(done)); });
-  // One that only the run has: nothing is stored of it.
+  // A file of only the run: nothing is stored of it.
   if (!removed && removed.error() != ControlError::NoFile) return removed.error();
   hide(path);
   keep_directory(path.directory());

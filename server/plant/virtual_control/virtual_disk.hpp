@@ -130,7 +130,7 @@ class MachineView {
   const StartProgram start_;
   control_link::Mode mode_ = control_link::Mode::Manual;
   std::int64_t seen_run_ = 0;
-  std::shared_ptr<app::ActiveRun> started_;  ///< the last one that a client has started
+  std::shared_ptr<app::ActiveRun> started_;  ///< the last run that a client has started
 };
 
 /// The PLC of a machine without one: every cell is 0 and every string empty.

@@ -33,10 +33,10 @@ constexpr int kMostAttempts = 5;  ///< of an event that the receiver does not un
 struct WebhookOptions {
   FollowerOptions follower{};
   std::string url{};
-  std::vector<std::string> keys{};  ///< bytes; each signs, so that a receiver may change its own
+  std::vector<std::string> keys{};  ///< bytes; each signs, so that receivers can change theirs
   std::chrono::seconds timeout{15};
   std::vector<std::string> headers{};  ///< lines of a request
-  BodyTemplate body{};                 ///< empty: the event as it is
+  BodyTemplate body{};                 ///< empty: the unchanged event
 };
 
 Result<std::string> read_url(std::string_view text) {
@@ -57,7 +57,7 @@ Result<std::string> read_key(const JsonValue& item) {
                   kSecretPrefix, kShortestKey, kLongestKey));
 }
 
-/// Names that are the request's own or the specification's.
+/// Returns whether the request or the specification uses the name itself.
 bool is_reserved(std::string_view name) {
   constexpr std::array kNames = {
       "connection"sv, "content-length"sv,    "content-type"sv, "host"sv,   "expect"sv,
@@ -177,7 +177,7 @@ class Webhook final : public Outlet {
     std::string id;
     std::string body;
   };
-  /// Posts one after the other what `compose` makes of each.
+  /// Posts the request that `compose` makes from each item, one by one.
   template <class Items, class Compose>
   Delivery post(const Items& items, const std::stop_token& stop, const Compose& compose);
 

@@ -31,7 +31,7 @@ void add_users(std::vector<std::string>& users, const store::Stores& stores, Doc
 /// @errors DocumentInUse, if there are users.
 Result<void> check_unused(std::string_view what, const std::vector<std::string>& users);
 
-/// A document as it was written.
+/// A document as written.
 struct NamedDocument {
   std::string name;
   std::string text;  ///< JSON, checked when it was stored
@@ -58,7 +58,7 @@ class DocumentService {
     std::string text{};
     std::optional<std::string> caller{};
     std::optional<std::string> uncertainty{};  ///< a budget that must be there
-    std::optional<std::string> gauge{};        ///< the same of a gauge in use
+    std::optional<std::string> gauge{};        ///< reference of a gauge in use
     Precondition precondition{};
   };
 

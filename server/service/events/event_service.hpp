@@ -117,16 +117,16 @@ class EventService {
   struct Page {
     EventPosition position;  ///< new position of the reader
     bool gap = false;        ///< the next events are deleted; the position is the newest
-    bool more = false;       ///< than fits into a page
+    bool more = false;       ///< there are more than a page holds
     std::string text{};
   };
   /// Writes an event at the end of a page's text.
   using Write = void (*)(std::string& text, const Event& event);
   using PageDone = std::function<void(const Result<Page>&)>;
 
-  /// The events of up to 200 measurements and as many stored ones, written by a reader thread.
-  /// Readers that ask for a page before a thread has begun to read it share the page.
-  /// @param write the same for all. @errors StorageUnavailable, StorageBusy.
+  /// Returns the events of up to 200 measurements and up to 200 stored ones, written by a reader
+  /// thread. Readers that request a page before a thread reads it share the page.
+  /// @param write one function for all. @errors StorageUnavailable, StorageBusy.
   void read(const Place& place, Write write, PageDone done);
 
   /// Position of a reader after this event; none: it is reported as a gap.

@@ -33,7 +33,7 @@ DiskFile disk_file(store::FileEntry entry) {
 }  // namespace
 
 Result<interpreter::ControlPath> parse_file_path(std::string_view text) {
-  constexpr std::string_view kLetters = kDrive.substr(0, kDrive.size() - 1);  // \ or / behind them
+  constexpr std::string_view kLetters = kDrive.substr(0, kDrive.size() - 1);  // before \ or /
   if (ascii_iequals(trim(text).substr(0, kLetters.size()), kLetters) || text.empty()) {
     return interpreter::ControlPath::parse(text);
   }

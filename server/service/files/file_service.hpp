@@ -58,7 +58,7 @@ class DraftDisk final : public interpreter::ControlDisk {
 
 /// A file of the control's disk.
 struct DiskFile {
-  std::string path;       ///< TNC:\..., as it was last written
+  std::string path;       ///< TNC:\..., as last written
   std::int64_t size = 0;  ///< bytes
   Timestamp modified_at;
   std::string bytes{};  ///< empty in lists

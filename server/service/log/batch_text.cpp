@@ -51,7 +51,7 @@ void write_answer(std::string& text, const store::IdempotencyStore::Forwarded& k
   text += '\n';
 }
 
-/// More often than a key is renewed.
+/// Keys are renewed more rarely.
 constexpr std::size_t kMostHandOvers = 100;
 
 std::int64_t size_of(const JsonValue& base) {
@@ -90,7 +90,7 @@ Result<void> read_heading(const JsonValue& json, app::ForwardedBatch& batch) {
   return {};
 }
 
-/// A response for the store: refuses what the store refuses.
+/// Reads a response for the store, and refuses what the store would refuse.
 Result<store::IdempotencyStore::Forwarded> read_answer(const JsonValue& json) {
   store::IdempotencyStore::Forwarded kept{.request = {.caller = text_of(json, "caller"),
                                                       .method = text_of(json, "method"),

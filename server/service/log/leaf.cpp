@@ -56,7 +56,7 @@ std::span<const tlog::Hash> LeafMaker::operator()(std::span<const Measurement> m
     writer.append(measurement);
     leaves_.push_back(hasher_.leaf(std::string_view(records_).substr(begins_.back())));
   }
-  begins_.push_back(records_.size() + 1);  // behind a comma that is not there
+  begins_.push_back(records_.size() + 1);  // after a comma that is absent
   return leaves_;
 }
 

@@ -50,7 +50,7 @@ struct LogIntake::Known {
   std::vector<tlog::VerifierKey> new_keys{};  ///< that this batch has brought
   tlog::Frontier before{};                    ///< of the rows before the batch
   std::optional<tlog::Hash> root_at_end{};    ///< end of the batch within the stored rows
-  bool lacks_notes = false;                   ///< of those that the batch's notes follow
+  bool lacks_notes = false;                   ///< of notes before those of the batch
 };
 
 /// The result of the tree for a batch.
@@ -229,7 +229,7 @@ Result<LogIntake::Judged> LogIntake::judge_tree(const ForwardedBatch& batch,
     if (grown.size() == known.head.size) fits = grown.root() == known.head.root;
   }
   judged.root = grown.root();
-  if (known.root_at_end) {  // all of it is here already, or contradicts what is
+  if (known.root_at_end) {  // all of it is already here, or contradicts the records here
     if (judged.outcome == Outcome::Taken && !batch.rows.empty()) {
       judged.outcome = Outcome::Elsewhere;
     }

@@ -156,7 +156,7 @@ void LogOutbox::meet(std::string_view centre) const {
 }
 
 void LogOutbox::set_forked(const std::optional<std::string>& why) const {
-  static_cast<void>(log_.set_forked(why));  // what cannot be stored now is tried with the next
+  static_cast<void>(log_.set_forked(why));  // the next call repeats a failed store
 }
 
 std::int64_t LogOutbox::committed() const { return database_.writer_counters().own_rows; }

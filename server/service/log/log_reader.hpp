@@ -17,7 +17,7 @@ namespace fitgauge::app {
 /// station: records, leaves and nodes. Used inside a read job.
 class LogReader {
  public:
-  /// Stands for the changes of this folder, instead of an origin.
+  /// Names the changes of this folder, in place of an origin.
   static constexpr std::int64_t kChanges = std::numeric_limits<std::int64_t>::max();
 
   /// @param origin 0: this folder.
@@ -29,7 +29,7 @@ class LogReader {
   /// The leaves of the rows after `after`, at most `count`.
   std::vector<tlog::Hash> leaves(std::int64_t after, std::int64_t count);
 
-  /// The records those leaves are of.
+  /// Returns the records of those leaves.
   std::vector<std::string> records(std::int64_t after, std::int64_t count) const;
 
   /// @pre the subtree is complete and within the size of the stored tree.

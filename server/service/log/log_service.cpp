@@ -124,7 +124,7 @@ void LogService::run(const std::stop_token& stop) {
       guarded("the log",
               [&] { has_grown = grow([&stop] { return stop.stop_requested(); }).has_value(); });
       lock.lock();
-      if (!has_grown) dirty_ = true;  // the storage tells of its failures itself
+      if (!has_grown) dirty_ = true;  // the storage reports its failures itself
     }
     if (now >= next_telling_) {
       next_telling_ = now + kBetweenTellings;
@@ -259,7 +259,7 @@ std::vector<std::string> LogService::hand_overs() const {
     const auto note = read_small_file(entry.path());
     if (note && *note && next_key_of(**note)) notes.push_back(**note);
   }
-  // A later one has signed as many measurements or more.
+  // A later checkpoint has signed at least as many measurements.
   std::sort(notes.begin(), notes.end(), [](const std::string& a, const std::string& b) {
     const auto size = [](const std::string& note) {
       const auto checkpoint = tlog::parse_checkpoint(note);

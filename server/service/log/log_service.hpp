@@ -34,14 +34,14 @@ struct TreeNames;
 
 /// The state of a history at the centre.
 struct AtCentre {
-  std::string centre{};   ///< the digits of the centre's own history
+  std::string centre{};   ///< digits of the centre's present history
   std::int64_t rows = 0;  ///< of the history in question that are there
 };
 
 struct LogOptions {
   std::filesystem::path directory;  ///< of the database, with the key and the newest checkpoint
   std::string name = "station";     ///< of the log, if this is its first start
-  bool shares = false;              ///< one of several daemons that sign the same log
+  bool shares = false;              ///< several daemons sign this log
   bool attach = false;              ///< next to a running daemon: nothing is signed or written
   /// Returns the centre's state of the history with these digits; none if it does not respond.
   /// Called once, when the log is opened; not set without a centre. May block.
@@ -91,7 +91,7 @@ class LogService {
 
   /// The rows of this log under one name, after `begin` up to `end`.
   struct History {
-    std::string digits;  ///< what their ids end with
+    std::string digits;  ///< end of their ids
     std::string name;    ///< in checkpoints
     std::int64_t begin = 0;
     std::optional<std::int64_t> end{};         ///< none: the present one
@@ -128,13 +128,13 @@ class LogService {
     std::string bytes;
     bool is_full = false;  ///< it never changes
   };
-  /// @param path after `tile/`. @param of_changes of the tree of changes instead.
+  /// @param path after `tile/`. @param of_changes true for the tree of changes.
   /// @errors NotFound; those of storage.
   void tile(std::string_view path, bool of_changes, Done<TileBytes> done);
 
   struct ChangePage {
     std::vector<store::Change> changes;
-    std::string last;  ///< cursor of the newest so far, cNUMBER-DIGITS; empty: there is none
+    std::string last;  ///< newest cursor so far, cNUMBER-DIGITS; empty: there is none
     bool has_more = false;
   };
   /// Returns a page of changes after a cursor, or after a number of the first history, oldest
@@ -154,7 +154,7 @@ class LogService {
     std::string name;
     std::int64_t size = 0;
     std::vector<tlog::VerifierKey> keys;
-    std::string checkpoint{};  ///< the newest one in the database; of forwarded logs
+    std::string checkpoint{};  ///< for forwarded logs, the newest one in the database
     tlog::Frontier base{};     ///< of a branch that was forwarded: the rows below it
     /// Its earlier names, and the number of rows of each that it continues.
     std::map<std::string, std::uint64_t> former{};

@@ -110,7 +110,7 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
       signers_.push_back(key);
       continue;
     }
-    // One that this database does not know may be of a later copy of it, which comes back.
+    // A history that this database does not know may belong to a later copy, which comes back.
     if (history != histories_.end() && !history->signer) history->signer = key;
     older_.push_back(key);
   }
@@ -172,7 +172,7 @@ std::optional<std::string> LogService::told_by(const TreeNames& tree, std::int64
                                                const Loaded& loaded) {
   const auto note = read_small_file(options_.directory / tree.file);
   if (!note || !*note || (*note)->empty()) return std::nullopt;
-  if (!tlog::parse_checkpoint(**note)) {  // cut by a power failure, say
+  if (!tlog::parse_checkpoint(**note)) {  // for example cut by a power failure
     set_aside(tree.file, "not a checkpoint");
     return std::nullopt;
   }

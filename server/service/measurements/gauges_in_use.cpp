@@ -27,7 +27,7 @@ std::map<std::string, metrology::CombinedUncertainty> combined_of(const Document
   return combined;
 }
 
-/// Gives a period the budget of that name.
+/// Gives a period the budget with that name.
 void set_budget(GaugePeriod& period, std::string name,
                 const std::map<std::string, metrology::CombinedUncertainty>& combined) {
   period.budget = std::move(name);

@@ -15,8 +15,7 @@ class DocumentService;
 
 namespace fitgauge::api {
 
-/// The gauges in use with what their budgets come to, as the stored documents have them.
-/// Thread-safe.
+/// Gauges in use from the stored documents, with the results of their budgets. Thread-safe.
 class GaugesInUse {
  public:
   explicit GaugesInUse(app::DocumentService& documents) : documents_(documents) {}
@@ -36,7 +35,7 @@ class GaugesInUse {
   app::DocumentService& documents_;
   Snapshot<GaugeBook> book_{std::make_shared<const GaugeBook>()};
   std::mutex mutex_;
-  std::uint64_t begun_ = 0;  ///< reloads; a later one has seen all that an earlier one has
+  std::uint64_t begun_ = 0;  ///< reloads; later ones include earlier ones
   std::uint64_t shown_ = 0;
 };
 

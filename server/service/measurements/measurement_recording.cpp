@@ -81,11 +81,11 @@ class MeasurementQueue : public std::enable_shared_from_this<MeasurementQueue> {
   const std::size_t most_waiting_;
   const bool each_apart_;
   LeafMaker leaves_;                         ///< of the writer thread
-  std::vector<store::MeasurementRow> rows_;  ///< those of one job, of the writer thread
+  std::vector<store::MeasurementRow> rows_;  ///< rows of one job; used by the writer thread
   std::mutex mutex_;
   std::size_t waiting_ = 0;      ///< requests whose jobs have not begun
-  std::shared_ptr<Load> open_;   ///< the last whose job has not begun; null when there is none
-  std::shared_ptr<Load> spare_;  ///< empty, with the memory of one that was stored
+  std::shared_ptr<Load> open_;   ///< the last job that has not begun, or null
+  std::shared_ptr<Load> spare_;  ///< empty, with the memory of a stored job
 };
 
 /// All or nothing: there is room for another request.
@@ -121,7 +121,7 @@ void MeasurementQueue::submit(const std::shared_ptr<Load>& load) {
         return self->store(stores, *load);
       },
       [self = shared_from_this(), load](const Result<bool>& stored) {
-        self->close(load);  // when the job was refused, it has not begun
+        self->close(load);  // a refused job has not begun
         self->finish(*load, stored);
         self->keep(load);
       });
@@ -165,7 +165,7 @@ void MeasurementQueue::finish(Load& load, const Result<bool>& stored) {
     guarded("the end of a measurement's request", [&] {
       if (again) {
         const auto alone = std::make_shared<Load>();
-        alone->is_closed = true;  // none joins, and it was counted
+        alone->is_closed = true;  // no other request joins, and it was counted
         alone->add(load.of(request), std::move(request.render), std::move(request.done));
         submit(alone);
       } else if (stored) {
@@ -199,7 +199,7 @@ class MeasurementFeed {
   void put(Piece piece);
   /// Ends the rows. @param answer to store, if the request has an idempotency key.
   void finish(Answer answer);
-  /// Refuses the request: nothing of it is stored.
+  /// Refuses the request and stores nothing of it.
   void fail(Error error);
   /// Waits until the writer is done.
   Result<Answer> outcome();

@@ -44,13 +44,13 @@ struct IdempotencyScope {
 struct MeasurementQuery : store::MeasurementFilter {
   bool newest_first = false;
   bool shows_notes = false;
-  std::optional<std::size_t> last;  ///< only so many of the newest that match, on one page
-  std::optional<RecordName> after;  ///< begins after this one, instead of a cursor
+  std::optional<std::size_t> last;  ///< only this number of the newest matches, on one page
+  std::optional<RecordName> after;  ///< begins after this record, in place of a cursor
 };
 
 /// Continuation of a list after a page.
 struct ListPage {
-  std::optional<std::int64_t> next;  ///< the last row of the page; none when nothing follows
+  std::optional<std::int64_t> next;  ///< last row of the page; none after the last page
   std::int64_t as_of = 0;            ///< the state all pages of the list are read in
 };
 
@@ -172,8 +172,8 @@ class MeasurementService {
   void list(const MeasurementQuery& query, std::int64_t after, std::size_t limit, Visitor visit,
             Done<ListPage> done);
 
-  /// Visits what figures are computed from of all that match, in storage order and in one state,
-  /// and ends with the first error the visitor gives. Blocks.
+  /// Visits the values that figures need, for all matching measurements, in storage order and in
+  /// one state. Ends with the first error of the visitor. Blocks.
   /// @errors StorageBusy, StorageUnavailable, ShuttingDown
   using RunVisitor = std::function<Result<void>(const MeasuredRun&)>;
   Result<ReadValues> read_values(const MeasurementQuery& query, const RunVisitor& visit);

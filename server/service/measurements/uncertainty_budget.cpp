@@ -164,7 +164,7 @@ void members(auto& v, CorrelationOrder& correlation) {
   v.member("coefficient", correlation.coefficient, Number{-1, 1});
 }
 
-/// The form of a simulation of so many contributions.
+/// The form of a simulation with this number of contributions.
 struct SimulationForm : Object<UncertaintySimulation> {
   std::size_t contributions;
 
@@ -188,7 +188,7 @@ void report_item(FieldReader& fields, ErrorCode code, std::string_view list, std
   fields.errors().add(code, pointer_to(pointer_to(fields.at(list), i), member), std::move(message));
 }
 
-/// Reads the model over the contributions, whose sensitivities it gives.
+/// Reads the model of the contributions, and sets their sensitivities from it.
 void apply_model(BudgetOrder& order, FieldReader& fields) {
   for (std::size_t i = 0; i < order.contributions.size(); ++i) {
     const ContributionOrder& c = order.contributions[i];

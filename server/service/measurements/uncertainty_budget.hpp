@@ -13,7 +13,7 @@ namespace fitgauge::api {
 
 /// A Monte Carlo simulation that a budget asks for.
 struct UncertaintySimulation : metrology::Simulation {
-  std::int64_t most = metrology::kMostDraws / 5;  ///< trials, with so many contributions
+  std::int64_t most = metrology::kMostDraws / 5;  ///< trials, for this number of contributions
 };
 
 /// A budget with its combined uncertainty.

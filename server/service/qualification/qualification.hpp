@@ -21,7 +21,7 @@ struct References {
   /// The lines of a file that are no comments, in words. @throws std::out_of_range without the
   /// file.
   std::vector<Words> rows(const std::string& file) const;
-  /// The rows of a set of data.txt; none without it.
+  /// Returns the rows of a set of data.txt; empty if the set is missing.
   std::vector<Words> set(const std::string& name) const;
 
   std::map<std::string, std::string> files;
@@ -33,7 +33,7 @@ struct Check {
   std::string source;    ///< who published the expected figure, or how it was computed
   std::string quantity;  ///< with its unit
   std::string expected;  ///< as published, in the form of JSON; `null`: not defined
-  std::string limit;     ///< the greatest difference that passes, likewise
+  std::string limit;     ///< greatest difference that passes, in that form
   long double got = 0;   ///< not a number: not defined, or not computed
   double digits = 0;     ///< correct significant digits, 0 to 15
   bool passed = false;

@@ -39,7 +39,7 @@ void fill_key(const store::Stores& stores, Revision& revision) {
 }
 
 void fill_document(const store::Stores& stores, Revision& revision) {
-  // Documents have the same codes as revisions of them.
+  // A document and its revisions have the same codes.
   auto document =
       stores.documents.find(static_cast<store::DocumentKind>(revision.kind), revision.name);
   revision.is_removed = !document;

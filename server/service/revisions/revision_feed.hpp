@@ -17,7 +17,7 @@
 
 namespace fitgauge::app {
 
-/// The refusal to change at a station what its centre has given. @param what `the plan 'X'`
+/// Refuses to change a document of the centre at a station. @param what `the plan 'X'`
 inline Error centre_decides(std::string_view what) {
   return {ErrorCode::Forbidden,
           std::string(what) +
@@ -56,8 +56,7 @@ struct RevisionPage {
   bool more = false;
   std::string origin{};   ///< of the centre: 16 hexadecimal digits
   std::int64_t size = 0;  ///< records of the station's log that are at the centre
-  /// The number in the id of the newest of the station's notes that are there; none: it accepts
-  /// none
+  /// Number in the id of the station's newest note that is there; none: it accepts no notes.
   std::optional<std::int64_t> notes{};
   std::vector<Revision> revisions{};
 };

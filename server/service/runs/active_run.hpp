@@ -25,7 +25,7 @@ namespace fitgauge::app {
 
 /// The display of a control while a program runs, at one moment between two blocks.
 struct LiveState {
-  std::string program{};    ///< the one that runs now, called or main
+  std::string program{};    ///< the running program, called or main
   std::uint32_t block = 0;  ///< its number, as written or counted
   /// Position of the tool tip in the active coordinate system, mm and degrees; only the machine's
   /// axes.
@@ -71,7 +71,7 @@ class ActiveRun {
   void cancel() { stop_.request_stop(); }
   std::stop_token stop_token() const { return stop_.get_token(); }
 
-  // For those who follow it.
+  // For followers of the run.
 
   /// News since the last read of a follower.
   struct News {
@@ -135,7 +135,7 @@ class ActiveRun {
   std::atomic<Look> wanted_{Look::Nothing};
   std::condition_variable shown_;
   std::uint64_t shows_ = 0;           ///< counts the states shown
-  std::uint64_t shows_of_files_ = 0;  ///< of them those with files
+  std::uint64_t shows_of_files_ = 0;  ///< shows of the state with files
   LiveState live_;
 };
 
@@ -182,7 +182,7 @@ class SharedRuns {
   std::mutex mutex_;
   Followed followed_;
   bool stopped_ = false;
-  Thread thread_;  // ends before what it uses
+  Thread thread_;  // ends before the members it uses
 };
 
 }  // namespace fitgauge::app

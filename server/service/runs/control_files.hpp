@@ -43,7 +43,7 @@ class MeshFiles {
 
 class TableCatalog;
 
-/// 82553_hole.tab and 82553_shaft.tab as tolerance tables give them.
+/// Returns 82553_hole.tab and 82553_shaft.tab with the contents of the tolerance tables.
 std::vector<interpreter::ProjectingDisk::Projection> project(const iso286::ToleranceTables& tables);
 
 /// Projects the tolerance tables in use, once for each revision. Thread-safe.

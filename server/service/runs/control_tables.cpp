@@ -25,7 +25,7 @@ struct MachineTable {
   /// @errors TableFileMalformed.
   static Result<std::optional<MachineTable>> find(const interpreter::ControlDisk& disk,
                                                   std::string_view name, Allowance& allowance);
-  /// Changes whenever `find` would give something else. Reads no file.
+  /// Returns a text that changes whenever the result of `find` would change. Reads no file.
   static std::string revision(const interpreter::ControlDisk& disk, std::string_view name);
 
   /// The number in the first column of a row; none for an indexed tool (5.1).
@@ -49,7 +49,7 @@ class MachineTableRow {
   void length(std::string_view column, double& millimetres);
   void whole(std::string_view column, int& value);
 
-  /// Refuses what no machine can have.
+  /// Refuses setups that no machine can have.
   void check(const machine::Setup& setup);
   void fail(std::string_view column, std::string_view what);
   const std::optional<Error>& error() const { return error_; }

@@ -46,8 +46,8 @@ struct GivenTables {
   bool presets = false;
 };
 
-/// Adds the control's rows to those of a setup. For the same number the setup's row counts, unless
-/// it is a default row.
+/// Adds the control's rows to the rows of a setup. If both have a number, the setup's row counts,
+/// unless it is a default row.
 void add_rows(const ControlTables& tables, const GivenTables& given, machine::MachineSetup& setup);
 
 }  // namespace fitgauge::app

@@ -151,7 +151,7 @@ void RunService::cancel(const std::shared_ptr<ActiveRun>& active) {
                                          active->program())));
     return {};
   };
-  // Without room, the worker of the run ends it.
+  // If the queue is full, the worker of the run ends it.
   orders_.run(end_queued, [](const Result<void>&) {});
 }
 

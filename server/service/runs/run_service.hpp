@@ -51,8 +51,8 @@ class RunService {
   ~RunService();
 
   /// Marks unfinished runs of an earlier process as failed, then accepts orders. If daemons share
-  /// the database, another daemon repeats the runs of one that ended: the seed of each gives the
-  /// same run.
+  /// the database, another daemon repeats the runs of a daemon that ended: each run's seed gives
+  /// the same run.
   /// @errors StorageUnavailable.
   Result<void> open(RunFormat format);
 
@@ -128,7 +128,7 @@ class RunService {
 
   /// A run for those who wait for its end.
   struct Followed {
-    std::shared_ptr<ActiveRun> active;  ///< here or at another daemon; null for one that is over
+    std::shared_ptr<ActiveRun> active;  ///< here or at another daemon; null after its end
     StoredRun stored;                   ///< if it is over
   };
   /// @errors RunUnknown, StorageUnavailable.
@@ -193,7 +193,7 @@ class RunService {
     std::shared_ptr<ActiveRun> run;
     WorkerPool::Ticket ticket;
   };
-  std::map<std::int64_t, Entry> active_;  ///< queued or under way: the one count of runs
+  std::map<std::int64_t, Entry> active_;  ///< queued or running: all runs are counted here
   Counts ended_{};
   std::shared_ptr<ActiveRun> newest_;
   // The workers must end before the members that they use.

@@ -29,7 +29,7 @@ struct RunSubject {
   std::string order{};
 };
 
-/// A run as it is ordered.
+/// The order of a run.
 struct RunOrder {
   interpreter::ControlPath program;
   machine::Setup setup;  ///< validated
@@ -194,7 +194,7 @@ class TraceReader {
  private:
   bool is_packed_;
   std::string stored_;                  ///< until it is read
-  std::unique_ptr<GzipReader> reader_;  ///< of one that is packed
+  std::unique_ptr<GzipReader> reader_;  ///< of a packed trace
 };
 
 }  // namespace fitgauge::app

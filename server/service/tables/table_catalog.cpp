@@ -26,9 +26,9 @@ TableState failed(const store::TableRevision& revision, std::vector<Error> findi
   return {.tables = nullptr, .number = revision.number, .findings = std::move(findings)};
 }
 
-/// Checks stored tables before they are used: the content matches the stored digest, it obeys the
-/// rules, and the standard's cells are the compiled-in ones. Tables with the same digests are the
-/// same: some are kept.
+/// Checks stored tables before their use: the content matches the stored digest, it obeys the
+/// rules, and the standard's cells are the compiled-in ones. Tables with equal digests are equal,
+/// so some are kept.
 TableState audit(const store::LoadedTables& loaded) {
   static std::mutex mutex;
   static std::map<std::tuple<std::string, Digest, Digest>, TableCatalog::Tables> sound;
@@ -303,7 +303,7 @@ void TableCatalog::put_in_force(const Received& received) {
   put_in_force(received.state);
 }
 
-/// Unless a newer one is: another daemon's may have come first.
+/// Puts tables in force unless newer ones are: another daemon's may be faster.
 void TableCatalog::put_in_force(std::shared_ptr<const TableState> state) {
   const std::lock_guard lock(state_mutex_);
   if (const auto current = state_.get(); current && current->number > state->number) return;
@@ -350,7 +350,7 @@ Result<void> TableCatalog::number_standards() {
 
 std::optional<std::int64_t> TableCatalog::revision_number(std::string_view id) const {
   const std::lock_guard lock(ids_mutex_);
-  // Reversed: a revision of this folder is preferred over the same one of another.
+  // Reversed: prefers a revision of this folder to the same one of another folder.
   const auto found = std::find_if(ids_.rbegin(), ids_.rend(),
                                   [&](const auto& known) { return known.second == id; });
   return found == ids_.rend() ? std::nullopt : std::optional(found->first);

@@ -81,7 +81,7 @@ class TableCatalog {
     std::string id{};
     Digest digest{};
     std::shared_ptr<const TableState> state{};  ///< null: they are in force already
-    bool replaced_own = false;                  ///< the tables before had own columns
+    bool replaced_own = false;                  ///< the replaced tables had custom classes
     std::string replaced_id{};
     Digest replaced_digest{};
   };

@@ -27,7 +27,7 @@ Line line_of(const RotaryAxis& axis, const Vec3& sphere, const MeasuringTool& to
              const RotaryAxis* carrier) {
   const Vec3& along = axis.direction;
   const Vec3 lever = turning_point(sphere, axis, tool) - axis.centre;
-  // The machine's axis that is most across gives the first vector, so that it is named alike.
+  // The first vector comes from the machine's axis that is most across, so that its name is stable.
   std::size_t most = 0;
   for (std::size_t k = 1; k < 3; ++k) {
     if (std::abs(along[k]) < std::abs(along[most])) most = k;

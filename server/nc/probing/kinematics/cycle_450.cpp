@@ -110,7 +110,7 @@ CycleResult<std::string> remove(const CycleContext& context, KinematicsRecords& 
   return fmt::format("<p>Deleted {}</p>\n", escape_html(record));
 }
 
-/// Does what Q410 says. @return the text of the log.
+/// Runs the action of Q410. @return the text of the log.
 CycleResult<std::string> handle(const CycleContext& context) {
   constexpr int kSave = 0;
   constexpr int kRestore = 1;

@@ -116,7 +116,7 @@ class Estimate {
  private:
   double scatter_;
   bool is_seen_ = false;
-  std::array<Vec3, 2> steps_;  ///< what one mm of each value is
+  std::array<Vec3, 2> steps_;  ///< size of one mm of each value
   Eigen::Vector2d values_ = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_ = Eigen::Matrix2d::Zero();
 };

@@ -14,8 +14,8 @@ struct SpherePose {
   machine::Vec3 nose;    ///< display of X, Y, Z with the ball's centre in the sphere's centre
 };
 
-/// Comparable poses: those of one axis. Between groups the other axes rest elsewhere, so each group
-/// has its own place of the sphere.
+/// Comparable poses of one axis. The other axes rest elsewhere in each group, so each group has a
+/// separate place of the sphere.
 using PoseGroup = std::vector<SpherePose>;
 
 /// The spherical tool that measured: a ball `length` mm from the spindle nose.
@@ -44,12 +44,12 @@ Spread spread(const PoseGroup& poses, const machine::Kinematics& model, const Me
 /// An error of an axis, real minus modelled, in machine coordinates with all axes at zero.
 struct FoundError {
   machine::Vec3 value;
-  /// Half of the interval in which each coordinate lies with a probability of 95 %, by the scatter
-  /// of the poses (Student); what axes between this one and the sphere, or the tool, rest with
-  /// while it is measured counts as much as the scatter of a pose.
+  /// Half of the interval in which each coordinate is with a probability of 95 %, by the scatter of
+  /// the poses (Student). Resting axes between this axis and the sphere, or the tool, add their
+  /// scatter as if it were that of a pose.
   machine::Vec3 uncertainty;
   double size = 0;                  ///< of the value: mm, or mm at 100 mm of a direction
-  double standard_uncertainty = 0;  ///< along the value, in the same unit
+  double standard_uncertainty = 0;  ///< along the value, in its unit
   /// At least twice its standard uncertainty, or that is less than a nanometre; of a fit of
   /// significant errors: it is corrected.
   bool is_significant = true;

@@ -59,7 +59,7 @@ CycleResult<void> check_reach(const AxisPlan& plan, double backlash,
 using machine::Axis;
 using machine::Kinematics;
 
-/// One axis as it was measured.
+/// Measurement of one axis.
 struct Approaches {
   PoseGroup first;
   PoseGroup second;  ///< from the other side; empty without backlash

@@ -25,8 +25,9 @@ struct AxisPlan {
   bool is_measured() const { return points > 0; }
 };
 
-/// `points` positions from `start` to `end` at equal steps. A Hirth axis stops at the nearest
-/// multiple of its grid, of two equally near ones at the one away from zero (decision 5).
+/// Returns `points` positions from `start` to `end` at equal steps. A Hirth axis stops at the
+/// nearest multiple of its grid; of two equally near ones, at the one farther from zero (decision
+/// 5).
 std::vector<double> measuring_positions(double start, double end, int points, double grid);
 
 /// Plans the rotary axes of the machine, in the order A, B, C; settings of other axes are ignored.
@@ -50,7 +51,7 @@ struct AxisMeasurement {
 };
 
 struct KinematicsMeasurement {
-  std::vector<AxisMeasurement> axes;  ///< those measured, in the order A, B, C
+  std::vector<AxisMeasurement> axes;  ///< measured axes, in the order A, B, C
   machine::Kinematics corrected;      ///< the active kinematics with the corrections
   bool is_corrected = false;          ///< something was found and is corrected
 };

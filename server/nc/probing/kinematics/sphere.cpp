@@ -79,8 +79,8 @@ CycleResult<Vec3> SphereProbe::find() {
   return *touched - up * (sphere_radius_ + probe_.radius);
 }
 
-/// From the main axis of the workpiece system on; under an inclined head from what is left of it
-/// across the tool.
+/// Direction from the main axis of the workpiece system; with an inclined head, from the part of
+/// that axis across the tool.
 Vec3 SphereProbe::around(double angle_deg) const {
   const machine::MachineState& state = machine_.state();
   const WorkingPlane plane = WorkingPlane::across(state.tool_axis());

@@ -21,7 +21,7 @@ constexpr std::array k1Parameters{
     in_part(1, kWordAxis), in_part(1, kWordAngle), pre_position(2, ParameterId::WordX),
     pre_position(2, ParameterId::WordY), pre_position(2, ParameterId::WordZ)};
 
-/// Moves the tip in all axes at once to the position the block gives, then touches and comes back.
+/// Moves the tip in all axes at once to the position in the block, then touches and returns.
 CycleResult<Contact> touch_from_position(const CycleContext& context, const Vec3& direction) {
   auto motion = begin_measurement(context);
   if (!motion) return motion.error();

@@ -41,7 +41,7 @@ constexpr std::array<CycleOutput, 11> kResults{
      {181, "Rework", Unit::None},
      {182, "Reject", Unit::None}}};
 
-/// Both lengths tell the same oversize of the tool: their mean corrects it, the larger one decides
+/// Both lengths show one oversize of the tool: their mean corrects it, and the larger one decides
 /// on breakage.
 ToolCorrection tool_correction(const MeasuredValue& main, const MeasuredValue& secondary) {
   ToolCorrection correction = radius_correction(main);

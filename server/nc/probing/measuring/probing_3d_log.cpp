@@ -58,8 +58,8 @@ std::array<Length, 3> components(const Vec3& normal, double length) {
   return {to_length(normal.x * length), to_length(normal.y * length), to_length(normal.z * length)};
 }
 
-/// Each axis against its share of the tolerance (decision 24), the last along the normal. What lies
-/// across the normal has no share.
+/// Styles of each axis by its share of the tolerance (decision 24), and last along the normal.
+/// Deviations across the normal have no share.
 Styles styles_of(const ProbedPoint& point) {
   Styles styles{};
   if (!point.limits) return styles;

@@ -20,7 +20,7 @@ struct ObjectPoint {
   Vec3 nominal;
   Vec3 measured;
   std::array<std::optional<Limits>, 3> limits{};
-  Vec3 touched{};  ///< the probing direction if it is on a face; else zero
+  Vec3 touched{};  ///< the probing direction if it is on a face; otherwise zero
 
   /// A face was found there along that direction.
   void touch(const Vec3& surface, const Vec3& direction) {

@@ -12,7 +12,7 @@ constexpr std::array kParameters{CycleParameter{.id = q(339),
                                                 .kind = ValueKind::NumberOrText,
                                                 .range = {0, 65535}}};
 
-/// The row of a name, which stands in the column DOC.
+/// Returns the row whose column DOC has the name.
 CycleResult<int> named_row(const machine::PresetTable& presets, const std::string& name) {
   const auto found = std::ranges::find_if(
       presets.rows(), [&](const auto& row) { return row.second.comment == name; });

@@ -47,8 +47,8 @@ void connect(Touches& touches, bool via_clearance, const Vec3& around_corner) {
   touches[2].waypoints = {around_corner};
 }
 
-/// Touches an outside corner: where the 1st point lies beside the 3rd says which corner it is.
-/// Points 1 and 2 lie on the edge along the main axis, 3 and 4 on the other one.
+/// Touches an outside corner. The place of the 1st point relative to the 3rd shows which corner it
+/// is. Points 1 and 2 are on the edge along the main axis, 3 and 4 on the other edge.
 CycleResult<Touches> outside_touches(const Arguments& arguments, double start_distance) {
   const double height = arguments.number(261);
   const Vec3 first{arguments.number(263), arguments.number(264), height};

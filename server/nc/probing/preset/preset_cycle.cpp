@@ -49,8 +49,8 @@ Matrix3 axes_of(const Frames& frames, const PresetFrame& preset) {
   return Matrix3::spatial(preset.basic_rotation_deg) * tilt_of(frames);
 }
 
-/// Moves the zero of a preset along `axes` until the point reads `datum` in the named ones: the
-/// activation of the row (247, Q305 = 0) leaves the tilt and nothing else.
+/// Moves the zero of a preset along `axes` until the point has the coordinate `datum` in the named
+/// axes. Activating the row (247, Q305 = 0) leaves only the tilt.
 void move_zero(PresetFrame& preset, const Matrix3& axes, const Found& found) {
   const Vec3 reading = axes.transposed() * (found.point - preset.origin);
   Vec3 way;

@@ -46,7 +46,7 @@ constexpr std::array k483Results{kLengthDeviation, kRadiusDeviation, kToolStatus
 enum class Mode : std::uint8_t { First, Check, CheckOnly };
 enum class Status : std::uint8_t { WithinTolerance, Worn, Broken };
 
-/// The request of the block, in either form.
+/// Request of the block, in both of its forms.
 struct ToolOrder {
   Mode mode;
   double clearance_height;

@@ -54,8 +54,8 @@ struct ProbedCircle {
 CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
                                        Side side, Point2 centre);
 
-/// The centres of holes near the given points: each is touched four times from there, along the
-/// axes of the plane at measuring height; between the holes the probe goes over the clearance
+/// Returns the centres of holes near the given points. It touches each hole four times from there,
+/// along the axes of the plane at measuring height, and moves between holes at the clearance
 /// height.
 /// @errors 1014 a hole is wider than DIST reaches, 1081.
 CycleResult<std::vector<Point2>> probe_hole_centres(ProbingMotion& motion,

@@ -42,9 +42,9 @@ struct FittedPlane {
   machine::Vec3 normal;  ///< of length 1
 };
 
-/// The plane of least squared distances from the points, exact for three of them, with its normal
-/// on the side of `towards`; nothing if fewer than three are given, or if they show no plane: they
-/// lie on a line, or as far off every plane.
+/// Fits a plane by least squared distances, exact for three points, with its normal on the side of
+/// `towards`. None if fewer than three points are given, or if they are on a line or equally far
+/// from every plane.
 std::optional<FittedPlane> fit_plane(std::span<const machine::Vec3> points,
                                      const machine::Vec3& towards);
 
@@ -54,9 +54,9 @@ struct FittedCylinder {
   double radius = 0;
 };
 
-/// The cylinder of least squared distances from the points (Gauss-Newton), searched from `near`,
-/// whose direction may have any length; none if the points do not determine it (fewer than five, or
-/// all in one section), or if none is near it.
+/// Fits a cylinder by least squared distances (Gauss-Newton), searched from `near`, whose direction
+/// may have any length. None if the points do not determine it (fewer than five, or all in one
+/// section), or if none is near it.
 std::optional<FittedCylinder> fit_cylinder(std::span<const machine::Vec3> points,
                                            const FittedCylinder& near);
 

@@ -111,7 +111,7 @@ std::optional<Ending> Connection::read(Time now) {
   const ssize_t count = recv(socket_.get(), bytes.data(), bytes.size(), 0);
   if (count == 0) return Ending{};
   if (count < 0) return later_or_left();
-  // A telegram has its time from its first byte on, however often a byte comes.
+  // The time of a telegram begins with its first byte; later bytes do not extend it.
   if (!reader_.is_inside()) since_ = now;
   reader_.feed({bytes.data(), static_cast<std::size_t>(count)});
   return answer(now);
@@ -120,7 +120,7 @@ std::optional<Ending> Connection::read(Time now) {
 std::optional<Ending> Connection::write(Time now) {
   if (auto ending = send_some()) return ending;
   since_ = now;
-  return answer(now);  // to what came behind it
+  return answer(now);  // to the telegrams after it
 }
 
 std::optional<Ending> Connection::answer(Time now) {
