@@ -47,7 +47,7 @@ void add_common(CLI::App& app, CommonOptions& common) {
       ->check(CLI::Range(0, 86'400));
 }
 
-/// The key of --key-file, else of FITGAUGE_KEY: never an argument, which others can read.
+/// Returns the key of --key-file or FITGAUGE_KEY; not of an argument, which other users can read.
 Outcome<std::string> read_key(const CommonOptions& common) {
   std::string text = environment_variable("FITGAUGE_KEY");
   if (!common.key_file.empty()) {

@@ -8,7 +8,7 @@
 namespace fitgauge::cli {
 
 // `fitgauge control …`: a HEIDENHAIN control over LSV-2. Each command names the control, HOST or
-// HOST:PORT, and logs in no further than it needs. Nothing is sent to a control but by these.
+// HOST:PORT, and logs in with the least rights it needs. No other command sends to a control.
 
 /// `control ls ADDRESS [DIRECTORY]`
 Outcome<ExitCode> run_control_ls(const Context& context, const std::string& address,

@@ -82,10 +82,10 @@ class CsvChunks {
   /// @errors LocalFile, also for a row that is larger than a chunk.
   Outcome<std::optional<CsvChunk>> next();
 
-  /// The rows up to `end`, which a chunk ended at before; nothing when the input is another one.
+  /// Returns the rows up to `end`, where a chunk ended earlier; none if the input is another one.
   Outcome<std::optional<CsvChunk>> next_until(const CsvPosition& end);
 
-  /// The line of the input that a line of a chunk's body is, both from 1. May be asked for while
+  /// Returns the line of the input for a line of a chunk's body, both from 1. May be called while
   /// another thread reads on.
   std::uint64_t input_line(const CsvChunk& chunk, std::uint64_t body_line) const;
 

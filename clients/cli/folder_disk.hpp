@@ -39,8 +39,8 @@ class FolderDisk final : public interpreter::ControlDisk {
   std::filesystem::path folder_;
 };
 
-/// A file as its FolderDisk names it. @errors LocalFile: it cannot be read, or no control has such
-/// a name.
+/// Returns the name of a file on its FolderDisk. @errors LocalFile: it cannot be read, or controls
+/// do not allow the name.
 Outcome<interpreter::ControlPath> local_program(const std::string& file);
 
 }  // namespace fitgauge::cli

@@ -28,8 +28,7 @@ namespace {
 /// several threads.
 class SerialPort {
  public:
-  /// Discards old input of the port. @errors LocalFile, Usage for a baud rate there is
-  /// none of.
+  /// Opens the port and discards its old input. @errors LocalFile, Usage for an unknown baud rate.
   static Outcome<SerialPort> open(const std::string& path, unsigned baud);
   ~SerialPort();
   SerialPort(SerialPort&& other) noexcept;
@@ -96,7 +95,7 @@ Outcome<SerialPort> SerialPort::open(const std::string& path, unsigned baud) {
             "--baud must be one of: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200; got {}",
             baud)};
   }
-  // Without O_NONBLOCK an open waits for a carrier that a gauge does not give.
+  // Without O_NONBLOCK an open waits for a carrier, which a gauge does not send.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return failed(path, "cannot be opened");
   SerialPort port(path, descriptor);
@@ -160,8 +159,8 @@ Length length_of(const JsonValue& document, std::string_view member) {
   return parse_length_mm(document.text_of(member)).value();
 }
 
-/// `8 µm below the upper limit`: where the value is, seen from the limit that is nearest.
-/// `25 to 25.021 mm`; a drawing may have one of the limits.
+/// `8 µm below the upper limit`: the value relative to the nearest limit. `25 to 25.021 mm`; a
+/// drawing may have only one limit.
 std::string limits_text(const JsonValue& document) {
   const std::string_view lower = document.text_of("lower_limit_mm");
   const std::string_view upper = document.text_of("upper_limit_mm");

@@ -10,7 +10,7 @@
 
 namespace fitgauge::cli {
 
-/// The command line of `fitgauge gauge`, as it was typed; an empty text was not given.
+/// Command line of `fitgauge gauge`, as typed; an empty text was not given.
 struct GaugeOptions {
   std::string designation;  ///< or the nominal size, with limits of a drawing
   std::string measured{};   ///< mm, with a point or a comma; alternatively:
@@ -29,7 +29,8 @@ Outcome<ExitCode> run_gauge(const Context& context, const GaugeOptions& options)
 /// The text of a verdict or of a record: the word, the value, the distance to the nearest limit.
 std::string format_verdict(const JsonValue& document, const Terminal& terminal);
 
-/// A measured value as it is sent. @param typed mm, with a point or a comma. @errors Usage
+/// Returns the text to send for a measured value. @param typed mm, with a point or a comma. @errors
+/// Usage
 Outcome<std::string> measured_text(const std::string& typed);
 
 /// Prints the record or verdict of an answer; the exit code is its verdict.

@@ -332,8 +332,8 @@ void handle(Server& server, const std::string& text) {
            JsonObject().add_raw("type", "1").add("message", reply.error().message));
 }
 
-/// The next message; an error for a wrong header, after which the next header is searched. Nothing
-/// at the end of the input.
+/// Returns the next message; none at the end of the input. After a wrong header it returns an error
+/// and searches the next header.
 std::optional<Reply> next_message(bool& is_lost) {
   constexpr std::string_view kLength = "content-length:";
   const auto lose = [&is_lost](std::string problem) {

@@ -53,7 +53,7 @@ Outcome<ExitCode> run_tables_export(const Context& context, const TableOptions& 
 /// `fitgauge version`: of this program, and of the service with the revision of its tables.
 Outcome<ExitCode> run_version(const Context& context);
 
-/// The text of a limits document. @param terminal the one it is shown on
+/// Returns the text of a limits document. @param terminal that shows it
 std::string format_limits(const JsonValue& limits, const Terminal& terminal);
 
 /// The text of a fit document.

@@ -40,7 +40,7 @@ std::string summary(const VerdictCounts& counts) {
   return text;
 }
 
-/// Whether the service has looked at the rows and stores none of them.
+/// Returns whether the service has read the rows and stores none of them.
 bool rows_are_refused(const Answer& answer) {
   constexpr long kRefusals[] = {400, 413, 415, 422};
   return std::find(std::begin(kRefusals), std::end(kRefusals), answer.status) !=

@@ -31,8 +31,8 @@ struct MeasureOptions {
 /// point and stores no row twice.
 Outcome<ExitCode> run_measure(const Context& context, const MeasureOptions& options);
 
-/// One line for each bad field of a chunk, with the line of the input: `night.csv:17: measured_mm:
-/// …`. @param line_of the line of the input for one of the chunk's body
+/// Returns one line for each bad field of a chunk, with the line of the input: `night.csv:17:
+/// measured_mm: …`. @param line_of converts a line of the body to a line of the input
 std::string explain_rows(const Problem& problem, const std::string& input,
                          const std::function<std::uint64_t(std::uint64_t)>& line_of);
 

@@ -28,8 +28,9 @@ struct FormatOptions {
   bool from_control = false;
 };
 
-/// `nc format FILE…`: as a control lists a program; a file keeps its encoding and line ends.
-/// @errors LocalFile, ProgramFailed for what cannot be read.
+/// `nc format FILE…`: formats a program as a control lists it; a file keeps its encoding and line
+/// ends.
+/// @errors LocalFile, ProgramFailed for an unreadable program.
 Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& options);
 
 struct ConvertOptions {

@@ -51,7 +51,7 @@ std::size_t width(char first) {
 }
 std::size_t units(char first) { return width(first) == 4 ? 2 : 1; }
 
-/// The label that a block calls or jumps to; null if it does neither.
+/// Returns the label that a block calls or jumps to; null if there is none.
 const klartext::Label* called_label(const klartext::Statement& statement) {
   if (const auto* call = std::get_if<klartext::LabelCall>(&statement)) return &call->label;
   const auto* jump = std::get_if<klartext::ConditionalJump>(&statement);
@@ -144,7 +144,7 @@ void EditedText::replace(Place begin, Place end, std::string_view by) {
 
 bool OpenProgram::is_iso() const { return iso::is_iso(text.text(), name.text()); }
 
-/// The folder of a program with the texts that the editor has instead of its files.
+/// Folder of a program, with the editor's texts in place of its files.
 class OpenPrograms::Disk final : public interpreter::ControlDisk {
  public:
   Disk(const OpenPrograms& programs, const OpenProgram& main) : programs_(programs), main_(main) {

@@ -33,7 +33,8 @@ std::optional<Problem> problem_of(const Answer& answer);
 /// @param url the address that answered
 Failure failure_of(const Answer& answer, const std::string& url);
 
-/// Whether the same request may succeed in a moment: the service is busy, starting, or still at it.
+/// Returns whether the request may succeed if it is repeated soon: the service is busy, starting,
+/// or still at work.
 bool is_temporary(const Answer& answer);
 
 /// The answer, if it is a good one. @errors as failure_of().

@@ -122,7 +122,7 @@ std::string dialog_of(const CycleParameter& parameter) {
   return ascii_upper(parameter.meaning.substr(0, parameter.meaning.find(':')));
 }
 
-/// `Q262=${1:+25} ;NOMINAL DIAMETER`. Without a default the value is to be written.
+/// `Q262=${1:+25} ;NOMINAL DIAMETER`. Without a default the user must write the value.
 std::string snippet_of(const CycleParameter& parameter, std::size_t stop) {
   std::string value = parameter.is_text() ? "\"\"" : "";
   if (parameter.default_value)
@@ -189,7 +189,8 @@ std::size_t comment_of(std::string_view line) {
   return line.npos;
 }
 
-/// The corrected text of a line with a finding, and a description; or nothing.
+/// Returns the corrected text of a line with a finding, and a description; none if there is no
+/// correction.
 std::pair<std::string, std::string> correction(const EditedText& text, std::size_t line,
                                                DiagnosticCode code) {
   const std::string_view written = text.line(line);

@@ -78,7 +78,7 @@ double difference(const LogValue& logged, const LogValue& replayed) {
   return std::abs(apart) < 0.5 * std::pow(10.0, -least) ? 0 : apart;
 }
 
-/// The value of that name, or in a log of another language the one in its place.
+/// Returns the value with that name; in a log of another language, the value at its place.
 const LogValue* partner(const std::vector<LogValue>& values, const LogValue& wanted,
                         std::size_t place, std::size_t count) {
   for (const LogValue& value : values) {
@@ -178,7 +178,7 @@ Outcome<ExitCode> run_replay(const Context& context, const ReplayOptions& option
   } else {
     context.print("{} results, {} of them differ\n", comparison.results(), comparison.differing());
   }
-  // A tolerance that is exceeded stops a program as it did on the machine.
+  // An exceeded tolerance stops a program, as it did on the machine.
   const std::string_view status = run->text_of("status");
   if (status != "completed" && status != "stopped") {
     return Failure{ExitCode::ProgramFailed,

@@ -14,7 +14,7 @@ namespace fitgauge::cli {
 /// bounded memory.
 class RowInput {
  public:
-  /// Whether the input is one of them, by its name and the options for tables.
+  /// Returns whether the input is a table, by its name and options.
   static bool is_one(const MeasureOptions& options);
   /// Returns whether line numbers refer to the file.
   static bool keeps_lines(const MeasureOptions& options);
@@ -25,7 +25,7 @@ class RowInput {
   /// The next bytes of the rows; 0 at the end. @errors LocalFile: the file is wrong, with its line.
   Outcome<std::size_t> read(std::span<char> into);
 
-  /// The line of the file that a line of the CSV is from: reads the file again up to there.
+  /// Returns the line of the file for a line of the CSV: reads the file again up to there.
   static std::uint64_t line_of(const Context& context, const MeasureOptions& options,
                                std::uint64_t csv_line);
 

@@ -55,8 +55,8 @@ class Scale {
     return zone.lower == Length() ? 0 : first_line(zone, -farthest_, 1);
   }
 
-  /// Whether the upper or lower half of a line shows the zone: its middle lies in it, or it is the
-  /// half that holds the middle of the zone.
+  /// Returns whether the upper or lower half of a line shows the zone. It does if its middle is
+  /// inside the zone, or if it contains the middle of the zone.
   bool shows(const ToleranceZone& zone, std::int64_t line, bool upper_half) const {
     if (line == 0) return zone.lower < Length() && zone.upper > Length();
     const std::int64_t floor = line > 0 ? (line - 1) * height() : line * height();

@@ -23,8 +23,8 @@ constexpr const char* kFigures =
     "(SELECT max(pg_wal_lsn_diff(pg_current_wal_lsn(), flush_lsn))::bigint FROM "
     "pg_stat_replication)";
 
-/// With a message to nobody, so that the commit waits for the disk (Session): who reads then need
-/// not.
+/// Sends an empty message too, so that the commit waits for the disk (Session): readers then need
+/// not wait.
 constexpr const char* kNotify =
     "SELECT pg_logical_emit_message(true, 'fitgauge', ''), pg_notify('fitgauge', '')";
 
@@ -52,7 +52,7 @@ ServerFigures read_figures(sql::Statement& figures) {
           .standby_behind_bytes = rows.get<std::optional<std::int64_t>>(2)};
 }
 
-/// Waits until one of the two can be read. @returns whether `wake_up` could.
+/// Waits until one of the two is readable. @returns whether `wake_up` is.
 bool wait_for(int socket, int wake_up, Notifications::Clock::duration patience) {
   using std::chrono::milliseconds;
   const auto longest = std::max(std::chrono::ceil<milliseconds>(patience), milliseconds(0));

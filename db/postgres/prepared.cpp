@@ -58,8 +58,8 @@ constexpr const char* kColumns =
     "0 "
     "AND NOT attisdropped ORDER BY attnum";
 
-/// Rows are sent as one value: an array of rows of the table. Like COPY, several statements run
-/// while the next rows are made, and one needs no more exchanges with the server than any other.
+/// Sends rows as one value: an array of rows of the table. As with COPY, several statements run
+/// while the next rows are made, but one statement needs no additional exchange with the server.
 const std::string& append_sql() {
   static const std::string sql =
       fmt::format("INSERT INTO measurements ({0}) SELECT {0} FROM unnest($1::measurements[])",

@@ -108,7 +108,7 @@ void Session::commit_written() {
   }
 }
 
-/// Rows can belong to a commit that is not on the disk yet: nobody hears of it before it is.
+/// Rows may belong to a commit that is not yet on the disk: nobody sees them before.
 void Session::commit_read() {
   commit_.run();
   if (!is_durable_ || flushed_.returning<std::int64_t>() >= seen_wal_) return settle();

@@ -41,7 +41,7 @@ class Prepared {
   virtual std::string_view text(int column) const = 0;
   virtual std::string_view blob(int column) const = 0;
 
-  /// Lets the connection forget pages of the file that nothing has changed.
+  /// Lets the connection drop unchanged pages of the file from memory.
   virtual void release_pages() noexcept {}
 };
 

@@ -82,7 +82,7 @@ bool IndexNodes::lacks(const IndexNode& node, std::span<const FieldValue> values
                   std::find(matching_.begin(), matching_.end(), 1) == matching_.end());
 }
 
-/// Sums that are stale have more values than the current rows, never fewer.
+/// Outdated sums have at least the values of the current rows.
 bool IndexNodes::lacks(const IndexNode& node, const FieldValue& wanted,
                        const MeasurementFilter& filter) {
   if (wanted.field > static_cast<int>(kSummedColumns.size())) return false;

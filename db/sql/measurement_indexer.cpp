@@ -56,8 +56,8 @@ int kind_of(int source, int verdict) { return 8 * source + verdict; }
 
 using Values = std::set<std::optional<std::string>>;
 
-/// The index entry of a field's value in the row before: rows that follow each other mostly share
-/// it, and need not look for it again.
+/// Index entry of a field's value in the previous row. Consecutive rows mostly share it, so it need
+/// not be searched again.
 struct FieldPlace {
   std::optional<std::string> value;
   RowSet* rows = nullptr;                 ///< those with the value
@@ -168,7 +168,7 @@ void MeasurementIndexer::renew(const IndexNode& node) {
 
 void MeasurementIndexer::corrected(std::int64_t id) {
   make_stale(id);
-  // One of the rivals replaced another, and the corrections of that one.
+  // One of the rivals replaced another rival with its corrections.
   for (Rows rows = rivals_.query(id); rows.next();) make_stale(rows.get<std::int64_t>(0));
 }
 
@@ -291,8 +291,9 @@ NodeIndex MeasurementIndexer::derive_block(const IndexNode& node) {
   return index;
 }
 
-/// Joins the nodes below, in their order: sums count from the first value. If one of them has too
-/// many values of a field, this one may still have few enough: up to 32 blocks are read again.
+/// Joins the nodes below, in their order: sums count from the first value. If a field has too many
+/// values in one of them, up to 32 blocks are read again, because this node may still have few
+/// enough.
 NodeIndex MeasurementIndexer::derive_parent(const IndexNode& node) {
   NodeIndex index;
   index.pairs = pairs_.derive(node);

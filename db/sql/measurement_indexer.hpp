@@ -27,14 +27,14 @@ struct NodeIndex {
   /// By field, value and kind (8 * source + verdict) of the rows that no other row corrects.
   using AggregateKey = std::tuple<int, std::optional<std::string>, int>;
   std::map<AggregateKey, ExactStatistics> aggregates;
-  /// Values of a block as store::ValueBlock reads them; none if a row is a correction or of another
-  /// folder, and for nodes above blocks.
+  /// Values of a block as store::ValueBlock reads them. None for nodes above blocks, and if a row
+  /// is a correction or belongs to another folder.
   std::optional<std::string> values;
   PairIndex::Node pairs;
 };
 
-/// Makes the index of the measurements: nodes, postings, aggregates, values and pairs. Used by the
-/// writer's maintenance, and by the verifier to derive all of it again.
+/// Makes the index of the measurements: nodes, postings, aggregates, values and pairs. The writer's
+/// maintenance uses it, and the verifier derives all of the index again with it.
 class MeasurementIndexer {
  public:
   explicit MeasurementIndexer(sql::Connection& connection);

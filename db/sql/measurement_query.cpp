@@ -162,7 +162,7 @@ bool MeasurementQuery::run_each(const MeasurementFilter& filter, std::span<const
   });
 }
 
-/// Whether the rows that are asked for are among those that count now, which nodes add up.
+/// Returns whether the filter selects only current rows, which nodes sum up.
 bool MeasurementQuery::asks_for_current(const MeasurementFilter& filter) {
   const bool is_now = !filter.as_of_id || *filter.as_of_id >= connection_.measurements().last_id();
   return (is_now && !filter.history) || corrected_.returning<std::int64_t>(kLastId) == 0;
@@ -198,7 +198,7 @@ Statement& MeasurementQuery::matching_rows(const MeasurementFilter& filter, List
   return matching;
 }
 
-/// An engine whose queries bring all rows at once is asked for some at a time.
+/// If an engine returns all rows of a query at once, requests some at a time.
 bool MeasurementQuery::scan(Statement& matching, const IdSpan& ids, ListOrder order,
                             const Visitor& visit) {
   for (IdSpan left = ids; !left.empty();) {
@@ -220,7 +220,7 @@ bool MeasurementQuery::scan(Statement& matching, const IdSpan& ids, ListOrder or
   return true;
 }
 
-/// The values asked for, those first that are likely to have the fewest rows.
+/// Returns the requested values, first those with probably the fewest rows.
 std::vector<FieldValue> MeasurementQuery::postings_of(const MeasurementFilter& filter) {
   std::vector<FieldValue> postings;
   const auto add_text = [&](TextField field) {

@@ -54,7 +54,7 @@ class MeasurementQuery {
 
   enum class BlockRead : std::uint8_t { Passed, Taken, Ended };
   /// Receives an indexed block that the index answers except for corrections: of its rows among
-  /// `ids` those in `rows` match. Passed: read and visit them one by one; Ended: end the query.
+  /// `ids`, the rows in `rows` match. Passed: read and visit them one by one; Ended: end the query.
   using BlockReader =
       std::function<BlockRead(std::int64_t block, const RowSet& rows, const IdSpan& ids)>;
 

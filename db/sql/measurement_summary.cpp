@@ -231,8 +231,8 @@ void MeasurementSummary::add_later(const IdSpan& ids) {
 void MeasurementSummary::add_rows(const IdSpan& ids) {
   if (ids.empty()) return;
   MeasurementQuery::BlockReader by_columns;
-  // The index knows runs by their numbers, which other folders have too, and rows that are current
-  // now.
+  // The index numbers runs, and other folders use the same numbers; it has only rows that are
+  // current now.
   if (!filter_->run_id && !filter_->as_of_id && is_summed(group_by_)) {
     by_columns = [&](std::int64_t block, const RowSet& rows, const IdSpan& among) {
       return add_block(block, rows, among);
@@ -275,7 +275,7 @@ MeasurementQuery::BlockRead MeasurementSummary::add_block(std::int64_t block, co
   return fits_ ? BlockRead::Taken : BlockRead::Ended;
 }
 
-/// Aggregates are of current rows: a summary of all rows has the corrected ones as well.
+/// Aggregates count current rows: a summary of all rows adds the corrected ones.
 void MeasurementSummary::add_corrected_rows() {
   std::vector<std::int64_t> ids;
   auto span = aggregated_.begin();

@@ -138,8 +138,8 @@ struct MeasurementsStore::Statements {
     return table.last_id();
   }
 
-  /// A row with limits of a revision that is not there is a bug of the caller's. Revisions are
-  /// never deleted: one that was seen is there.
+  /// A row whose revision is missing is a bug of the caller. Revisions are never deleted, so a
+  /// revision that was seen exists.
   void require_revision(std::int64_t number) {
     if (number == seen_revision) return;
     if (!revision.query(number).next()) {
@@ -180,7 +180,7 @@ struct MeasurementsStore::Statements {
     return rows.next() ? std::optional(rows.get<std::int64_t>(0)) : std::nullopt;
   }
 
-  /// The current correction of a row: its correction, or the rival of it.
+  /// Returns the current correction of a row: its correction, or a rival of that.
   std::optional<std::int64_t> replaced_by(std::int64_t id) {
     if (const auto newer = corrected_by(id)) return newer;
     std::optional<std::int64_t> target;

@@ -49,7 +49,7 @@ class HealthMonitor {
 
 namespace fitgauge::store::sql {
 
-/// A connection with its stores, and what delimits a transaction on it. Used by one thread. After a
+/// A connection with its stores, and the limits of its transactions. Used by one thread. After a
 /// StorageFailure it is closed and another is opened.
 class Session {
  public:

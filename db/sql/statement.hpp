@@ -81,11 +81,11 @@ class Statement {
   template <class... Values>
   void run(const Values&... values);
 
-  /// Runs to the end and gives the first column of its first row; for INSERT … RETURNING.
+  /// Runs to the end and returns the first column of its first row; for INSERT … RETURNING.
   template <class T, class... Values>
   T returning(const Values&... values);
 
-  /// Runs to the end and counts the rows it gives; for DELETE … RETURNING.
+  /// Runs to the end and returns the number of rows; for DELETE … RETURNING.
   template <class... Values>
   std::int64_t run_counting(const Values&... values);
 

@@ -12,9 +12,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Rows a step deletes at most: a request that comes in between waits a few milliseconds.
+/// Maximum number of rows that a step deletes: a request meanwhile waits a few milliseconds.
 constexpr std::int64_t kStep = 200;
-/// Under load, a step of duration t is followed by so many t of jobs: six percent for maintenance.
+/// Under load, jobs run for this number of times the duration of a step: six percent for
+/// maintenance.
 constexpr int kShare = 15;
 /// After commits, and without any.
 constexpr milliseconds kLookInterval{200};
@@ -247,7 +248,7 @@ void Writer::Engine::begin_retention() {
   }
 }
 
-/// Finds out, while there is nothing to write, whether what would be written to is still there.
+/// Checks, while there is nothing to write, that the database is still there.
 void Writer::Engine::look() {
   if (!check_ || health_.health().state == HealthState::Damaged) return;
   try {

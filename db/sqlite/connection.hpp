@@ -146,8 +146,8 @@ namespace fitgauge::store::sqlite {
 /// Lets the statements of a connection call `row_digest(value, …)`.
 void add_row_digest(sqlite3* handle);
 
-/// Inserts many rows a statement, and only the columns that one of them uses. A statement for every
-/// row with every column takes 1.5 times as long.
+/// Inserts many rows with one statement, and only the columns that some of them use. One statement
+/// for each row, with every column, takes 1.5 times as long.
 class MeasurementTable final : public sql::MeasurementTable {
  public:
   explicit MeasurementTable(Connection& connection);

@@ -98,7 +98,7 @@ Error system_error(std::string_view doing, const std::filesystem::path& path) {
           fmt::format("cannot {} {}: {}", doing, path.string(), std::strerror(errno))};
 }
 
-/// Files that root makes in the folder of a service's user belong to that user, who opens them
+/// Gives files that root makes in the folder of a service's user to that user, who opens them
 /// later.
 bool give_to_owner_of_folder(const Descriptor& descriptor, const std::filesystem::path& file) {
   if (::geteuid() != 0) return true;

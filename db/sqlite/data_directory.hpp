@@ -13,8 +13,8 @@
 
 namespace fitgauge::store::sqlite {
 
-/// Throws for a result code that is not SQLITE_OK: StorageFailure when the disk or the file is to
-/// blame, std::logic_error when the statement is.
+/// Throws for a result code other than SQLITE_OK: StorageFailure for faults of the disk or the
+/// file, std::logic_error for faults of the statement.
 [[noreturn]] void throw_failure(sqlite3* handle, int code, std::string_view doing);
 
 inline void require_ok(sqlite3* handle, int code, std::string_view doing) {

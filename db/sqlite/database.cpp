@@ -51,8 +51,8 @@ bool is_read_only(const OpenOptions& options) {
   return options.access == Access::Attach && ::access(options.directory.c_str(), W_OK) != 0;
 }
 
-/// Destroyed from the last member to the first: the writer closes after the readers, and so
-/// checkpoints; the lock goes last.
+/// Members are destroyed from the last to the first: the writer closes after the readers, and so
+/// checkpoints; the lock is released last.
 class FileDatabase final : public Database {
  public:
   FileDatabase(std::optional<DirectoryLock> held, const OpenOptions& chosen, const Clock& time)

@@ -127,7 +127,7 @@ class LeavesNoLog {
   bool kept_;
 };
 
-/// Rows in the tree but not in the table were cut off: their ids would be given out again.
+/// Rows in the tree but not in the table were cut off: their ids would be used again.
 Result<void> has_whole_log(sqlite::Connection& connection, const fs::path& file) {
   const std::int64_t signed_rows = connection.query_integer("SELECT size FROM log");
   const std::int64_t rows =

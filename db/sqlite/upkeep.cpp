@@ -19,7 +19,7 @@ void passive_checkpoint(const sqlite::Connection& connection) {
                             nullptr);
 }
 
-/// A piece of duration t is followed by a rest of so many t: six percent of a processor.
+/// After a piece, rests for this number of times its duration: six percent of a processor.
 constexpr int kRest = 15;
 
 }  // namespace

@@ -29,7 +29,7 @@ class Checkpointer {
 
   /// Disables the automatic checkpoints of SQLite, which run at a commit.
   void install(sqlite::Connection& writer);
-  /// Between two transactions; waits for the thread when the log is kForceFactor times too long.
+  /// Runs between two transactions; waits for the thread if the log is kForceFactor times too long.
   void after_commit(sqlite::Connection& writer);
 
   int log_pages() const { return pages_; }  ///< at the last commit; the writer's

@@ -19,7 +19,7 @@ namespace fitgauge::store {
 struct ServerFigures {
   std::int64_t database_bytes = 0;
   std::int64_t standbys = 0;  ///< servers that follow this one at the moment
-  /// Bytes that the slowest of them does not have on its disk yet; absent if there is none, or if
+  /// Bytes that the slowest standby does not have on its disk yet; absent without a standby, or if
   /// the user may not see it.
   std::optional<std::int64_t> standby_behind_bytes{};
 };

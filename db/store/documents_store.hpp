@@ -152,8 +152,8 @@ class EventsStore {
   std::int64_t append(std::string_view type, std::string_view payload, std::int64_t now_ns);
 
   std::vector<Event> after(std::int64_t id, std::size_t limit) const;  ///< oldest first
-  /// Oldest and newest stored ids; 0 and 0 if there are none. A reader that stopped at an id below
-  /// `oldest - 1` has missed events.
+  /// Oldest and newest stored ids; 0 and 0 if there are none. A reader that stopped before `oldest
+  /// - 1` has missed events.
   struct Kept {
     std::int64_t oldest = 0;
     std::int64_t newest = 0;

@@ -73,7 +73,7 @@ class IdempotencyStore {
   /// while the newest measurement had one of these ids.
   using Visitor = std::function<void(const Forwarded&)>;
   void visit_forwarded(std::int64_t first, std::int64_t last, const Visitor& visit) const;
-  /// Keeps an answer from elsewhere, unless there is one of that key already.
+  /// Stores an answer from elsewhere, unless one with that key exists.
   void keep(const Forwarded& forwarded);
 
   /// Deletes up to `limit` answers that have expired by `now`. @returns how many.

@@ -32,10 +32,11 @@ class LogStore {
   };
   State state() const;
 
-  /// Once, at the first start.
+  /// Sets the name, once, at the first start.
   void set_name(std::string_view name);
 
-  /// A history before the current one of state(), and its part that continues in the next one.
+  /// An earlier history than the current one of state(), and its part that continues in the next
+  /// one.
   struct Branch {
     std::array<std::uint8_t, 16> origin{};
     std::string name{};
@@ -108,7 +109,7 @@ class OriginsStore {
   std::vector<std::string> keys(std::int64_t origin) const;
   void add_key(std::int64_t origin, std::string_view vkey, std::int64_t now_ns);
 
-  /// The log that this one is a branch of, and how many of its rows it begins with.
+  /// Log from which this log branched, and the number of its rows in this one.
   struct Base {
     std::int64_t origin = 0;
     std::int64_t size = 0;
@@ -196,7 +197,7 @@ class RevisionsStore {
   std::unique_ptr<Statements> statements_;
 };
 
-/// A change of what decides: a table, a document or a key.
+/// A change of something that decides on verdicts or rights: a table, a document or a key.
 struct Change {
   std::int64_t id = 0;  ///< 1, 2, … without gaps
   std::int64_t at_ns = 0;

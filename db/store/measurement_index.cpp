@@ -22,7 +22,7 @@ std::string RowSet::encode() const {
   const auto words = std::bit_cast<std::array<Word, sizeof(Bits) / sizeof(Word)>>(bits_);
   std::string rows;
   for (std::size_t word = 0; word < words.size() && rows.size() < bits_.size(); ++word) {
-    if (words[word] == 0) continue;  // all but one, where each row has a part id of its own
+    if (words[word] == 0) continue;  // usually all but one: each row has its part id
     for (std::size_t i = word * sizeof(Word); i < (word + 1) * sizeof(Word); ++i) {
       for (unsigned left = bits_[i]; left != 0; left &= left - 1) {
         const std::size_t row = 8 * i + static_cast<std::size_t>(std::countr_zero(left));

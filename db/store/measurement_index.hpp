@@ -51,7 +51,7 @@ inline constexpr auto kTextColumns = [] {
 constexpr std::size_t index_of(TextField field) {
   return app::filter_place(static_cast<int>(field));
 }
-/// Blocks keep the rows of each value of the other columns; of these sums and pairs too.
+/// Blocks store the rows of each value of all columns; for these columns also sums and pairs.
 inline constexpr auto kSummedColumns = std::span(kTextColumns).first(11);
 constexpr std::string_view column_of(TextField field) {
   return kTextColumns[index_of(field)].column;
@@ -100,7 +100,7 @@ struct MeasurementFilter {
   bool has_times() const { return from_ns || to_ns || received_from_ns || received_to_ns; }
 };
 
-/// The way a list goes through the measurements, which are numbered in the order of storing.
+/// Order of a list through the measurements, which are numbered in the order of storing.
 enum class ListOrder : std::uint8_t { OldestFirst, NewestFirst };
 
 // The measurements are indexed in blocks of kBlock rows by their ids. A tree of nodes is above the

@@ -43,7 +43,7 @@ enum class Quantity : std::uint8_t {
 };
 enum class Rule : std::uint8_t { Simple = 1, GuardBand = 2, Conformance = 3 };
 
-// The greatest code of each: one that is read may not be above it.
+// Returns the greatest code of an enumeration: a code that was read may not exceed it.
 constexpr Source last_of(Source) { return Source::Simulation; }
 constexpr Feature last_of(Feature) { return Feature::Shaft; }
 constexpr Basis last_of(Basis) { return Basis::Bare; }

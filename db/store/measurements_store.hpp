@@ -44,8 +44,8 @@ class MeasurementsStore {
   /// @returns whether there is such a row; `visit` was called with it if so.
   bool find(std::int64_t id, const Visitor& visit) const;
 
-  /// The id of the row that corrects `id`, if one does. Of several, which were made apart, the one
-  /// that was received last.
+  /// Returns the id of the row that corrects `id`, if there is one. Of several corrections that
+  /// were made apart, the one that was received last.
   std::optional<std::int64_t> corrected_by(std::int64_t id) const;
 
   /// Returns corrected_by(); for a correction with a later rival, the rival.
@@ -70,7 +70,7 @@ class MeasurementsStore {
                                    std::size_t limit, const Visitor& visit,
                                    ListOrder order = ListOrder::OldestFirst) const;
 
-  /// list() of no more than figures are computed from, from the oldest on: several times as fast.
+  /// Lists only the values that figures need, oldest first: several times as fast as list().
   using RunVisitor = std::function<void(const MeasuredRun&)>;
   std::optional<std::int64_t> list_values(const MeasurementFilter& filter, std::int64_t after,
                                           std::size_t limit, const RunVisitor& visit) const;
@@ -98,7 +98,7 @@ class MeasurementsStore {
   /// Adds the next block of rows to the index that makes filters and summaries fast, or repairs a
   /// part of it that a correction has made stale. @returns whether there was something to do.
   bool index_step();
-  /// Derives the index again. @param note called with what differs, a sentence each.
+  /// Derives the index again. @param note receives each difference, as a sentence.
   void verify_index(const std::function<void(std::string)>& note) const;
 
  private:

@@ -80,7 +80,7 @@ class RunsStore {
   /// Requests the daemon of the run to end it; if that daemon dies, its successor ends the run.
   /// @errors RunUnknown; RunFinished if it is over.
   Result<void> ask_to_cancel(std::int64_t id);
-  /// Runs that are to be ended and are not over. For a database that daemons share.
+  /// Returns the runs that must end and have not. For a database that daemons share.
   std::vector<std::int64_t> to_be_cancelled() const;
 
   std::optional<RunStatus> status(std::int64_t id) const;
@@ -102,7 +102,7 @@ class RunsStore {
   /// daemon uses the database.
   std::vector<Run> abandoned(std::size_t limit) const;
 
-  /// Makes an abandoned run this daemon's, queued again. @returns whether it was abandoned still.
+  /// Queues an abandoned run again for this daemon. @returns whether it was still abandoned.
   bool take_over(std::int64_t id);
 
   /// Deletes up to `limit` runs that finished before `before_ns`, with files and traces.

@@ -59,7 +59,7 @@ class TupleWriter {
     statistics_[tuple_of_row_[row]].add(lengths);
   }
 
-  /// Calls `visit(field, bytes)` for what a TupleColumn reads of each field that was taken.
+  /// Calls `visit(field, bytes)` with the input of a TupleColumn, for each field of the tuples.
   template <class Visit>
   void visit_columns(const Visit& visit) const {
     for (const std::size_t column : taken_) {
@@ -110,7 +110,7 @@ class TupleSums {
 
   std::size_t size() const { return kinds_.size(); }
 
-  /// Calls `visit(tuple, kind, read)` for each tuple in order; read() gives its statistics.
+  /// Calls `visit(tuple, kind, read)` for each tuple in order; read() returns its statistics.
   template <class Visit>
   void visit(const Visit& visit) const {
     std::size_t at = 0;
@@ -155,8 +155,8 @@ void visit_pairs_of(std::string_view bytes, const Visit& visit) {
   }
 }
 
-/// Calls `visit(value, bytes)` for each value of the first field, with what visit_pairs_of() reads,
-/// until it returns false.
+/// Calls `visit(value, bytes)` for each value of the first field, until it returns false. The bytes
+/// are the input of visit_pairs_of().
 template <class Visit>
 void visit_values(std::string_view bytes, const Visit& visit) {
   PackedNumbers in(bytes);

@@ -48,7 +48,7 @@ inline http::BodyRules json_body(std::string schema) {
 
 /// /v1/limits: the limits of size of one designation.
 void add_limits_routes(Routes& add);
-/// /v1/fits: a hole and a shaft of one nominal size, and the search for such.
+/// /v1/fits: a hole and a shaft of one nominal size, and the search for fits.
 void add_fits_routes(Routes& add);
 /// /v1/gauges: sizes of GO and NO-GO gauges.
 void add_gauges_routes(Routes& add);

@@ -44,8 +44,8 @@ void hand_over_memory(std::int64_t bytes) { held += bytes; }
 
 }  // namespace fitgauge
 
-// Defines all forms, so that a sanitizer's runtime defines none of them and would miss memory of
-// another form.
+// Defines all forms, so that a sanitizer's runtime defines none: it would miss memory of other
+// forms.
 
 void* operator new(std::size_t size) {
   return taken([size] { return std::malloc(size == 0 ? 1 : size); });

@@ -48,7 +48,8 @@ class Folder {
 
   /// Calls `visit` for the names of all entries until it returns false.
   Result<void> list(const std::function<bool(const std::string& name)>& visit) const;
-  /// The kind of an entry: a link itself, not its target. @returns none without an entry.
+  /// Returns the kind of an entry: of a link itself, not of its target. @returns none without an
+  /// entry.
   std::optional<struct stat> look(const std::string& name) const;
   /// A regular file, to read. @returns none when there is no entry or another kind of entry.
   Result<std::optional<Descriptor>> read(const std::string& name) const;

@@ -46,7 +46,7 @@ bool take_sign(std::string_view& text) {
   return negative;
 }
 
-/// An exponent that no length survives is cut to a value with the same outcome.
+/// Returns the exponent; one beyond every length is cut to a value with the same outcome.
 std::int64_t exponent_value(std::string_view digits, bool negative) {
   constexpr std::int64_t kEnough = 1'000'000'000;
   std::int64_t value = 0;
@@ -73,8 +73,8 @@ bool split(std::string_view text, const DecimalSyntax& syntax, DecimalText& part
   return text.empty();
 }
 
-/// Digits, or digits with a point and no more of them after it than the scale keeps, as most texts
-/// are, in one pass. @returns false for any other text.
+/// Reads digits, or digits with a point and at most as many after it as the scale keeps, in one
+/// pass: most texts are so. @returns false for other texts.
 bool read_plain(std::string_view text, int scale, std::int64_t& value) {
   constexpr std::size_t kMostDigits = std::numeric_limits<std::int64_t>::digits10;
   const auto kept = static_cast<std::size_t>(scale);

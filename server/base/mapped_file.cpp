@@ -48,7 +48,7 @@ Result<MappedFile> MappedFile::open(const std::string& path) {
 Result<MappedFile> MappedFile::unnamed(const std::string& folder, std::size_t size) {
   const Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
   if (!file.is_open()) return MappedFile();
-  // All of it is allotted now: a disk that is full later would end the process.
+  // Allots the whole file now: a full disk would later end the process.
   if (::fallocate(file.get(), 0, 0, static_cast<off_t>(size)) != 0) {
     if (errno == ENOSPC || errno == EDQUOT) return failed();
     return MappedFile();

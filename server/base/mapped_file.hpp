@@ -41,7 +41,7 @@ class MappedFile {
   /// A file as the kernel has it, to read. @errors StorageUnavailable with the cause.
   static Result<MappedFile> open(const std::string& path);
   /// Makes a file of `size` bytes without a name, which ends with its process. None if the file
-  /// system of the folder cannot make one. @errors StorageUnavailable: its disk is full.
+  /// system of the folder does not support it. @errors StorageUnavailable: its disk is full.
   static Result<MappedFile> unnamed(const std::string& folder, std::size_t size);
 
   MappedFile(MappedFile&& other) noexcept

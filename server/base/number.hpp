@@ -8,7 +8,7 @@
 
 namespace fitgauge {
 
-/// All of `text` as a number, without blanks or a plus sign; none if it is another text or out of
+/// Reads the whole text as a number, without blanks or a plus sign; none for other texts or out of
 /// range.
 template <class T>
 std::optional<T> read_number(std::string_view text, int base = 10) {

@@ -71,7 +71,7 @@ bool is_xml_text(std::string_view text);
 /// so that readers keep them; characters that XML cannot hold become blanks.
 std::string xml_text(std::string_view text);
 
-/// Finds the known word that is spelled most like one that is not known, without regard to case.
+/// Finds the known word with the spelling nearest to an unknown one, case-insensitively.
 class SpellingHint {
  public:
   explicit SpellingHint(std::string_view word);

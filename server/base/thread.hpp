@@ -69,7 +69,7 @@ class Thread {
   std::jthread thread_;
 };
 
-/// Waits for the result that `begin(done)` gives to `done`, on this thread or another.
+/// Waits for the result that `begin(done)` passes to `done`, on this thread or another.
 template <class T, class Begin>
 Result<T> wait_for_result(const Begin& begin) {
   std::promise<Result<T>> promise;

@@ -175,7 +175,7 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
     }
     end = *time;
   }
-  // A key may be made before the first start; then the database is made too.
+  // A key may be made before the first start, and then also makes the database.
   const auto app = open_application(config, !is_new(config.data));
   if (!app) return app.error();
   const auto token = (*app)->keys().create(name, *known, {}, end);
@@ -218,7 +218,7 @@ Result<void> healthcheck(const Config& config) {
 
   const SslContext context(SSL_CTX_new(TLS_client_method()), &SSL_CTX_free);
   const bool tls = !config.tls_cert.empty() && config.tls_client_ca.empty();
-  // The certificate is the service's own and names the address of the outside: it is not verified.
+  // The service's certificate names its outer address: it is not verified here.
   const Bio connection(tls ? BIO_new_ssl_connect(context.get()) : BIO_new(BIO_s_connect()),
                        &BIO_free_all);
   if (!connection || BIO_set_conn_hostname(connection.get(), address.c_str()) <= 0 ||

@@ -24,7 +24,7 @@ constexpr std::string_view kLevels[] = {"debug", "info", "warning", "error", "of
 constexpr std::size_t kMostForwarded = 200;
 constexpr std::size_t kMostMethod = 32;
 
-/// `00`, `01` and so on: two digits cost no more than one.
+/// `00`, `01` and so on: two digits take the time of one.
 template <unsigned base>
 constexpr auto kDigitPairs = [] {
   std::array<std::array<char, 2>, base * base> pairs{};

@@ -18,8 +18,7 @@ enum class LogLevel { Debug, Info, Warning, Error, Off };
 /// `warning` as the configuration names it. @pre one of its words.
 LogLevel log_level_named(std::string_view word);
 
-/// Each appends one line of JSON with its line feed: time (UTC, microseconds), level and what
-/// happened.
+/// Each appends one line of JSON with its line feed: time (UTC, microseconds), level and event.
 void append_event_line(std::string& out, LogLevel level, std::string_view event,
                        std::string_view detail);
 /// Logs it with the caller's name if the request had a key, and with the client of a proxy.
@@ -58,7 +57,7 @@ class LogQueue {
 
   static constexpr std::chrono::milliseconds kPatience{1000};
 
-  /// A request line is one of many; other lines have the last quarter of the room for themselves.
+  /// Request lines are many; other lines have the last quarter of the room for themselves.
   enum class Kind { Request, Other };
   /// Queues `line`, which ends with a line feed, or counts it as lost.
   void push(std::string_view line, Kind kind);

@@ -19,7 +19,7 @@ void write_clock_metrics(const Clock& clock, const Clock& machine, api::Expositi
 /// The database's files and free space, or the state of its server.
 void write_storage_metrics(const app::Application& app, const std::filesystem::path& folder,
                            api::Exposition& out);
-/// `process_*` as Prometheus' own clients name them, and the log's lost lines.
+/// Writes `process_*` with the names of Prometheus' own clients, and the lost lines of the log.
 void write_process_metrics(api::Exposition& out);
 
 /// Writes the metrics of every connection, by its name.

@@ -222,7 +222,7 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
   auto definition = read_definition(name, *json, {.roots = plant_.folders});
   if (!definition) return definition.error();
   if (const FollowerOptions* const follower = definition->settings->follower()) {
-    // Its start is known before it exists: it misses nothing after the response.
+    // Stores its start before it exists, so that it misses nothing after the response.
     if (!before) {
       const auto forgotten = forget_progress(plant_.documents, name);
       if (!forgotten) return forgotten.error();

@@ -106,7 +106,8 @@ class Outlet {
   /// Called without data to deliver: at least every 30 s, and soon after `wake`. For connections
   /// that stay open. @returns an attempt, or none if there was nothing to do.
   virtual std::optional<Delivery> idle(const std::stop_token&) { return std::nullopt; }
-  /// Before anything else. @param wake may be called on any thread, as long as the outlet is there.
+  /// Called before all other functions. @param wake may be called on any thread while the outlet
+  /// exists.
   virtual void wake_by(std::function<void()>) {}
 };
 
@@ -164,7 +165,7 @@ class LogFollower final : public Worker {
   std::size_t planned(std::size_t count);
   /// @param measurements of it that went out
   void take(const Delivery& delivery, std::size_t measurements);
-  /// Unless it was saved less than a second ago. @returns whether nothing is left to save.
+  /// Saves unless it did so less than a second ago. @returns whether nothing is left to save.
   bool save(bool at_once);
   void show();
   void wait(const std::stop_token& stop, std::chrono::milliseconds most);

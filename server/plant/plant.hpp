@@ -150,8 +150,8 @@ class Worker {
   }
   /// An attempt begins, or its next step, which may wait for the other side.
   void begin_attempt();
-  /// Counts an ended attempt, and logs the first that fails and the first that succeeds again.
-  /// @param why it failed; none: it did not. @param delivered something before it failed
+  /// Counts an ended attempt. Logs the first failure and the first success after it.
+  /// @param why reason of the failure; none: success. @param delivered something before it failed
   void finish_attempt(const std::optional<std::string>& why, bool delivered = false);
   /// Counts a refusal that is repeated at once: the connection is not failing yet.
   /// @param delivered whether something went out before it

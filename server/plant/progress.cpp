@@ -97,7 +97,7 @@ Result<std::optional<std::int64_t>> first_row_from(Timestamp time, const Plant& 
   return first;
 }
 
-/// The newest event from before that time, 0 when there is none.
+/// Returns the newest event before that time, 0 if there is none.
 Result<std::int64_t> last_event_before(Timestamp time, const Plant& plant) {
   std::int64_t last = 0;
   for (;;) {

@@ -11,7 +11,7 @@
 namespace fitgauge::tlog {
 namespace {
 
-/// The root of the leaves [begin, end), whose subtrees are complete but for the last.
+/// Returns the root of the leaves [begin, end), whose subtrees are complete except the last.
 Hash range_root(std::uint64_t begin, std::uint64_t end, const NodeReader& read) {
   const std::vector<Node> nodes = subtrees(begin, end);
   if (nodes.empty()) return empty_root();
@@ -106,7 +106,7 @@ Frontier::Frontier(std::uint64_t size, std::vector<Hash> roots)
 
 unsigned Frontier::append(const Hash& leaf) {
   completed_.assign(1, leaf);
-  // Each trailing one of the size is a subtree that the new one completes to twice its size.
+  // Each trailing one bit of the size is a subtree that the new one doubles.
   for (std::uint64_t bits = size_; (bits & 1U) != 0; bits >>= 1U) {
     completed_.push_back(hasher_.node(roots_.back(), completed_.back()));
     roots_.pop_back();

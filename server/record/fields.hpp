@@ -150,8 +150,8 @@ constexpr std::size_t filter_place(int number) {
 
 using Of = MeasurementFields;
 
-/// Every field once: the labels, the fields that correct to 20 °C, the other fields of a request,
-/// then those that the service fills.
+/// Every field once, in this order: labels, fields for the correction to 20 °C, other fields of a
+/// request, and fields that the service fills.
 inline constexpr MeasurementField kMeasurementFields[] = {
     {"part_id", &Of::part_id, "part_id", 22, kIdentifier, "Part id, such as a serial number", 1},
     {"characteristic", &Of::characteristic, "characteristic", 23, kIdentifier,
@@ -258,7 +258,7 @@ inline constexpr auto kThermalFields = kGivenFields.subspan(
         kGivenFields, [](const MeasurementField& f) { return f.accepted.is_thermal; })));
 
 /// Names of the texts that lists filter and summaries group by, in the order of their numbers. The
-/// tolerance class is not stored as the caller gives it.
+/// tolerance class is stored in another form than the caller gives it.
 inline constexpr auto kTextFilters = [] {
   constexpr auto kCount =
       1 + std::ranges::count_if(kMeasurementFields, [](const auto& f) { return f.filter != 0; });

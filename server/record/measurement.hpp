@@ -102,8 +102,8 @@ struct Measurement : MeasurementFields {
   std::optional<std::int64_t> corrected_by;      ///< known if a single measurement was requested
   std::string_view corrected_by_origin{};        ///< empty: the origin of this measurement
   bool has_unknown_gauge = false;  ///< while it is judged: gauges are registered, but not this one
-  /// Another correction of the same record was made apart from this one. Known as corrected_by, and
-  /// in lists.
+  /// true if another correction of the same record was made apart from this one. Known in
+  /// corrected_by and in lists.
   bool conflict = false;
   std::span<const Note> notes{};  ///< known if a list was requested with notes
 

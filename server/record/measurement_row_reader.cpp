@@ -250,8 +250,8 @@ const GaugeInUse* MeasurementRowReader::find_gauge(std::string_view name) {
   return last_gauge_in_use_;
 }
 
-/// Facts of a gauge in use at that time: its uncertainty if the rule needs one that was not given,
-/// and that it was overdue or blocked. @pre measured_at is set
+/// Facts of a gauge in use at that time: its uncertainty, if the rule needs one and none was given,
+/// and whether it was overdue or blocked. @pre measured_at is set
 void MeasurementRowReader::apply_gauge() {
   app::Measurement& m = draft_.measurement;
   const bool needs = draft_.rule.kind != gauging::DecisionRule::Kind::Simple;
@@ -334,7 +334,7 @@ void MeasurementRowReader::refuse_rule_without_limits() {
   }
 }
 
-/// Fields of ISO 14405-1, which are for sizes only, and the one of edges.
+/// Fields of ISO 14405-1, which are for sizes only, and the field of edges.
 void MeasurementRowReader::apply_size() {
   app::Measurement& m = draft_.measurement;
   const bool is_size = m.quantity && gauging::has_feature(*m.quantity);

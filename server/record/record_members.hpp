@@ -28,9 +28,9 @@ struct RecordMember {
 template <class Write>
 RecordMember(std::string_view, int, Write, SharedPart = SharedPart::None) -> RecordMember<Write>;
 
-/// Passes a value, if there is one, on to the function of its kind. `word` needs no escape, `name`
-/// may, `text` is one that somebody chose. Values of members that are in no table are a designation
-/// or a size range too.
+/// Passes a value, if there is one, to the function for its kind. `word` needs no escape, `name`
+/// may need one, `text` is chosen by somebody. A member that is in no table may also be a
+/// designation or a size range.
 template <class Out>
 struct MemberValue {
   Out& out;

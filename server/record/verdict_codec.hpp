@@ -59,7 +59,7 @@ Result<void> check_measured(Length measured,
 /// @errors LengthOutOfRange if it is negative.
 Result<void> check_uncertainty(Length uncertainty);
 
-/// A decision rule as it is written, in the query as in a body.
+/// A decision rule as written in a query or a body.
 struct RuleWords {
   gauging::DecisionRule::Kind kind = gauging::DecisionRule::Kind::Simple;
   std::optional<Length> standard_uncertainty{};  ///< as given

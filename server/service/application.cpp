@@ -303,8 +303,8 @@ Result<std::optional<Timestamp>> Application::newest_measurement() const {
 }
 
 Result<void> Application::backup(const std::filesystem::path& file) const {
-  // The checkpoint first: the copy that is made after it has all that it covers. A running daemon
-  // signs what there is within a second.
+  // Reads the checkpoint first: the copy is made after it, and so has everything it covers. A
+  // running daemon signs its rows within a second.
   const auto rows =
       database_->readers().wait([](const store::Stores& stores) -> Result<std::int64_t> {
         return stores.measurements.log_size();
@@ -333,7 +333,8 @@ std::optional<std::string> Application::check_leaf(const store::MeasurementRow& 
 
 Result<Application::Verification> Application::verify(
     const std::map<std::string, std::string>& checkpoints) const {
-  // The daemon's own checkpoints are read before the rows, so that they have all that these cover.
+  // Reads the daemon's own checkpoints before the rows, so that the rows have everything they
+  // cover.
   auto notes = checkpoints;
   for (const TreeNames& tree : {kTreeOfMeasurements, kTreeOfChanges}) {
     const auto file = directory_ / tree.file;

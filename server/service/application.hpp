@@ -78,7 +78,7 @@ struct ApplicationOptions {
   std::string origin_name = "station";  ///< of the log of a new data folder
   /// Calls its argument on the writer thread: the `done` of everything a commit has stored.
   std::function<void(const std::function<void()>&)> around_outcomes{};
-  /// The time that runs and idempotency keys expire by; without it the clock, as it is.
+  /// Time for the expiry of runs and idempotency keys; without it, the clock itself.
   std::function<SteadyTime()> steady_time{};
   /// The storage's health has changed: `ok`, `checking`, `writes_failing` or `damaged`, and why.
   /// Called on a storage thread; must not block.

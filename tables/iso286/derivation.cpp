@@ -70,8 +70,8 @@ bool is_m6_exception(const ToleranceClass& c, const NominalSizeRange& range) {
 }
 constexpr Length kM6Exception = Length::micrometres(-9);
 
-/// Deltas exist for IT3 to IT8. Finer grades need none if all deltas are 0, up to 3 mm and above
-/// 500 mm; between, their classes are not defined.
+/// Deltas exist for IT3 to IT8. For finer grades, up to 3 mm and above 500 mm, none are needed
+/// because all deltas are 0; between, their classes are not defined.
 bool needs_no_delta(const NominalSizeRange& range) {
   return range.up_to <= Length::millimetres(3) || range.over >= Length::millimetres(500);
 }

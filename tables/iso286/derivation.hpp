@@ -53,8 +53,8 @@ struct StandardTables {
   IndexedTable shafts;
 };
 
-/// The ranges within which every class is defined for all sizes or for none: the steps of the
-/// fundamental deviations, the first one parted at 1 mm.
+/// Returns the ranges within which every class is defined for all sizes or for none: the steps of
+/// the fundamental deviations, with the first one divided at 1 mm.
 std::vector<NominalSizeRange> derivation_ranges(const StandardTables& tables);
 
 /// Returns the standard tolerance of a grade; none if the grade is not used.

@@ -22,8 +22,9 @@ struct LimitDeviations {
 
 class ToleranceTables;
 
-/// A class for every size of one range of the tables: of a class of the standard, the
-/// deviations at its end; of a custom column, those that its rows there share, if they cover it.
+/// Returns the deviations of a class for every size of one range of the tables. For a standard
+/// class they are the deviations at its end. For a custom one, the deviations that its rows share
+/// there, if they cover the range.
 std::optional<LimitDeviations> deviations_in_range(const ToleranceTables& tables, ClassId id,
                                                    const NominalSizeRange& range);
 

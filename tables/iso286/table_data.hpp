@@ -54,7 +54,7 @@ struct CustomColumn {
   friend bool operator==(const CustomColumn&, const CustomColumn&) = default;
 };
 
-/// The plain content of one table revision, as it is stored and digested; not yet checked.
+/// Plain content of one table revision, as stored and digested; not yet checked.
 struct TableData {
   std::vector<TableCell> cells;
   std::vector<CustomColumn> custom_columns;
@@ -70,9 +70,10 @@ const TableData& compiled_in_tables();
 /// @returns TablesInconsistent each, naming table, range and column; empty when all hold.
 std::vector<Error> table_rules(const TableData& data);
 
-/// Every cell of the standard's tables that differs from the compiled-in ones: a changed cell can
-/// satisfy every rule. Custom columns are not compared.
-/// @returns TablesInconsistent each, naming table, range, column, found and expected.
+/// Compares the standard's tables with the compiled-in ones cell by cell, because a changed cell
+/// can satisfy every rule. Does not compare custom columns.
+/// @returns TablesInconsistent for each difference, naming table, range, column, found and
+///   expected.
 std::vector<Error> compare_with_compiled_in(const TableData& data);
 
 /// Checks a custom tolerance class: a valid name whose case matches the feature and that is not NR

@@ -42,7 +42,7 @@ Error finding(TableId table, const NominalSizeRange& range, std::string_view col
                       column)};
 }
 
-/// Cells of the standard's tables that `data` lacks, additional cells, and repeated cells. Without
+/// Finds missing, additional and repeated cells of the standard's tables in `data`. Without
 /// findings the ranges are those of the standard, so they are contiguous.
 std::vector<Error> compare_structure(const TableData& data) {
   std::vector<Error> findings;

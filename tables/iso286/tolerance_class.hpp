@@ -71,7 +71,7 @@ enum class DeviationLetter : std::uint8_t {
 };
 inline constexpr std::size_t kLetterCount = 28;
 
-/// The number of a grade as it is written in a class: `7`, `01`.
+/// Returns the number of a grade as written in a class: `7`, `01`.
 std::string_view text(StandardToleranceGrade grade);
 
 /// `H` for holes, `h` for shafts.
@@ -88,8 +88,8 @@ struct ToleranceClass {
 
 std::string name(const ToleranceClass& tolerance_class);
 
-/// The class of the standard that has this name, defined for some size or not; none for `H19`,
-/// `I7`, `h7x` and the names of custom columns.
+/// Returns the standard class with this name, whether it is defined for any size or not; none for
+/// `H19`, `I7`, `h7x` and the names of custom columns.
 std::optional<ToleranceClass> class_from_name(std::string_view name);
 
 /// Whether `name` may name a column: `[A-Za-z][A-Za-z0-9_]{0,15}`.
@@ -127,8 +127,7 @@ constexpr ToleranceClass standard_class(ClassId id) {
 }
 
 /// A nominal size with the name of a tolerance class: `25 H7`. The name is grammatical, but only
-/// ToleranceTables::find_class knows whether there is such a class: shops name columns of their
-/// own.
+/// ToleranceTables::find_class knows whether the class exists: shops name custom classes.
 struct Designation {
   NominalSize nominal_size;
   std::string class_name;

@@ -27,8 +27,8 @@ struct TableRevision {
   friend bool operator==(const TableRevision&, const TableRevision&) = default;
 };
 
-/// All limit deviations of the standard and of a shop's own columns, ready to be read: an array
-/// indexed by class and size range. Owns all it answers from. Immutable, so any thread may read it.
+/// All limit deviations of the standard and of custom classes, ready to be read: an array indexed
+/// by class and size range. Owns all its content. Immutable, so any thread may read it.
 class ToleranceTables {
  public:
   /// @errors TablesInconsistent with one entry in `details` for each finding of table_rules.
@@ -39,8 +39,8 @@ class ToleranceTables {
   /// The 41 steps of the fundamental deviations, ascending.
   std::span<const NominalSizeRange> ranges() const { return ranges_; }
 
-  /// Every class that is defined for some size, by letter, then grade; custom columns that are not
-  /// named like a class of the standard come last, by name.
+  /// Returns every class that is defined for some size, by letter, then grade; custom classes with
+  /// other names come last, by name.
   std::span<const ClassId> classes(Feature feature) const {
     return classes_[static_cast<std::size_t>(feature)];
   }

@@ -12,7 +12,7 @@
 
 namespace fitgauge::standards {
 
-/// Limits of a designation of another standard than ISO 286. All lengths are exact.
+/// Limits of a designation of a standard other than ISO 286. All lengths are exact.
 struct DesignatedLimits {
   const Standard* standard = nullptr;  ///< never null
   /// The designation without the nominal size: `ISO 2768-m`, `R ISO 2768-m` of a broken

@@ -65,10 +65,10 @@ struct Standard {
   std::string_view designation;           ///< an example; empty if the standard has no limits
   std::vector<std::string_view> sources;  ///< the numbers were compared with
   std::string_view
-      left_out;  ///< other parts of the standard, and why they are missing; empty for none
+      left_out;  ///< other parts of the standard, and the reason for their absence; may be empty
   std::vector<Table> tables;
-  /// The edition with the first digits of the digest of its numbers, `ISO 2768-1:1989-1f2e3d4c`:
-  /// what records name, so that they can be judged again.
+  /// The edition with the first digits of the digest of its numbers, `ISO 2768-1:1989-1f2e3d4c`.
+  /// Records name it, so that they can be judged again.
   std::string revision;
 
   const Table& table(std::string_view table_name) const;

@@ -38,7 +38,8 @@ Error not_a_thread(std::string_view text) {
                       first_characters(text, 40))};
 }
 
-/// A class of the crests, the minor diameter of internal threads and the major one of external.
+/// Returns whether it is a class of the crests: the minor diameter of internal threads, the major
+/// diameter of external ones.
 bool is_crest_class(const ThreadClass& of) {
   constexpr std::string_view kInternal = "45678";
   constexpr std::string_view kExternal = "468";
@@ -172,8 +173,8 @@ Length pitch_diameter_of(const Thread& thread) {
   return Length::nanometres((exact + kMicrometre / 2) / kMicrometre * kMicrometre);
 }
 
-/// The one spelling of a designation, kept for ever: the number of threads in the standard bounds
-/// it.
+/// Returns the shared spelling of a designation, which is kept for ever: the standard limits the
+/// number of threads.
 std::string_view kept(std::string designation) {
   static std::mutex mutex;
   static std::set<std::string, std::less<>> spellings;

@@ -17,7 +17,8 @@
 namespace fitgauge::api {
 namespace {
 
-/// `25 H7`, `M10-6H`, of a drawing's own limits `25 hole`, `-50 position`, without them `diameter`.
+/// Returns the size as text: `25 H7`, `M10-6H`; for limits of a drawing `25 hole` or `-50
+/// position`; without limits `diameter`.
 std::string size_text(const app::Measurement& m) {
   std::string text;
   if (m.class_name) {

@@ -169,7 +169,7 @@ std::vector<http::Parameter> with_filters(std::vector<http::Parameter> parameter
   return parameters;
 }
 
-/// The fit like the response of its own address, with the names of its classes.
+/// Writes the fit as its own path returns it, with the names of its classes.
 Result<void> write_found(JsonWriter& json, const metrology::FoundFit& found,
                          iso286::NominalSize size, const ToleranceTables& tables) {
   const auto fit = tables.fit(size, found.hole, found.shaft);

@@ -60,7 +60,7 @@ void put_batch(const Services& services, const http::Request& request, http::Res
             read_batch(*request.text("origin"), *request.integer("from"), request.body());
         if (!batch) return batch.error();
         const auto answer = services.intake.take((*batch)->batch);
-        // The station's own state of that name is 503; this is a conflict.
+        // At the station, an error with this name is 503; here it is a conflict.
         if (!answer && answer.error().code == ErrorCode::LogForked) {
           return problem(answer.error(), kConflict, request);
         }

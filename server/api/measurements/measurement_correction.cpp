@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 7> kLimitsFields = {
     "designation", "nominal_mm", "tolerance_class", "quantity", "feature", "upper_um", "lower_um"};
 
 constexpr std::array<std::string_view, 2> kGaugeFields = {"gauge", "measured_at"};
-/// A field of the original, and one that replaces it if the correction names it.
+/// A field of the original, and the field that replaces it if the correction gives that.
 struct Replaced {
   std::string_view field;
   std::string_view by;
@@ -67,7 +67,8 @@ bool is_without_feature(const JsonValue& body) {
   return said && !gauging::has_feature(*said);
 }
 
-/// A correction without limits keeps the applied ones; one with some limits copies the others.
+/// A correction without limits keeps the applied ones; a correction with some limits copies the
+/// others.
 void take_over_limits(MeasurementRowReader& reader, const JsonValue& body,
                       const app::Measurement& original) {
   if (!names_any(body, kLimitsFields)) return reader.take_limits(original);

@@ -95,7 +95,7 @@ class XlsxFile final : public MeasurementFile {
   const std::optional<sheet::TimeZone> zone_;
 };
 
-/// The decision rule of a record, if it is more than its limits.
+/// Returns the decision rule of a record; empty if it uses only the limits.
 std::string rule_of(const app::Measurement& m) {
   std::string rule;
   const auto say = [&rule](std::string_view name, std::string_view text) {

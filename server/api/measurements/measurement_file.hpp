@@ -15,7 +15,7 @@ namespace fitgauge::api {
 /// time.
 class MeasurementFile {
  public:
-  /// So many rows a file has at most: it is made in memory.
+  /// Maximum number of rows in a file, because it is made in memory.
   static constexpr std::size_t kMostRows = 100'000;
   /// Maximum number of bytes of their records, which bounds the file.
   static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
@@ -29,7 +29,7 @@ class MeasurementFile {
   virtual Result<std::string> finish() = 0;
 };
 
-/// DFQ of Q-DAS. An empty list is an error: a DFQ without a characteristic is none.
+/// Makes a DFQ of Q-DAS. An empty list is an error: a DFQ needs a characteristic.
 std::unique_ptr<MeasurementFile> make_dfq_file(aqdef::DfqOptions options);
 
 /// Makes a QIF 3.0 file; an empty list is an error here too.

@@ -75,12 +75,12 @@ struct Cursor {
 };
 
 /// `m100.m250-5f0c9a3e77d21b40`: the rows after m100, in the state when m250 was the newest of that
-/// history. `m100.m250` is one that was given out before cursors named their history.
+/// history. Older cursors, `m100.m250`, do not name the history.
 std::string cursor_text(const app::ListPage& page, std::string_view origin) {
   return fmt::format("m{}.{}", *page.next, app::measurement_id_text(page.as_of, origin));
 }
 
-/// The id of a measurement is a cursor too: for later measurements.
+/// The id of a measurement is also a cursor, for later measurements.
 Result<Cursor> cursor_of(const Services& services, const http::Request& request) {
   const auto text = request.text("after");
   if (!text) return Cursor();

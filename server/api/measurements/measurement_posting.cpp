@@ -51,7 +51,7 @@ void judge_and_record(const SharedPosting& posting) {
   const auto decoded = decode_measurements(request.body(), request.media_type(),
                                            context_of(*posting, *basis), batch);
   if (!decoded) return posting->responder.fail(decoded.error());
-  // The class names of the rows are views of the tables, those of budgets views of the gauges.
+  // The class names of the rows are views of the tables, the names of budgets views of the gauges.
   batch.texts = std::make_shared<std::pair<std::shared_ptr<const void>, Basis>>(
       std::move(batch.texts), *basis);
   record(posting, std::move(batch));

@@ -133,7 +133,7 @@ http::Response invalid_program(const http::Request& request, const std::string& 
   return response;
 }
 
-/// The order of a body whose program may be run, or the answer that refuses it.
+/// Returns the order of a body whose program may run, or the refusal.
 Result<app::RunOrder> read_order(const SharedPosting& posting) {
   auto body = parse_json(posting->request.body());
   if (!body) return body.error();

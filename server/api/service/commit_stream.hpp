@@ -36,7 +36,7 @@ class CommitStream : public http::BodyStream,
   std::mutex mutex_;
   std::optional<http::ChunkSink> sink_;  ///< receiver of the next piece; none while one is sent
   bool reading_ = false;
-  bool missed_ = true;  ///< there may be more than was read: a commit came during the read
+  bool missed_ = true;  ///< there may be more to read: a commit came during the read
 };
 
 }  // namespace fitgauge::api

@@ -58,7 +58,7 @@ http::Response written(bool created, std::string answer, std::string_view tag) {
   return std::move(response).with("ETag", std::string(tag));
 }
 
-/// The refusal of a write: at its member if what that names is not there.
+/// Puts the refusal of a write at its member, if the document that the member names does not exist.
 Error at_named(const Error& error) {
   return error.code == ErrorCode::GaugeUnknown ? at_member("gauge", error) : at_budget(error);
 }

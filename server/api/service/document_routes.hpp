@@ -57,7 +57,7 @@ struct KindOfDocument {
   std::size_t longest_other = 0;
   Result<CheckedDocument> (*check_other)(const Services& services, const std::string& name,
                                          const FileText& body) = nullptr;
-  /// Runs after a change was stored and before it is answered; null: nothing.
+  /// Runs after a change was stored and before the response; null: nothing to do.
   void (*changed)(const Services& services, std::function<void(Result<void>)> done) = nullptr;
 };
 

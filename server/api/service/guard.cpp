@@ -9,7 +9,7 @@ namespace {
 constexpr std::string_view kTokenPrefix = "fg_";
 
 /// Rights that a route needs, in rising order: `public` (health, even in keys mode), `open`, and
-/// roles. `station` is what an administrator may too, and no operator.
+/// roles. `station` also allows administrators, but no operators.
 enum class Access { Public, Open, Viewer, Operator, Admin, Station };
 
 Access access_of(const http::Route& route, const http::Request& request) {

@@ -24,7 +24,7 @@ class Exposition {
  public:
   using Labels = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
-  // Each begins a family; the samples that follow are of it. Names are plain words of the contract.
+  // Begins a family; the next samples belong to it. Names are plain words of the contract.
   Exposition& counter(std::string_view name, std::string_view help);
   Exposition& gauge(std::string_view name, std::string_view help);
   Exposition& histogram(std::string_view name, std::string_view help);

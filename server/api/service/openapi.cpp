@@ -43,7 +43,7 @@ void write_schema(JsonWriter& json, const http::ParameterType& type) {
                 .key("maximum")
                 .decimal(decimal.max, decimal.scale);
           },
-          // A text too, so that no double comes between, as in a body.
+          // The number may also be a text, so that no double comes between, as in a body.
           [&](const http::LengthIn&) {
             json.key("type").begin_array().value("number").value("string").end_array();
           },
@@ -101,7 +101,7 @@ bool takes_length(const http::Route& route) {
   });
 }
 
-/// The refusals the route names, and those that every route of its kind has.
+/// Returns the refusals of the route and of all routes of its kind.
 std::set<int> refusals_of(const http::Route& route) {
   std::set<int> found(route.refusals.begin(), route.refusals.end());
   const bool takes_body = route.body.use != http::BodyUse::None;

@@ -17,7 +17,7 @@ struct PageAsset {
 /// Every file of the page; written by scripts/cmake/embed_web.cmake.
 std::span<const PageAsset> page_assets();
 
-/// Names the files as they are together: another name as soon as one of them differs.
+/// Returns a name for all files together, which changes as soon as one of them does.
 std::string_view page_build();
 
 }  // namespace fitgauge::api

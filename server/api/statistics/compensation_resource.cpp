@@ -77,7 +77,8 @@ struct CorrectedParts {
     }
   }
 
-  /// From the target to the nearer limit, in µm; not above 0 if the target is no good size.
+  /// Returns the distance from the target to the nearer limit, in µm; at most 0 if the target is
+  /// not a good size.
   double half_tolerance() const {
     const double below = lower ? static_cast<double>((*target - *lower).count()) : INFINITY;
     const double above = upper ? static_cast<double>((*upper - *target).count()) : INFINITY;

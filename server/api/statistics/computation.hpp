@@ -90,7 +90,7 @@ void data_members(auto& v, metrology::Subgroups& data) {
 /// Puts the error of a computation at a member, with the error's own code.
 Error at_member(std::string_view name, Error error);
 
-/// A figure that is computed from a JSON body and nothing else.
+/// A figure that is computed only from a JSON body.
 struct Computation {
   std::string_view head;                                  ///< pattern and operation
   Result<std::string> (*compute)(const JsonValue& body);  ///< returns the JSON of the response

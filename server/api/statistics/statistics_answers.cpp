@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t kPointRoom = 32;  ///< for any double, and the comma before it
 
-/// A point of a measured value is a decimal of nanometres. Up to 15 digits that decimal is the
-/// shortest that reads back as the same double, and is found sooner.
-/// @returns the end of its text
+/// Writes a point of a measured value, a decimal of nanometres. Up to 15 digits that decimal is the
+/// shortest text that reads back as the same double, and is found faster. @returns the end of its
+/// text
 char* write_point(char* to, double point) {
   constexpr double kNanometresOfOne = 1e6;
   constexpr double kMost = 1e15;

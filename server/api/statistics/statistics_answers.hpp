@@ -20,8 +20,8 @@
 
 namespace fitgauge::api {
 
-// The answers of /v1/statistics that stored values have too. Figures have 17 significant digits; an
-// undefined one is null.
+// Responses of /v1/statistics that stored values also have. Figures have 17 significant digits; an
+// undefined figure is null.
 
 /// Members of a chart's order that only some kinds use, of values that are sent or stored.
 std::span<const Applicable> chart_members();

@@ -126,7 +126,7 @@ void members(auto& v, ChartOrder& order) {
   v.optional("decision_interval", plan.decision_interval, Number{kLeast, 20},
              "Decision interval h of cusum, in standard deviations");
   v.check([&plan](FieldReader& fields) {
-    // Limits are known by `centre` and `standard_deviation`, else something of them is estimated.
+    // Limits are known from `centre` and `standard_deviation`; otherwise one of them is estimated.
     static constexpr std::array<Applicable, 1> kOfLimits = {{{"phase1", "estimated"}}};
     const bool is_known = plan.centre && plan.standard_deviation;
     fields.refuse_not_applicable(chart_members(), "kind", word(plan.kind));

@@ -17,8 +17,8 @@ namespace fitgauge::api {
 
 metrology::Exact exact_mm(Length length);
 
-/// The ids of measurements, in four bytes each: those that follow each other are mostly of one
-/// folder, and their numbers rise.
+/// Ids of measurements, in four bytes each: consecutive ids mostly belong to one folder, and their
+/// numbers rise.
 class MeasurementIds {
  public:
   void add(std::int64_t number, std::string_view origin);

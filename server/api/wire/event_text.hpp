@@ -13,7 +13,7 @@
 
 namespace fitgauge::api {
 
-// Server-Sent Events (WHATWG HTML, 9.2), the same for all that follow something.
+// Server-Sent Events (WHATWG HTML, 9.2), one form for all event streams.
 
 inline constexpr std::string_view kEventStreamType = "text/event-stream";
 
@@ -27,7 +27,7 @@ inline void append_event(std::string& out, std::string_view type, std::string_vi
   out.append("\ndata: ").append(data).append("\n\n");
 }
 
-/// No event, but the id a reader names when it comes back before there was one.
+/// Appends no event, but the id that a reader names if it reconnects before the first event.
 inline void append_event_id(std::string& out, std::string_view id) {
   out.append("id: ").append(id).append("\n\n");
 }
@@ -43,7 +43,7 @@ inline http::Response event_response(std::shared_ptr<http::BodyStream> source) {
       .source = std::move(source), .heartbeat = std::string(kEventHeartbeat), .is_endless = true});
 }
 
-/// The parameters by which a reader that comes back names the last event it had.
+/// Adds the parameters by which a reader names its last event when it reconnects.
 inline void add_last_event_id(std::vector<http::Parameter>& parameters) {
   parameters.push_back({.name = "last_event_id",
                         .description = "The id of the last event, where the header cannot be set"});

@@ -56,7 +56,7 @@ std::string etag_of_text(std::string_view text);
 using TextPrecondition = std::function<bool(std::optional<std::string_view> text)>;
 TextPrecondition text_precondition_of(const http::Request& request);
 
-/// The Link of a page that is not the last (RFC 8288): the same filters, this cursor.
+/// Returns the Link of a page that is not the last (RFC 8288): the same filters with this cursor.
 std::string next_link(const http::Request& request, std::string_view cursor);
 
 /// Parameter of a path, and the preconditions that its route supports.
@@ -76,7 +76,7 @@ struct Posting {
 };
 using SharedPosting = std::shared_ptr<Posting>;
 
-/// The header of a route that answers a repeat as it did the first time.
+/// Header of a route that answers a repeated request like the first one.
 http::Parameter idempotency_parameter();
 
 /// @returns null when the Idempotency-Key is no key: that has been answered.

@@ -31,7 +31,7 @@ enum class Side : std::uint8_t { Order, Answer };
 template <class T>
 struct FormOf;
 
-/// The type a value is of if it is there: optional and pointed-to ones may be absent.
+/// Type of a value that is present: optional and pointed-to values may be absent.
 template <class T>
 struct Bare {
   using Type = T;
@@ -177,7 +177,7 @@ class BodyWriter {
   JsonWriter& json_;
 };
 
-/// The schema of a body whose members `T` describes; they are described of a `T{}`.
+/// Returns the schema of a body whose members `T` describes, from a `T{}`.
 template <class T>
 std::string schema_of(Side side) {
   T body{};

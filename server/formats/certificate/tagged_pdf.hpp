@@ -45,7 +45,7 @@ class TaggedPdf {
   /// The operators of one line.
   std::string text(float x, float y, float size, std::string_view line);
   float width_of(std::string_view line, float size);
-  /// The text in pieces no wider than `room`, at blanks, which end a piece.
+  /// Returns the text in pieces, each at most `room` wide, that end at blanks.
   std::vector<std::string> wrapped(std::string_view text, float size, float room);
   /// Adds the only picture of the document. @returns its operators
   std::string picture(const Picture& picture, float x, float y, float width, float height);

@@ -223,7 +223,7 @@ FITGAUGE_IN_BOTH_FORMS Separated separate(std::string_view text, std::uint32_t* 
       const std::uint64_t up_to = left ^ (left - 1);
       *values++ = found + static_cast<std::uint32_t>(std::popcount(masks.all & up_to));
     }
-    // Eight at a time, some of them for nothing: so that nothing is to be guessed.
+    // Eight at a time, some of them unused, so that no branch is predicted wrong.
     const auto count = static_cast<std::uint32_t>(std::popcount(masks.all));
     const auto behind = static_cast<std::uint32_t>(at) + 1;
     std::uint64_t left = masks.all;

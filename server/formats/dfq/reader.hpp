@@ -77,7 +77,7 @@ struct ValueSet {
     if (value.is_apart) return apart[index];
     return {text + starts[index], starts[index + 1] - starts[index] - 1};
   }
-  /// A field after the values: of the named value, else of all.
+  /// Returns a field after the values: for the named value, or for all.
   std::string_view field(const Value& value, int number) const;
 };
 

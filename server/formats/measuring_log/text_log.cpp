@@ -169,7 +169,7 @@ void TextReader::take_head(std::string_view label, std::string_view value, std::
   }
 }
 
-/// Nominal values and limits of the values that were measured, by what their labels are about.
+/// Assigns nominal values and limits to the measured values by the subjects of their labels.
 void TextReader::match_limits() {
   for (std::size_t i = 0; i < log_.values.size(); ++i) {
     LogValue& value = log_.values[i];

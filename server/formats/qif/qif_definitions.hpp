@@ -61,7 +61,7 @@ class Definitions {
   const Definition* definition(const std::string& id) const { return find(definitions_, id); }
   std::string_view part(const std::string& id) const { return text(parts_, id); }
   std::string_view device(const std::string& id) const { return text(devices_, id); }
-  /// `hole`, `shaft` or nothing, of the feature that a characteristic is of.
+  /// Returns `hole`, `shaft` or nothing, for the feature of a characteristic.
   std::string_view feature(const Item& item, const Nominal& nominal) const;
   /// Returns the unit of the document or of the caller; none if neither has one.
   std::optional<aqdef::LengthUnit> unit() const { return unit_; }

@@ -42,12 +42,13 @@ std::string squeezed(std::string_view text);
 /// The next line, without its end, from the front of a text.
 std::string_view take_text_line(std::string_view& text);
 
-/// A text of a file that is not UTF-16 as UTF-8. Detected: UTF-8 if it is valid, else Windows-1252.
-/// @errors TextEncoding with the byte.
+/// Converts a text of a file to UTF-8, unless it is UTF-16. Detects UTF-8 if it is valid; otherwise
+/// Windows-1252. @errors TextEncoding with the byte.
 Result<std::string> to_utf8(std::string_view bytes, Encoding encoding);
 
-/// The encoding of a text: of its mark; UTF-16 if every second byte of the beginning is 0, read
-/// in the order that this shows; UTF-8 if it is valid; else Windows-1252. Reads to its end.
+/// Returns the encoding of a text. It is the encoding of its mark. Without a mark it is UTF-16 if
+/// every second byte of the beginning is 0, UTF-8 if it is valid, and otherwise Windows-1252. Reads
+/// to its end.
 Result<Encoding> detected_encoding(const Read& read);
 
 /// A text of any size as UTF-8 without a byte-order mark, piece by piece. Not thread-safe; of no

@@ -294,8 +294,8 @@ std::int64_t TimeZone::offset_at(std::int64_t utc) const {
 }
 
 Result<Timestamp> TimeZone::instant(const WallTime& time) const {
-  // No zone is a day away, and none changes twice in two days: the offsets before and after are
-  // enough.
+  // The offsets before and after are enough: a zone is less than a day away, and does not change
+  // twice in two days.
   const std::int64_t before = offset_at(time.seconds - kDay);
   const std::int64_t after = offset_at(time.seconds + kDay);
   for (const std::int64_t offset : {before, after}) {

@@ -23,8 +23,7 @@ struct Face {
 /// @param id instance of a face, or any other instance
 std::optional<Face> read_face(const Part21& file, std::uint32_t id);
 
-/// Opens a face; a cylinder gets the side of the cylinders of solids that it lies on, if they
-/// agree.
+/// Opens a face. A cylinder gets the side of the solids' cylinders that it is on, if they agree.
 void lay_on(Face& face, std::span<const Face> solids);
 
 /// The shape of a dimension, as its faces show it.
@@ -36,8 +35,9 @@ struct Shape {
   bool is_open = false;                      ///< true if all faces are
 };
 
-/// Round faces: material outside of them is a hole, inside a shaft. Of planes each with the nearest
-/// one that looks the other way: a gap between them is a hole, material a shaft.
+/// Returns the shape of faces. Round faces: material outside of them is a hole, inside a shaft.
+/// Planes: each with the nearest plane that faces the other way; a gap between them is a hole,
+/// material a shaft.
 Shape shape_of(std::span<const Face> faces);
 
 }  // namespace fitgauge::step

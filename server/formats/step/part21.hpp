@@ -12,8 +12,8 @@
 #include "base/mapped_file.hpp"
 #include "base/result.hpp"
 
-// A STEP file as text: ISO 10303-21, editions 2 and 3, read strictly and in one pass. Needs eight
-// bytes of memory an instance; an instance is read again from the text at each request.
+// A STEP file as text: ISO 10303-21, editions 2 and 3, read strictly and in one pass. It needs
+// eight bytes of memory for an instance, and reads an instance again from the text at each request.
 
 namespace fitgauge::step {
 

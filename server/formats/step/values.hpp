@@ -14,8 +14,9 @@
 
 namespace fitgauge::step {
 
-/// The parameters of the record with that name; none if the instance has no such, or is 0.
-/// @param from the instance that refers to it, which an error names; 0: itself
+/// Returns the parameters of the record with that name; none if the instance has no such record, or
+/// is 0.
+/// @param from the instance that refers to it, for errors; 0: itself
 std::vector<Parameter> record_of(const Part21& file, std::uint32_t id, std::string_view name,
                                  std::uint32_t from = 0);
 /// Returns the text at a place of that record, trimmed; empty if there is none.

@@ -63,7 +63,7 @@ void append_field(std::string& out, std::string_view name, std::string_view valu
   out.append("\r\n");
 }
 
-/// Appends what every answer has and its request decides, and ends the head.
+/// Appends the fields that every answer has and its request decides, and ends the head.
 void end_head(std::string& out, std::string_view vary, const AnswerForm& form) {
   out.append("X-Request-Id: ").append(form.request_id);
   out.append("\r\nX-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: ");

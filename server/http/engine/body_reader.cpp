@@ -27,7 +27,7 @@ BodyReader::Outcome BodyReader::reserve(std::size_t size) {
   return hold(size, budgets_.wholes);
 }
 
-/// In few steps: the last one has room for every body that the limit allows.
+/// Grows in few steps: the last one has room for every body within the limit.
 BodyReader::Outcome BodyReader::grow(std::size_t size) {
   if (size > plan_.limit) return Outcome::TooLarge;
   const std::size_t part = std::min(BodyBudgets::kPart, plan_.limit);
@@ -50,7 +50,7 @@ BodyReader::Outcome BodyReader::hold(std::size_t capacity, ByteBudget& budget) {
       plan_.spools && capacity > BodyBudgets::kPart && !budgets_.spool_folder.empty();
   auto spooled = spools ? MappedFile::unnamed(budgets_.spool_folder, size) : MappedFile();
   if (!spooled) return Outcome::DiskFull;
-  // Not value-initialised: a page is touched when the bytes come that fill it.
+  // Not value-initialised: a page is touched only when bytes fill it.
   std::unique_ptr<char[]> grown(spooled->bytes() == nullptr ? new char[size] : nullptr);
   if (size_ > 0) std::memcpy(grown ? grown.get() : spooled->bytes(), data(), size_);
   data_ = std::move(grown);

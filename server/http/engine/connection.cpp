@@ -314,7 +314,7 @@ void Connection::check_deadline(Tick now) {
         return advance();
       case Phase::ReadingBody:
       case Phase::FillingBody: {
-        // A thread that was busy for a second has bytes to read of a client that has not stalled.
+        // After a busy second of this thread, a client may have sent bytes and only seems to stall.
         const bool gives_way = body_.is_wanted() &&
                                now - last_body_byte_ >= thread_.shared().options.stall_time &&
                                !has_unread();

@@ -35,7 +35,7 @@ class InputBuffer {
   void advance(std::size_t count) { parsed_ += count; }
   void added(std::size_t count) { end_ += count; }
 
-  /// The request in work is done: what follows begins the next one.
+  /// Ends the request in work: the next bytes begin another one.
   void next_request() {
     begin_ = parsed_;
     pinned_.reset();

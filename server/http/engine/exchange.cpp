@@ -124,7 +124,7 @@ std::optional<Response> Exchange::dispatch() {
   return check_head();
 }
 
-/// A preflight asks by OPTIONS whether a page may send what follows; it has no key.
+/// A preflight (OPTIONS) asks whether a page may send its next request; it has no key.
 Response Exchange::answer_options(std::string allow) const {
   Response response(204);
   if (!request_.allowed_origin().empty() && request_.header("Access-Control-Request-Method")) {

@@ -27,7 +27,7 @@ bool NextReads::put(Connection& connection) {
     --until_retry_;
     return false;
   }
-  // Posted first: if its memory is missing, nothing waits for a turn that does not come.
+  // Posted first: if its memory is missing, nothing waits for a missing turn.
   if (waiting_.empty()) asio::post(context_, [this] { read(); });
   waiting_.push_back(connection.shared_from_this());
   return true;
@@ -96,7 +96,7 @@ void IoThread::schedule_sweep() {
   timer_.expires_after(interval_);
   timer_.async_wait([this](const error_code& error) {
     if (error) return;
-    schedule_sweep();  // first: what the sweep throws must not be the end of all deadlines
+    schedule_sweep();  // first: an exception in the sweep must not end all deadlines
     sweep();
   });
 }
@@ -145,8 +145,8 @@ void IoThread::admit_waiting() {
   for_each_connection([&](Connection& connection) {
     if (connection.bytes_waited_for() > 0) waiting.push_back(connection.shared_from_this());
   });
-  // The smallest first and of equals the newest: a crowd of senders that never finish cannot block
-  // one that does.
+  // The smallest first, and the newest of equals: many senders that never finish cannot block one
+  // that does.
   std::sort(waiting.begin(), waiting.end(), [](const auto& a, const auto& b) {
     return a->bytes_waited_for() != b->bytes_waited_for()
                ? a->bytes_waited_for() < b->bytes_waited_for()

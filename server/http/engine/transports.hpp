@@ -46,8 +46,8 @@ class TlsConnection final : public Connection {
   template <class Step, class Done>
   void drive(Step step, Done done);
 
-  /// Shakes hands when the client's first record is whole. `awaited`: the bytes that must have come
-  /// since the last look, or the client sends no more.
+  /// Shakes hands when the client's first record is whole. `awaited`: bytes that must have come
+  /// since the last check, or the client has stopped sending.
   void await_record(std::size_t awaited);
   void shake_hands();
 

@@ -73,7 +73,7 @@ std::optional<ConformanceFigures> conformance_figures(const ConformanceLimits& l
                                                       const KnownUncertainty& uncertainty,
                                                       double probability);
 
-// Sizes are those at 20 °C (ISO 1:2022): a part and the scale it is measured with are mostly not.
+// Sizes refer to 20 °C (ISO 1:2022); a part and its scale mostly have another temperature.
 
 /// Temperature of a body in millionths of a degree Celsius, and its coefficient of linear expansion
 /// in millionths of µm/(m·K).

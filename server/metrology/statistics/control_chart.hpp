@@ -33,7 +33,7 @@ struct ChartPlan {
     std::size_t to = 0;
   };
   std::optional<Phase> phase1{};  ///< none: all
-  /// Known instead of estimated: the mean, and the standard deviation of single values.
+  /// Known values in place of estimates: the mean, and the standard deviation of single values.
   std::optional<Exact> centre{};
   std::optional<Exact> standard_deviation{};
   double lambda = 0.2;           ///< weight of the newest point, EWMA

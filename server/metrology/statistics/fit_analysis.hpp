@@ -77,7 +77,7 @@ struct Pressure {
   double effective_um = 0;      ///< interference without the flattened part, 0.4 (Rz + Rz)
   double pressure_mpa = 0;      ///< in the joint
   double hub_stress_mpa = 0;    ///< equivalent stress (von Mises) in the bore of the hub
-  double shaft_stress_mpa = 0;  ///< the same at the shaft: in its bore when it is hollow
+  double shaft_stress_mpa = 0;  ///< at the shaft; in its bore if it is hollow
   double axial_force_n = 0;     ///< that slips
   double torque_nm = 0;         ///< that slips
 };
@@ -104,7 +104,7 @@ struct Pair {
 Result<std::vector<Pair>> pair(const std::vector<Length>& holes, const std::vector<Length>& shafts,
                                Length target);
 
-/// The fewer times (one more than the difference): cells of that table.
+/// Limit of the smaller count times (difference + 1): the cells of that table.
 inline constexpr std::size_t kLargestPairing = 100'000'000;
 
 }  // namespace fitgauge::metrology

@@ -9,8 +9,8 @@
 
 namespace fitgauge::metrology {
 
-/// Components of the uncertainty of a measuring process (ISO 22514-7; VDA 5). Those to MsRest are
-/// of the measuring system.
+/// Components of the uncertainty of a measuring process (ISO 22514-7; VDA 5). The first ones, up to
+/// MsRest, belong to the measuring system.
 enum class Component : std::uint8_t {  // clang-format off
   Cal, Re, Bi, Lin, Evr, MsRest, Evo, Av, Ia, Gv, Stab, T, Obj, MpRest };  // clang-format on
 

@@ -40,8 +40,8 @@ std::optional<Wide> short_scatter_of(std::span<const Wide> counts) {
   return static_cast<Wide>(counts.size()) * squares - sum * sum;
 }
 
-/// The sum of squared deviations from the means of the groups. Groups of one size are added as
-/// whole numbers: a fraction for each of many groups would take most of the time.
+/// Returns the sum of squared deviations from the means of the groups. Groups of one size are added
+/// as whole numbers: fractions for many groups would take most of the time.
 Exact sum_within(const GroupedCounts& groups) {
   struct Scatter {
     ExactSum of_short;
@@ -122,8 +122,8 @@ std::vector<Wide> distances_from_medians(const GroupedCounts& groups) {
   return distances;
 }
 
-/// Whether the dispersion changes from group to group (Brown and Forsythe 1974): the probability of
-/// so much by chance. Undefined for groups of two, whose two distances are always equal.
+/// Returns the probability that the dispersion changes this much from group to group by chance
+/// (Brown and Forsythe 1974). Undefined for groups of two, whose two distances are always equal.
 long double dispersion_test(const GroupedCounts& groups) {
   const std::size_t size = groups[0].size();
   if (size < 3) return kUndefined;

@@ -35,7 +35,8 @@ long double square_root(const Exact& value);
 /// without spread.
 long double autocorrelation_lag_1(const Decimals& values, const Moments& of);
 
-/// Values in ascending order, equal ones together: of measured sizes a million are some thousand.
+/// Values in ascending order, equal values together: a million measured sizes are a few thousand
+/// values.
 class Ranking {
  public:
   explicit Ranking(std::span<const Wide> counts);

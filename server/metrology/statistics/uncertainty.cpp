@@ -53,7 +53,8 @@ std::optional<std::vector<double>> cholesky(const Budget& budget) {
   return l;
 }
 
-/// The group of each contribution: those that are correlated, also by way of others, share one.
+/// Returns the group of each contribution: contributions that are correlated, directly or by
+/// others, share one.
 std::vector<std::size_t> groups_of(const Budget& budget) {
   std::vector<std::size_t> groups(budget.contributions.size());
   std::iota(groups.begin(), groups.end(), std::size_t{0});
@@ -136,8 +137,8 @@ MonteCarloResult result_of(std::span<double> values, double probability) {
   return made;
 }
 
-/// Whether sequences agree to the digits that are asked for (JCGM 101, 7.9.4, g to k): twice the
-/// standard deviation of the mean of each figure is at most what the digits of u leave open.
+/// Returns whether sequences agree to the requested digits (JCGM 101, 7.9.4, g to k): twice the
+/// standard deviation of each figure's mean is at most the tolerance of the digits of u.
 bool are_settled(std::span<const MonteCarloResult> sequences, int digits) {
   const auto count = static_cast<double>(sequences.size());
   const auto mean_of = [&](double MonteCarloResult::*figure) {

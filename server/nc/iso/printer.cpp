@@ -22,7 +22,7 @@ using klartext::Program;
 
 constexpr std::string_view kCapitals = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
-/// Klartext by a pattern as that of a Code, and what its DIN/ISO begins with.
+/// A pattern of Klartext, as in Code, and the beginning of its DIN/ISO.
 struct Row {
   std::string pattern;
   std::string head;
@@ -67,7 +67,7 @@ struct Capture {
   std::string_view text;
 };
 
-/// The text of each `$` of a pattern; nothing if the pattern does not make the text.
+/// Returns the text for each `$` of a pattern; none if the pattern does not match.
 std::optional<std::vector<Capture>> captures(std::string_view pattern, std::string_view text) {
   std::vector<Capture> found;
   for (std::size_t mark = 0; (mark = pattern.find('$')) != pattern.npos;) {
@@ -211,7 +211,7 @@ class Converter {
     return part(i) == 0U && part(i + 1) == 1U && part(i + 2).value_or(0) == 0;
   }
 
-  /// A block in the words of DIN/ISO; empty if it has none that are read as this Klartext.
+  /// Returns a block in the words of DIN/ISO; empty if no words are read back as this Klartext.
   std::string code(const klartext::Block& block, std::string_view klartext) {
     static const std::vector<Row> kRows = all_rows();
     const std::size_t end = std::min(klartext.find(" ;"), klartext.size());
@@ -284,7 +284,7 @@ class Converter {
     return code != nullptr ? fmt::format(" G{}", code->number) : " ?";
   }
 
-  /// The words with G90 and G91 before those they are for, `from` called `to`.
+  /// Writes the words with G90 and G91 before the words they apply to, and `from` renamed to `to`.
   std::string words(std::string_view text, std::string_view from, std::string_view to) {
     std::string out;
     each_word(text, [&](std::string_view word) {

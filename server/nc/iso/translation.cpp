@@ -19,7 +19,7 @@ using klartext::Slice;
 
 /// Longer Klartext is refused; this bounds the memory of a translation.
 constexpr std::size_t kLargestKlartext = std::size_t{16} << 20;
-/// More than the parser keeps, which are the first of a text.
+/// More than the parser keeps; it keeps the first of a text.
 constexpr std::size_t kMostFindings = 250;
 constexpr unsigned kLargestBlockNumber = 999'999'999;
 constexpr unsigned kLargestFunction = 99;
@@ -34,7 +34,7 @@ std::string_view without_wrap(std::string_view text) {
 bool wraps(std::string_view line) { return trim(line).ends_with('~'); }
 
 /// Physical lines: their code without the `*` that ends a block, and the comment. The code ends at
-/// a line end, a `;` or a `*`, so that the lexer passes no blanks behind it.
+/// a line end, a `;` or a `*`, so that the lexer does not skip blanks after it.
 struct Line {
   explicit Line(std::string_view text) : code(text) {
     bool quoted = false;
@@ -107,7 +107,7 @@ class Translator {
     return {in_.at(), static_cast<std::size_t>(in_.end() - in_.at())};
   }
 
-  /// A mode that was stated before a label or a call may not hold behind it.
+  /// A mode from before a label or call may not apply after it.
   void forget_modes() { modes_.path_stated = modes_.dimension_stated = false; }
   void fail(std::string message) {
     if (message.empty()) return;
@@ -116,7 +116,7 @@ class Translator {
              std::move(message));
   }
 
-  /// Opens the code of a block behind its number. @returns skip mark and number as in Klartext.
+  /// Opens the code of a block after its number. @returns skip mark and number as in Klartext.
   std::string open(std::string_view code) {
     const Slice<char> slice = place(code);
     in_.open(slice.first, slice.first + slice.count);
@@ -311,7 +311,7 @@ class Translator {
     if (number == 98) forget_modes();
   }
 
-  /// G26, whose radius the block before took, or G27, whose radius the next block takes.
+  /// G26, whose radius is in the previous block, or G27, whose radius is in the next one.
   void arc_of_contour(BlockWords& words) {
     Word* radius = words.find("R");
     if (radius == nullptr) return fail("R is missing in this block: the radius of the arc");

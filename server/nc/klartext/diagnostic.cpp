@@ -17,8 +17,8 @@ constexpr std::string_view kIds[] = {
 #undef KLARTEXT_DIAGNOSTIC
 };
 
-/// The line below the source line: carets under the place, tabs kept so that they line up. Without
-/// one when the place lies beyond a line that was cut.
+/// Returns the line under the source line: carets under the place, with tabs so that they align.
+/// Empty if the place is beyond the end of a cut line.
 std::string caret_line(const Diagnostic& diagnostic) {
   const auto& [begin, end] = diagnostic.range;
   std::string margin = "\n";

@@ -14,7 +14,7 @@ namespace fitgauge::klartext {
 
 enum class Severity : std::uint8_t {
   Note,     ///< the program runs as intended, but is not written as it should be
-  Warning,  ///< the program runs; what is named fails only when its block is reached, or is
+  Warning,  ///< the program runs; the named part fails only when its block is reached, or is
             ///< cosmetic
   Error     ///< the program is refused
 };

@@ -44,8 +44,8 @@ std::string without_tail(std::string text) {
   return text;
 }
 
-/// "; did you mean CALL?" for CALLL where CALL is expected, or nothing. Keywords are the words in
-/// capitals of what is expected.
+/// Returns "; did you mean CALL?" for CALLL if CALL is expected; otherwise nothing. The words in
+/// capitals in `expected` are keywords.
 std::string similar_word(std::string_view expected, std::string_view found) {
   SpellingHint hint(found);
   const auto is_capital = [](char c) { return is_ascii_letter(c) && c == ascii_upper(c); };

@@ -86,7 +86,7 @@ class Lexer {
  public:
   explicit Lexer(const std::string& source) : source_(source) {}
 
-  /// Starts on the block of these offsets; its last line end is not part of it.
+  /// Opens the block with these offsets, without its last line end.
   void open(std::size_t begin, std::size_t end);
   /// Extends the block to this offset.
   void extend(std::size_t end) { end_ = source_.data() + end; }

@@ -80,7 +80,7 @@ std::size_t Parser::find_block_end(std::size_t begin) {
   return end;
 }
 
-/// `  Q200=...` behind a blank: on old controls such lines belong to the cycle before them.
+/// `  Q200=...` after a blank: on old controls such lines belong to the previous cycle.
 bool Parser::is_parameter_line(std::size_t begin) const {
   const char* at = parts_.source.data() + begin;
   const char* end = parts_.source.data() + parts_.source.size();
@@ -249,7 +249,8 @@ void Parser::end_program(std::size_t at) {
 
 ParsedProgram Parser::parse() && {
   const std::size_t size = parts_.source.size();
-  // Memory that is reserved and not used is never touched. Only what is too large has more words.
+  // Reserved memory that is unused is never touched. Only programs that are too large have more
+  // words.
   constexpr std::size_t kShortWord = 3;
   const std::size_t lines = count_lines(parts_.source);
   parts_.blocks.reserve(std::min(lines, kMostBlocks));

@@ -25,7 +25,7 @@ struct ParsedProgram {
   std::vector<Diagnostic> diagnostics{};  ///< in the order of the source
 
   bool has_errors() const;
-  /// The first finding because of which a printed program would lose text; null: there is none.
+  /// Returns the first finding that makes a printed program lose text; null if there is none.
   const Diagnostic* not_printed() const;
 };
 

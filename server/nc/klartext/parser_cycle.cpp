@@ -5,8 +5,8 @@
 #include "nc/klartext/parser_rules.hpp"
 #include "nc/klartext/parser_words.hpp"
 
-/// Cycles in Q-form. Their block is read line by line: each physical line may end with a comment of
-/// its own, the dialog text, and a wrap.
+/// Cycles in Q-form. Their block is read line by line: each physical line may end with a comment
+/// (the dialog text) and a wrap.
 namespace fitgauge::klartext {
 namespace {
 
@@ -18,7 +18,8 @@ std::string_view without_wrap(const char* begin, const char* end) {
   return line;
 }
 
-/// The free text behind the cycle's number: up to the first parameter, the comment or the line end.
+/// Reads the free text after the cycle's number: up to the first parameter, the comment or the line
+/// end.
 Text parse_dialog(BlockReader& in) {
   const char* begin = in.at();
   const char* at = begin;
@@ -45,7 +46,7 @@ void parse_line_comment(BlockReader& in, Text& comment) {
 /// Blanks, wraps and line ends between the parameters.
 void skip_lines(BlockReader& in) {
   in.skip_blanks();
-  // A `~` that stands before the comment: the lines below are the cycle's by their indent.
+  // A `~` before the comment: the following indented lines belong to the cycle.
   if (in.peek() == '~' && in.peek(1) != '~') {
     const char* behind = std::find_if_not(in.at() + 1, in.end(), is_blank);
     if (behind != in.end() && *behind == ';') in.move_to(behind);

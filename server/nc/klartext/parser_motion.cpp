@@ -31,8 +31,8 @@ constexpr CompensationName kCompensationLetters[] = {{'0', RadiusCompensation::R
                                                      {'+', RadiusCompensation::RPlus},
                                                      {'-', RadiusCompensation::RMinus}};
 
-/// `R0`, `RL`, `RR`, `R+`, `R-` without a letter or digit behind it; `R0.5` and `R+20` are radii.
-/// @param has_radius the block may hold a radius R, so `R+ 20` is one.
+/// `R0`, `RL`, `RR`, `R+`, `R-` if no letter or digit follows; `R0.5` and `R+20` are radii.
+/// @param has_radius the block may have a radius R, so `R+ 20` is a radius.
 bool parse_compensation(BlockReader& in, Motion& motion, bool has_radius) {
   const char c = ascii_upper(in.peek(1));
   const char behind = in.peek(2);
@@ -67,8 +67,8 @@ bool parse_rotation(BlockReader& in, Motion& motion) {
   return true;
 }
 
-/// The letter of a word that has no value: `R`, `F` and `M` of the TNC 151 to 415, which list each
-/// word of a block, also where nothing was entered for it (`L X+5 R F M`).
+/// Reads the letter of a word without value: `R`, `F` and `M` of the TNC 151 to 415, which list
+/// each word of a block even if nothing was entered (`L X+5 R F M`).
 bool parse_blank_word(BlockReader& in) {
   const char* begin = in.at();
   if (in.at_end()) return false;
@@ -146,7 +146,7 @@ Expr parse_tool_name(BlockReader& in) {
   return Absent{};
 }
 
-/// A letter of an axis and nothing behind it but a blank or the end.
+/// Reads a letter of an axis that only a blank or the end follows.
 std::optional<Axis> parse_axis_alone(BlockReader& in) {
   const std::string_view name = in.letters();
   if (name.size() != 1) return std::nullopt;

@@ -67,9 +67,8 @@ Word WordReader::parse_name() {
   return word;
 }
 
-/// Words such as `X+10.5`, the form of nearly all words of a long program, without the detours of
-/// the general way. Stops before a word of another form.
-/// @returns whether there was one.
+/// Reads words such as `X+10.5`, the form of nearly all words of a long program, without the
+/// detours of the general way. Stops before a word of another form. @returns whether there was one.
 bool WordReader::read_plain_words() {
   const char* at = in_.at();
   const char* behind = at;

@@ -50,13 +50,13 @@ struct ProgramParts {
   std::vector<Expr> operands{};
   std::string texts{};
 
-  /// The most memory of the pools: a pool has twice its size when it has grown, but for those that
-  /// were reserved.
+  /// Returns the maximum memory of the pools: a grown pool has twice its size, a reserved pool
+  /// exactly its size.
   std::size_t memory_bytes() const;
 };
 
-/// A parsed program: immutable, so it may be read by any number of threads. Owns its source and all
-/// that its blocks refer to; the views it returns live as long as it does and is not moved.
+/// A parsed program: immutable, so any number of threads may read it. It owns its source and
+/// everything that its blocks refer to. Its views are valid while it lives and is not moved.
 class Program {
  public:
   Program() = default;
@@ -70,8 +70,8 @@ class Program {
   /// there, while this source exists.
   Program translated(std::string&& source, const std::function<Slice<char>(Slice<char>)>& place) &&;
 
-  /// All blocks in order. Without errors, BEGIN PGM comes first but for comments, and
-  /// END PGM last.
+  /// Returns all blocks in order. Without errors, BEGIN PGM is first (after comments), and END PGM
+  /// last.
   std::span<const Block> blocks() const { return parts_.blocks; }
 
   /// Unit of BEGIN PGM.

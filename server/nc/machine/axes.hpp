@@ -31,7 +31,7 @@ struct Motion {
 
 /// Abilities that axes lack; the control does without or refuses.
 struct AxesCapabilities {
-  bool curves = true;  ///< follows any path; else it is given straight pieces within 0.5 µm
+  bool curves = true;  ///< follows any path; otherwise it gets straight pieces within 0.5 µm
   bool probes = true;
 };
 

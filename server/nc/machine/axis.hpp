@@ -50,9 +50,9 @@ struct AxisWords {
 /// Which zero and which directions coordinates refer to.
 enum class CoordinateSystem : std::uint8_t {
   Input,      ///< the active one, which NC programs and cycles use: all of Frames; the tool tip
-  Workpiece,  ///< the active preset with its basic rotation, nothing else; the tool tip
-  Basic,    ///< the machine datum with the table at zero; the tool tip. Preset rows are given in it
-  Machine,  ///< the machine datum; the tool tip. Basic is the same unless a tilt turned the table
+  Workpiece,  ///< tool tip, relative to the active preset with only its basic rotation
+  Basic,      ///< tool tip, relative to the machine datum with the table at zero; for preset rows
+  Machine,    ///< tool tip, as Basic unless a tilt turned the table
   Reference,  ///< the machine datum; the spindle nose: M91, REF, axis limits, FN 18 ID 240
 };
 

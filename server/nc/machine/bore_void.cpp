@@ -45,7 +45,7 @@ Field BoreVoid::wall(const Vec3& at) const {
     const double gap = radius_ + slope_ * p.depth - p.distance;
     const double x = p.distance > 0 ? p.x / p.distance : 1;
     const double y = p.distance > 0 ? p.y / p.distance : 0;
-    // The inner normal of the cone: towards the axis, and down where it widens downwards.
+    // Returns the inner normal of the cone: towards the axis, and down if it widens downwards.
     return {gap * cosine_, from_local_ * Vec3{-x * cosine_, -y * cosine_, -slope_ * cosine_}};
   }
   const double angle = nearest_angle(p);
@@ -57,7 +57,8 @@ Field BoreVoid::wall(const Vec3& at) const {
   const double depth = p.depth - slope_ * gap * cosine_ * cosine_;  // of the nearest point
   const double radius = radius_ + wave + slope_ * depth;
   const Vec3 offset{p.x - radius * c, p.y - radius * s, depth - p.depth};
-  // The wall is smooth: its normal is the gradient, and holds where the offset is lost in rounding.
+  // The wall is smooth: its normal is the gradient, which is exact even if the offset is lost in
+  // rounding.
   const double along = -amplitude_ * lobes_ * std::sin(lobes_ * (angle - phase_));
   const Vec3 normal{-radius * c - along * s, -radius * s + along * c, -slope_ * radius};
   return {gap < 0 ? -norm(offset) : norm(offset), from_local_ * unit(normal)};
@@ -149,8 +150,7 @@ double BoreVoid::nearest_angle(const Local& p) const {
     return t;
   };
 
-  // Far enough from the axis the circle's own slope outweighs the lobes': one minimum, near p's
-  // angle.
+  // Far from the axis, the circle's slope exceeds the lobes': one minimum, near p's angle.
   const double towards = p.distance > 0 ? std::atan2(p.y, p.x) : 0;
   const double bend =
       amplitude_ * lobes_ * lobes_ * (std::abs(mean - p.distance) + amplitude_ * (lobes_ + 2));

@@ -9,7 +9,7 @@
 namespace fitgauge::machine {
 namespace {
 
-/// Where the machining time stops counting: with a feed near 0 it would leave the finite numbers.
+/// The machining time stops counting here: with a feed near 0 it would become infinite.
 constexpr double kLongestSeconds = 1e12;
 
 MachineResult<void> check_finite(const AxisWords& words) {

@@ -51,7 +51,7 @@ MachineResult<void> Control::go_back(const Position& start, const Vec3& directio
   const double back = move.retract.value_or(way);
   const Position free =
       back < way ? Position{contact.linear - direction * back, contact.rotary} : start;
-  // The axes may stand beyond the contact, where they came to rest.
+  // The axes may have stopped beyond the contact.
   return travel(straight_path(axes_->nose(), free), move.retract_feed, true);
 }
 

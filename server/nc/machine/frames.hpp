@@ -59,7 +59,7 @@ class Frames {
   void set_rotation(const PlaneRotation& rotation);
   /// @pre no factor is 0.
   void set_scaling(const Scaling& scaling);
-  /// The frames that cycle 247 resets: datum shift (that before tilting too), mirror, rotation,
+  /// Resets the frames of cycle 247: datum shift (also the shift before tilting), mirror, rotation,
   /// scaling.
   void reset_transformations();
 

@@ -127,8 +127,8 @@ std::vector<Vec3> Kinematics::orientations(const Vec3& normal, const Vec3& shown
                                            Axis tool_axis) const {
   const Vec3 zeros = zeros_of(axes_);
   const Vec3 current = shown + zeros;
-  // A table turns the normal to the tool, which is the tool the other way round: from the workpiece
-  // to the bed, then from the column to the tool, all turn the same way.
+  // A table turns the normal to the tool, as if the tool turned the other way. So all joints turn
+  // one way: from the workpiece to the bed, then from the column to the tool.
   std::vector<Joint> joints;
   for (const RotaryAxis& axis : axes_) {
     const Joint joint{axis.direction, index(axis.axis) - 3};

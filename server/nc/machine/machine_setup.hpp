@@ -89,8 +89,8 @@ struct CalibrationRing {
   double outside() const { return outer_diameter.value_or(diameter + 40); }
 };
 
-/// The calibration sphere that is clamped to the table for cycles 451 to 453 and 460: the touch
-/// probe touches it as it touches the workpiece.
+/// The calibration sphere on the table for cycles 451 to 453 and 460: the touch probe touches it
+/// like the workpiece.
 struct CalibrationSphere {
   Vec3 centre;           ///< center_mm, fixed to the table as a workpiece is
   double radius = 12.5;  ///< radius_mm

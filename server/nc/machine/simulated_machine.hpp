@@ -54,7 +54,7 @@ class SimulatedAxes final : public Axes {
   Workpiece fixtures_;
   Kinematics kinematics_;  ///< as built, with the errors of centre and direction
   Position nose_;
-  Vec3 slack_deg_;      ///< what backlash adds to the positions of A, B, C at present
+  Vec3 slack_deg_;      ///< present backlash in the positions of A, B, C
   Displacements rest_;  ///< the current scatter of the axes
   Random random_;
   std::optional<Vec3> touching_;  ///< centre of the ball at the last contact, on the table

@@ -11,16 +11,16 @@ namespace fitgauge::tolerance {
 /// Smallest reported length: a smaller overlap of ball and material is a contact, and a smaller
 /// error counts as zero.
 inline constexpr double kNanometre = 1e-6;
-/// Points nearer than this are equal, and a point so near to a face or a limit is on it: a
+/// Points nearer than this are equal, and a point this near to a face or a limit is on it: a
 /// thousandth of the smallest reported length, so that sums of hundreds of roundings do not show.
 inline constexpr double kSamePoint = 1e-9;
-/// A clearance that is none: a fit through several contacts then still keeps kSamePoint.
+/// Smaller clearances count as none: a fit through several contacts then still keeps kSamePoint.
 inline constexpr double kContact = 1e-11;
 /// Along a path: places that a double cannot distinguish.
 inline constexpr double kRounding = 1e-13;
 /// Accepted distance of an arc's end from its circle, as on the control.
 inline constexpr double kBesideCircle = 0.016;
-/// A chord longer than its diameter by less is the diameter, as the control accepts it.
+/// A chord that exceeds its diameter by less counts as the diameter, as on the control.
 inline constexpr double kLongChord = 0.001;
 /// A path of turning axes is followed in straight pieces that leave it by less.
 inline constexpr double kSag = 5e-4;
@@ -49,9 +49,10 @@ inline constexpr double kSquare = 1e-4;
 
 // Without a unit.
 
-/// Points nearer to a line than this part of their distance are on it.
+/// Points are on a line if they are nearer to it than this part of their distance.
 inline constexpr double kCollinear = 1e-9;
-/// An error of the kinematics that moves the sphere by less than this part of itself is not seen.
+/// An error of the kinematics is undetermined if it moves the sphere by less than this part of the
+/// error.
 inline constexpr double kSeen = 1e-3;
 /// EQU and NE, of the larger of 1 and both numbers (decision 2).
 inline constexpr double kEqualNumbers = 1e-9;

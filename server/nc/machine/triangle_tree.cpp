@@ -18,8 +18,8 @@ Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& at) {
   return a + along * part;
 }
 
-/// The lesser root of `square` w^2 + 2 `half` w + `rest` = 0, which is where the ball comes near;
-/// nothing when it does not, or is near already. Written so that nothing cancels.
+/// Returns the smaller root of `square` w^2 + 2 `half` w + `rest` = 0, where the ball comes near;
+/// none if it does not, or is already near. Written so that nothing cancels.
 std::optional<double> root_ahead(double square, double half, double rest) {
   if (half >= 0 || rest < 0) return std::nullopt;
   const double discriminant = half * half - square * rest;
@@ -146,7 +146,7 @@ std::optional<double> TriangleTree::contact(const BallPath& ball) const {
   std::optional<double> first;
   double longest = ball.longest;
   tree_.along(ball, longest, [&](std::uint32_t begin, std::uint32_t end, double way) {
-    // From shortly before the box, where the figures are small and so is their rounding.
+    // Starts shortly before the box, where numbers and their rounding are small.
     constexpr double kBefore = 1;
     const double before = std::max(way - kBefore, 0.0);
     const BallPath rest = ball.from(before);
@@ -168,7 +168,7 @@ Vec3 TriangleTree::normal_at(const Vec3& point) const {
     for (std::uint32_t t = begin; t < end; ++t) {
       if (norm(nearest_point(triangles_[t], point) - point) > kThere) continue;
       const auto& [a, b, c] = triangles_[t];
-      // The angles under which the edges are seen; one whose end is the point is not seen at all.
+      // Angles at which the edges are seen; an edge that ends at the point has none.
       double angle = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 to_first = triangles_[t][k] - point;

@@ -34,14 +34,14 @@ class TriangleTree {
   /// Returns the nearest point, or nothing if it is not nearer than `within`; fast for small
   /// distances.
   std::optional<Nearest> nearest(const Vec3& at, double within) const;
-  /// The least way after which the ball touches a triangle, of those it does not overlap at the
-  /// start.
+  /// Returns the shortest way after which the ball touches a triangle that it does not overlap at
+  /// the start.
   std::optional<double> contact(const BallPath& ball) const;
   /// The sum of the unit normals of the triangles that have `point`, each by the angle it takes
   /// there. With `point` the nearest of a closed mesh, its side is the side of the mesh (Baerentzen
   /// and Aanaes, Signed distance computation using the angle weighted pseudonormal, 2005).
   Vec3 normal_at(const Vec3& point) const;
-  /// The z of a triangle above or below (x, y), or nothing outside of all.
+  /// Returns the z of a triangle above or below (x, y); none outside of all triangles.
   std::optional<double> height(double x, double y) const;
 
   const Box& box() const { return tree_.all(); }

@@ -166,7 +166,8 @@ double Workpiece::Part::exact_distance(const Vec3& at, const Field& to_solid) co
   return is_in_third ? largest.distance : std::max(largest.distance, norm(at - *edge));
 }
 
-/// Whether there is material behind the wall or bottom of a cut, where a ball in its void touches.
+/// Returns whether material is behind the wall or bottom of a cut, where a ball in its void
+/// touches.
 bool Workpiece::Part::is_behind(const Cut& cut, const Vec3& centre) const {
   const Vec3 foot = cut.field(centre).foot(centre);
   return solid->field(foot).distance < 0 && cut_at(foot, &cut) == nullptr;
@@ -274,7 +275,7 @@ double Workpiece::clearance(const Vec3& centre, double radius) const {
       if (to_solid.distance >= least) continue;
       least = std::min(least, part.distance(centre, radius, to_solid));
     }
-    // Inside of one part another may be deeper: its box holds the centre, too.
+    // Inside of one part the ball may be deeper in another: its box also contains the centre.
     const double beyond = std::max(least, 0.0) + tolerance::kSamePoint;
     squared = beyond * beyond;
   });

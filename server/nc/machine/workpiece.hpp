@@ -42,7 +42,8 @@ class Workpiece {
     Allowance unlimited;
     return contact(start, direction, radius, longest, unlimited);
   }
-  /// Unit vector away from the material nearest to `at`, to 1e-6; nothing on a ridge between two.
+  /// Returns the unit vector away from the material nearest to `at`, to 1e-6; none on a ridge
+  /// between two surfaces.
   std::optional<Vec3> normal(const Vec3& at) const;
 
   /// Result of `contact` by tracing step by step: the reference for `contact`. Slow.

@@ -142,7 +142,7 @@ struct CycleDescriptor {
   bool dotted = false;  ///< one block per sub-line, `0.0`, `0.1`; its parameters are words
   std::span<const CycleParameter> parameters{};  ///< in the order of the control's dialog
   std::span<const CycleOutput> results{};
-  ErrorSet errors{};             ///< that it ends with, in addition to 1004 and 1011 of its values
+  ErrorSet errors{};             ///< errors that end it, in addition to 1004 and 1011 of its values
   std::string_view simulated{};  ///< behaviour in the simulation
   std::string_view not_simulated{};  ///< parts of the cycle without effect here; may be empty
 

@@ -29,7 +29,7 @@ struct FastProbing {
 /// Records of cycle 450, by name.
 using KinematicsRecords = std::map<std::string, machine::Kinematics>;
 
-/// Cycle 1493: each touch of the next cycle, or of all until the program ends, is repeated.
+/// Cycle 1493: repeats each touch of the next cycle, or of all cycles until the program ends.
 struct Extrusion {
   machine::Vec3 step;     ///< from one touch to the next, in plane coordinates
   std::size_t count = 0;  ///< of repetitions

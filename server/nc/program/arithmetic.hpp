@@ -7,8 +7,8 @@
 #include "nc/klartext/expression.hpp"
 #include "nc/machine/tolerance.hpp"
 
-/// The arithmetic of the control. An undefined parameter is a NaN, which every operation passes on;
-/// a failed operation gives a value that is not finite. So one check of the result finds both.
+/// Arithmetic of the control. An undefined parameter is a NaN, which every operation keeps; a
+/// failed operation returns a value that is not finite. So one check of the result finds both.
 namespace fitgauge::interpreter {
 
 inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();

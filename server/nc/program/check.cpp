@@ -86,7 +86,7 @@ class Walk {
     pending_.push_back({std::move(named), reference});
   }
 
-  /// Warns of the first column, else of the row, that the table lacks.
+  /// Warns of the first missing column of the table, or of a missing row.
   void read_cells(const ControlPath& path, const FileReference& reference) {
     auto& table = tables_[path.key()];
     if (table == nullptr) {

@@ -7,7 +7,7 @@
 /// The flat code that programs run as: three-address instructions over one array of doubles.
 namespace fitgauge::interpreter {
 
-/// The cells: parameters first, then what belongs to the program that runs.
+/// Cells: first the parameters, then the cells of the running program.
 inline constexpr std::uint32_t kFirstQ = 0;
 inline constexpr std::uint32_t kFirstQr = kFirstQ + parameter_count(klartext::QSpace::Q);
 inline constexpr std::uint32_t kFirstQl = kFirstQr + parameter_count(klartext::QSpace::Qr);
@@ -61,7 +61,7 @@ enum class Op : std::uint8_t {
   CallLabel,  ///< subprogram at c
   LabelEnd,   ///< LBL 0: back to the caller, if there is one
   Repeat,     ///< CALL LBL REP: continue at c; a is the cell of the count, b of the counter
-  Statement,  ///< everything else: block a; of a dotted cycle, b is the block of its first part
+  Statement,  ///< all others: block a; in a dotted cycle b is the block of its first part
   End,        ///< the end of the program
 };
 

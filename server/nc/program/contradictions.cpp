@@ -81,7 +81,7 @@ bool contradict(unsigned said, unsigned meant, std::span<const unsigned> groups)
   });
 }
 
-/// The nominal size of a cycle, and a limit of it or a tolerance of its centre.
+/// Nominal size of a cycle, and its limit or the tolerance of its centre.
 constexpr int kLimitsOfSize[][2] = {
     {262, 275}, {262, 276}, {262, 277}, {262, 278}, {282, 284}, {282, 285}, {283, 286}, {283, 287},
     {311, 288}, {311, 289}, {262, 288}, {262, 289}, {262, 279}, {262, 280}, {282, 279}, {283, 280}};

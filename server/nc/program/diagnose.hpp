@@ -14,8 +14,8 @@ namespace fitgauge::interpreter {
 /// Maximum number of findings.
 inline constexpr std::size_t kMostFindings = 200;
 
-/// A finding about a place of a program: by default a block, as far as its first physical line
-/// goes.
+/// Makes a finding about a place of a program: by default a block, up to the end of its first
+/// physical line.
 klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::Block& block,
                               klartext::Severity severity, klartext::DiagnosticCode code,
                               std::string message);
@@ -34,7 +34,7 @@ std::string cycle_hint(bool is_probing, int number);
 enum class MRole : std::uint8_t {
   Does,    ///< the run executes it
   Notes,   ///< the run reports that it leaves it out
-  Ends,    ///< switches off what `text` names, which the run leaves out: nothing to do
+  Ends,    ///< switches off the function in `text`, which the run does not simulate: no effect
   Refuses  ///< the run fails: positions would be wrong
 };
 

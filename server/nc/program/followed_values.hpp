@@ -23,7 +23,7 @@ class FollowedValues {
     values_[{parameter.space, parameter.number}] = value;
   }
 
-  /// The parameters of a cycle that are numbers there, by their own numbers.
+  /// Returns the parameters of a cycle that are numbers there, by parameter number.
   std::map<int, FollowedValue> known(const klartext::Program& program, const klartext::Cycle& cycle,
                                      const klartext::Block* block) const {
     std::map<int, FollowedValue> all;

@@ -19,7 +19,7 @@ using klartext::CyclePart;
 using klartext::DiagnosticCode;
 using klartext::Severity;
 
-/// Comments between the sub-lines of a cycle are passed over, so many at most.
+/// Maximum number of comments between two sub-lines of a cycle, which are skipped.
 constexpr std::uint32_t kMostBetween = 100;
 
 bool is_comment(const Block& block) {

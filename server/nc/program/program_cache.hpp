@@ -18,8 +18,8 @@ class ProgramCache {
  public:
   explicit ProgramCache(std::size_t bytes = std::size_t{32} << 20) : capacity_(bytes) {}
 
-  /// The linked file, also when it has errors; null when there is none of that path. The disk reads
-  /// its bytes only when it is not at hand.
+  /// Returns the linked file, even with errors; null if the path does not exist. The disk reads its
+  /// bytes only if they are not cached.
   std::shared_ptr<const LinkedFile> get(const ControlDisk& disk, const ControlPath& path);
   /// Returns the linked form of a file that was read. Never null.
   std::shared_ptr<const LinkedFile> get(ControlFile file);

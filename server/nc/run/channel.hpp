@@ -48,8 +48,8 @@ class Channel {
 
   /// A path as the program that runs names it.
   NcResult<ControlPath> resolve(std::string_view written) const;
-  /// A file that the current program prints: in the folder of FN 16, if there is one and the name
-  /// has none.
+  /// Returns the path of a file that the current program prints: in the folder of FN 16, if there
+  /// is one and the name has none.
   NcResult<ControlPath> resolve_printed(std::string_view written) const;
   /// A program by its name in the current one; `.H` without an extension.
   NcResult<ControlPath> resolve_program(std::string_view written) const;
@@ -66,7 +66,7 @@ class Channel {
   QParameters parameters;
   CallStack calls;
   std::uint32_t block = 0;         ///< index of the running block
-  std::uint32_t block_before = 0;  ///< of the one that ran before it, if every block is followed
+  std::uint32_t block_before = 0;  ///< of the block that ran before it, if every block is traced
 
   Contour contour;
   std::optional<SpatialAngles> spatial_angles;  ///< while A, B, C are angles of AXIS SPAT

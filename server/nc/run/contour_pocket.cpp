@@ -133,7 +133,7 @@ class ContourCycle {
     });
   }
 
-  /// 21: pecks where 22 plunges to mill along its contours with the tool Q13.
+  /// 21: drills at the places where 22 plunges to mill along its contours with the tool Q13.
   NcResult<void> drill_starts() {
     const machine::Tool* tool = roughing_tool();
     if (tool == nullptr) return nc_error(1003, "Q13 is not the number of a tool");

@@ -18,7 +18,7 @@ using klartext::PlaneKind;
 using machine::Matrix3;
 using machine::Vec3;
 
-/// The words of PLANE by letter; those without a value count as 1.
+/// Words of PLANE by letter; a word without a value counts as 1.
 using PlaneWords = std::map<Letter, double>;
 
 NcResult<PlaneWords> read_plane_words(Channel& channel, klartext::Slice<klartext::Word> slice) {

@@ -59,8 +59,8 @@ class Executor : ExecutorSteps {
 #define FITGAUGE_OP(name) op_##name
 // NOLINTNEXTLINE(bugprone-macro-parentheses): a statement
 #define FITGAUGE_NEXT() goto* kHandlers[static_cast<std::size_t>(pc->op)]
-// The state of a variable is forgotten: on the rare way out everything is read again, so that
-// no step of the usual way keeps it in a register.
+// Forgets the state of a variable. The rare way out reads everything again, so that the usual way
+// keeps none of it in a register.
 #define FITGAUGE_FORGET(variable) asm volatile("" : "+r"(variable) : : "memory")
 #else
 #define FITGAUGE_FORGET(variable) static_cast<void>(variable)

@@ -11,7 +11,7 @@ namespace {
 
 /// The lanes of a surface: their positions and both ends. The tool enters from outside.
 struct Lanes {
-  Vec2 first;       ///< where the first one begins
+  Vec2 first;       ///< begin of the first one
   Vec2 step;        ///< from each to the next
   double near = 0;  ///< end at the starting point, main axis
   double far = 0;

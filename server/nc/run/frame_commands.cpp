@@ -63,8 +63,8 @@ bool is_on_side(const machine::MachineState& state, const PlaneMoves& moves, con
   return moves.sequence > 0 ? angle >= 0 : angle <= 0;
 }
 
-/// The rotary positions for a plane: of those in range on the side that SEQ or SYM asks for the
-/// nearest.
+/// Returns the rotary positions for a plane: the nearest in range on the side that SEQ or SYM
+/// requests.
 NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& frames,
                                                const PlaneMoves& moves) {
   const machine::MachineState& state = channel.machine().state();

@@ -29,7 +29,7 @@ RunStatus status_of(NcErrorKind kind) {
   return RunStatus::Failed;
 }
 
-/// The end of a run, also after an error: collected output is written.
+/// Ends a run, even after an error: writes the collected output.
 NcResult<void> close_files(Channel& channel) {
   auto printed = channel.printer.close();
   auto tables = channel.tables.close();
@@ -70,7 +70,7 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
                                 : std::vector<klartext::DiagnosticNote>());
   }
   environment.observer.ends();
-  // The reported QL are those of the main program, even if the run ended in another.
+  // Reports the QL of the main program, even if the run ended in another program.
   while (!channel.calls.is_in_main()) {
     const CallStack::Caller caller = channel.calls.return_from_program();
     channel.parameters.enter(channel.linked(), caller.locals);

@@ -71,7 +71,7 @@ class RecordReader {
       return fail("the axis is there twice");
     const Vec3 direction = vector(row, {"I", "J", "K"});
     if (direction == Vec3{}) return fail("the direction is zero");
-    // Records that were written before there were zeros have no such column.
+    // Records of older versions, without zeros, lack this column.
     const double zero = table_.find_column(kZero) ? number(row, kZero) : 0;
     axes.push_back(
         {*axis, mount == kOnTable ? AxisMount::Table : AxisMount::Head, point, direction, zero});

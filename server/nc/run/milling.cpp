@@ -23,7 +23,7 @@ double bottom_of(const Machining& cycle) {
   return cycle.heights.bottom + (cycle.value(215) == 1 ? cycle.value(369) : 0);
 }
 
-/// Drilling may go up, into a part from below; a cutter that mills goes down.
+/// Drilling may go up, into a part from below; milling cutters go down.
 NcResult<void> check_depth(const Machining& cycle) {
   if (cycle.heights.bottom <= cycle.heights.surface) return {};
   return nc_error(1012, "the depth Q201 is negative: milling goes down from the surface");
@@ -181,7 +181,7 @@ NcResult<void> thread_path(Machining& cycle, Vec2 centre, double radius, double 
   return motion.to_point(beside, cycle.feed(207));
 }
 
-/// 264: the hole of the thread, in the infeeds of drilling. Without a depth there is none.
+/// 264: drills the hole of the thread in infeeds. Without a depth there is no hole.
 NcResult<void> drill_core(Machining& cycle) {
   MachiningDefinition core = cycle.definition;
   core.values[201] = cycle.value(356);

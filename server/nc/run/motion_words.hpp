@@ -19,7 +19,7 @@ struct Coordinate {
   bool incremental = false;
 };
 
-/// An M function with what follows it: `M140 MB50 F750`, `M128 F1000`.
+/// An M function with its words: `M140 MB50 F750`, `M128 F1000`.
 struct MCall {
   int number = 0;
   std::optional<double> length{};        ///< MB, mm

@@ -62,7 +62,7 @@ struct BuilderAction {
   std::optional<ControlPath> program;
 };
 
-/// M functions and cycles of the machine builder, as in the setup (decision 28). Those of the
+/// M functions and cycles of the machine builder, as in the setup (decision 28). Functions of the
 /// control itself cannot be replaced.
 struct MachineBuilder {
   std::map<int, BuilderAction> m_functions;

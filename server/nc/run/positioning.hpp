@@ -33,8 +33,8 @@ class Positioning {
   /// The axes the block names, absolute.
   machine::AxisWords target(const machine::Position& from) const;
 
-  /// The plane of the block: the pole's for polar coordinates and arcs around it, the plane of the
-  /// two axes of CR or CT, else the working plane (decision 29).
+  /// Returns the plane of the block: the pole's plane for polar coordinates and arcs around it, the
+  /// plane of the two axes of CR or CT, and otherwise the working plane (decision 29).
   WorkingPlane plane() const;
   bool is_polar() const;
 
@@ -53,7 +53,7 @@ class Positioning {
   /// M91, M92: coordinates of the spindle nose from the machine datum.
   NcResult<void> line_in(machine::CoordinateSystem system);
   NcResult<void> line();
-  /// PATHCTRL VECTOR: the same line in pieces, if it turns the tool.
+  /// PATHCTRL VECTOR: adds the line in pieces, if it turns the tool.
   NcResult<void> add_along_vector(const Element& line);
   /// LN: from the programmed path, the tool's DR along the surface's normal.
   NcResult<machine::Vec3> shift_of_surface();

@@ -10,8 +10,8 @@
 
 namespace fitgauge::interpreter {
 
-/// The budget of one run. Beyond any of these it ends with LimitExceeded, but for the two depths,
-/// which are the control's own (error 1025).
+/// Budget of one run. A run above one of these limits ends with LimitExceeded. The two depths are
+/// limits of the control (error 1025).
 struct RunLimits {
   std::uint64_t blocks = 1'000'000;
   std::chrono::duration<double> time{10.0};         ///< of the wall clock
@@ -37,7 +37,7 @@ class RunBudget {
   NcResult<std::int64_t> refuel(std::int64_t left, std::int64_t needed);
   /// The rest of a portion if its executor ends before the run.
   void give_back(std::int64_t left) { granted_ -= static_cast<std::uint64_t>(left); }
-  /// To be called for each block that is more than arithmetic, and in loops.
+  /// Checks the budget. Call it in loops, and for each block that is more than arithmetic.
   /// @errors limit (time, memory), cancelled.
   NcResult<void> check() {
     if (!allowance_.is_spent()) [[likely]]

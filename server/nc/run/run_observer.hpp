@@ -29,7 +29,7 @@ class RunObserver {
   RunObserver& operator=(RunObserver&&) = delete;  // neither copied nor moved
   virtual ~RunObserver() = default;
 
-  /// Asked once at the start: whether `entered` is wanted for every block, and not only for those
+  /// Asked once at the start: true if `entered` is needed for every block, false if only for blocks
   /// that may command the machine or print.
   virtual bool follows_every_block() const { return false; }
   /// Called once before the first block with the run's files and parameters, which may be read in

@@ -10,7 +10,7 @@
 namespace fitgauge::interpreter {
 namespace {
 
-/// Calls the function of a block's kind and gives its outcome one form.
+/// Calls the function for a block's kind, and converts its outcome to one form.
 class Dispatcher {
  public:
   Dispatcher(Channel& channel, const Instruction& instruction)

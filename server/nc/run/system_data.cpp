@@ -41,7 +41,7 @@ NcError unknown(const Address& address) {
   return nc_error(text + " is not available");
 }
 
-/// IDX 1 to 9: X Y Z A B C U V W. Nothing for those a machine does not have.
+/// IDX 1 to 9: X Y Z A B C U V W. None for an axis that the machine lacks.
 std::optional<Axis> axis_of(const Address& address) {
   const int index = address.index.value_or(1);
   if (index < 1 || index > static_cast<int>(machine::kAxes)) return std::nullopt;

@@ -28,7 +28,7 @@ class TableAccess {
   TableAccess(RunFiles& files, QParameters& parameters, Allowance& allowance)
       : files_(files), parameters_(parameters), allowance_(allowance) {}
 
-  /// FN 26; closes the one that is open. @errors missing or malformed file, limit.
+  /// FN 26; closes the open table. @errors missing or malformed file, limit.
   NcResult<void> open(const ControlPath& path);
   /// FN 28. @param length_unit mm in one unit of the program's lengths. @errors no table open,
   /// missing row or column, empty or non-numeric cell.

@@ -19,7 +19,7 @@ enum class ToolWrite : std::uint8_t {
 };
 ToolWrite set_tool_value(machine::Tool& tool, std::int64_t nr, double value);
 
-/// The NR of a column by its name in tool.t, 0 for one that is no number or unknown.
+/// Returns the NR of a column by its name in tool.t, 0 if it is not a number or unknown.
 std::int64_t tool_column(std::string_view name);
 /// Whether the column is a length, in the unit of the table.
 bool is_tool_length(std::int64_t nr);

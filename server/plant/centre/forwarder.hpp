@@ -47,7 +47,7 @@ class CentreLink {
 };
 
 /// Requests revisions from the centre every few seconds and stores them. Its position is only in
-/// memory: after a start it stores all again, which changes nothing. Used by one thread.
+/// memory: after a start it stores all of them again, which changes nothing. Used by one thread.
 class Follower {
  public:
   /// @param tell name of the event and a sentence, for the service log.
@@ -62,7 +62,7 @@ class Follower {
     std::int64_t size = 0;                ///< its records that the centre has
     std::optional<std::int64_t> notes{};  ///< as RevisionPage
   };
-  /// Polls the centre if it is due. Blocks as CentreLink. @returns none if it did not poll.
+  /// Polls the centre if it is due. Blocks like CentreLink. @returns none if it did not poll.
   std::optional<Heard> look(CentreLink& link, const CentreLink::GoesOn& goes_on);
 
  private:
@@ -102,7 +102,7 @@ class Forwarder {
     std::int64_t rows = 0;            ///< that the centre does not have
     std::optional<Timestamp> oldest;  ///< when the first of them was received
     std::string failure;              ///< why the last batch did not get there; empty: it did
-    bool is_refused = false;          ///< by the centre, as things are
+    bool is_refused = false;          ///< by the centre, in the present state
     bool sends = true;                ///< records or notes, as far as is known
   };
   State state() const;

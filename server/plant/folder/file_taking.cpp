@@ -207,7 +207,7 @@ Result<std::optional<TakenFile>> take_file(const FolderInOptions& options, const
                             .received_at = plant.clock.now(),
                             .caller = options.name,
                             .gauges = gauges.get()};
-  // All are judged before the first is stored: a wrong file is none of the writer's business.
+  // Judges all rows before it stores the first: a faulty file must not reach the writer.
   context.take = [](std::vector<app::Measurement>) {};
   const auto judged = api::decode_measurements(rows->text, rows->media_type, context, batch);
   if (!judged) return at_lines_of(*rows, judged.error());

@@ -56,8 +56,8 @@ struct Look {
 
 Look look_of(const struct stat& status);
 
-/// A file of a folder, which is read from its begin as often as it must be, a piece at a time.
-/// The content counts only if it is_unchanged() afterwards.
+/// A file of a folder. It is read piece by piece, as often as necessary from its beginning. The
+/// content counts only if it is_unchanged() afterwards.
 class RestingFile {
  public:
   /// @returns nothing if it is gone, or not a file. @errors StorageUnavailable: it cannot be read.

@@ -65,8 +65,8 @@ class Collector final : public Worker {
     std::uint32_t bytes = 0;
     std::uint32_t unix_time = 0;
     Digest digest{};
-    /// Fetched twice alike: a control's time has whole seconds, and within one a file can change
-    /// again.
+    /// Two fetches were equal: a control's time has whole seconds, and a file can change again
+    /// within one.
     bool is_settled = false;
   };
 

@@ -161,7 +161,7 @@ void MqttClient::Loop::settle(int mid, int reason) {
   }
   const Ticket ticket = found->second;
   tickets_.erase(found);
-  // 1 to 127 are ways of success, such as "no matching subscribers".
+  // 1 to 127 mean success, such as "no matching subscribers".
   change([&] { client_.settled_.emplace(ticket, reason >= 128 ? reason : 0); });
 }
 

@@ -49,7 +49,7 @@ std::string names() {
   return all;
 }
 
-/// Whether a topic may not have the character, or a level may not: what MQTT 1.5.4 advises against.
+/// Returns whether a topic or a level may not have the character, as MQTT 1.5.4 advises.
 bool is_escaped(char32_t c) {
   return c == U'%' || c == U'+' || c == U'#' || c == U'/' || c < 0x20 || (c >= 0x7F && c < 0xA0) ||
          (c >= 0xFDD0 && c <= 0xFDEF) || (c & 0xFFFE) == 0xFFFE;

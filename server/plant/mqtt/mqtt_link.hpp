@@ -58,7 +58,7 @@ class MqttLink {
   /// Takes effect at the next connection.
   void set_will(MqttMessage will) { will_ = std::move(will); }
   bool is_up() const { return client_ && client_->is_connected(); }
-  /// Begins anew and waits until the broker has accepted. @returns why it has not.
+  /// Connects anew and waits until the broker has accepted. @returns the reason for a failure.
   std::optional<std::string> connect(const std::stop_token& stop);
   /// Ends the connection; the broker publishes the will.
   /// @returns why it was lost or, if it was not, `why` with the broker's name.

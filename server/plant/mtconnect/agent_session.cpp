@@ -13,7 +13,7 @@ using http::error_code;
 /// Bytes of a line that an agent sends; a command has a few words.
 constexpr std::size_t kLongestLine = 1024;
 constexpr std::string_view kPing = "* PING";
-/// An agent that has begun to ping is lost after so many missing pings.
+/// An agent that has begun to ping is lost after this number of missing pings.
 constexpr int kMissingPings = 3;
 
 }  // namespace

@@ -93,7 +93,7 @@ class Streams {
       : agent_(agent), selection_(selection) {}
 
   void add_availability();
-  /// The observation of that sequence. @pre it is one of the two that the measurement has.
+  /// Adds the observation with that sequence. @pre it is one of the measurement's two.
   void add(const app::Measurement& measurement, std::uint64_t sequence);
   /// @param newest of the measurements that are counted
   void add_counts(const Counts& counts, std::int64_t newest, Timestamp at);

@@ -41,7 +41,7 @@ class AgentSession : public std::enable_shared_from_this<AgentSession> {
   void start();
   /// A line with its end, or several.
   void send(std::shared_ptr<const std::string> lines);
-  /// More waits for it than it should: send nothing more until has_room.
+  /// Returns whether too much waits for it: send nothing more until has_room.
   bool is_full() const { return waiting_bytes_ > options_.full; }
   /// Closes the socket.
   void end(std::string_view why);

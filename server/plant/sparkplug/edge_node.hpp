@@ -74,8 +74,7 @@ struct DeviceMetric {
 
 extern const std::array<DeviceMetric, 17> kDeviceMetrics;
 
-/// The messages of an edge node: which, in which order, with which numbers. Sends nothing itself.
-/// For one thread.
+/// Messages of an edge node, with their order and numbers. Sends nothing itself. For one thread.
 class EdgeNode {
  public:
   using Send = std::function<void(MqttMessage)>;
@@ -89,8 +88,8 @@ class EdgeNode {
   MqttMessage death() const;
   /// The births of the node and of all its devices.
   void give_birth();
-  /// Data of the measurement's device, with a birth if it is new; the device that was silent
-  /// longest dies if there are too many. @pre give_birth
+  /// Adds data of the measurement's device, with a birth if it is new. If there are too many
+  /// devices, the longest silent one dies. @pre give_birth
   void tell(const app::Measurement& measurement);
   /// Number of measurements of the log to report. @pre give_birth
   void tell_position(std::int64_t position);

@@ -93,7 +93,7 @@ bool Sparkplug::obey() {
 
 void Sparkplug::leave() {
   if (link_.is_up()) {
-    // Without a birth there is none to declare dead, and the will is dropped with the rest.
+    // Without a birth, no death is declared, and the will is dropped with the rest.
     if (is_born_) link_.client().publish(node_.death());
     link_.client().leave();
   }

@@ -78,8 +78,8 @@ std::uint32_t colour(control_link::ProgramState state) {
 
 }  // namespace
 
-/// A started program switches the control to automatic, wherever it was started. One that was
-/// started here counts from then on, even while it waits for a worker.
+/// A started program switches the control to automatic, from any client. A program that was started
+/// here counts from then on, even while it waits for a worker.
 std::shared_ptr<app::ActiveRun> MachineView::newest() {
   auto run = runs_.newest();
   if (started_ != nullptr && (run == nullptr || run->id() < started_->id())) run = started_;

@@ -20,7 +20,7 @@ namespace fitgauge::app {
 
 using store::DocumentKind;
 
-/// The name of a gauge's calibration from a time on, and the gauge of such a name.
+/// Returns the name of a gauge's calibration from a time on, and the gauge in such a name.
 std::string calibration_name(std::string_view gauge, Timestamp from);
 std::string_view gauge_of_calibration(std::string_view name);
 
@@ -47,8 +47,8 @@ class DocumentService {
  public:
   template <class T>
   using Done = std::function<void(Result<T>)>;
-  /// Decides from the current text, none if there is no document, whether a change is made; called
-  /// in the transaction of the change. An empty one allows every change.
+  /// Decides from the current text, if there is a document, whether the change is allowed; called
+  /// in the transaction of the change. An empty function allows every change.
   using Precondition = std::function<bool(std::optional<std::string_view> text)>;
 
   /// The new text and its precondition.
@@ -66,8 +66,8 @@ class DocumentService {
   DocumentService(store::Database& database, const Clock& clock, bool has_centre = false)
       : database_(database), clock_(clock), has_centre_(has_centre) {}
 
-  /// Gives whether the name is new. @errors UncertaintyUnknown: of `uncertainty`; GaugeUnknown;
-  ///   PreconditionFailed, Forbidden (the centre's), StorageUnavailable, StorageBusy.
+  /// Returns whether the name is new. @errors UncertaintyUnknown: of `uncertainty`; GaugeUnknown;
+  /// PreconditionFailed, Forbidden (the centre's), StorageUnavailable, StorageBusy.
   void write(Change change, Done<bool> done);
   /// @errors those of an unknown name, StorageUnavailable.
   void read(DocumentKind kind, std::string name, Done<NamedDocument> done);
@@ -77,8 +77,8 @@ class DocumentService {
   void remove(DocumentKind kind, std::string name, Precondition precondition,
               std::optional<std::string> caller, std::vector<std::string> users, Done<bool> done);
   void list(DocumentKind kind, Done<std::vector<NamedDocument>> done);  ///< by name
-  /// The lists of several kinds, of one state of the storage; and then, for `has_past`, what gauges
-  /// in use were before: `modified_at` is when another text took its place.
+  /// Lists several kinds, in one state of the storage. With `has_past` also the earlier texts of
+  /// gauges in use: `modified_at` is when another text replaced them.
   void list_each(std::vector<DocumentKind> kinds, bool has_past,
                  Done<std::vector<std::vector<NamedDocument>>> done);
 

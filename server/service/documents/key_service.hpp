@@ -53,8 +53,8 @@ struct KeyEntry {
   std::optional<Timestamp> expires_at;
 };
 
-/// The API keys. Looking one up touches no storage; the keys are loaded again every second, because
-/// the command line changes them too. Thread-safe.
+/// API keys. Finding one needs no storage; the keys are loaded again every second, because the
+/// command line also changes them. Thread-safe.
 class KeyService {
  public:
   /// Receives `key_created` and `key_revoked` with the key's name and role, from any thread.
@@ -77,7 +77,7 @@ class KeyService {
   /// @returns the token, which is not stored. @errors FieldConflict, FieldInvalid.
   Result<std::string> create(const std::string& name, Role role, std::string token = {},
                              std::optional<Timestamp> expires = {});
-  /// Revokes the key `name` and makes an administrator's of that name and this token, both or
+  /// Revokes the key `name` and makes an administrator's key with that name and this token, both or
   /// neither.
   /// @errors NotFound, FieldConflict, FieldInvalid.
   Result<std::string> replace(const std::string& name, const std::string& token);

@@ -80,7 +80,7 @@ class EventReader {
         filter, after, kRowsAPage,
         [&](const store::MeasurementRow& row) { tell(from_store(row, names)); });
     page_.more = next.has_value();
-    // Rows of another source that were passed over need not be looked at again.
+    // Skipped rows of another source need not be read again.
     position.measurement = next.value_or(end);
     position.reject_is_due = false;
   }

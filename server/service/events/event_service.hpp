@@ -43,7 +43,7 @@ class CommitSignal {
   void stop();
 
   void add(std::shared_ptr<CommitListener> listener);
-  /// A call that is under way may still come to its end afterwards.
+  /// Removes a listener; a running call may still end afterwards.
   void remove(const std::shared_ptr<CommitListener>& listener);
   std::size_t listeners() const;
 
@@ -68,7 +68,7 @@ namespace fitgauge::app {
 class TableCatalog;
 
 /// Position of a reader of events. The measurements are the log of recorded events; only events
-/// that are in no other table are stored as such.
+/// without another table are stored as such.
 struct EventPosition {
   std::int64_t measurement = 0;
   bool reject_is_due = false;  ///< this measurement was sent as recorded, not yet as rejected
@@ -148,7 +148,7 @@ class EventService {
   };
   struct StoredPage {
     std::vector<Stored> events{};  ///< oldest first
-    std::int64_t newest = 0;       ///< of all that there are
+    std::int64_t newest = 0;       ///< of all existing events
     bool gap = false;              ///< some of the next events are deleted
   };
   /// Reads up to `limit` stored events after `after`, on a reader thread.

@@ -73,11 +73,11 @@ class FileService {
 
   FileService(store::Database& database, const Clock& clock) : database_(database), clock_(clock) {}
 
-  /// Decides on the current bytes, none if there is no file, whether a change is made; called
-  /// in the transaction that makes it. An empty one allows every change.
+  /// Decides from the current bytes, if there is a file, whether the change is allowed; called in
+  /// the transaction of the change. An empty function allows every change.
   using Precondition = std::function<bool(std::optional<std::string_view> bytes)>;
 
-  /// Gives whether the file is new. @param bytes stays alive until `done`.
+  /// Returns whether the file is new. @param bytes stays alive until `done`.
   /// @errors PreconditionFailed, StorageUnavailable, StorageBusy.
   void write(interpreter::ControlPath path, std::string_view bytes,
              std::optional<std::string> caller, Precondition precondition, Done<bool> done);

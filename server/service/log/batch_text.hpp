@@ -12,7 +12,7 @@
 
 namespace fitgauge::api {
 
-/// A batch with the texts that its rows view, in addition to those of the body.
+/// A batch with the texts that its rows view, if they are not in the body.
 struct ReadBatch {
   app::ForwardedBatch batch;
   TextArena texts;

@@ -22,8 +22,8 @@ bool put_document(store::Stores& stores, const store::Document& document);
 bool remove_document(store::Stores& stores, store::DocumentKind kind, const std::string& name,
                      std::int64_t at_ns, const std::optional<std::string>& caller);
 
-/// The settings of a connection that may be shown: the number of secrets instead of them, that
-/// there is a password, and the names of headers.
+/// Returns the settings of a connection that may be shown: the number of secrets, whether there is
+/// a password, and the names of headers.
 JsonValue without_secrets(JsonValue settings);
 
 /// A change as /v1/changes answers it.

@@ -46,7 +46,7 @@ class LogCheck {
   /// The finding for the whole log, after the last measurement.
   std::vector<std::string> finish();
 
-  /// Size and root of the log, for people; and the checkpoints that cover none of it.
+  /// Returns size and root of the log, for people, and the checkpoints that do not cover it.
   std::string head_text();
 
  private:

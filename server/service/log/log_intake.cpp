@@ -136,7 +136,7 @@ Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
   });
 }
 
-/// A branch begins with the rows of its base here, also if these are fewer than it names.
+/// A branch begins with the rows of its base that are here, even if it names more.
 Result<void> LogIntake::read_base(const store::Stores& stores, const ForwardedBatch& batch,
                                   Known& known) const {
   if (batch.base.origin.empty()) return {};
@@ -182,7 +182,7 @@ Result<void> LogIntake::trust(const ForwardedBatch& batch, Known& known) const {
     return std::find(known.keys.begin(), known.keys.end(), wanted) != known.keys.end();
   };
   if (known.keys.empty()) add(*key);
-  // In any order: the signature of a key can come from a key of another note.
+  // Notes may be in any order: the key of a signature can come from another note.
   for (bool more = true; more;) {
     more = false;
     for (const std::string& note : batch.hand_overs) {
@@ -350,8 +350,8 @@ Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& 
   return true;
 }
 
-/// New notes of the station's history, of one below it or of a branch of those, on records that are
-/// stored here.
+/// Stores new notes on records that are here. They belong to the station's history, to an earlier
+/// one or to a branch of these.
 Result<void> LogIntake::store_notes(store::Stores& stores, const ForwardedBatch& batch,
                                     std::int64_t station) const {
   std::set<std::int64_t> histories;

@@ -71,7 +71,7 @@ Result<LogOutbox::Batch> LogOutbox::next(std::int64_t after, std::int64_t most,
   });
 }
 
-/// The history of the note, if it has no record: those that follow do not name it.
+/// Returns the history of a note without records, which later notes do not name.
 const LogService::History* LogOutbox::empty_history(std::int64_t note) const {
   const auto& history = log_.history_of(log_.origins().own(Counted::Note, note));
   return history.signer && history.end == history.begin ? &history : nullptr;

@@ -30,7 +30,7 @@ class LogOutbox {
 
   struct Batch {
     std::string_view origin{};  ///< the digits of the history that its records are of
-    /// The history below that one, and how many of its rows; no digits: there is none.
+    /// The history below that one, and the number of its rows; no digits: there is none.
     std::string_view base{};
     std::int64_t base_size = 0;
     /// Set if the key of the history was lost: nothing is signed, the history ends here, and the

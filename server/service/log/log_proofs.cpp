@@ -17,8 +17,8 @@
 #include "service/measurements/measurement_storage.hpp"
 #include "service/tables/table_catalog.hpp"
 
-// Responses of the log: tiles, and proofs, of forwarded records under a signature of this folder
-// too. Its growth is in log_service.cpp.
+// Responses of the log: tiles, and proofs, also of forwarded records under a signature of this
+// folder. Its growth is in log_service.cpp.
 
 namespace fitgauge::app {
 namespace {
@@ -89,8 +89,8 @@ Result<LogService::Proof> LogService::read_proof(const store::Stores& stores,
   return proof;
 }
 
-/// The head of a forwarded log, with a signature of this folder in addition to the station's; none
-/// of a log with only corrections here.
+/// Returns the head of a forwarded log, with a signature of this folder in addition to the
+/// station's; none for a log with only corrections here.
 std::shared_ptr<const LogService::Head> LogService::countersigned(const store::Stores& stores,
                                                                   std::int64_t origin) const {
   auto head = std::make_shared<Head>();
@@ -183,7 +183,7 @@ void LogService::changes_head(Done<std::string> done) {
       [this](const store::Stores& stores) -> Result<std::string> {
         const std::lock_guard lock(changes_mutex_);
         const auto size = static_cast<std::uint64_t>(stores.changes.size());
-        // A job that sees fewer changes than another one gets the other's.
+        // A job that sees fewer changes than another job uses the other's head.
         if (changes_head_ && changes_head_->checkpoint.size >= size) return changes_head_->note;
         const RowNames names = row_names(tables_, origins_);
         LogReader reader(stores, names, LogReader::kChanges);

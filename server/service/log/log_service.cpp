@@ -224,7 +224,7 @@ void LogService::sign() {
   head_.set(std::move(head));
 }
 
-/// A folder that is another's by now gets no checkpoint of this log.
+/// A folder that now belongs to another daemon gets no checkpoint of this log.
 Result<void> LogService::keep(const TreeNames& tree, const std::string& note) const {
   const auto health = database_.health();
   auto kept = health.state == store::HealthState::WritesFailing

@@ -70,8 +70,8 @@ class LogService {
 
   /// Starts the thread that extends the tree, and logs the head once a day.
   void start();
-  /// Signs once more before it returns, so that the folder knows the last stored row: none of its
-  /// ids is given out again over an older copy.
+  /// Signs once more before it returns, so that the folder knows the last stored row: an older copy
+  /// then cannot use its ids again.
   void stop();
   /// There may be new measurements. Called after each commit; does not block.
   void committed();
@@ -119,8 +119,8 @@ class LogService {
     std::vector<tlog::Hash> path;
     std::shared_ptr<const Head> head;
   };
-  /// Proves that a measurement is in the tree of a signed head: of its station, countersigned here,
-  /// if it was forwarded. Waits up to 1.1 s for such a head.
+  /// Proves that a measurement is in the tree of a signed head. For a forwarded one, that is the
+  /// head of its station, countersigned here. Waits up to 1.1 s for such a head.
   /// @errors MeasurementUnknown, StorageUnavailable, StorageBusy.
   void prove(const RecordName& name, Done<Proof> done);
 

@@ -311,7 +311,7 @@ MeasurementService::MeasurementService(store::Database& database, const TableCat
 void MeasurementService::find_answer(const IdempotencyScope& scope,
                                      Done<std::optional<Answer>> done) {
   database_.readers().submit(
-      // The digest of a long body is nothing for the thread that asks.
+      // The thread that asks must not digest a long body.
       [scope](const store::Stores& stores) { return stores.idempotency.find(to_store(scope)); },
       std::move(done));
 }

@@ -123,7 +123,7 @@ class MeasurementService {
 
   template <class T>
   using Done = std::function<void(Result<T>)>;
-  /// Begins an answer; called on the writer thread, and again if the storing is tried again.
+  /// Begins an answer; called on the writer thread, and again if the store is repeated.
   using Render = std::function<std::unique_ptr<Rendering>()>;
 
   /// Returns the stored response to this request, or none. @errors IdempotencyKeyReused,

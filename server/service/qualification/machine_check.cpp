@@ -21,7 +21,7 @@ using Values = std::vector<std::optional<std::int64_t>>;  ///< of each step, in 
 /// Upper and lower in nm; none: not defined.
 using Deviations = std::optional<std::pair<std::int64_t, std::int64_t>>;
 
-/// ISO 286-1 again: from iso286.txt and separate rules, without the room `tables`.
+/// ISO 286-1 computed again: from iso286.txt and separate rules, without the room `tables`.
 struct Standard {
   explicit Standard(const References& references) {
     std::vector<std::int64_t> main;  // ends of the main steps

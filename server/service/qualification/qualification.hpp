@@ -13,8 +13,9 @@ namespace fitgauge::app::qualification {
 
 using Words = std::vector<std::string>;
 
-/// Figures that others published or computed apart from the product, with their data: the files of
-/// `references` and the programs of clients/nc, as compiled in, by their paths below those folders.
+/// Figures that others published or computed apart from the product, with their data. They are the
+/// compiled-in files of `references` and the programs of clients/nc, by their paths below those
+/// folders.
 struct References {
   References();
 

@@ -76,7 +76,7 @@ Readings crossed_readings(const std::vector<Words>& rows) {
   return readings;
 }
 
-/// The printed components of the system, and those that the study finds.
+/// Adds the printed components of the system and the components that the study finds.
 void add_measuring_process(const Readings& readings, Figures& to) {
   const GaugeStudy study = study_gauge(readings, StudyMethod::Anova, StudyModel::Auto).value();
   MeasuringProcess process;

@@ -75,7 +75,7 @@ namespace fitgauge::app {
 class Origins;
 class TableCatalog;
 
-/// Revisions of this centre for its stations: the tables with own columns, keys of viewers and
+/// Revisions of this centre for its stations: tables with custom classes, keys of viewers and
 /// operators by their hashes, setups, plans, and corrections of a station's records. Thread-safe.
 class RevisionFeed {
  public:

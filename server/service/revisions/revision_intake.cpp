@@ -17,7 +17,7 @@
 namespace fitgauge::app {
 namespace {
 
-/// Keeps what this folder has made itself under a name that is free.
+/// Renames a document that this folder has made to a free name.
 std::string keep_own(store::Stores& stores, store::Document own, std::int64_t now_ns) {
   const std::string name = own.name;
   own.name = name + " (local)";

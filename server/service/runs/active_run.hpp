@@ -155,7 +155,7 @@ class SharedRuns {
   /// Runs of this daemon.
   struct Own {
     std::function<bool()> has_any;
-    std::function<void(std::int64_t id)> cancel;  ///< if it is of this daemon
+    std::function<void(std::int64_t id)> cancel;  ///< cancels a run of this daemon
   };
 
   SharedRuns(store::Database& database, Own own);

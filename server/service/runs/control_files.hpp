@@ -17,8 +17,8 @@ namespace fitgauge::app {
 /// The treatment of a missing file: a setup may be stored before its parts are.
 enum class MissingFiles : std::uint8_t { Allowed, Refused };
 
-/// The STL files of one disk: a mesh that an order holds is not read again, so that orders of one
-/// part share it. Used by one thread.
+/// STL files of one disk. A mesh that an order holds is not read again, so orders of one part share
+/// it. Used by one thread.
 class MeshFiles {
  public:
   /// The most triangles of one workpiece, in about 25 MB.

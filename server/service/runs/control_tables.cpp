@@ -21,7 +21,7 @@ struct MachineTable {
   std::string path;
   tabfile::TabTable table;
 
-  /// The table of that name in `TNC:\table\`, as on TNC 640 and TNC7, else in `TNC:\`.
+  /// Finds the table of that name in `TNC:\table\`, as on TNC 640 and TNC7, or in `TNC:\`.
   /// @errors TableFileMalformed.
   static Result<std::optional<MachineTable>> find(const interpreter::ControlDisk& disk,
                                                   std::string_view name, Allowance& allowance);
@@ -35,8 +35,8 @@ struct MachineTable {
   Error malformed(std::string_view what) const;
 };
 
-/// One row. A blank cell, or a missing column, does not change its value. Keeps the first error,
-/// and then reads nothing more.
+/// One row. A blank cell, or a missing column, does not change its value. After the first error it
+/// reads nothing more.
 class MachineTableRow {
  public:
   MachineTableRow(const MachineTable& table, std::int64_t number)
@@ -204,7 +204,7 @@ void read(Row& row, Tool& tool) {
   row.whole("RT", tool.replacement);
   row.whole("CUT", tool.teeth);
   row.whole("TP_NO", tool.probe);
-  // TYP is the number of a type, on newer controls its name, which FN 18 does not give.
+  // TYP is the number of a type; on newer controls it is the name, which FN 18 does not return.
   const std::string_view type = row.text("TYP");
   if (!type.empty() && type.front() >= '0' && type.front() <= '9') row.whole("TYP", tool.type);
 }
@@ -229,7 +229,7 @@ void read(Row& row, Preset& preset) {
   machine::PresetFrame& frame = preset.frame;
   constexpr std::array<std::string_view, 3> kLinear = {"X", "Y", "Z"};
   constexpr std::array<std::string_view, 3> kSpatial = {"SPA", "SPB", "SPC"};
-  // The iTNC 530 calls the basic rotation ROT, and the offsets of the rotary axes as these.
+  // Names of the offsets of the rotary axes on the iTNC 530, where ROT is the basic rotation.
   constexpr std::array<std::string_view, 3> kRotary = {"A", "B", "C"};
   constexpr std::array<std::string_view, 3> kOffsets = {"A_OFFS", "B_OFFS", "C_OFFS"};
   constexpr std::array<std::string_view, 3> kShifts = {"X_OFFS", "Y_OFFS", "Z_OFFS"};

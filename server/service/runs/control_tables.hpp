@@ -25,7 +25,8 @@ struct ControlTables {
 Result<ControlTables> read_control_tables(const interpreter::ControlDisk& disk,
                                           Allowance& allowance);
 
-/// The last read tables of one disk: read again only if a file has changed. Used by one thread.
+/// Caches the tables of one disk; reads them again only after a file has changed. Used by one
+/// thread.
 class ControlTablesCache {
  public:
   /// @param disk outlives the cache

@@ -27,7 +27,7 @@ struct ExecutedRun {
 /// @throws if the storage fails, or for a bug.
 ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active);
 
-/// The result of a run that did not come to its first block.
+/// Result of a run that did not reach its first block.
 interpreter::RunResult unstarted(interpreter::RunStatus status, interpreter::MessageKind kind,
                                  std::string text, std::string program);
 

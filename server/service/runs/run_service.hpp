@@ -89,7 +89,8 @@ class RunService {
   Result<std::optional<Answer>> kept_answer(const IdempotencyScope& scope);
 
   /// Stores the order as a queued run and queues it.
-  /// @param scope keeps the answer `accepted` makes of the run's id, in the same transaction.
+  /// @param scope stores the answer that `accepted` makes from the run's id, in the same
+  ///   transaction.
   /// @errors Overloaded, ShuttingDown, StorageBusy, StorageUnavailable, IdempotencyInProgress.
   using Accepted = std::function<Answer(const ActiveRun&)>;
   Result<std::shared_ptr<ActiveRun>> start(RunOrder order,

@@ -48,8 +48,8 @@ Result<void> RunService::close_interrupted() {
   }
 }
 
-/// A daemon that lost its connection for a moment seems to have ended: its runs are repeated only
-/// after two such checks.
+/// A daemon that lost its connection for a moment seems to have ended: only after two such checks
+/// its runs are repeated.
 void RunService::look_for_abandoned(const std::stop_token& stop) {
   constexpr std::chrono::seconds kBetween{5};
   std::set<std::int64_t> seen;

@@ -116,7 +116,7 @@ struct TraceFormat {
 struct RunFormat {
   std::function<std::string(const RunReport&)> report;
   TraceFormat trace;
-  /// The seed of the setup in an order as it was stored.
+  /// Returns the seed of the setup in a stored order.
   std::function<std::uint64_t(const std::string& request)> seed;
   /// Reads a stored order, which names nothing outside except the control's disk.
   std::function<Result<RunOrder>(const std::string& request, const ControlTables&)> order{};

@@ -89,7 +89,8 @@ auto find_column(std::vector<iso286::CustomColumn>& columns, iso286::Feature fea
   });
 }
 
-/// The rows of a column in the log of changes, as they are sent; none if it does not exist.
+/// Returns the rows of a column for the log of changes, in the form of requests; none if it does
+/// not exist.
 std::optional<std::string> column_text(std::vector<iso286::CustomColumn>& columns,
                                        const TableCatalog::ColumnName& column) {
   const auto found = find_column(columns, column.feature, column.name);
@@ -224,7 +225,7 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
                             .after = std::move(after)});
         auto loaded = stores.tables.load_latest().value();
         stores.events.append(kChangedEvent, change_text(column, loaded.revision.id), now);
-        // Audited here, so that nothing is left to do between the commit and the first reader.
+        // Audits here, so that nothing remains to do between the commit and the first reader.
         auto audited = std::make_shared<const TableState>(audit(loaded));
         // Without a class of ISO 286 in its place.
         if (audited->tables != nullptr && !audited->tables->find_class(column.name)) {
@@ -240,7 +241,7 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
               check_unused(fmt::format("the custom tolerance class {}", column.name), users);
           if (!free) return free.error();
         }
-        // RFC 9110, 13.2.1: last of all that may refuse.
+        // RFC 9110, 13.2.1: this is the last refusal.
         if (!holds) return changed;
         return Changed{*created, std::move(loaded.revision), std::move(audited)};
       },

@@ -21,7 +21,7 @@ CycleResult<void> rotate(const CycleContext& context, ProbingMotion& motion) {
   double angle =
       workpiece_angle(context.machine.state().frames, motion.plane(), edge->direction()) -
       context.arguments.number(307);
-  // Along the secondary axis: the reference line is that axis, whether Q307 says 90 or 0.
+  // Along the secondary axis, that axis is the reference line, with Q307 = 90 or 0.
   if (edge->axis == 0) angle -= 90 * std::round(angle / 90);
   const Vec3 rotation = turned_rotation(context.machine.state().frames, motion.plane(), angle);
   return set_basic_rotation(context, rotation, context.arguments.whole(305));

@@ -20,7 +20,7 @@ constexpr std::array kParameters =
 
 constexpr std::array<CycleOutput, 1> kResults{{{150, "Measured angle", Unit::Angle}}};
 
-/// Around what the line is turned, and by how much right-handed around it.
+/// The axis around which the line is turned, and the right-handed angle.
 struct Misalignment {
   Axis around;
   double angle_deg;

@@ -57,7 +57,7 @@ CycleResult<void> calibrate(const CycleContext& context) {
                          .centre_offset = calibrator->corrected_offset(measured->error),
                          .residual = measured->mean.residual};
   if (arguments.whole(433) == 1) {
-    // The ball centre lies its radius above the south pole, which the length reaches to.
+    // The ball centre is one radius above the south pole, where the length ends.
     const double too_high = measured->mean.height - arguments.number(434);
     found.length = probe.length + too_high + *found.radius - probe.radius;
   }

@@ -150,7 +150,7 @@ CycleResult<void> ProbeCalibrator::finish(const ProbeCalibration& found) {
     row.cal_of2 = found.centre_offset->back();
     row.cal_ang = 0;
   }
-  // The effective values hold with DL and DR of the tool call; DL and DR of the table are zeroed.
+  // The effective values include DL and DR of the tool call; DL and DR of the table become zero.
   machine::Tool tool = *state.active_tool();
   if (found.radius) {
     const auto radius = positive(*found.radius, "effective ball radius");

@@ -48,7 +48,7 @@ Adjustment::Adjustment(const AdjustedPoses& poses, std::vector<Unknown> unknowns
 std::vector<bool> Adjustment::seen() const {
   constexpr double kPart = 1e-6;
   std::vector<bool> seen(unknowns_.size(), true);
-  // With fewer residuals than unknowns the last directions have no size at all.
+  // With fewer residuals than unknowns the last directions have size 0.
   for (Eigen::Index direction = 0; direction < index_of(unknowns_.size()); ++direction) {
     if (direction < sizes_.size() && sizes_[direction] > tolerance::kSeen) continue;
     for (std::size_t j = 0; j < unknowns_.size(); ++j) {
@@ -65,7 +65,7 @@ void Adjustment::solve() {
       gauss_newton(values_, tolerance::kSamePoint, [this](const Eigen::VectorXd& values) {
         return Linearised{residuals(at(values)), jacobian(values)};
       });
-  // Poses that no rigid machine could have: nothing is better than anything.
+  // No rigid machine can have these poses: no values are better than others.
   if (!settled) values_.setZero();
   decompose();
 }
@@ -110,8 +110,8 @@ Eigen::VectorXd Adjustment::residuals(const Kinematics& model) const {
   return Eigen::Map<Eigen::VectorXd>(all.data(), index_of(all.size()));
 }
 
-/// The residuals are smooth and nearly linear, so central differences are exact enough: the
-/// solution is where the residuals are least, not where the matrix is exact.
+/// The residuals are smooth and nearly linear, so central differences are exact enough: the least
+/// residuals define the solution, not the exact matrix.
 Eigen::MatrixXd Adjustment::jacobian(const Eigen::VectorXd& values) const {
   constexpr double kStep = 1e-3;
   Eigen::MatrixXd jacobian;

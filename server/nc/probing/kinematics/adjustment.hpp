@@ -13,8 +13,8 @@ inline constexpr double kLever = 100;
 
 enum class ErrorKind : std::uint8_t { Location, Direction, Zero };
 
-/// One value that is fitted, in mm: a location or, at kLever, a direction of an axis, along one of
-/// its two vectors, or at kLever its zero.
+/// A fitted value in mm: a location or, at kLever, a direction of an axis, along one of its two
+/// vectors, or at kLever its zero.
 struct Unknown {
   std::size_t axis = 0;
   ErrorKind kind = ErrorKind::Location;
@@ -44,7 +44,7 @@ struct AdjustedPoses {
   const std::vector<Line>& lines;
 };
 
-/// One fit of unknowns: their values and what the positions determine of them. Not thread-safe;
+/// One fit of unknowns: their values, and the part that the positions determine. Not thread-safe;
 /// lives within one fit.
 class Adjustment {
  public:

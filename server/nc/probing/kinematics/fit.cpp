@@ -121,8 +121,7 @@ class Estimate {
   Eigen::Matrix2d covariance_ = Eigen::Matrix2d::Zero();
 };
 
-/// The factor of a standard deviation for 95 % on both sides; 0 where nothing says how they
-/// scatter.
+/// Returns the factor of a standard deviation for 95 % on both sides; 0 if the scatter is unknown.
 double coverage_of(std::size_t freedom) {
   if (freedom == 0) return 0;
   return static_cast<double>(metrology::t_quantile(0.975L, static_cast<long double>(freedom)));
@@ -162,8 +161,7 @@ auto& found_of(Errors& errors, ErrorKind kind) {
   return errors.zero_deg;
 }
 
-/// Leaves out of the unknowns what is least significant, angles first.
-/// @return whether something was left out.
+/// Drops the least significant unknowns, angles first. @return whether something was dropped.
 bool drop_insignificant(std::vector<Unknown>& unknowns, const std::vector<AxisErrors>& errors) {
   for (const ErrorKind kind : kKinds) {
     double least = 0;

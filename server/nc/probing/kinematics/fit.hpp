@@ -50,8 +50,8 @@ struct FoundError {
   machine::Vec3 uncertainty;
   double size = 0;                  ///< of the value: mm, or mm at 100 mm of a direction
   double standard_uncertainty = 0;  ///< along the value, in its unit
-  /// At least twice its standard uncertainty, or that is less than a nanometre; of a fit of
-  /// significant errors: it is corrected.
+  /// true if it is at least twice its standard uncertainty, or that is less than a nanometre; in a
+  /// fit of significant errors: it is corrected.
   bool is_significant = true;
 };
 

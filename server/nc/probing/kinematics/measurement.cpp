@@ -20,8 +20,8 @@ using machine::Axis;
 /// exact.
 std::int64_t whole(double degrees) { return std::llround(degrees / tolerance::kSameAngle); }
 
-/// The multiple of the grid that is nearest to numerator / denominator, of two equally near ones
-/// that away from zero (decision 5).
+/// Returns the multiple of the grid that is nearest to numerator / denominator; of two equally near
+/// ones, the one farther from zero (decision 5).
 double nearest_tooth(std::int64_t numerator, std::int64_t denominator, double grid) {
   const std::int64_t tooth = whole(grid) * denominator;
   const std::int64_t count = (2 * std::abs(numerator) + tooth) / (2 * tooth);

@@ -44,8 +44,8 @@ class MeasuringLog {
 /// The sections of measured values: nominal, limits, actual, deviations.
 void add_values(MeasuringLog& log, std::span<const MeasuredValue> values);
 
-/// The target of the log (Q281): 0 nothing, 1 the file in the program's folder, 2 the screen and a
-/// stop, unless cycle 441 has disabled that.
+/// Target of the log (Q281): 0 none, 1 the file in the program's folder, 2 the screen and a stop,
+/// unless cycle 441 disabled the stop.
 CycleResult<void> deliver_log(const CycleContext& context, MeasuringLog log);
 
 /// A log as one HTML page in the program's folder. It needs no other file, prints well and can be

@@ -40,7 +40,7 @@ struct TiltedAxes {
   Vec3 normal;
 };
 
-/// The 1st and 2nd point give the direction of the main axis, the 3rd that of the secondary one.
+/// Points 1 and 2 define the direction of the main axis, point 3 that of the secondary axis.
 CycleResult<TiltedAxes> axes_through(const std::vector<Contact>& contacts) {
   const Vec3 along = contacts[1].ball_centre - contacts[0].ball_centre;
   const Vec3 side = contacts[2].ball_centre - contacts[0].ball_centre;

@@ -74,8 +74,8 @@ Vec3 surface_normal(const Arguments& arguments) {
   return unit(normal * (1 / largest));
 }
 
-/// The machine parameter chkTiltingAxes: in a tilted plane the tool must stand square to it. TCPM
-/// is there to incline it.
+/// Machine parameter chkTiltingAxes: in a tilted plane the tool must be perpendicular to it. Only
+/// TCPM may incline it.
 CycleResult<void> check_tilting_axes(const machine::MachineState& state, machine::Axis probe) {
   if (!state.frames.is_tilted() || state.modes.tcpm) return {};
   if (norm(state.tool_direction() - unit_vector(probe)) <= tolerance::kSquare) return {};

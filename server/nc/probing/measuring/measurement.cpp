@@ -47,12 +47,12 @@ void set_status(CycleHost& host, std::optional<Verdict> verdict) {
   host.set_q(kStatusReject, verdict == Verdict::Reject ? 1 : 0, Unit::None);
 }
 
-/// The first of those with the worst verdict: reject before rework before good (decision 1).
+/// Returns the first value with the worst verdict: reject before rework before good (decision 1).
 const MeasuredValue& worst(const std::vector<MeasuredValue>& values) {
   return *std::ranges::max_element(values, {}, &MeasuredValue::verdict);
 }
 
-/// On a short arc the scatter of the touches becomes a large one of the diameter.
+/// A short arc magnifies the scatter of the touches in the diameter.
 void add_short_arc(MeasuringLog& log, const std::optional<Form>& form) {
   constexpr double kShort = 2;  // four touches at right angles: 1, three: 1.15
   if (!form || form->diameter_factor <= kShort) return;

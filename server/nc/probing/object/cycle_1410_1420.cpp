@@ -36,7 +36,7 @@ constexpr std::array kSpatial{CycleOutput{961, "Spatial angle A", Unit::Angle},
                               CycleOutput{963, "Spatial angle C", Unit::Angle}};
 constexpr auto kPlaneResults = object_results<3>(kSpatial);
 
-/// Touches two points of a line. A level one lies in the working plane.
+/// Touches two points of a line. A level line is in the working plane.
 CycleResult<ObjectFound> touch_line(ObjectProbing& probing, ObjectPoint first, ObjectPoint second,
                                     const Vec3& direction, bool is_level) {
   const auto line = [&](Vec3 from, Vec3 to) {

@@ -85,7 +85,7 @@ CycleResult<Vec3> object_direction(const Arguments& arguments);
 /// The angles Q964 and Q965 of a line, in the working plane or to it, and the resulting turn.
 void add_line(ObjectFound& found, const ObjectProbing& probing, const Vec3& nominal,
               const Vec3& measured, bool is_level);
-/// The face of a touch; an oblique one is not touched at the ball's foremost point.
+/// Returns the face of a touch; the ball does not touch an oblique face with its foremost point.
 Vec3 face_behind(const Contact& contact, const Vec3& direction, const Vec3& normal,
                  double ball_radius);
 /// The shortest turn that brings one direction into another. @pre neither is zero.

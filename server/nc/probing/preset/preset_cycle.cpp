@@ -16,8 +16,8 @@ using machine::Matrix3;
 using machine::Preset;
 using machine::PresetFrame;
 
-/// Without the noise of the arithmetic: to 1e-9 mm. Whole nanometres would not do, since what a
-/// tilted axis reads adds up the rounding of three machine axes.
+/// Rounds to 1e-9 mm, without the noise of the arithmetic. Whole nanometres are too coarse: a
+/// tilted axis adds the rounding of three machine axes.
 Vec3 tidy(Vec3 point) {
   constexpr double kPicometres = 1e9;  // in a mm
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -43,8 +43,8 @@ Found found_in(const Frames& frames, const WorkingPlane& plane, const DatumPoint
   return made;
 }
 
-/// The axes along which a datum is set: those of the workpiece with that basic rotation, or of the
-/// plane that is tilted in it (decision 25).
+/// Returns the axes along which a datum is set: the axes of the workpiece with that basic rotation,
+/// or of the plane that is tilted in it (decision 25).
 Matrix3 axes_of(const Frames& frames, const PresetFrame& preset) {
   return Matrix3::spatial(preset.basic_rotation_deg) * tilt_of(frames);
 }
@@ -83,7 +83,7 @@ CycleResult<void> write_datum_table(const CycleContext& context, const PresetFra
                                     std::span<const Found> points) {
   machine::Frames frames = context.machine.state().frames;
   const Matrix3 inverse = axes_of(frames, turned).transposed();
-  // A shift of cycle 7 counts from where the plane was tilted.
+  // A shift of cycle 7 counts from the origin of the tilting.
   const Vec3 tilted_at = frames.plane() ? frames.plane()->origin : Vec3{};
   const Vec3 zero = turned.origin + Matrix3::spatial(turned.basic_rotation_deg) * tilted_at;
   AxisWords values;

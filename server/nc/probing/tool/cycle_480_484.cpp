@@ -31,8 +31,8 @@ CycleResult<Width> touch_across(ToolProbing& probing, Point2 centre, double heig
   return Width{(*near - *far) / 2, (*near + *far) / 2};
 }
 
-/// Touches the top, then X, Y and X again: the first pair meets a disc along a chord when the
-/// centre in Y is not known yet, which gives the centre in X and not the width.
+/// Touches the top, then X, Y and X again. The first pair meets a disc along a chord, because the
+/// centre in Y is still unknown. It gives the centre in X, but not the width.
 CycleResult<machine::ToolTouchProbe> touch_plate(ToolProbing& probing, Point2 near,
                                                  double tool_radius) {
   const auto top = probing.touch_top(near, Spindle::Stands);

@@ -18,7 +18,7 @@ constexpr std::array kParameters{
     choice(340, "Tool measurement: 0 first, 1 check, 2 check and write nothing", 0, 2, 1),
     kClearanceHeight, choice(341, "Measure the single teeth: 0 no, 1 yes", 0, 1, 0)};
 
-/// 31 to 33: the same in sub-lines, where CHECK knows 0 and 1, and a Q for the status may follow.
+/// 31 to 33: the parameters in sub-lines; CHECK is 0 or 1, and a Q for the status may follow.
 constexpr CycleParameter status_parameter() {
   CycleParameter made = result_parameter(1);
   made.meaning = "Q parameter for the status";
@@ -59,7 +59,7 @@ ToolOrder tool_order_of(const Arguments& arguments) {
           arguments.number(ParameterId::WordTeeth, 341) != 0};
 }
 
-/// A column of tool.t that is measured, with those that judge it.
+/// A measured column of tool.t, with the columns that judge it.
 struct Dimension {
   const CycleOutput* result;
   double Tool::*stored;

@@ -40,7 +40,7 @@ std::vector<Vec3> centres_in_space(std::span<const Contact> contacts);
 CycleResult<Circle> circle_through(std::span<const Contact> contacts, Side side,
                                    double ball_radius);
 
-/// The form by the points, and how surely the circle gives its diameter.
+/// Returns the form by the points, and the certainty of the circle's diameter.
 Form circle_form(std::span<const Point2> points, const Circle& circle, double start_angle);
 
 struct ProbedCircle {

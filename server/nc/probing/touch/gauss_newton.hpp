@@ -18,7 +18,7 @@ struct Linearised {
 std::optional<Eigen::VectorXd> least_squares(const Eigen::MatrixXd& columns,
                                              const Eigen::VectorXd& wanted, double threshold);
 
-/// The step to the least squares of a linear problem; if it is not unique, one of them.
+/// Returns the step to the least squares of a linear problem; any such step if several exist.
 Eigen::VectorXd least_squares_step(const Linearised& at);
 
 /// Searches the least squares of residuals from the start `values` (Gauss-Newton).

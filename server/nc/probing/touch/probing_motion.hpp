@@ -62,7 +62,7 @@ class ProbingMotion {
   CycleResult<std::vector<Contact>> touch_all(std::span<const Touch> touches,
                                               double clearance_height);
 
-  /// Only the first of such touches: returns to its start and stops there.
+  /// Makes only the first touch: returns to its start and stops there.
   /// @errors those of touch_all.
   CycleResult<Contact> touch(const Touch& touch, double clearance_height);
 

@@ -20,7 +20,7 @@ constexpr std::array kBuffers{BufferCommand{4096, 7}, BufferCommand{3072, 6},
                               BufferCommand{2048, 5}, BufferCommand{1024, 3},
                               BufferCommand{512, 4}};
 
-/// The bytes by which a block is shorter than the buffer, as in all peers.
+/// A block is shorter than the buffer by these bytes, as in other peers.
 constexpr std::size_t kBlockHead = kHeadBytes + 2;
 
 }  // namespace

@@ -106,7 +106,7 @@ LinkResult<LinkSocket> LinkSocket::connect(LinkClientOptions options) {
       getsockopt(link.socket_.get(), SOL_SOCKET, SO_ERROR, &error, &size);
     }
     if (error == 0) {
-      // One telegram waits for the other: none may wait for more to send.
+      // Each telegram waits for its answer, so no telegram may wait for further data.
       const int on = 1;
       setsockopt(link.socket_.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
       return link;

@@ -131,7 +131,7 @@ class PayloadReader {
   bool failed_ = false;
 };
 
-/// The four letters of a telegram as one number; one that we do not know is a value as well.
+/// The four letters of a telegram as one number; unknown ones are values too.
 enum class TelegramName : std::uint32_t {};
 
 consteval TelegramName telegram_name(const char (&letters)[5]) {

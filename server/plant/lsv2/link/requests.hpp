@@ -20,7 +20,7 @@ inline constexpr std::string_view kVirtualPlc = "fitgauge";
 inline constexpr std::string_view kRunParameter = "Fitgauge.program";
 
 /// A message is a struct with the name of its telegram, `kName`, and its fields in the order of the
-/// wire, `fields`. Both directions come of that one list.
+/// wire, `fields`. Both directions are derived from that list.
 template <class Message>
 Telegram encode(const Message& message) {
   PayloadWriter out;
@@ -64,7 +64,7 @@ struct Logout {
   FITGAUGE_TELEGRAM("A_LO", m.name)
 };
 struct ReadVersion {
-  std::optional<std::uint8_t> which{};  ///< nothing: the four or five texts
+  std::optional<std::uint8_t> which{};  ///< absent: the four or five texts
   FITGAUGE_TELEGRAM("R_VR", m.which)
 };
 struct ReadParameters {
