@@ -19,7 +19,7 @@ using Levels = std::map<std::string, std::optional<klartext::Severity>, std::les
 
 /// `cycle.dialog_contradicts=error`: off, note, warning or error. @errors Usage
 Outcome<Levels> read_levels(const std::vector<std::string>& written);
-/// An error of the program stays one: it does not run.
+/// Sets severities; an error of the program stays an error, because the program does not run.
 void apply_levels(const Levels& levels, std::vector<klartext::Diagnostic>& found);
 
 struct FormatOptions {

@@ -176,7 +176,7 @@ class OpenPrograms::Disk final : public interpreter::ControlDisk {
     if (const auto here = local(path))
       return fmt::format("{} {} {}", here->string(), fs::file_size(*here, failed),
                          fs::last_write_time(*here, failed).time_since_epoch().count());
-    // The service makes these of its tables.
+    // The service makes these files from its tables.
     const bool is_made = ascii_iequals(path.file_name(), "82553_hole.tab") ||
                          ascii_iequals(path.file_name(), "82553_shaft.tab");
     return is_made ? std::optional<std::string>("made") : std::nullopt;

@@ -21,7 +21,7 @@ struct Ending {
   Member member;
   std::optional<Member> negative{};  ///< receives the value with the opposite sign
 };
-/// The longest that fits counts: they are looked up in this order.
+/// Endings in the order of the search, longer before shorter ones.
 constexpr std::array<Ending, 7> kEndings = {{
     {"_plus_minus_um", Unit::Micrometre, Member::Upper, Member::Lower},
     {"_plus_minus_arcmin", Unit::ArcMinute, Member::UpperAngle, Member::LowerAngle},

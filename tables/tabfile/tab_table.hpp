@@ -122,7 +122,7 @@ Result<TabTable> read_tab_file(std::string_view bytes, Allowance& allowance);
 /// The description of columns in a file, by name, before the line of their names.
 using ColumnDescriptions = std::map<std::string, TabColumn, std::less<>>;
 
-/// A table has no more; a description that names more is read no further.
+/// Maximum number of columns; reading ends at a description with more.
 inline constexpr std::size_t kMostColumns = 4096;
 
 /// Reads the lines between #STRUCTBEGIN and #STRUCTEND; texts for dialogs are passed over.

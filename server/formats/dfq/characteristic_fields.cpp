@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 10> kUserFields = {
     "feature",     "quantity",           "rule",          "uncertainty_um", "coverage_factor",
     "probability", "degrees_of_freedom", "size_operator", "envelope",       "go_gauge"};
 
-constexpr std::size_t kMostBytes = std::size_t{8} << 20;  ///< of the texts of all prepared
+constexpr std::size_t kMostBytes = std::size_t{8} << 20;  ///< all prepared texts
 
 /// A characteristic without any of them has no limits.
 constexpr std::array<int, 5> kTolerances = {k::kToleranceClass, k::kLowerLimit, k::kUpperLimit,

@@ -76,8 +76,8 @@ struct Simulation {
   std::optional<int> digits{};
 };
 
-/// The interval that some significant digits of a standard uncertainty leave open: half a unit of
-/// the last one (JCGM 101, 7.9.2); 0 of 0.
+/// Returns the numerical tolerance of a standard uncertainty with this number of significant
+/// digits: half a unit of the last one (JCGM 101, 7.9.2); 0 for u = 0.
 double numerical_tolerance(double u, int digits);
 
 /// The propagation of distributions (JCGM 101), of deviations from the estimate, or of the values

@@ -69,7 +69,7 @@ struct Current {
   /// Next measurement, of which only the part is read.
   std::unique_ptr<app::KeptMeasurement> begun{};
 
-  /// All up to here are seen whole.
+  /// Returns the last measurement of which all observations are seen.
   std::int64_t whole() const {
     const std::int64_t last = mtconnect::measurement_at(at);
     return at == mtconnect::feature_sequence(last) ? last : last - 1;

@@ -66,7 +66,7 @@ Result<BodyTemplate> BodyTemplate::read(const JsonValue& body) {
   }
   auto made = parse(text);
   if (!made) return made;
-  // An event without any field shows whether it is JSON.
+  // Tests the JSON with an event that has no fields.
   if (const auto parsed = parse_json(made->body_of("", "{}")); !parsed) {
     return invalid(
         fmt::format("body must be JSON with {{{{field}}}} in it: {}", parsed.error().message));

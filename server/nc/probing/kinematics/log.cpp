@@ -59,7 +59,7 @@ Valuation valuation_of(double number) {
   return {"scrap", "✗ Poor positions: measure a larger range or more of them"};
 }
 
-/// The abilities of the positions.
+/// Writes what the positions can determine.
 std::string judged(const AxisErrors& errors, bool directions) {
   if (!errors.location) return parts::no_location;
   const auto [style, words] = valuation_of(errors.valuation);

@@ -26,7 +26,7 @@ Vec3 tidy(Vec3 point) {
   return point;
 }
 
-/// A DatumPoint by the names of the machine's axes, its point in the Basic coordinates of presets.
+/// A DatumPoint in the machine's axes, with its point in the Basic coordinates of presets.
 struct Found {
   Vec3 point;
   std::array<bool, 3> axes{};
