@@ -1,5 +1,6 @@
 """The certificate of an order or a part, read as PDF by poppler and as JSON."""
 
+import json
 import pathlib
 import re
 import struct
@@ -8,7 +9,7 @@ import tempfile
 import unittest
 import zlib
 
-from support.daemon import SANITIZED, Daemon, DaemonTest, command
+from support.daemon import ROOT, SANITIZED, Daemon, DaemonTest, command
 
 
 class Certificates(DaemonTest):
@@ -70,6 +71,15 @@ class Certificates(DaemonTest):
         self.assertIn("Not held against a plan.", self.flat("part_id=M-2"))
         sheet = self.daemon.get("/v1/certificates?part_id=M-2", Accept="application/json").json
         self.assertEqual((sheet.get("plan"), sheet["missing"]), (None, []))
+
+    def test_the_pictures_of_reports_have_these_words(self):
+        self.daemon.measure({"designation": "25 H7", "measured_mm": "25.0106", "order": "WO-P", "part_id": "SN-00001", "characteristic": "bore-A",
+                             "rule": "guard_band", "uncertainty_um": 0.5, "coverage_factor": 2, "gauge": "G-08", "machine": "M3", "operator": "42"})
+        text = self.flat("order=WO-P&company=Muster%20GmbH&customer=ACME").partition("signed head")[0]
+        words = " ".join(re.findall(r"[^\W\d_]{2,}", re.sub(r"\S*\d\S*", "", text)))
+        self.maxDiff = None
+        self.assertEqual(words, json.loads((ROOT / "docs/images/words.json").read_text(encoding="utf-8"))["certificate"],
+                         "take docs/images/certificate-*.png anew, and keep their words")
 
     def test_a_pdf_has_every_value_once_and_whole(self):
         text, info, _ = self.pdf("order=WO-1&company=Muster%20GmbH&customer=%C3%96hler%20%26%20Co")

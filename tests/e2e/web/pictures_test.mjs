@@ -1,18 +1,21 @@
 /**
  * The pictures of docs/guide/gauging-station.md show the page as it is: scan, measure, reject with its cause, outage,
- * sample, certificate; and every view at four sizes, light and dark, on a sheet. PICTURES=write tests/e2e/web/run tests/e2e/web/pictures_test.mjs takes them anew.
+ * sample, certificate; and every view at four sizes, light and dark, on a sheet. docs/images/words.json has the words
+ * of each. PICTURES=write tests/e2e/web/run tests/e2e/web/pictures_test.mjs takes them anew.
  */
 
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, describe, it } from 'node:test';
+import { isDeepStrictEqual } from 'node:util';
 
 import { close, drawn, launch, open } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
 import { scan } from './support/scanner.mjs';
 
 const FOLDER = path.join('docs', 'images');
+const WORDS = path.join(FOLDER, 'words.json');
 const SCREEN = { viewport: { width: 1024, height: 768 }, deviceScaleFactor: 0.75, serviceWorkers: 'allow' };
 const PLAN = { name: 'Bearing housing', characteristics: [
   { name: 'bore-A', designation: '25 H7', gauge: 'G-07', reaction: 'Stop, tell the setter', catalogue: 'turning' },
@@ -45,8 +48,32 @@ const difference = (page, one, other) => page.evaluate(async (pictures) => {
   return (different * 4) / a.data.length;
 }, [one, other].map((bytes) => bytes.toString('base64')));
 
+const keptWords = () => JSON.parse(fs.readFileSync(WORDS, 'utf8'));
+
+/** The different lines of a page that have words, without ids, dates and figures: as soon as they are the kept ones, or after five seconds. */
+async function wordsOf(page, name) {
+  const kept = keptWords()[name];
+  for (let left = 100; ; left -= 1) {
+    const words = await page.evaluate(() => [...new Set(document.body.innerText
+      .replace(/\bm\d+-[0-9a-f]{16}\b/g, '#').replace(/\d+([.,:]\d+)*/g, '#')
+      .replace(/# (Jan|Feb|Mar|Apr|May|June?|July?|Aug|Sept?|Oct|Nov|Dec)\b( #)?(, #)?/g, '#').split('\n').map((line) => line.trim()).filter((line) => /\p{L}{2}/u.test(line)))]);
+    if (left === 0 || isDeepStrictEqual(words, kept)) return words;
+    await page.waitForTimeout(50);
+  }
+}
+
+/** Checks that a page still has the words that its picture was taken with; PICTURES=write keeps them. */
+function checkWords(name, words) {
+  const kept = keptWords();
+  if (process.env.PICTURES === 'write') {
+    const lines = Object.entries({ ...kept, [name]: words }).map((entry) => entry.map((each) => JSON.stringify(each)).join(': '));
+    fs.writeFileSync(WORDS, `{\n${lines.join(',\n')}\n}\n`);
+  } else assert.deepEqual(words, kept[name], `the words of ${name} have changed; PICTURES=write takes it anew`);
+}
+
 describe('pictures of the guide', () => {
   const taken = new Map();
+  const words = new Map();
   const committed = (name) => path.join(FOLDER, `station-${name}.png`);
   let browser;
   let daemon;
@@ -63,7 +90,10 @@ describe('pictures of the guide', () => {
     await daemon.send('PUT', '/v1/plans/4712-A', SAMPLED);
     await daemon.send('PUT', '/v1/catalogues/turning', CATALOGUE);
     const page = await open(browser, daemon, '#/gauge?order=WO-4711', SCREEN);
-    const take = async (name) => taken.set(name, await page.screenshot());
+    const take = async (name) => {
+      words.set(name, await wordsOf(page, `station-${name}`));
+      taken.set(name, await page.screenshot());
+    };
     const verdict = (state) => page.waitForSelector(`.verdict[data-verdict="${state}"]:not([data-provisional])`);
     const measure = async (characteristic, value) => {
       await page.waitForFunction((name) => document.querySelector('.tiles-of-plan [aria-current]')?.textContent.includes(name), characteristic);
@@ -117,11 +147,13 @@ describe('pictures of the guide', () => {
     it(`${name} is of this page`, async () => {
       const share = await difference(blank, taken.get(name), fs.readFileSync(committed(name)));
       assert.ok(share < 0.02, `${(share * 100).toFixed(1)} % of ${committed(name)} is different; PICTURES=write takes it anew`);
+      checkWords(`station-${name}`, words.get(name));
     });
   }
 
   it('are told apart', async () => {
     assert.ok(await difference(blank, taken.get('reject'), taken.get('measure')) > 0.05);
+    assert.notDeepEqual(words.get('reject'), words.get('measure'));
   });
 });
 
@@ -156,8 +188,9 @@ describe('sheets of every view', () => {
   after(() => daemon.cleanup());
 
   /** A picture of a view at each size, light above dark. */
-  async function sheetOf([address, mark]) {
+  async function sheetOf(view, [address, mark]) {
     const rows = [];
+    let words;
     for (const colorScheme of ['light', 'dark']) {
       const page = await open(browser, daemon, `#/${address}`, { at: NOW, timezoneId: 'Europe/Berlin', colorScheme });
       await page.waitForSelector(mark);
@@ -168,19 +201,21 @@ describe('sheets of every view', () => {
         row.push(`<img height="${ROW_PX}" src="data:image/png;base64,${(await page.screenshot()).toString('base64')}">`);
       }
       rows.push(`<p>${row.join('')}</p>`);
+      words = await wordsOf(page, `view-${view}`);
       await close(page);
     }
     await blank.setContent(`<style>body { margin: 0 } p { display: flex; gap: 6px; margin: 0 0 6px }</style><main style="width: max-content">${rows.join('')}</main>`);
     await blank.evaluate(() => Promise.all([...document.images].map((image) => image.decode())));
-    return blank.locator('main').screenshot();
+    return { words, sheet: await blank.locator('main').screenshot() };
   }
 
   for (const [view, how] of Object.entries(VIEWS)) {
     it(`${view} is of this page`, async () => {
-      const sheet = await sheetOf(how);
+      const { words, sheet } = await sheetOf(view, how);
       if (process.env.PICTURES === 'write') fs.writeFileSync(committed(view), sheet);
       const share = await difference(blank, sheet, fs.readFileSync(committed(view)));
       assert.ok(share < 0.02, `${(share * 100).toFixed(1)} % of ${committed(view)} is different; PICTURES=write takes it anew`);
+      checkWords(`view-${view}`, words);
     });
   }
 });
