@@ -10,7 +10,7 @@ import path from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { isDeepStrictEqual } from 'node:util';
 
-import { close, drawn, launch, open } from './support/browser.mjs';
+import { close, drawn, launch, open, PATIENCE_MS } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
 import { scan } from './support/scanner.mjs';
 
@@ -50,10 +50,10 @@ const difference = (page, one, other) => page.evaluate(async (pictures) => {
 
 const keptWords = () => JSON.parse(fs.readFileSync(WORDS, 'utf8'));
 
-/** The different lines of a page that have words, without ids, dates and figures: as soon as they are the kept ones, or after five seconds. */
+/** The different lines of a page that have words, without ids, dates and figures: as soon as they are the kept ones; if they never are, those after a test's patience. */
 async function wordsOf(page, name) {
   const kept = keptWords()[name];
-  for (let left = 100; ; left -= 1) {
+  for (let left = PATIENCE_MS / 50; ; left -= 1) {
     const words = await page.evaluate(() => [...new Set(document.body.innerText
       .replace(/\bm\d+-[0-9a-f]{16}\b/g, '#').replace(/\d+([.,:]\d+)*/g, '#')
       .replace(/# (Jan|Feb|Mar|Apr|May|June?|July?|Aug|Sept?|Oct|Nov|Dec)\b( #)?(, #)?/g, '#').split('\n').map((line) => line.trim()).filter((line) => /\p{L}{2}/u.test(line)))]);
