@@ -10,8 +10,8 @@ import { launch } from './support/browser.mjs';
 
 const require = createRequire(path.join(process.env.WEB_TEST_MODULES, 'package.json'));
 const MERMAID = path.join(path.dirname(require.resolve('mermaid')), 'mermaid.min.js');
-const diagrams = fs.readdirSync('docs', { recursive: true }).filter((name) => name.endsWith('.md')).flatMap((name) => [
-  ...fs.readFileSync(path.join('docs', name), 'utf8').matchAll(/```mermaid\n([^]*?)```/g)].map(([, text]) => ({ name, text })));
+const documents = fs.readdirSync('docs', { recursive: true }).filter((name) => name.endsWith('.md')).map((name) => path.join('docs', name));
+const diagrams = ['README.md', ...documents].flatMap((name) => [...fs.readFileSync(name, 'utf8').matchAll(/```mermaid\n([^]*?)```/g)].map(([, text]) => ({ name, text })));
 
 describe('diagrams', () => {
   let page;
@@ -31,9 +31,9 @@ describe('diagrams', () => {
     }
   }, text);
 
-  it('are there for the house, a measurement, a verdict and a fail-over', () => {
+  it('are there for the parts, the house, a measurement, a verdict and a fail-over', () => {
     assert.deepEqual([...new Set(diagrams.map(({ name }) => name))].sort(), [
-      'ARCHITECTURE.md', path.join('explanation', 'decision-rules.md'), path.join('guide', 'postgresql.md')]);
+      'README.md', 'docs/ARCHITECTURE.md', 'docs/explanation/decision-rules.md', 'docs/guide/postgresql.md']);
   });
 
   for (const { name, text } of diagrams) {
