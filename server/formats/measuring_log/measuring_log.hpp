@@ -62,8 +62,9 @@ struct Reading {
 /// Unread.
 Reading read_text_logs(std::string_view bytes);
 
-/// Logs of cycles 444, 451, 452 and 453 as HTML: a section a touched point, or a measurement.
-/// Of 444 the deviation along the normal is a value with limits; of the kinematics all figures.
+/// Reads logs of cycles 444, 451, 452 and 453 as HTML: one section for each touched point or
+/// measurement. In 444 the deviation along the normal is a value with limits; in the kinematics all
+/// figures are.
 Reading read_html_logs(std::string_view bytes);
 
 /// Reads HTML or text, by its content.

@@ -87,7 +87,7 @@ struct OutgoingValue {
 
 /// Makes a QIF document of results: the characteristics with their limits, the measurements in
 /// their order, and their parts. Fields without a place in QIF become attributes with their name.
-/// The same measurements give the same bytes. Not thread-safe.
+/// Equal measurements give equal bytes. Not thread-safe.
 class QifWriter {
  public:
   /// @errors FieldInvalid: a text has a character that XML does not allow; nothing is added.

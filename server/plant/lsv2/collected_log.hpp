@@ -63,8 +63,8 @@ struct CollectedLog {
   CollectedLog& operator=(const CollectedLog&) = delete;
 
   std::string text{};
-  bool has_time = false;  ///< the control's, in its text
-  std::string key{};      ///< unique to this log of this machine and path
+  bool has_time = false;                         ///< the control's, in its text
+  std::string key{};                             ///< unique to this log of this machine and path
   std::vector<app::Measurement> measurements{};  ///< empty: it has no length
   std::size_t values_kept = 0;  ///< angles and figures of axes, they stay in the file
 
