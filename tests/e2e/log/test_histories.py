@@ -2,6 +2,7 @@
 deduplicate by id lose nothing."""
 
 import base64
+import json
 import pathlib
 import shutil
 import unittest
@@ -9,6 +10,7 @@ import unittest
 from durability.test_storage import PART
 from log.test_log import wait_for_size
 from measurements.test_events import Reader
+from support.broker import Broker
 from support.daemon import Daemon
 from support.postgres import Cluster
 from support.receiver import Receiver
@@ -170,6 +172,31 @@ class Folders(Restored):
         self.restore(daemon, copy)
         daemon.start()
         daemon.wait_for_log("has signed 5 measurements, and the database has 3")
+
+    def test_a_subscriber_that_deduplicates_by_id_loses_nothing(self):
+        broker, daemon = Broker(), self.made().start()
+        self.addCleanup(broker.cleanup)
+        seen = broker.start().subscribe("shop/#")
+        connected = daemon.request("PUT", "/v1/connections/dash", {
+            "kind": "mqtt", "broker": f"mqtt://127.0.0.1:{broker.port}", "topic": "shop/{machine}", "longest_wait_s": 1})
+        self.assertEqual(connected.status, 201, connected)
+
+        def parts_by_id():
+            records = [json.loads(message.payload) for message in list(seen.messages)]
+            return {record["id"]: record["part_id"] for record in reversed(records)}  # the first of an id counts
+
+        kept = self.store(daemon, "d1 d2 d3")
+        wait_for(lambda: len(parts_by_id()) == 3, lambda: seen.messages)
+        copy = self.backup(daemon)
+        lost = self.store(daemon, "d4 d5")
+        wait_for(lambda: len(parts_by_id()) == 5, lambda: seen.messages)
+        self.assertEqual(daemon.stop(), 0)
+        self.restore(daemon, copy)
+        daemon.start()
+        new = self.store(daemon, "n4 n5 n6")
+        ids = dict(zip(kept + lost + new, "d1 d2 d3 d4 d5 n4 n5 n6".split()))
+        wait_for(lambda: len(parts_by_id()) >= len(ids), lambda: seen.messages)
+        self.assertEqual(parts_by_id(), ids)
 
     def test_a_checkpoint_of_nothing_says_so(self):
         daemon = self.made().start()
