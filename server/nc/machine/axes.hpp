@@ -68,6 +68,9 @@ class Axes {
   /// Normal of the surface at the last contact, if the axes know it.
   virtual std::optional<Vec3> contact_normal() const { return std::nullopt; }
 
+  /// Returns whether a cutter has entered the part in the last motion, which was in rapid.
+  virtual bool has_cut_in_rapid() const { return false; }
+
   /// Waits without motion.
   virtual MachineResult<void> dwell(double seconds, Allowance& allowance) = 0;
 

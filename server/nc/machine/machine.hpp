@@ -87,6 +87,10 @@ class Machine {
   /// none if the machine does not know it, like a real one.
   virtual std::optional<Vec3> contact_normal() const { return std::nullopt; }
 
+  /// Returns whether a cutter has entered the part in the last motion, which was in rapid; false if
+  /// the machine does not know the part.
+  virtual bool has_cut_in_rapid() const { return false; }
+
   /// Moves a touch probe towards the workpiece, or another tool towards the tool touch probe TT.
   /// @faults ToolAxisMissing, NoTool, FeedMissing, ValueInvalid (nothing has moved);
   /// StylusDeflected (touches at the start); NoContact (at the end of the travel); AxisLimit (at

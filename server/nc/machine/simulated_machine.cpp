@@ -123,6 +123,9 @@ MachineResult<double> SimulatedAxes::follow(const Path& path, const Motion& moti
     return can_touch ? free_part(body, path, real_tool(motion.tool), motion.allowance) : 1;
   };
   const double part = motion.tool.is_probe ? free(workpiece_) : 1;
+  const bool is_cutter = !motion.tool.is_probe && motion.tool.number != 0;
+  has_cut_in_rapid_ =
+      is_cutter && motion.feed.is_rapid && starts_free(path, motion.tool) && free(workpiece_) < 1;
   const double to_fixture = free(fixtures_);
   if (motion.allowance.found() != Allowance::Spent::Nothing) {
     return make_fault(FaultKind::Interrupted);
@@ -131,6 +134,11 @@ MachineResult<double> SimulatedAxes::follow(const Path& path, const Motion& moti
   nose_ = gone < 1 ? path.nose(gone) : path.end;
   if (to_fixture < part) return make_fault(FaultKind::FixtureCollision);
   return part;
+}
+
+bool SimulatedAxes::starts_free(const Path& path, const SpindleTool& known) const {
+  const RealTool tool = real_tool(known);
+  return workpiece_.clearance(ball_on_table(path.start, tool), tool.radius) > 0;
 }
 
 /// The part of the path, 0 to 1, that the ball can go without touching.

@@ -70,6 +70,21 @@ class Programs(ClientTest):
         self.assert_fails(4, "nc", "check", "a.h", "--level", "x=loud")
         self.assert_fails(5, "nc", "check", "gone.h")
 
+    def test_a_cutter_that_enters_the_part_in_rapid_is_noted_once(self):
+        self.client.write("part.json", json.dumps({
+            "machine": {"tools": [{"number": 5, "name": "MILL", "length_mm": 80, "radius_mm": 6}]},
+            "workpiece": {"features": [{"type": "block", "min_mm": [0, 0, -40], "max_mm": [100, 80, 0]}]}}))
+
+        def notes(*blocks):
+            lines = ["BEGIN PGM RAPID MM", "TOOL CALL 5 Z S1000", "L X+50 Y+40 FMAX M3", "L Z+2 FMAX", *blocks, "L Z+50 FMAX", "END PGM RAPID MM"]
+            self.client.write("rapid.h", "\n".join(lines))
+            run = json.loads(self.assert_runs(0, "--json", "nc", "run", "rapid.h", "--setup", "part.json"))
+            return [(message["line"], message["kind"]) for message in run["messages"]]
+
+        self.assertEqual(notes("L Z-5 F200", "L X+60 F500"), [])  # at feed it works, and away from material it may go in rapid
+        self.assertEqual(notes("L Z+0 FMAX", "L X+60 FMAX"), [])  # on the face, not in it
+        self.assertEqual(notes("L Z-5 FMAX", "L Z+2 FMAX", "L Z-5 FMAX"), [(5, "note")])
+
     def test_a_program_is_checked_on_the_part_of_a_setup(self):
         block = {"type": "block", "min_mm": [0, 0, -40], "max_mm": [100, 80, 0]}
         bore = {"type": "bore", "center_mm": [50, 40], "top_mm": 0, "depth_mm": 30, "diameter_mm": 25.013}
