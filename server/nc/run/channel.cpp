@@ -22,8 +22,8 @@ Channel::Channel(std::shared_ptr<const LinkedProgram> main, const RunEnvironment
 
 std::vector<Place> Channel::chain() const {
   std::vector<Place> all = calls.behind_calls();
-  const Place before{&linked(), std::min(block, block_before)};
   const bool is_jumped_to =
+      before.program == &linked() &&
       std::holds_alternative<klartext::ErrorStop>(place().source().statement) &&
       std::holds_alternative<klartext::ConditionalJump>(before.source().statement);
   all.insert(all.begin(), is_jumped_to ? before : place());

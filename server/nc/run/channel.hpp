@@ -65,8 +65,10 @@ class Channel {
   RunFiles files;
   QParameters parameters;
   CallStack calls;
-  std::uint32_t block = 0;         ///< index of the running block
-  std::uint32_t block_before = 0;  ///< of the block that ran before it, if every block is traced
+  std::uint32_t block = 0;  ///< index of the running block
+  /// The newest block and the block that ran before it, of any program, if every block is traced.
+  Place entered;
+  Place before;
 
   Contour contour;
   std::optional<SpatialAngles> spatial_angles;  ///< while A, B, C are angles of AXIS SPAT

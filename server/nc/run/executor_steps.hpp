@@ -3,6 +3,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "nc/run/channel.hpp"
 
@@ -33,9 +34,9 @@ class ExecutorSteps {
 
   void announce(const Instruction* pc) {
     if (pc->blocks == 0) return;
-    channel_.block_before = channel_.block;
     enter(pc);
-    channel_.environment.observer.entered(channel_.place());
+    channel_.before = std::exchange(channel_.entered, channel_.place());
+    channel_.environment.observer.entered(channel_.entered);
   }
 
   NcError value_error(const Instruction& instruction) const;

@@ -21,6 +21,7 @@ Lines origins(std::string_view body, bool is_inch = false) {
   Control control;
   control.setup.features.push_back(machine::Block{{0, 0, -40}, {100, 80, 0}});
   control.program("L X+Q9 FMAX", "other.h");
+  control.program("Q8 = 1", "quiet.h");
   control.program(body, "main.h", is_inch);
   EveryBlock observer;
   const auto file = control.programs.get(*control.disk.find(Control::main_path()));
@@ -42,6 +43,7 @@ TEST_CASE("an error names the blocks that it comes from") {
     Lines found;
     bool is_inch = false;
   };
+  const std::string jump = "FN 9: IF +1 EQU +2 GOTO LBL 9\n";
   const std::string call = "CALL LBL 1\nM30\nLBL 1\n" + kFace + "LBL 0";
   const Case cases[] = {
       // A value of a parameter: the one that the error names, from the call.
@@ -65,6 +67,8 @@ TEST_CASE("an error names the blocks that it comes from") {
        {"8", "5: condition set here", "4: Q1 set here", "3: Y, X set here"}},
       // Another program.
       {"TOOL CALL 30 Z\nQ9 = 900\nCALL PGM OTHER", {"2", "TNC:\\nc_prog\\main.h3: Q9 set here"}},
+      // An error behind a call: the last block of the called program is no jump of this one.
+      {jump + jump + jump + "CALL PGM QUIET\nFN 14: ERROR = 1000\nLBL 9", {"6"}},
   };
   for (const Case& each : cases) {
     CAPTURE(each.body);
