@@ -84,6 +84,13 @@ export class Ledger extends EventTarget {
     this.stored(record.id, {}, record);
   }
 
+  /** The service tells of a note: a cause or an action that was given elsewhere is given. */
+  noted({ measurement_id: id, cause, measure }) {
+    const value = (cause || measure) && this.#ofRecord({ id });
+    if (!value || this.#rootOf(value).done) return;
+    this.#change(this.#rootOf(value).key, (root) => Object.assign(root, { cause, measure, done: true, noted: [...root.noted ?? [], value.key] }));
+  }
+
   /** What is said of a value; undefined takes it back. @param part cause | measure */
   say(key, part, text) {
     this.#change(this.#rootOf(this.get(key)).key, (root) => { if (!root.done) root[part] = text; });
@@ -134,6 +141,13 @@ export class Ledger extends EventTarget {
   /** The value in force of a characteristic at a part, or at a round where parts have no names. */
   inForce(plan, part, round, name) {
     return this.#of(plan, part, round).filter(({ shown }) => shown.characteristic === name).at(-1);
+  }
+
+  /** The values in force of a sample: the newest, and those before it after which the sample went on. */
+  sampleInForce(plan, part, round, name) {
+    const all = this.#of(plan, part, round).filter(({ shown }) => shown.characteristic === name);
+    all.sort((one, other) => this.#rootOf(one).seq - this.#rootOf(other).seq);
+    return all.slice(all.findLastIndex((value, i) => i < all.length - 1 && !value.partial) + 1);
   }
 
   /** When a part was measured last, by its values in force: a date, or undefined. */

@@ -165,6 +165,14 @@ export class Plan {
     return one && this.ledger.inForce(this.part, this.subject, this.round, one.name);
   }
 
+  /** Of a sample the worst value, or one that is not judged yet. */
+  #worstOf(at) {
+    const one = this.plan?.characteristics[at];
+    const all = one ? this.ledger.sampleInForce(this.part, this.subject, this.round, one.name) : [];
+    const verdicts = all.map((value) => this.ledger.verdictOf(value));
+    return all[verdicts.indexOf(verdicts.includes(undefined) ? undefined : WORST_FIRST.find((word) => verdicts.includes(word)))];
+  }
+
   /** Whether a characteristic has its value: of a sample in a row, the last. */
   #isTaken(at) {
     const value = this.#valueOf(at);
@@ -243,7 +251,7 @@ export class Plan {
   /** How the part is when all is measured, by its worst value; null before that, and while one has no verdict. */
   get result() {
     if (!this.finished || this.subject !== this.subjectNow() || !this.#isBegun) return null;
-    const measured = this.plan.characteristics.map(({ name }, at) => ({ name, value: this.#valueOf(at) })).filter(({ value }) => value)
+    const measured = this.plan.characteristics.map(({ name }, at) => ({ name, value: this.#worstOf(at) })).filter(({ value }) => value)
       .map(({ name, value }) => ({ name, value, verdict: this.ledger.verdictOf(value) }));
     const verdict = WORST_FIRST.find((word) => measured.some((each) => each.verdict === word));
     if (measured.some((each) => !each.verdict)) return null;
@@ -367,7 +375,7 @@ export class Plan {
     this.select.value = this.part;
     const list = this.plan?.characteristics ?? [];
     const all = list.map((_, i) => this.#standing(i));
-    const verdicts = list.map((_, i) => this.#valueOf(i)).map((value) => value && this.ledger.verdictOf(value));
+    const verdicts = list.map((_, i) => this.#worstOf(i)).map((value) => value && this.ledger.verdictOf(value));
     const text = list.length ? this.#progressText(all) : '';
     if (this.progress.textContent !== text) this.progress.textContent = text;
     refill(this.tiles, list.map((one, i) => h('li', h('button', {

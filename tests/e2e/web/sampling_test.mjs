@@ -121,6 +121,14 @@ describe('every third part', () => {
       ['SN-3', 'THIRD-each', undefined], ['SN-4', 'THIRD-each', undefined], ['SN-4', 'THIRD-third', undefined]]);
   });
 
+  it('ends on the worst value of a sample, not on its last', async () => {
+    await put('WORST', [['three', { subgroup_size: 3 }], ['one']]);
+    const page = await station('WORST');
+    await measure(page, daemon, '25.01', '25.05', '25.011', '25.01');
+    await page.waitForFunction(() => /^Reject/.test(document.querySelector('.verdict .word')?.textContent) && document.querySelector('.verdict').textContent.includes('WORST-three'));
+    assert.deepEqual(await page.$$eval('.tiles-of-plan li', (all) => all.map((tile) => tile.querySelector('.shape')?.dataset.verdict)), ['reject', 'good']);
+  });
+
   it('is counted without names of parts too, before and after what every part has', async () => {
     await put('PLAIN', [['first', { frequency: 'every 3rd part' }], ['each'], ['last', { frequency: 'every 3rd part' }]]);
     const page = await station('PLAIN');
