@@ -2,6 +2,7 @@
 
 import { getJson, url } from '../api.js';
 import { field, h } from '../dom.js';
+import { ledger } from '../gauge/ledger.js';
 import { t } from '../i18n.js';
 import { measuredText } from '../verdict.js';
 import { orderOf } from './order.js';
@@ -43,7 +44,7 @@ export function note(record) {
       field(t('field.operator'), inputs.operator), why,
       h('p.actions', h('button.primary', { type: 'submit' }, t('note.store')),
         h('button', { type: 'button', onclick: () => dialog.close('') }, t('confirm.cancel')))));
-  const order = orderOf(dialog, url(['measurements', record.id, 'notes']), why, 'noted');
+  const order = orderOf(dialog, url(['measurements', record.id, 'notes']), why, 'noted', (stored) => ledger.noted(stored));
   document.body.append(dialog);
   dialog.showModal();
   offer(lists).catch(() => {});

@@ -278,6 +278,7 @@ export function mount(main, route) {
       ledger.told(record);
       plan.samples.told(record);
     }
+    if (type === 'note.added') ledger.noted(JSON.parse(data));
     if (type === 'resync') plan.samples.renew();
     if (type !== 'table.changed' && type !== 'resync') return;
     forgetAtHand();

@@ -134,6 +134,19 @@ describe('what a value demands', () => {
     await close(page);
   });
 
+  it('takes a cause that was given elsewhere, and asks no more', async () => {
+    await station('SN-N');
+    await line('25.04');
+    await page.waitForSelector('.reactions .catalogue');
+    const [{ id }] = await storedSince('SN-N');
+    await daemon.send('POST', `/v1/measurements/${id}/notes`, { cause: 'Wrong offset', measure: 'Part scrapped' });
+    await page.waitForSelector('.reactions', { state: 'hidden' });
+    await line('40.01');
+    await hasMarks('reject', 'good', undefined);
+    assert.deepEqual((await daemon.json(`/v1/measurements/${id}/notes`)).notes.map(({ cause, measure }) => [cause, measure]), [['Wrong offset', 'Part scrapped']]);
+    await close(page);
+  });
+
   it('names the characteristic in the list, with the limits of a drawing', async () => {
     await station('SN-7');
     for (const value of ['25.01', '40.01', '120.1']) await line(value);
