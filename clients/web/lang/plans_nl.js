@@ -59,6 +59,8 @@ export default {
   'plans.member.reaction': 'Als het niet goed is',
   'plans.member.catalogue': 'Catalogus van oorzaken',
   'plans.member.picture': 'Afbeelding',
+  'plans.member.envelope': 'Omhullingseis',
+  'plans.member.entity': 'Element van het tekeningbestand',
   'plans.hint.frequency': 'elk uur · elk 5e onderdeel · leeg: elk onderdeel',
   'plans.hint.size': '25 H7 · 8 +0,036/0 · 40 ±0,1 · 3 ≥ 2,9 · M10-6H',
   'plans.entity': 'In de tekening: {entity}',

@@ -6,7 +6,7 @@ import { KINDS, limitsTyped, umOfMm } from './sizes.js';
 
 /** What the service calls a member of a characteristic, in the order in which a table is written. */
 const MEMBERS = ['name', 'designation', 'nominal_mm', 'tolerance_class', 'upper_um', 'lower_um', 'feature', 'quantity', 'count', 'gauge', 'size_operator', 'rule',
-  'uncertainty_um', 'coverage_factor', 'subgroup_size', 'frequency', 'reaction', 'catalogue', 'picture'];
+  'uncertainty_um', 'coverage_factor', 'subgroup_size', 'frequency', 'reaction', 'catalogue', 'picture', 'envelope', 'entity'];
 const NUMBERS = new Set(['nominal_mm', 'upper_um', 'lower_um', 'count', 'uncertainty_um', 'coverage_factor', 'subgroup_size']);
 /** Columns that are no members: of the part, and what people have in their place. */
 const OTHERS = ['part', 'size', 'kind', 'upper_mm', 'lower_mm'];

@@ -235,6 +235,16 @@ describe('a table', () => {
     await storePlan();
     await stored('T-2');
     assert.deepEqual(await found('T-2'), await found('T-1'));
+    await daemon.send('PUT', '/v1/plans/T-E', { characteristics: [{ name: 'seat', nominal_mm: 25, upper_um: 21, lower_um: 0, feature: 'hole', envelope: 'required', size_operator: 'GX', entity: '#120' }] });
+    await edit('T-E');
+    const [, whole] = await saved(page, () => page.click('text=Save as CSV'));
+    await page.click('text=All plans');
+    await dropFile(page, 'whole.csv', String(whole));
+    await says('1 characteristic');
+    await page.fill('[name="part"]', 'T-F');
+    await storePlan();
+    await stored('T-F');
+    assert.deepEqual(await found('T-F'), await found('T-E'));
   });
 
   it('as a workbook does too, and adds to a plan that is open', async () => {
