@@ -266,8 +266,8 @@ export class ControlChart {
   }
 }
 
-/** Of points that break rules one after the other, the first. */
-const firstsOf = (rules) => [...rules.keys()].filter((i) => !rules.has(i - 1));
+/** Of points that break rules one after the other the first, and the first beyond a control limit (rule 1). */
+const firstsOf = (rules) => [...rules.keys()].filter((i) => !rules.has(i - 1) || (rules.get(i).has(1) && !rules.get(i - 1).has(1)));
 
 /** {index: rules broken there}, in order, of the chart of the location. */
 export function rulesAt(chart) {

@@ -294,6 +294,12 @@ describe('the trend', () => {
     assert.deepEqual(await rings(), ['1']);
     assert.doesNotMatch(await page.textContent('.detail'), /3×/);
     await close(page);
+    // The first value beyond a limit, though the one before it breaks another rule.
+    await post('far-after-trend', 31, (i) => (i === 30 ? 25.0205 : i < 20 ? 25.01 + (i % 2) * 0.001 : 25.009));
+    page = await openChart(browser, daemon, '#/trend?characteristic=far-after-trend');
+    await untilPoints(page, 31);
+    assert.match((await rings()).at(-1), /^1/);
+    await close(page);
     await post('pairs-out', 1200, (i) => (i % 40 === 0 || i % 40 === 2 ? 25.018 : 25.01 + (i % 2) * 0.001));
     page = await openChart(browser, daemon, '#/trend?characteristic=pairs-out&count=5000&rules=1');
     await untilPoints(page, 1200);
