@@ -138,15 +138,22 @@ void judge(Part& part) {
   }
 }
 
+/// Of a characteristic, the value that was measured last counts, of two at one time the later one.
+/// @param m stored before those that are there
 void add_value(const app::Measurement& m, Part& part) {
   PartValue value{.measurement = app::measurement_id_text(m.id, m.origin),
                   .measured = m.measured,
                   .measured_at = m.measured_at,
                   .has_note = !m.notes.empty()};
   if (m.characteristic) value.characteristic.emplace(*m.characteristic);
-  if (std::ranges::count(part.values, value.characteristic, &PartValue::characteristic)) return;
   if (m.is_judged()) value.verdict = word(m.result.verdict);
-  part.values.push_back(std::move(value));
+  const auto newer =
+      std::ranges::find(part.values, value.characteristic, &PartValue::characteristic);
+  if (newer == part.values.end()) {
+    part.values.push_back(std::move(value));
+  } else if (newer->measured_at < value.measured_at) {
+    *newer = std::move(value);
+  }
 }
 
 /// @param plan lives until `done` is called
@@ -202,7 +209,8 @@ void add_parts_routes(Routes& add) {
   add("GET /v1/parts/{part*} getPart viewer", get_part,
       {.summary = "A part: its verdict, what is missing, its values and open reactions",
        .description =
-           "The newest value of each characteristic, with corrections; the verdict is the worst of "
+           "The value of each characteristic that was measured last, with corrections; the verdict "
+           "is the worst of "
            "them. Without `plan` the plan with the name of the part is used, or the only plan that "
            "has every measured characteristic; without a plan nothing is missing.",
        .parameters = {path_parameter("part", "part_id of its measurements"),
