@@ -35,6 +35,8 @@ export function mount(main, route) {
   const maps = h('div.class-maps');
   const finder = new Finder({ leaving: leaving.signal, sizeOf: () => state.size, onPick: pick });
   let classMaps = {};
+  /** Whether what was typed last is the fit that is shown. */
+  let isRead = true;
   let drawn = () => {};
 
   main.replaceChildren(h('div.desk.fit', h('h1.unseen', { tabindex: -1 }, t('view.fit')),
@@ -50,8 +52,10 @@ export function mount(main, route) {
   function readTyped() {
     const parsed = parseFit(typed.value);
     if (parsed?.size !== state.size) finder.clear();
-    if (parsed) pick(parsed);
-    else nothing(t('error.fit.malformed'));
+    if (parsed) return pick(parsed);
+    latest.run(() => {}); // an answer that is on its way is of the fit before
+    isRead = false;
+    return nothing(t('error.fit.malformed'));
   }
 
   /** No result stands below a note that is about something else. */
@@ -87,6 +91,7 @@ export function mount(main, route) {
     }
     const designation = `${number(state.size)} ${classOf('hole')}/${classOf('shaft')}`;
     typed.value = designation;
+    isRead = true;
     remembered();
     for (const old of [figure, result]) old.setAttribute('aria-busy', true);
     refill(preferred, preferredFits(state, pick));
@@ -95,7 +100,7 @@ export function mount(main, route) {
 
   /** What the tables say now, which may have changed. */
   function ask() {
-    if (!state.size) return;
+    if (!state.size || !isRead) return;
     latest.run(async (signal) => {
       const fit = await getJson(url(['fits', `${state.size}${classOf('hole')}`, classOf('shaft')]), { signal });
       note.textContent = '';

@@ -13,8 +13,8 @@
 import assert from 'node:assert/strict';
 import { afterEach, describe, it } from 'node:test';
 
-import { close, hashOf, open, pasted, picture } from './support/browser.mjs';
-import { hold } from './support/hold.mjs';
+import { close, drawn, hashOf, open, openIn, pasted, picture } from './support/browser.mjs';
+import { hold, holdAll } from './support/hold.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 let page;
@@ -106,6 +106,29 @@ describe('the fit', () => {
     await go();
     await page.waitForSelector('.limits', { state: 'visible' });
     assert.equal(await page.textContent('.fit .headline'), 'Interference fit');
+  });
+
+  it('gives up the fit on its way when the next one cannot be read', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6');
+    await page.waitForSelector('.limits');
+    await holdAll(page, '**/v1/fits/25H7/s6');
+    await page.click('.preferred button:has-text("H7/s6")');
+    await page.waitForSelector('.limits', { state: 'hidden' });
+    const givenUp = page.waitForEvent('requestfailed', (request) => request.url().endsWith('/v1/fits/25H7/s6'));
+    await page.fill('#fit', '25 H7/');
+    await page.press('#fit', 'Enter');
+    await givenUp;
+    assert.notEqual(await page.textContent('.fit .note'), '');
+    // Nor does a change of the tables bring it back.
+    const asked = [];
+    page.on('request', (request) => request.url().includes('/v1/fits/') && asked.push(request.url()));
+    const other = await openIn(page.context(), daemon, '#/fit/25H10/h6');
+    await other.waitForSelector('.limits');
+    await daemon.send('PUT', '/v1/tables/hole/classes/H10', { rows: [{ over_mm: 18, up_to_mm: 30, upper_um: 100, lower_um: -100 }] });
+    await other.waitForFunction(() => /\+100 \/ −100/.test(document.querySelector('.result').textContent));
+    await drawn(page);
+    assert.deepEqual([asked, await page.$('.limits')], [[], null]);
+    await daemon.send('DELETE', '/v1/tables/hole/classes/H10');
   });
 
   it('draws a zone where the deviations say, to scale', async () => {

@@ -9,6 +9,18 @@ export async function patient(page) {
   await page.evaluate(wait);
 }
 
+/** All that is asked there waits. @returns what lets it through */
+export async function holdAll(page, where) {
+  let go;
+  const told = new Promise((resolve) => { go = resolve; });
+  await patient(page);
+  await page.route(where, async (route) => {
+    await told;
+    await route.continue().catch(() => {}); // the page may have given it up
+  });
+  return go;
+}
+
 /** What is asked there waits. @returns what lets the oldest question through, once it was asked */
 export async function hold(page, where) {
   const held = [];
