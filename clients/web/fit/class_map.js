@@ -24,10 +24,12 @@ export class ClassMap {
 
   /** Draws the classes of a size in nm. */
   async show(size, chosen, grade = isoClass(chosen)?.grade ?? this.grade.value) {
-    Object.assign(this, { size, chosen });
+    const asked = {};
+    Object.assign(this, { size, chosen, asked });
     this.grade.value = grade;
     const classes = this.names.filter((name) => isoClass(name)?.grade === grade || !isoClass(name));
     const { rows } = await tableRows(this.feature, classes);
+    if (this.asked !== asked) return;
     const limits = rowOf(rows, size)?.limits ?? {};
     this.#draw(classes.filter((name) => name in limits).map((name) => ({
       name, upper: nmFromUm(limits[name].upper_um), lower: nmFromUm(limits[name].lower_um),

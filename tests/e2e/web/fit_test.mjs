@@ -141,11 +141,39 @@ describe('the fit', () => {
     assert.ok(Math.abs((zero.y - shaft.y - shaft.height) / hole.height - 2 / 21) < 0.01);
   });
 
+  const bothMaps = () => page.waitForFunction(() => document.querySelectorAll('.class-zones :checked').length === 2);
+  const chosen = () => page.$$eval('.class-zones label:has(:checked)', (zones) => zones.map((zone) => [...zone.querySelectorAll('span')].map((each) => each.textContent).join()));
+
+  it('offers the classes of the size that was typed last, however late the answer for another comes', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6');
+    await bothMaps();
+    const shafts = '**/v1/tables/shaft?*';
+    const type = async (fit) => {
+      await page.fill('#fit', fit);
+      await page.press('#fit', 'Enter');
+    };
+    let go;
+    await page.route(shafts, async (route) => {
+      if (!go) await new Promise((resolve) => { go = resolve; });
+      await route.continue();
+    });
+    const asked = page.waitForRequest(shafts);
+    await type('132,5 H7/g6');
+    const first = await asked;
+    const [second] = await Promise.all([page.waitForRequest(shafts), type('25 H7/g6')]);
+    await second.response();
+    const late = page.waitForResponse((answer) => answer.request() === first);
+    go();
+    await late;
+    await drawn(page);
+    assert.deepEqual(await chosen(), ['H,+21,0', 'g,−7,−20']);
+  });
+
   it('offers every class of the size, also by the arrow keys', async () => {
     page = await open(browser, daemon, '#/fit/25H7/g6');
-    await page.waitForSelector('.class-zones :checked');
+    await bothMaps();
     // Each zone with its deviations, in letters one can read.
-    assert.deepEqual(await page.$$eval('.class-zones label:has(:checked)', (zones) => zones.map((zone) => [...zone.querySelectorAll('span')].map((each) => each.textContent).join())), ['H,+21,0', 'g,−7,−20']);
+    assert.deepEqual(await chosen(), ['H,+21,0', 'g,−7,−20']);
     assert.ok(await page.$$eval('.class-zones .um', (texts) => texts.every((text) => parseFloat(getComputedStyle(text).fontSize) >= 12)));
     await page.focus('.class-map:nth-child(2) input:checked');
     await page.keyboard.press('ArrowRight');
