@@ -93,6 +93,7 @@ export function mount(main, route) {
     typed.value = designation;
     isRead = true;
     remembered();
+    note.textContent = '';
     for (const old of [figure, result]) old.setAttribute('aria-busy', true);
     refill(preferred, preferredFits(state, pick));
     ask();
@@ -103,7 +104,7 @@ export function mount(main, route) {
     if (!state.size || !isRead) return;
     latest.run(async (signal) => {
       const fit = await getJson(url(['fits', `${state.size}${classOf('hole')}`, classOf('shaft')]), { signal });
-      note.textContent = '';
+      if (note.getAttribute('role') === 'alert') note.textContent = '';
       await draw(fit, signal);
     }).catch((problem) => nothing(explain(problem)));
     for (const feature of FEATURES) classMaps[feature]?.show(nmFromMm(state.size), state[feature]);

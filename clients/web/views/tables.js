@@ -25,13 +25,15 @@ export function mount(main, route) {
   let feature = FEATURES.includes(route.path[0]) ? route.path[0] : 'hole';
   let names = null;
   let shown = { classes: [], sizes: [] };
-  const find = h('input', { id: 'find', type: 'search', autocomplete: 'off', spellcheck: 'false', oninput: () => refresh() });
+  const find = h('input', { id: 'find', type: 'search', autocomplete: 'off', spellcheck: 'false', oninput: () => { copied = ''; refresh(); } });
   find.value = route.options.find ?? '';
+  /** That a table was copied: it stays where the tables are only asked for again. */
+  let copied = '';
   const note = h('p.note', { role: 'status' });
   const table = h('div.scroll', { tabindex: 0, role: 'region', 'aria-label': t('view.tables') });
   const features = h('div.switch', { role: 'group', 'aria-label': t('tables.feature') });
   const whole = downloadLink({ id: 'whole-table' }, t('tables.whole'), (reason) => { note.textContent = reason; });
-  const own = new OwnColumns({ onChange: () => reload(), onShow: (name) => { find.value = name; refresh(); } });
+  const own = new OwnColumns({ onChange: () => reload(), onShow: (name) => { find.value = name; copied = ''; refresh(); } });
 
   main.replaceChildren(h('div.desk.tables', h('h1.unseen', { tabindex: -1 }, t('view.tables')),
     h('form.line', { onsubmit: (event) => event.preventDefault() }, standardChoice(), features, field(t('tables.find'), find),
@@ -66,7 +68,7 @@ export function mount(main, route) {
     try {
       const { rows } = await tableRows(feature, wanted.classes);
       if (shown !== wanted) return null;
-      note.textContent = '';
+      note.textContent = copied;
       const matching = rows.filter((row) => holds(row, wanted.sizes));
       if (!matching.length) note.textContent = t('error.size.out_of_range');
       return table.replaceChildren(grid(matching, wanted.classes, names.own[feature]));
@@ -87,7 +89,7 @@ export function mount(main, route) {
         return holds({ over_mm, up_to_mm }, shown.sizes);
       });
       await copyText([head, ...kept, ''].join('\n'));
-      note.textContent = t('tables.copied', { count: kept.length });
+      copied = note.textContent = t('tables.copied', { count: kept.length });
     } catch (problem) {
       note.textContent = explain(problem);
     }
@@ -95,7 +97,7 @@ export function mount(main, route) {
 
   function drawFeatures() {
     refill(features, FEATURES.map((each) => h('button', {
-      type: 'button', 'aria-pressed': String(each === feature), onclick: () => { feature = each; reload(); },
+      type: 'button', 'aria-pressed': String(each === feature), onclick: () => { feature = each; copied = ''; reload(); },
     }, t(`tables.${each}`))));
     whole.href = url(['tables', feature], { format: 'csv' });
     whole.download = `${feature}.csv`;

@@ -204,6 +204,27 @@ describe('the tables', () => {
     await page.waitForFunction(() => !document.querySelector('.grid'));
   });
 
+  for (const [address, where, table, copy] of [
+    ['#/tables/hole?find=25+H7', /\/v1\/tables\/hole\?classes=H7$/, '.grid', 'text=Copy as CSV'],
+    ['#/fit/25H7/g6', '**/v1/fits/25H7/g6', '.limits', '.limits button[aria-label="Copy 25 H7 for a drawing"]'],
+  ]) {
+    it(`say at ${address} that they were copied also when they are asked for anew`, async () => {
+      page = await open(browser, daemon, address);
+      await page.waitForSelector(table);
+      const go = await holdAll(page, where);
+      const asked = page.waitForRequest(where);
+      await daemon.send('PUT', '/v1/tables/hole/classes/COPY', { rows: [{ over_mm: 18, up_to_mm: 30, upper_um: 9, lower_um: 1 }] });
+      await asked;
+      await page.click(copy);
+      const said = await page.waitForFunction(() => /copied/.test(document.querySelector('.desk .note').textContent) && document.querySelector('.desk .note').textContent);
+      await page.$eval(table, (old) => old.setAttribute('data-before', ''));
+      go();
+      await page.waitForSelector(`${table}:not([data-before])`);
+      assert.equal(await page.textContent('.desk .note'), await said.jsonValue());
+      await daemon.send('DELETE', '/v1/tables/hole/classes/COPY');
+    });
+  }
+
   it('keep the case of a class: g6 is no hole', async () => {
     page = await open(browser, daemon, '#/tables/hole?find=25g6');
     await page.waitForFunction(() => /g6 is a shaft class/.test(document.querySelector('.tables .note')?.textContent));
