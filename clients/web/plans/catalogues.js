@@ -121,7 +121,7 @@ export class Catalogues {
 
   async #open(name, said = '') {
     if (!await this.#mayLeave()) return;
-    const { body, tag } = await readDocument(pathOf(name));
+    const { body, tag } = await readDocument(pathOf(name), this.leaving);
     this.#fill(body, { name, tag });
     this.done.textContent = said;
     await this.#list();

@@ -5,8 +5,8 @@ import { get, getJson, request, url } from '../api.js';
 export const listPlans = async (signal) => (await getJson(url(['plans']), { signal })).plans;
 
 /** A document as {body, tag}; the tag names the state that was read. @param path such as ['plans', part] */
-export async function readDocument(path) {
-  const response = await get(url(path));
+export async function readDocument(path, signal) {
+  const response = await get(url(path), { signal });
   return { body: await response.json(), tag: response.headers.get('ETag') };
 }
 
@@ -19,8 +19,8 @@ export async function writeDocument(path, body, tag) {
 export const removeDocument = (path, tag) => request('DELETE', url(path), { headers: tag ? { 'If-Match': tag } : {} });
 
 /** A plan as {plan, tag}. */
-export async function readPlan(part) {
-  const { body: plan, tag } = await readDocument(['plans', part]);
+export async function readPlan(part, signal) {
+  const { body: plan, tag } = await readDocument(['plans', part], signal);
   return { plan, tag };
 }
 

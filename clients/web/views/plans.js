@@ -128,7 +128,7 @@ export function mount(main, route) {
 
   async function open(part, text = '') {
     if (!await leaveForm()) return;
-    const { plan, tag } = await readPlan(part);
+    const { plan, tag } = await readPlan(part, signal);
     edit(plan, tag, part);
     if (text) sayStored(text, part);
     else say('');
@@ -141,7 +141,7 @@ export function mount(main, route) {
 
   async function copy(part) {
     if (!await leaveForm()) return;
-    const { plan } = await readPlan(part);
+    const { plan } = await readPlan(part, signal);
     edit({ ...plan, part: '' });
     say(t('plans.copy_of', { part }));
   }
