@@ -21,6 +21,7 @@ import { afterEach, beforeEach, describe, it } from 'node:test';
 
 import { close, findings, open, openIn, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
+import { hold } from './support/hold.mjs';
 import { scan as scanInto, typeSlowly } from './support/scanner.mjs';
 import { begin, browser, daemon, storedSince } from './support/stage.mjs';
 
@@ -177,16 +178,12 @@ describe('a station with a scanner', () => {
     await picture(page, 'station-envelope');
     await scan('25.010'); // by its size it would be good
     await verdict('rework');
-    let release;
-    await page.route('**/corrections', async (route) => {
-      await new Promise((resolve) => { release = resolve; });
-      await route.continue();
-    }, { times: 1 });
+    const release = await hold(page, '**/corrections');
     await page.keyboard.press('Control+z');
     await page.waitForSelector('.entry.correcting');
     await scan('25.009'); // so would its correction
     await page.waitForSelector('.verdict[data-verdict="waiting"]');
-    release();
+    await release();
     await verdict('rework');
     await scan('SN-E2');
     await page.selectOption('[name="size_operator"]', 'GN');
