@@ -47,7 +47,7 @@ describe('the connections', () => {
       assert.ok(await page.$$eval('.schema-fields .label', (all) => all.length) >= 5, kind);
       assert.deepEqual(await findings(page), [], kind);
     }
-    assert.equal(await page.textContent('.connections > .note'), 'No connections yet.');
+    await page.waitForFunction(() => document.querySelector('.connections > .note').textContent === 'No connections yet.');
   });
 
   it('tell what is wrong at its field, and store nothing', async () => {

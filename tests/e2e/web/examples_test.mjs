@@ -23,7 +23,7 @@ describe('the examples', () => {
       page = await open(browser, daemon, '#/programs');
       await page.click(`.empty button:has-text("${name}")`);
       await page.waitForSelector('.report .headline:has-text("Completed")');
-      assert.match(await page.textContent('.report'), done);
+      await page.waitForFunction((source) => new RegExp(source).test(document.querySelector('.report').textContent), done.source);
       assert.match(hash(), new RegExp(`^#/programs/nc_prog/${name}/${name}.h\\?.*run=r`));
       assert.notEqual(await page.inputValue('.run select'), '');
       if (name === '8255') await picture(page, 'programs-example', { fullPage: true });

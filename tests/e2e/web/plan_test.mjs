@@ -11,6 +11,7 @@ import { before, describe, it } from 'node:test';
 
 import { close, findings, launch, open, picture } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
+import { eventually } from './support/eventually.mjs';
 import { patient } from './support/hold.mjs';
 import { PAIR_MS, scan, scanUnasked } from './support/scanner.mjs';
 
@@ -209,7 +210,7 @@ describe('a plan', () => {
     await line('25.03');
     await verdict('reject');
     const buttons = () => page.$$eval('.choices-of button', (all) => all.map((one) => [one.textContent, one.getBoundingClientRect().height >= 64]));
-    assert.deepEqual(await buttons(), [['Insert worn', true], ['Clamped askew', true]]);
+    await eventually(async () => assert.deepEqual(await buttons(), [['Insert worn', true], ['Clamped askew', true]])); // as soon as the catalogue is there
     await picture(page, 'gauge-cause');
     assert.deepEqual(await findings(page), []);
     await line('25.01');

@@ -120,6 +120,7 @@ describe('the form of a plan', () => {
   it('is put in order by the keys of a grip and by dragging it; rows are copied, deleted and brought back', async () => {
     await daemon.send('PUT', '/v1/plans/ORDER', { characteristics: ['a', 'b', 'c', 'd'].map((name) => ({ name, designation: '25 H7' })) });
     await edit('ORDER');
+    await page.waitForFunction(() => [...document.querySelectorAll('.limits-said')].every(({ textContent }) => textContent)); // the rows stand where they stay
     await row(1).locator('.grip').focus();
     await page.keyboard.press('ArrowDown');
     assert.deepEqual(await names(), ['b', 'a', 'c', 'd']);
@@ -420,7 +421,7 @@ describe('catalogues of causes and actions', () => {
     await tell('Catalogue c-turning is stored: 2 causes, 3 actions.');
     assert.deepEqual(await catalogue('c-turning'), { causes: ['Wrong offset', 'Insert worn'], measures: ['Insert changed', 'Offset corrected', 'Part scrapped'] });
     await picture(page, 'plans-catalogue', { fullPage: true });
-    assert.deepEqual(await page.$$eval('datalist[id^="plan-catalogue"] option', (all) => all.map(({ value }) => value)), ['c-turning']); // a plan offers it at once
+    await page.waitForFunction(() => [...document.querySelectorAll('datalist[id^="plan-catalogue"] option')].map(({ value }) => value).join() === 'c-turning'); // a plan offers it without a reload
     await entry('Actions', 3).locator('.remove').click();
     await entry('Causes', 2).locator('input').fill('Wrong offset');
     await storeIt();

@@ -160,8 +160,8 @@ describe('the programs', () => {
     assert.deepEqual(await page.$$eval('.cm-lineNumbers .cm-gutterElement', (all) => all.slice(1).map(({ textContent }) => textContent)), ['0', '1', '2', '3', '']);
     assert.equal(await there(), text);
     assert.match(await page.textContent('.title'), /not stored yet/);
-    const colours = await page.$$eval('.cm-line >> nth=2 >> span', (words) => new Set(words.map((word) => getComputedStyle(word).color)).size);
-    assert.ok(colours > 1, 'Klartext has no colours');
+    const colours = () => page.$$eval('.cm-line >> nth=2 >> span', (words) => new Set(words.map((word) => getComputedStyle(word).color)).size);
+    await eventually(async () => assert.ok(await colours() > 1, 'Klartext has no colours')); // the editor reads a text when it has time
     // It is kept over a visit elsewhere, and stored with the line ends it had.
     await page.evaluate(() => { location.hash = '#/tables'; });
     await page.waitForSelector('.grid');

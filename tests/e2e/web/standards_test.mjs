@@ -149,8 +149,9 @@ describe('the numbers of other standards', () => {
     for (const [locale, title] of [['en-GB', 'Width'], ['de-DE', 'Breite'], ['nl-NL', 'Breedte'], ['it-IT', 'Larghezza']]) {
       page = await open(browser, daemon, '#/tables/din6885-1?find=25', { locale, viewport: { width: 390, height: 844 } });
       for (const name of ['iso492', 'iso2768-1', 'iso965-1', 'din6885-1']) {
+        await page.$eval('.desk', (before) => before.setAttribute('data-before', ''));
         await page.selectOption('#standard', name);
-        await page.waitForFunction((wanted) => document.querySelector('.standard tbody tr') && document.querySelector('#standard').value === wanted, name);
+        await page.waitForSelector('.desk:not([data-before]) .standard tbody tr');
         assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390, `${locale} ${name}`);
         assert.doesNotMatch(await page.textContent('main'), /tables\.|undefined|NaN|\b[a-z]+_[a-z]+/, `${locale} ${name}`);
       }

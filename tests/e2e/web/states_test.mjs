@@ -60,7 +60,7 @@ describe('the page', () => {
       await page.evaluate(() => { location.hash = '#/fit/30H7/g6'; });
       await page.waitForFunction(() => location.hash.startsWith('#/fit'));
       await page.evaluate((name) => { location.hash = `#/${name}`; }, view);
-      await page.waitForFunction(() => [...document.querySelectorAll('main :is(.note, .done)')].some((one) => one.checkVisibility() && one.textContent.trim()), undefined, { timeout: 15000 })
+      await page.waitForFunction(() => [...document.querySelectorAll('main :is(.note, .done)')].some((one) => one.checkVisibility() && one.textContent.trim()))
         .catch(async () => assert.fail(`nothing is said: ${await said(page)}`));
       await page.unrouteAll({ behavior: 'ignoreErrors' });
       await close(page);

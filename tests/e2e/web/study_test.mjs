@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';
 
-import { browserName, close, findings, hashOf, hasZones, open, picture } from './support/browser.mjs';
+import { browserName, close, drawn, findings, hashOf, hasZones, open, picture } from './support/browser.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 /** Ten parts, three operators, three trials: parts 2 µm apart, an operator half a micrometre off, trials 0.3 µm apart. */
@@ -57,7 +57,7 @@ describe('a gauge', () => {
     assert.equal(await page.$$eval('.study-grid tbody input', (all) => all.length), 90);
     assert.equal(await page.inputValue('[name="tolerance"]'), '0.021');
     await page.reload();
-    await page.waitForFunction(() => document.querySelector('.study-grid tbody th').textContent === 'P1');
+    await page.waitForFunction(() => document.querySelector('.study-grid tbody th')?.textContent === 'P1');
     assert.equal(await page.$$eval('.study-grid tbody input', (all) => all.length), 90);
     await page.click('.study .primary');
     await page.waitForSelector('.study-verdict');
@@ -86,6 +86,7 @@ describe('a gauge', () => {
     await picture(page, 'study');
     for (const width of [390, 3840]) {
       await page.setViewportSize({ width, height: 844 });
+      await drawn(page);
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width}`);
       const least = await page.$$eval('.framed text', (texts) => Math.min(...texts.map((text) => parseFloat(getComputedStyle(text).fontSize) * text.ownerSVGElement.getScreenCTM().a)));
       assert.ok(least >= 12, `${width}: ${least}`);
