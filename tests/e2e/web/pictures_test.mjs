@@ -194,6 +194,8 @@ describe('sheets of every view', () => {
     for (const colorScheme of ['light', 'dark']) {
       const page = await open(browser, daemon, `#/${address}`, { at: NOW, timezoneId: 'Europe/Berlin', colorScheme });
       await page.waitForSelector(mark);
+      await page.setViewportSize({ width: SIZES.at(-1)[0], height: SIZES.at(-1)[1] });
+      words = await wordsOf(page, `view-${view}`); // all is there before a picture is taken
       const row = [];
       for (const [width, height] of SIZES) {
         await page.setViewportSize({ width, height });
@@ -201,7 +203,6 @@ describe('sheets of every view', () => {
         row.push(`<img height="${ROW_PX}" src="data:image/png;base64,${(await page.screenshot()).toString('base64')}">`);
       }
       rows.push(`<p>${row.join('')}</p>`);
-      words = await wordsOf(page, `view-${view}`);
       await close(page);
     }
     await blank.setContent(`<style>body { margin: 0 } p { display: flex; gap: 6px; margin: 0 0 6px }</style><main style="width: max-content">${rows.join('')}</main>`);
