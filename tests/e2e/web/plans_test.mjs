@@ -9,7 +9,7 @@ import { sizeMembers, sizeTyped } from '../../../clients/web/plans/sizes.js';
 import { close, findings, hashOf, open, picture, saved } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
 import { drawingOf, dropFile, housing, workbookOf } from './support/drawing.mjs';
-import { holdAll } from './support/hold.mjs';
+import { holdAll, waits } from './support/hold.mjs';
 import { scan } from './support/scanner.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
@@ -196,15 +196,12 @@ describe('the form of a plan', () => {
     await visit();
     for (const [address, what, field] of [['#/plans/', 'plans', '.characteristics .of-name input'], ['#/plans?catalogue=', 'catalogues', '.catalogues [aria-label="Causes"] input']]) {
       const go = (name) => page.evaluate((hash) => { location.hash = hash; }, `${address}${name}`);
-      const isFirst = (request) => request.url().endsWith(`/v1/${what}/L-1`);
       await holdAll(page, `**/v1/${what}/L-1`);
-      const asked = page.waitForRequest(isFirst);
       await go('L-1');
-      await asked;
-      const givenUp = page.waitForEvent('requestfailed', isFirst);
+      await waits(page);
       await go('L-2');
-      await givenUp;
       await page.waitForFunction((selector) => document.querySelector(selector)?.value === 'of L-2', field);
+      await waits(page, false);
       assert.equal(hashOf(page), `${address}L-2`);
     }
     for (const name of ['L-1', 'L-2']) for (const what of ['plans', 'catalogues']) await daemon.send('DELETE', `/v1/${what}/${name}`);

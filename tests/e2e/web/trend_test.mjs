@@ -19,7 +19,7 @@ import { leastLettering, lettering, marksOf, openChart, untilPoints } from './su
 import { sleep } from './support/daemon.mjs';
 import { eventually } from './support/eventually.mjs';
 import { Gate } from './support/gate.mjs';
-import { holdAll } from './support/hold.mjs';
+import { holdAll, waits } from './support/hold.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 let page;
@@ -66,12 +66,12 @@ describe('a chart', () => {
     page = await open(browser, daemon, '#/trend?characteristic=late-A');
     await page.waitForSelector('#trend-characteristic option[value="late-C"]', { state: 'attached' });
     const go = await holdAll(page, '**/v1/measurements?*characteristic=late-B*');
-    const late = page.waitForEvent('requestfailed', (request) => request.url().includes('characteristic=late-B'));
     await page.selectOption('#trend-characteristic', 'late-B');
+    await waits(page);
     await page.selectOption('#trend-characteristic', 'late-C');
-    await late; // it is given up, so that its answer is nobody's
-    go();
     await untilPoints(page, 1);
+    await waits(page, false); // the other is given up: its answer is nobody's
+    go();
     assert.deepEqual([await page.inputValue('#trend-characteristic'), await page.inputValue('#trend-designation')], ['late-C', '30 H7']);
     assert.match(hash(), /characteristic=late-C&designation=30/);
     assert.match(await page.textContent('.trend > .scroll tbody tr'), /30\.010 mm/);

@@ -9,6 +9,9 @@ export async function patient(page) {
   await page.evaluate(wait);
 }
 
+/** Until the page says that it waits for an answer, or waits for none any more. */
+export const waits = (page, is = true) => page.waitForFunction((wanted) => (document.getElementById('loading').textContent !== '') === wanted, is);
+
 /** All that is asked there waits. @returns what lets it through */
 export async function holdAll(page, where) {
   let go;
