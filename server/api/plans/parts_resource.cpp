@@ -9,7 +9,7 @@
 #include "service/documents/document_service.hpp"
 #include "service/measurements/measurement_service.hpp"
 
-// A part: the newest value of each characteristic, compared with a plan.
+// A part: the value of each characteristic that was measured last, compared with a plan.
 
 namespace fitgauge::api {
 namespace {
@@ -210,9 +210,9 @@ void add_parts_routes(Routes& add) {
       {.summary = "A part: its verdict, what is missing, its values and open reactions",
        .description =
            "The value of each characteristic that was measured last, with corrections; the verdict "
-           "is the worst of "
-           "them. Without `plan` the plan with the name of the part is used, or the only plan that "
-           "has every measured characteristic; without a plan nothing is missing.",
+           "is the worst of them. Without `plan` the plan with the name of the part is used, or "
+           "the "
+           "only plan that has every measured characteristic; without a plan nothing is missing.",
        .parameters = {path_parameter("part", "part_id of its measurements"),
                       {.name = "plan",
                        .description = "Part number of the plan to hold it against"}},
