@@ -19,7 +19,7 @@ const isGone = (value) => ['refused', 'dropped'].includes(value.state);
 
 /**
  * Fires `change` with {value, elsewhere}. A value is {key, seq, state: waiting | stored | refused | dropped, shown, record, reason, root, by, past, partial}; the
- * first of a chain also has {cause, measure, operator, done, noted}.
+ * first of a chain also has {cause, measure, text, operator, done, noted}.
  */
 export class Ledger extends EventTarget {
   #values = new Map();
@@ -46,12 +46,17 @@ export class Ledger extends EventTarget {
     return this.#values.get(key);
   }
 
+  /** The value of a record; undefined where it was not measured here. */
+  ofRecord(id) {
+    return [...this.#values.values()].find(({ record }) => record?.id === id);
+  }
+
   /**
    * A value is on its way. @param shown {measured, part_id, characteristic, verdict, plan, round, reaction, catalogue, …}
    * @param of the record that it corrects: what it does not name it has of that
    */
   taken(key, shown, of) {
-    const old = of && this.#ofRecord(of);
+    const old = of && this.ofRecord(of.id);
     const { plan, round, characteristic, reaction, catalogue } = old?.shown ?? {};
     const inherited = old && { plan, round, characteristic, reaction, catalogue };
     this.#put({ key, state: 'waiting', shown: { ...inherited, ...shown }, root: old?.root ?? old?.key, partial: old?.partial });
@@ -76,8 +81,8 @@ export class Ledger extends EventTarget {
 
   /** The service tells of a record: a correction that was made at another place. */
   told(record) {
-    const old = record.correction_of && this.#ofRecord({ id: record.correction_of });
-    const isOwn = !old || (old.by ?? []).some((key) => this.get(key)?.state === 'waiting') || this.#ofRecord(record);
+    const old = record.correction_of && this.ofRecord(record.correction_of);
+    const isOwn = !old || (old.by ?? []).some((key) => this.get(key)?.state === 'waiting') || this.ofRecord(record.id);
     if (isOwn) return;
     const { measured_mm, part_id, characteristic, designation, measured_at } = record;
     this.taken(record.id, { measured: String(measured_mm), part_id, characteristic, designation, at: measured_at }, old.record);
@@ -85,10 +90,11 @@ export class Ledger extends EventTarget {
   }
 
   /** The service tells of a note: a cause or an action that was given elsewhere is given. */
-  noted({ measurement_id: id, cause, measure }) {
-    const value = (cause || measure) && this.#ofRecord({ id });
-    if (!value || this.#rootOf(value).done) return;
-    this.#change(this.#rootOf(value).key, (root) => Object.assign(root, { cause, measure, done: true, noted: [...root.noted ?? [], value.key] }));
+  noted({ measurement_id: id, cause, measure, text }) {
+    const value = this.ofRecord(id);
+    const isSaid = cause || measure || (text && !value?.shown.catalogue);
+    if (!value || !isSaid || this.#rootOf(value).done) return;
+    this.#change(this.#rootOf(value).key, (root) => Object.assign(root, { cause, measure, text, done: true, noted: [...root.noted ?? [], value.key] }));
   }
 
   /** What is said of a value; undefined takes it back. @param part cause | measure */
@@ -96,9 +102,13 @@ export class Ledger extends EventTarget {
     this.#change(this.#rootOf(this.get(key)).key, (root) => { if (!root.done) root[part] = text; });
   }
 
-  /** A reaction is done. @param operator who says it */
+  /** A reaction is done: without a cause and an action, the note says which. @param operator who says it */
   done(key, operator) {
-    this.#change(this.#rootOf(this.get(key)).key, (root) => { if (!root.done) Object.assign(root, { done: true, operator }); });
+    this.#change(this.#rootOf(this.get(key)).key, (root) => {
+      if (root.done) return;
+      const text = PARTS.some((part) => root[part]) ? undefined : root.shown.reaction;
+      Object.assign(root, { done: true, operator, text });
+    });
   }
 
   /** A sample goes on: its characteristic is still to be measured. */
@@ -111,10 +121,10 @@ export class Ledger extends EventTarget {
     for (const value of this.#of(plan, part)) this.#change(value.key, (each) => { each.past = true; });
   }
 
-  /** Cause, measure and whether the reaction is done. */
+  /** Cause, measure, text and whether the reaction is done. */
   said(value) {
-    const { cause, measure, done } = this.#rootOf(value);
-    return { cause, measure, done: Boolean(done) };
+    const { cause, measure, text, done } = this.#rootOf(value);
+    return { cause, measure, text, done: Boolean(done) };
   }
 
   verdictOf({ record, shown }) {
@@ -163,10 +173,6 @@ export class Ledger extends EventTarget {
     });
   }
 
-  #ofRecord({ id }) {
-    return [...this.#values.values()].find(({ record }) => record?.id === id);
-  }
-
   #rootOf(value) {
     return this.get(value.root) ?? this.get(value.key) ?? value;
   }
@@ -212,16 +218,16 @@ export class Ledger extends EventTarget {
 
   /** A record that is not good has what was said of its chain as its note: once, whichever of the two comes first. */
   #settle(root) {
-    if (!root.done || !PARTS.some((part) => root[part])) return;
+    if (!root.done || ![...PARTS, 'text'].some((part) => root[part])) return;
     let value = root;
     for (let next = this.#nextOf(value); next; next = this.#nextOf(value)) value = next;
     const verdict = this.verdictOf(value);
     if (isGone(value) || !verdict || verdict === 'good' || root.noted?.includes(value.key)) return;
-    const { cause, measure, operator } = root;
+    const { cause, measure, text, operator } = root;
     this.#change(root.key, (each) => { each.noted = [...each.noted ?? [], value.key]; });
     // Two tabs that send it at once send it under one key.
     this.line.addNote({
-      of: value.key, id: value.record?.id, key: `note-${value.key}`, body: toJson({ cause, measure, operator: operator || undefined }),
+      of: value.key, id: value.record?.id, key: `note-${value.key}`, body: toJson({ cause, measure, text, operator: operator || undefined }),
       shown: { measured: value.shown.measured, at: connection.now() },
     });
   }

@@ -84,16 +84,16 @@ export class Panel {
   }
 
   /** All of a part is measured: the worst of it, with what is not good by its name, as large as the verdict of a value. */
-  part({ part, verdict, bad, count, newest, isStored }) {
+  part({ part, verdict, bad, count, newest, provisional }) {
     const { record, shown } = newest.value;
-    const measured = record ? measuredText(record) : number(shown.measured);
-    const names = bad.map((one) => `${one.name} ${t(`verdict.${one.verdict}`)}`);
+    const measured = measuredText(record ?? { measured_mm: shown.measured });
+    const names = bad.map(({ name, verdict: of, value }) => [name || `${measuredText({ measured_mm: value.shown.measured })} mm`, t(`verdict.${of}`)].join(' '));
     this.#show(verdict, [
       verdictShape(verdict),
       h('div.said', word(t(`verdict.${verdict}`)), h('p.measured', [part && t('panel.part', { part }), ...names].filter(Boolean).join(' · ')),
         !names.length && h('p.distance', t('plan.finished', { count })),
-        h('p.distance', [`${newest.name} ${measured} mm`, names.length && t(`verdict.${newest.verdict}`), record && distanceText(record)].filter(Boolean).join(' · '))),
-    ].filter(Boolean), isStored ? undefined : 'away');
+        h('p.distance', [`${newest.name} ${measured} mm`.trim(), names.length && t(`verdict.${newest.verdict}`), record && distanceText(record)].filter(Boolean).join(' · '))),
+    ].filter(Boolean), provisional);
     this.isOfPart = true;
   }
 

@@ -10,12 +10,12 @@ import { randomText } from '../queue.js';
 import { readJson, store } from '../stored.js';
 import { limitsText, verdictShape } from '../verdict.js';
 import { held } from './held.js';
+import { PartRecord, WORST_FIRST } from './part_record.js';
 import { Samples } from './samples.js';
 
 const KEPT_LIST = 'plans';
 const KEPT_STATE = 'plan-at';
 const LONGEST_SLEEP_MS = 60000;
-const WORST_FIRST = ['reject', 'rework', 'indeterminate', 'good'];
 
 const given = (um) => (um === undefined ? undefined : nmFromUm(um));
 
@@ -57,11 +57,12 @@ async function planOf(part) {
 export class Plan {
   /**
    * @param ledger the values and their state
-   * @param onStep is told that another characteristic is next; @param onChoose takes a part number, or '' for none
+   * @param onStep is told that another characteristic is next; @param onChoose takes a part number, or '' for none; @param onRecord is told what the service has of the part
    * @param machine whose samples these are; @param subject the part that is measured; @param leaving ends it
    */
-  constructor({ ledger, onStep, onChoose, machine, subject, leaving }) {
+  constructor({ ledger, onStep, onChoose, onRecord, machine, subject, leaving }) {
     Object.assign(this, { ledger, onStep });
+    this.record = new PartRecord(ledger, onRecord);
     this.subjectNow = subject;
     this.samples = new Samples({ machine, leaving, onChange: () => this.#renew() });
     leaving.addEventListener('abort', () => clearTimeout(this.timer));
@@ -251,15 +252,9 @@ export class Plan {
   /** How the part is when all is measured, by its worst value; null before that, and while one has no verdict. */
   get result() {
     if (!this.finished || this.subject !== this.subjectNow() || !this.#isBegun) return null;
-    const measured = this.plan.characteristics.map(({ name }, at) => ({ name, value: this.#worstOf(at) })).filter(({ value }) => value)
+    const own = this.plan.characteristics.map(({ name }, at) => ({ name, value: this.#worstOf(at) })).filter(({ value }) => value)
       .map(({ name, value }) => ({ name, value, verdict: this.ledger.verdictOf(value) }));
-    const verdict = WORST_FIRST.find((word) => measured.some((each) => each.verdict === word));
-    if (measured.some((each) => !each.verdict)) return null;
-    const newest = measured.reduce((one, other) => (other.value.seq > one.value.seq ? other : one));
-    return {
-      part: this.subject, verdict, bad: measured.filter((each) => each.verdict !== 'good'), count: measured.length, newest,
-      isStored: measured.every(({ value }) => value.record),
-    };
+    return own.every(({ verdict }) => verdict) ? this.record.result(this.subject, this.part, own) : null;
   }
 
   #clear() {

@@ -15,6 +15,7 @@ import { Job } from '../gauge/job.js';
 import { ledger } from '../gauge/ledger.js';
 import { NumberPad } from '../gauge/number_pad.js';
 import { Panel } from '../gauge/panel.js';
+import { askOfOpen } from '../gauge/part_record.js';
 import { pictureOf } from '../gauge/picture.js';
 import { ownLimits, Plan } from '../gauge/plan.js';
 import { Reactions } from '../gauge/reaction.js';
@@ -79,7 +80,7 @@ export function mount(main, route) {
 
   const plan = new Plan({
     ledger,
-    onStep: (one) => job.follow(one, ownLimits(one)), onChoose: (part) => choosePlan(part),
+    onStep: (one) => job.follow(one, ownLimits(one)), onChoose: (part) => choosePlan(part), onRecord: () => sayPartAnew(),
     machine: () => job.options.machine, subject: () => job.part, leaving: leaving.signal,
   });
   let stepped = false;
@@ -88,6 +89,18 @@ export function mount(main, route) {
   function sayPart() {
     const result = plan.result;
     if (result) panel.part(result);
+  }
+
+  function sayPartAnew() {
+    if (!panel.isOfPart) return;
+    if (plan.result) sayPart();
+    else next();
+  }
+
+  /** The part was measured elsewhere, or may have been. */
+  function partIsOld() {
+    plan.record.forget();
+    sayPartAnew();
   }
 
   /** A value without an answer. While the service is away it may be the last of a part. */
@@ -216,6 +229,8 @@ export function mount(main, route) {
   addEventListener('strayline', ({ detail: { text, burst } }) => entry.take(text, burst), { signal });
   queue.addEventListener('stored', ({ detail: { entry: { key, shown }, record } }) => {
     recent.add(key);
+    // It may have been told of before its own answer came.
+    if (ledger.stateOf(ledger.get(key)) === 'open') askOfOpen(ledger);
     plan.samples.take(record);
     badge.named(record.caller);
     if (shown.late) arrivals.stored(record);
@@ -239,9 +254,7 @@ export function mount(main, route) {
     recent.draw(value);
     reactions.draw();
     plan.changed(value, elsewhere);
-    if (!panel.isOfPart) return;
-    if (plan.result) sayPart();
-    else next();
+    sayPartAnew();
   }, { signal });
   function sayUnkept() {
     unkept.textContent = connection.up || (isKept() && queue.isKept) ? '' : t(isKept() ? 'gauge.unstored' : 'gauge.unkept');
@@ -249,6 +262,7 @@ export function mount(main, route) {
   queue.addEventListener('change', sayUnkept, { signal });
   connection.addEventListener('change', () => {
     sayUnkept();
+    if (connection.up) partIsOld();
     if (connection.up || !queue.values.length) return;
     for (const waiting of queue.entries) queue.mark(waiting, { late: true });
     const shown = queue.values.find(({ key }) => key === panel.of);
@@ -275,11 +289,22 @@ export function mount(main, route) {
   follow(leaving.signal, ({ type, data }) => {
     if (type === 'measurement.recorded') {
       const record = JSON.parse(data);
+      const shown = ledger.get(panel.of)?.record;
       ledger.told(record);
+      // What is shown was corrected elsewhere.
+      if (ledger.get(record.id) && shown?.id === record.correction_of && !panel.isOfPart) {
+        panel.begin(record.id);
+        panel.judged(record);
+      }
       plan.samples.told(record);
+      if (record.part_id === job.part && !ledger.ofRecord(record.id)) partIsOld();
     }
     if (type === 'note.added') ledger.noted(JSON.parse(data));
-    if (type === 'resync') plan.samples.renew();
+    if (type === 'resync') {
+      plan.samples.renew();
+      askOfOpen(ledger);
+      partIsOld();
+    }
     if (type !== 'table.changed' && type !== 'resync') return;
     forgetAtHand();
     prepare();
@@ -304,5 +329,6 @@ export function mount(main, route) {
   if (job.designation) entry.focus();
   else job.input.focus();
   entry.takeFirst();
+  askOfOpen(ledger);
   return () => leaving.abort();
 }

@@ -99,7 +99,7 @@ describe('a plan', () => {
     await measure('flange', '2.051', 'rework', '[data-provisional="away"]');
     await page.click('.tiles-of-plan li:last-child button');
     await measure('depth', '11.9', 'rework', '[data-provisional="away"]'); // of the part: its flange is to be reworked
-    await page.waitForFunction(() => /flange Rework.*depth 11\.9 mm · Good/.test(document.querySelector('.verdict').textContent));
+    await page.waitForFunction(() => /flange Rework.*depth 11\.900 mm · Good/.test(document.querySelector('.verdict').textContent));
     await daemon.start();
     await page.waitForSelector('.link[data-state="up"]');
     assert.deepEqual((await daemon.stored()).slice(-4).map(({ characteristic, verdict: word }) => [characteristic, word]),

@@ -1,0 +1,75 @@
+/** Asks the service what it has and no event told of: the page was closed, or another station was there. */
+
+import { getJson, PATIENCE_MS, url } from '../api.js';
+
+export const WORST_FIRST = ['reject', 'rework', 'indeterminate', 'good'];
+
+const ask = (path, query) => getJson(url(path, query), { timeout: PATIENCE_MS, asks: false });
+const isOld = (state) => ['corrected', 'moved'].includes(state);
+const timeOf = ({ record, shown }) => new Date(record?.measured_at ?? shown.at).getTime();
+
+/** Corrections and notes that were made elsewhere, of the values whose reaction is to be done. */
+export async function askOfOpen(ledger) {
+  await Promise.allSettled(ledger.open.filter(({ record }) => record).map(({ record }) => askOf(ledger, record.id)));
+}
+
+async function askOf(ledger, id) {
+  const [{ corrected_by: newer }, { notes }] = await Promise.all([ask(['measurements', id]), ask(['measurements', id, 'notes'])]);
+  for (const note of notes) ledger.noted({ measurement_id: id, ...note });
+  if (!newer) return;
+  ledger.told(await ask(['measurements', newer]));
+  await askOf(ledger, newer);
+}
+
+/** The values of a part that count at the service, asked for once in every state of the part at this station. */
+export class PartRecord {
+  #of;
+  #values;
+
+  /** @param ledger the values of this station; @param onAnswer is told of an answer */
+  constructor(ledger, onAnswer) {
+    Object.assign(this, { ledger, onAnswer });
+  }
+
+  /** The part has changed elsewhere, or may have. */
+  forget() {
+    this.#of = undefined;
+  }
+
+  /**
+   * How a part is, by its worst value, of this station or of others: {part, verdict, bad, count, newest, provisional}; `away` as the service has not
+   * answered, `storing` while it is asked.
+   * @param own its values in force here, as {name, value, verdict}: of a name the service counts another one that was measured later
+   */
+  result(part, plan, own) {
+    const isStored = own.every(({ value }) => value.record);
+    const others = isStored && part ? this.#others(part, plan, own) : [];
+    const measured = [...own.filter(({ name }) => !others?.some((other) => other.name === name)), ...others ?? []];
+    const verdict = WORST_FIRST.find((word) => measured.some((each) => each.verdict === word));
+    const newest = measured.reduce((one, other) => (timeOf(other.value) > timeOf(one.value) ? other : one));
+    return { part, verdict, bad: measured.filter((each) => each.verdict !== 'good'), count: measured.length, newest, provisional: !isStored || others === null ? 'away' : others ? undefined : 'storing' };
+  }
+
+  /** The values of others; undefined while they are asked for, null where there was no answer. */
+  #others(part, plan, own) {
+    const state = [part, plan, ...own.map(({ value }) => value.record.id)].join('\n');
+    if (state !== this.#of) this.#ask(state, part, plan);
+    return this.#values && this.#values.filter((one) => one.verdict && this.#isOther(one, own))
+      .map(({ characteristic, verdict, measured_mm: measured, measured_at: at }) => ({ name: characteristic ?? '', verdict, value: { shown: { measured, at } } }));
+  }
+
+  /** Whether a value of the service is none of this station's that count here, and none that was corrected since. */
+  #isOther({ measurement_id: id, characteristic }, own) {
+    const here = this.ledger.ofRecord(id);
+    return !here || (!isOld(this.ledger.stateOf(here)) && (here.past || !own.some(({ name }) => name === characteristic)));
+  }
+
+  async #ask(state, part, plan) {
+    this.#of = state;
+    this.#values = undefined;
+    const found = await ask(['parts', part], { plan }).catch(() => null);
+    if (this.#of !== state) return;
+    this.#values = found && found.characteristics;
+    this.onAnswer();
+  }
+}
