@@ -24,7 +24,7 @@ async function askOf(ledger, id) {
 /** The values of a part that count at the service, asked for once in every state of the part at this station. */
 export class PartRecord {
   #of;
-  #values;
+  #found;
 
   /** @param ledger the values of this station; @param onAnswer is told of an answer */
   constructor(ledger, onAnswer) {
@@ -54,7 +54,11 @@ export class PartRecord {
   #others(part, plan, own) {
     const state = [part, plan, ...own.map(({ value }) => value.record.id)].join('\n');
     if (state !== this.#of) this.#ask(state, part, plan);
-    return this.#values && this.#values.filter((one) => one.verdict && this.#isOther(one, own))
+    if (!this.#found) return this.#found;
+    const { characteristics, missing } = this.#found;
+    // The service has lost what it had stored.
+    if (own.some(({ name }) => missing.includes(name))) return null;
+    return characteristics.filter((one) => one.verdict && this.#isOther(one, own))
       .map(({ characteristic, verdict, measured_mm: measured, measured_at: at }) => ({ name: characteristic ?? '', verdict, value: { shown: { measured, at } } }));
   }
 
@@ -66,10 +70,10 @@ export class PartRecord {
 
   async #ask(state, part, plan) {
     this.#of = state;
-    this.#values = undefined;
+    this.#found = undefined;
     const found = await ask(['parts', part], { plan }).catch(() => null);
     if (this.#of !== state) return;
-    this.#values = found && found.characteristics;
+    this.#found = found;
     this.onAnswer();
   }
 }

@@ -122,6 +122,24 @@ describe('a part that is handled elsewhere', () => {
     await close(page);
   });
 
+  it('stays unconfirmed while the service lacks a value that it had stored', async () => {
+    await station('E-6');
+    await page.route('**/v1/parts/*', async (route) => {
+      const response = await route.fetch();
+      const found = await response.json();
+      await route.fulfill({ response, json: { ...found, missing: ['bore-B'] } });
+    });
+    for (const value of ['25.01', '40.01', '120.1']) await line(value);
+    await page.waitForSelector('.verdict[data-verdict="good"][data-provisional="away"]');
+    await page.unroute('**/v1/parts/*');
+    await daemon.stop();
+    await page.waitForSelector('.link[data-state="away"]');
+    await daemon.start();
+    await says('GoodPart E-6All 3 measured');
+    page.errors.length = 0;
+    await close(page);
+  });
+
   it('shows a value that was corrected elsewhere as it is now', async () => {
     await station('E-5');
     await line('25.04');
