@@ -18,7 +18,7 @@ const CONTACT_PIXELS = 11;
 const AXES = ['X', 'Y', 'Z'];
 /** From where the part is seen. */
 const VIEWS = { corner: [0.45, -0.75, 0.5], top: [0, -1e-4, 1], front: [0, -1, 0], right: [1, 0, 0] };
-const SEEN = 1.15; // of the size of what matters
+const SEEN = 1.2; // of the size of what matters
 
 /**
  * {element, show, destroy}: `show` puts the stylus to the end of a move.
@@ -82,7 +82,8 @@ export function pathScene(trace, features, { canvas, context, radius = STYLUS_RA
     const { clientWidth: width, clientHeight: height } = canvas;
     if (!width || !height) return;
     renderer.setSize(width, height, false);
-    const half = (SEEN * size) / 2 / Math.min(1, width / height);
+    const [across, upright] = spreadOf(camera, bounds);
+    const half = SEEN * Math.max(upright, (across * height) / width, size / 20);
     Object.assign(camera, { left: -half * width / height, right: half * width / height, top: half, bottom: -half });
     camera.updateProjectionMatrix();
     draw();
@@ -122,7 +123,7 @@ export function pathScene(trace, features, { canvas, context, radius = STYLUS_RA
   function lookFrom(name) {
     lookAt(camera, controls, bounds, size, VIEWS[name]);
     controls.update();
-    draw();
+    fit();
   }
   addEventListener('beforeprint', fit);
 
@@ -201,10 +202,21 @@ function disc() {
 const vector = (point) => new Vector3(...AXES.map((axis) => point[axis]));
 const extentOf = ({ low, high }) => vector(low).distanceTo(vector(high));
 
+/** How far the box reaches from its middle, as the camera stands: [across, upright] in mm. */
+function spreadOf({ matrixWorld }, { low, high }) {
+  const half = vector(high).sub(vector(low)).multiplyScalar(0.5);
+  return [0, 1].map((axis) => {
+    const { x, y, z } = new Vector3().setFromMatrixColumn(matrixWorld, axis);
+    return Math.abs(x) * half.x + Math.abs(y) * half.y + Math.abs(z) * half.z;
+  });
+}
+
 /** From a side, so that all that matters is in sight. */
 function lookAt(camera, controls, { low, high }, size, from) {
   controls.target.addVectors(vector(low), vector(high)).multiplyScalar(0.5);
   camera.position.copy(controls.target).add(new Vector3(...from).normalize().multiplyScalar(4 * size));
   Object.assign(camera, { near: size / 100, far: size * 20, zoom: 1 });
   camera.updateProjectionMatrix();
+  camera.lookAt(controls.target);
+  camera.updateMatrixWorld();
 }
