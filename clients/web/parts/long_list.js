@@ -35,7 +35,7 @@ export class LongList {
     Object.assign(this, { table, read, rowOf, count, headOf, onPlace, onProblem });
     this.latest = new Latest(leaving);
     [this.body] = table.tBodies;
-    this.scroller = h('div.scroll.records', { tabindex: 0, role: 'region', 'aria-label': name, onscroll: () => this.#look() }, table);
+    this.scroller = h('div.scroll.records', { tabindex: 0, role: 'region', 'aria-label': name, onscroll: () => this.#look(), onkeydown: (event) => this.#key(event) }, table);
     this.input = h('input', { type: 'number', name: 'row', min: 1, onchange: () => this.#goTo(this.input.valueAsNumber - 1 || 0) });
     this.total = h('span.hint');
     this.place = h('label.place', { hidden: true }, h('span.label', t('parts.row')), this.input, this.total);
@@ -138,6 +138,16 @@ export class LongList {
   /** The first row in sight. */
   #first(from) {
     return this.held.findIndex(({ element }) => element.getBoundingClientRect().bottom > from + ROUNDING_PX);
+  }
+
+  /** A busy browser may lose its own scroll by a key while rows are added: one that is set stays. */
+  #key(event) {
+    const { scroller } = this;
+    const page = this.#edges().height;
+    const to = { Home: 0, End: scroller.scrollHeight, PageUp: scroller.scrollTop - page, PageDown: scroller.scrollTop + page }[event.key];
+    if (to === undefined || event.target !== scroller) return;
+    event.preventDefault();
+    scroller.scrollTop = to;
   }
 
   /** Reads what comes into sight, and says where it is. */
