@@ -118,7 +118,7 @@ export class Ledger extends EventTarget {
 
   /** A part is measured anew: its values so far are of the past. */
   again(plan, part) {
-    for (const value of this.#of(plan, part)) this.#change(value.key, (each) => { each.past = true; });
+    for (const value of this.of(plan, part)) this.#change(value.key, (each) => { each.past = true; });
   }
 
   /** Cause, measure, text and whether the reaction is done. */
@@ -150,22 +150,23 @@ export class Ledger extends EventTarget {
 
   /** The value in force of a characteristic at a part, or at a round where parts have no names. */
   inForce(plan, part, round, name) {
-    return this.#of(plan, part, round).filter(({ shown }) => shown.characteristic === name).at(-1);
+    return this.of(plan, part, round).filter(({ shown }) => shown.characteristic === name).at(-1);
   }
 
   /** The values in force of a sample: the newest, and those before it after which the sample went on. */
   sampleInForce(plan, part, round, name) {
-    const all = this.#of(plan, part, round).filter(({ shown }) => shown.characteristic === name);
+    const all = this.of(plan, part, round).filter(({ shown }) => shown.characteristic === name);
     all.sort((one, other) => this.#rootOf(one).seq - this.#rootOf(other).seq);
     return all.slice(all.findLastIndex((value, i) => i < all.length - 1 && !value.partial) + 1);
   }
 
   /** When a part was measured last, by its values in force: a date, or undefined. */
   lastAt(plan, part) {
-    return this.#of(plan, part).at(-1)?.shown.at;
+    return this.of(plan, part).at(-1)?.shown.at;
   }
 
-  #of(plan, part, round) {
+  /** The values in force of a part, or of a round where parts have no names. */
+  of(plan, part, round) {
     return [...this.#values.values()].filter((value) => {
       const { shown } = value;
       const isHere = shown.plan === plan && (part ? shown.part_id === part : !shown.part_id && shown.round === round);

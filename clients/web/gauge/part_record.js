@@ -8,17 +8,20 @@ const ask = (path, query) => getJson(url(path, query), { timeout: PATIENCE_MS, a
 const isOld = (state) => ['corrected', 'moved'].includes(state);
 const timeOf = ({ record, shown }) => new Date(record?.measured_at ?? shown.at).getTime();
 
-/** Corrections and notes that were made elsewhere, of the values whose reaction is to be done. */
-export async function askOfOpen(ledger) {
-  await Promise.allSettled(ledger.open.filter(({ record }) => record).map(({ record }) => askOf(ledger, record.id)));
+/** Corrections of values and notes of what is to be done, as they were made elsewhere. @param values of the ledger */
+export async function askOfValues(ledger, values) {
+  await Promise.allSettled(values.filter(({ record }) => record).map((value) => askOf(ledger, value)));
 }
 
-async function askOf(ledger, id) {
-  const [{ corrected_by: newer }, { notes }] = await Promise.all([ask(['measurements', id]), ask(['measurements', id, 'notes'])]);
+async function askOf(ledger, value) {
+  const { id } = value.record;
+  const isOpen = ledger.stateOf(value) === 'open';
+  const [{ corrected_by: newer }, { notes }] = await Promise.all([ask(['measurements', id]), isOpen ? ask(['measurements', id, 'notes']) : { notes: [] }]);
   for (const note of notes) ledger.noted({ measurement_id: id, ...note });
   if (!newer) return;
   ledger.told(await ask(['measurements', newer]));
-  await askOf(ledger, newer);
+  const next = ledger.ofRecord(newer);
+  if (next) await askOf(ledger, next);
 }
 
 /** The values of a part that count at the service, asked for once in every state of the part at this station. */

@@ -10,7 +10,7 @@ import { randomText } from '../queue.js';
 import { readJson, store } from '../stored.js';
 import { limitsText, verdictShape } from '../verdict.js';
 import { held } from './held.js';
-import { PartRecord, WORST_FIRST } from './part_record.js';
+import { askOfValues, PartRecord, WORST_FIRST } from './part_record.js';
 import { Samples } from './samples.js';
 
 const KEPT_LIST = 'plans';
@@ -150,6 +150,7 @@ export class Plan {
     this.note.textContent = missing.length ? t('plan.missing', { part: this.subject || t('part.none'), names: missing.join(', ') }) : '';
     this.subject = this.subjectNow();
     this.#clear();
+    this.askElsewhere();
     this.#sayMeasured();
     this.#goTo(this.#open ?? this.#next(0));
   }
@@ -268,6 +269,11 @@ export class Plan {
     return this.#isBegun ? this.plan.characteristics.filter((_, i) => !this.#isTaken(i) && this.#standing(i).due).map(({ name }) => name) : [];
   }
 
+  /** What became of the values of this part while nobody listened. */
+  askElsewhere() {
+    if (this.plan && this.subject) askOfValues(this.ledger, this.ledger.of(this.part, this.subject));
+  }
+
   /** Says when a part was measured that comes again, and lets it be measured anew. */
   #sayMeasured() {
     const { plan, subject } = this;
@@ -307,6 +313,7 @@ export class Plan {
     const subject = this.subjectNow();
     if (kept.part !== this.part || kept.subject !== subject || !this.plan.characteristics[kept.at]) return false;
     Object.assign(this, { subject, round: kept.round });
+    this.askElsewhere();
     this.go(kept.at, kept.finished);
     this.#renew();
     return true;

@@ -15,7 +15,7 @@ import { Job } from '../gauge/job.js';
 import { ledger } from '../gauge/ledger.js';
 import { NumberPad } from '../gauge/number_pad.js';
 import { Panel } from '../gauge/panel.js';
-import { askOfOpen } from '../gauge/part_record.js';
+import { askOfValues } from '../gauge/part_record.js';
 import { pictureOf } from '../gauge/picture.js';
 import { ownLimits, Plan } from '../gauge/plan.js';
 import { Reactions } from '../gauge/reaction.js';
@@ -96,6 +96,8 @@ export function mount(main, route) {
     if (plan.result) sayPart();
     else next();
   }
+
+  const askOfOpen = () => askOfValues(ledger, ledger.open);
 
   /** The part was measured elsewhere, or may have been. */
   function partIsOld() {
@@ -230,7 +232,7 @@ export function mount(main, route) {
   queue.addEventListener('stored', ({ detail: { entry: { key, shown }, record } }) => {
     recent.add(key);
     // It may have been told of before its own answer came.
-    if (ledger.stateOf(ledger.get(key)) === 'open') askOfOpen(ledger);
+    if (ledger.stateOf(ledger.get(key)) === 'open') askOfOpen();
     plan.samples.take(record);
     badge.named(record.caller);
     if (shown.late) arrivals.stored(record);
@@ -302,7 +304,8 @@ export function mount(main, route) {
     if (type === 'note.added') ledger.noted(JSON.parse(data));
     if (type === 'resync') {
       plan.samples.renew();
-      askOfOpen(ledger);
+      askOfOpen();
+      plan.askElsewhere();
       partIsOld();
     }
     if (type !== 'table.changed' && type !== 'resync') return;
@@ -329,6 +332,6 @@ export function mount(main, route) {
   if (job.designation) entry.focus();
   else job.input.focus();
   entry.takeFirst();
-  askOfOpen(ledger);
+  askOfOpen();
   return () => leaving.abort();
 }

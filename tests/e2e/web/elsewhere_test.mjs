@@ -115,6 +115,7 @@ describe('a part that is handled elsewhere', () => {
     const [, second] = await storedOf('E-4', 5);
     await closedFor('E-4', () => correct(second.id, 40.05));
     await says('RejectPart E-4 · bore-B Reject');
+    await page.waitForSelector('.tiles-of-plan li:nth-child(2) [data-verdict="reject"]');
     assert.equal(await verdictOf('E-4'), 'reject');
     await closedFor('E-4', () => daemon.send('PUT', '/v1/plans/4711-A', { characteristics: [{ name: 'bore-A', designation: '25 H7' }, { name: 'length', nominal_mm: 120, feature: 'shaft', upper_um: 300, lower_um: -300 }] }));
     await says('RejectPart E-4 · bore-B Reject');
