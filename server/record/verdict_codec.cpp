@@ -65,22 +65,6 @@ constexpr std::array<Applicable, 2> kRuleMembers = {{
     {"probability", "conformance"},
 }};
 
-using KnownU = gauging::KnownUncertainty;
-
-/// √(u² + added²) with ν (u_c / u)⁴ degrees of freedom.
-KnownU known_of(const RuleWords& words) {
-  const Length given = words.standard_uncertainty.value_or(Length());
-  KnownU known(gauging::combined_uncertainty(given, words.added_uncertainty.value_or(0)));
-  if (!words.degrees_of_freedom) return known;
-  constexpr double kPicometres = 1000;
-  const double u = static_cast<double>(given.count()) * kPicometres;
-  const double ratio = static_cast<double>(words.added_uncertainty.value_or(0)) / u;
-  const double widened = given == Length() ? 1 : 1 + ratio * ratio;
-  known.degrees_of_freedom =
-      static_cast<double>(*words.degrees_of_freedom) / 1e6 * widened * widened;
-  return known;
-}
-
 }  // namespace
 
 void write_warnings(JsonWriter& json, std::span<const Warning> warnings) {
@@ -147,10 +131,31 @@ Result<void> check_uncertainty(Length uncertainty) {
                "uncertainty_um"};
 }
 
+gauging::KnownUncertainty known_uncertainty(const RuleWords& words) {
+  const Length given = words.standard_uncertainty.value_or(Length());
+  gauging::KnownUncertainty known(
+      gauging::combined_uncertainty(given, words.added_uncertainty.value_or(0)));
+  if (!words.degrees_of_freedom) return known;
+  constexpr double kPicometres = 1000;
+  const double u = static_cast<double>(given.count()) * kPicometres;
+  const double ratio = static_cast<double>(words.added_uncertainty.value_or(0)) / u;
+  const double widened = given == Length() ? 1 : 1 + ratio * ratio;
+  known.degrees_of_freedom =
+      static_cast<double>(*words.degrees_of_freedom) / 1e6 * widened * widened;
+  return known;
+}
+
+gauging::KnownUncertainty known_uncertainty(const app::Measurement& m) {
+  if (!m.standard_uncertainty) return Length();
+  return known_uncertainty({.standard_uncertainty = m.standard_uncertainty,
+                            .degrees_of_freedom = m.degrees_of_freedom,
+                            .added_uncertainty = m.added_uncertainty});
+}
+
 Result<gauging::DecisionRule> make_rule(const RuleWords& words) {
   using Kind = gauging::DecisionRule::Kind;
   if (words.kind == Kind::Simple && !words.probability_millionths) return gauging::DecisionRule();
-  const KnownU known = known_of(words);
+  const gauging::KnownUncertainty known = known_uncertainty(words);
   gauging::CoverageFactor factor;
   std::optional<std::int64_t> millionths = words.coverage_millionths;
   if (!millionths && words.kind == Kind::GuardBand && words.degrees_of_freedom) {

@@ -11,7 +11,7 @@
 #include "base/result.hpp"
 #include "metrology/gauging/conformance.hpp"
 #include "metrology/gauging/gauge.hpp"
-#include "record/fields.hpp"
+#include "record/measurement.hpp"
 
 namespace fitgauge::api {
 
@@ -68,6 +68,11 @@ struct RuleWords {
   std::optional<std::int64_t> degrees_of_freedom{};  ///< in millionths
   std::optional<std::int64_t> added_uncertainty{};   ///< by the correction to 20 °C, in pm
 };
+/// √(u² + added²) with its effective degrees of freedom, ν (u_c / u)⁴: what decides.
+gauging::KnownUncertainty known_uncertainty(const RuleWords& words);
+/// Of a record; u is 0 without an uncertainty.
+gauging::KnownUncertainty known_uncertainty(const app::Measurement& measurement);
+
 /// The rule decides with the uncertainty that the correction to 20 °C is added to, and with its
 /// effective degrees of freedom (JCGM 100:2008, G.4.1): those that are added are without end. A
 /// guard band without a factor has t(0.9545, ν), 2 without degrees of freedom.

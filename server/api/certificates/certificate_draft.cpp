@@ -12,6 +12,7 @@
 #include "base/json/json_writer.hpp"
 #include "base/length.hpp"
 #include "record/record.hpp"
+#include "record/verdict_codec.hpp"
 #include "tables/standards/designated_limits.hpp"
 
 namespace fitgauge::api {
@@ -109,22 +110,17 @@ std::string rule_words(const gauging::DecisionRule& rule) {
 /// Writes `1.6 (k 2, 95.45 %)`: the expanded uncertainty with its factor and coverage. A record
 /// without a factor gets the factor for 95.45 %.
 std::string uncertainty_text(const app::Measurement& m) {
-  using gauging::DecisionRule;
-  const auto kind = m.rule.kind();
-  const Length u = kind == DecisionRule::Kind::Simple ? m.standard_uncertainty.value_or(Length())
-                                                      : m.rule.standard_uncertainty();
+  const gauging::KnownUncertainty known = known_uncertainty(m);
+  const Length u = known.u;
   if (u == Length()) return "";
   constexpr std::int64_t kOne = 1'000'000;
-  const double degrees =
-      m.degrees_of_freedom ? static_cast<double>(*m.degrees_of_freedom) / 1e6 : gauging::kExactly;
-  const std::int64_t k = kind == DecisionRule::Kind::GuardBand
-                             ? m.rule.coverage_factor().millionths()
-                         : m.coverage_factor    ? m.coverage_factor->millionths()
-                         : m.degrees_of_freedom ? gauging::coverage_millionths(degrees)
-                                                : 2 * kOne;
+  const std::int64_t k = m.coverage_factor ? m.coverage_factor->millionths()
+                         : m.degrees_of_freedom
+                             ? gauging::coverage_millionths(known.degrees_of_freedom)
+                             : 2 * kOne;
   const double covered =
       gauging::conformance_probability({Length::nanometres(k), Length::nanometres(-k)}, Length(),
-                                       {Length::nanometres(kOne), degrees});
+                                       {Length::nanometres(kOne), known.degrees_of_freedom});
   constexpr double kCounted = 9e12;  // nm: beyond it the product does not fit
   const double about = static_cast<double>(u.count()) * static_cast<double>(k) / 1e6;
   return fmt::format("{} (k {:.4g}, {:.2f} %)",

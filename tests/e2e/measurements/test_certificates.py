@@ -141,6 +141,16 @@ class Certificates(DaemonTest):
             self.assertIn(word, text)
         self.assertNotIn("R4", text.split("Measured at")[0])
 
+    def test_u_of_a_size_at_20_degrees_is_that_which_decides(self):
+        """u_c = √(1² + 0.575² + 2.309²) µm with 2 u_c⁴ = 88.7 degrees of freedom, by hand."""
+        given = {"designation": "100 H9", "measured_mm": "100.07", "order": "WO-T", "uncertainty_um": 1, "degrees_of_freedom": 2,
+                 "temperature_c": 60, "part_material": "steel", "temperature_uncertainty_c": "0.5"}
+        for rule in ({}, {"rule": "guard_band"}, {"rule": "guard_band", "coverage_factor": 2}, {"rule": "conformance"}, {"coverage_factor": 3}):
+            self.daemon.measure({**given, **rule})
+        figures = re.findall(r"[\d.]+ \(k [\d.]+, [\d.]+", self.flat("order=WO-T").split("Measured at", 1)[1])
+        self.assertEqual(figures, ["5.236 (k 2.029, 95.45", "5.236 (k 2.029, 95.45", "5.162 (k 2, 95.14", "5.236 (k 2.029, 95.45",
+                                   "7.743 (k 3, 99.65"])
+
     def test_ten_thousand_values_take_little_memory(self):
         for start in range(0, 10_000, 1000):
             self.daemon.measure([{"designation": "25 H7", "measured_mm": f"25.{number % 23:03d}", "order": "WO-10000",
