@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/length.hpp"
 #include "formats/xlsx/workbook.hpp"
-#include "metrology/gauging/conformance.hpp"
 #include "record/record_members.hpp"
+#include "record/verdict_codec.hpp"
 
 namespace fitgauge::api {
 namespace {
@@ -103,13 +106,15 @@ std::string rule_of(const app::Measurement& m) {
     rule += fmt::format("{}={}", name, text);
   };
   if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) say("rule", word(m.rule.kind()));
-  if (m.standard_uncertainty) {
-    // The uncertainty belongs to the size at 20 degrees, which is written.
-    say("uncertainty_um", format_um(gauging::combined_uncertainty(
-                              *m.standard_uncertainty, m.added_uncertainty.value_or(0))));
-  }
+  // u and ν belong to the size at 20 degrees, which is written.
+  const gauging::KnownUncertainty known = known_uncertainty(m);
+  if (m.standard_uncertainty) say("uncertainty_um", format_um(known.u));
   if (m.coverage_factor) say("coverage_factor", format(*m.coverage_factor));
-  if (m.degrees_of_freedom) say("degrees_of_freedom", format_decimal(*m.degrees_of_freedom, 6));
+  if (m.degrees_of_freedom) {
+    constexpr double kMost = 1e6;  // of the field
+    say("degrees_of_freedom",
+        format_decimal(std::llround(std::min(known.degrees_of_freedom, kMost) * 1e6), 6));
+  }
   if (m.size_operator && m.size_operator != "LP") say("size_operator", *m.size_operator);
   if (m.envelope) say("envelope", *m.envelope);
   if (m.go_gauge) say("go_gauge", *m.go_gauge);

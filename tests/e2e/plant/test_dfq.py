@@ -180,6 +180,21 @@ class CommandLine(Folders):
         self.assertIn("line 13 has 25.02 mm in K2111, but H7 of 25 mm gives 25.021 mm", done.stderr)
         self.assertEqual(len(daemon.stored()), 3)
 
+    def test_a_size_at_20_degrees_comes_in_again_with_its_verdict(self):
+        daemon = self.daemon().start()
+        for micrometres in (121, 122, 123, 124):
+            self.assertEqual(daemon.measure({
+                "designation": "100 H9", "measured_mm": f"100.{micrometres}", "temperature_c": 60, "part_material": "steel",
+                "temperature_uncertainty_c": "0.5", "uncertainty_um": 1, "degrees_of_freedom": 2, "rule": "conformance", "probability": "0.99"}).status, 201)
+        there = [row["verdict"] for row in daemon.stored()]
+        self.assertEqual(there, ["good"] * 4)
+        path = self.root / "again.dfq"
+        path.write_bytes(daemon.get("/v1/measurements?format=dfq").body)
+        second = self.daemon().start()
+        done = self.measure(second, path)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([(row["verdict"], round(row["degrees_of_freedom"])) for row in second.stored()], [(verdict, 89) for verdict in there])
+
 
 class Out(Folders):
     def out(self, daemon, folder, **more):
