@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -174,10 +175,8 @@ constexpr std::array kWeights = {certificate::Weight::Plain, certificate::Weight
 }  // namespace
 
 void CertificateDraft::add(const app::Measurement& m) {
-  ++count_;
   ++verdicts_.at(static_cast<std::size_t>(m.result.verdict));
-  last_id_ = app::measurement_id_text(m.id, m.origin);
-  if (first_id_.empty()) first_id_ = last_id_;
+  count(m);
   std::string gauge(m.gauge.value_or(""));
   const std::string due(m.calibration_due.value_or(""));
   if (m.part_id) parts_.emplace(*m.part_id);
@@ -191,15 +190,6 @@ void CertificateDraft::add(const app::Measurement& m) {
   if (!due.empty()) gauge += "; OVERDUE when measured: " + due;
   if (m.gauge_blocked) gauge += "; BLOCKED when measured";
   if (!m.table_revision.empty()) ++revisions_[std::string(m.table_revision)];
-  const auto verdict = static_cast<std::size_t>(m.result.verdict);
-  const std::optional<double> place = place_of(m);
-  const std::pair badness(kSeverity.at(verdict), place ? std::abs(2 * *place - 1) : 0);
-  const bool is_worst = worst_id_.empty() || badness_ < badness;
-  if (is_worst) {
-    badness_ = badness;
-    worst_id_ = last_id_;
-    worst_verdict_ = m.result.verdict;
-  }
   std::string record;
   app::append_record(record, m);
   bytes_ += record.size();
@@ -214,6 +204,7 @@ void CertificateDraft::add(const app::Measurement& m) {
         fmt::format("R{}", rules_.try_emplace(rule_words(m.rule), rules_.size() + 1).first->second);
   if (m.conformance) rule += fmt::format(", p {}", format_decimal(m.conformance->probability, 9));
   const Length deviation = m.decisive() - m.nominal_size;
+  const std::optional<double> place = place_of(m);
   lines_.push_back(
       {.part = std::string(m.part_id.value_or("")),
        .characteristic = std::string(m.characteristic.value_or("")),
@@ -229,12 +220,31 @@ void CertificateDraft::add(const app::Measurement& m) {
        .gauge = listed(gauge, m.machine.value_or(""), m.operator_id.value_or("")),
        .measured_at = time_text(m.measured_at),
        .place = place ? std::optional(static_cast<float>(*place)) : std::nullopt,
-       .weight = kWeights.at(verdict)});
-  if (!is_worst) return;
-  worst_ = lines_.back();
-  worst_text_ =
-      fmt::format("{}: {} mm, {}", listed(worst_.part, worst_.characteristic, worst_.size),
+       .weight = kWeights.at(static_cast<std::size_t>(m.result.verdict))});
+  const certificate::Line& line = lines_.back();
+  values_.back().text =
+      fmt::format("{}: {} mm, {}", listed(line.part, line.characteristic, line.size),
                   mm_text(m.decisive()), distance_text(m));
+}
+
+void CertificateDraft::count(const app::Measurement& m) {
+  const std::optional<double> place = place_of(m);
+  values_.push_back({.id = app::measurement_id_text(m.id, m.origin),
+                     .measured_at = m.measured_at,
+                     .verdict = m.result.verdict,
+                     .badness = {kSeverity.at(static_cast<std::size_t>(m.result.verdict)),
+                                 place ? std::abs(2 * *place - 1) : 0}});
+  const std::size_t here = values_.size() - 1;
+  std::size_t& last = last_.try_emplace(key_of(m), here).first->second;
+  if (last == here) return;
+  const bool is_earlier = m.measured_at < values_[last].measured_at;
+  values_[is_earlier ? here : last].counts = false;
+  if (!is_earlier) last = here;
+}
+
+const CertificateDraft::Counted& CertificateDraft::worst() const {
+  return *std::ranges::max_element(
+      values_, {}, [](const Counted& value) { return std::pair(value.counts, value.badness); });
 }
 
 std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpoint) const {
@@ -243,10 +253,17 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
     json.member("title", order_.title);
     if (!order_.company.empty()) json.member("company", order_.company);
     if (!order_.customer.empty()) json.member("customer", order_.customer);
-    json.member("made_at", format_rfc3339(made_at)).member("count", std::uint64_t{count_});
+    json.member("made_at", format_rfc3339(made_at)).member("count", std::uint64_t{count()});
     write_verdict_counts(json, verdicts_);
-    json.member("parts", std::uint64_t{parts_.size()}).member("worst_id", worst_id_);
-    if (worst_verdict_ != gauging::Verdict::Unjudged) json.member("verdict", word(worst_verdict_));
+    json.member("parts", std::uint64_t{parts_.size()}).member("worst_id", worst().id);
+    if (has_verdict()) json.member("verdict", word(worst().verdict));
+    if (measured_again() > 0) {
+      json.key("measured_again").begin_array();
+      for (const Counted& value : values_) {
+        if (!value.counts) json.value(value.id);
+      }
+      json.end_array();
+    }
     if (plan_) {
       if (plan_->plan) json.member("plan", *plan_->plan);
       json.key("missing").begin_array();
@@ -270,7 +287,7 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
 }
 
 std::string CertificateDraft::summary() const {
-  std::string text = fmt::format("{} measured value{}", count_, count_ == 1 ? "" : "s");
+  std::string text = fmt::format("{} measured value{}", count(), count() == 1 ? "" : "s");
   if (!parts_.empty())
     text += fmt::format(" of {} part{}", parts_.size(), parts_.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < verdicts_.size(); ++i) {
@@ -278,25 +295,39 @@ std::string CertificateDraft::summary() const {
     if (verdict == gauging::Verdict::Unjudged && verdicts_[i] == 0) continue;
     text += fmt::format("{} {} {}", i == 0 ? ":" : ",", verdicts_[i], word(verdict));
   }
-  return text + '.';
+  text += '.';
+  if (measured_again() > 0) {
+    text += fmt::format(
+        " Measured again: {}; of each characteristic of a part the value measured last counts.",
+        measured_again());
+  }
+  return text;
+}
+
+bool CertificateDraft::has_verdict() const {
+  const bool lacks = plan_ && !plan_->missing.empty();
+  const gauging::Verdict verdict = worst().verdict;
+  return verdict != gauging::Verdict::Unjudged && !(lacks && verdict == gauging::Verdict::Good);
 }
 
 std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoint,
                                   const certificate::Letterhead& letterhead) {
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    if (!values_[i].counts) lines_[i].measured += "; measured again";
+  }
   certificate::Certificate paper{
       .title = order_.title,
       .letterhead = letterhead,
-      .summary = {summary(), "Worst value: " + worst_text_ + '.'},
+      .summary = {summary(), "Worst value: " + worst().text + '.'},
       .statements = std::vector<std::string>(rules_.size()),
       .lines = std::move(lines_),
-      .code = fmt::format("{}/v1/measurements/{}/proof", order_.own_origin, first_id_),
+      .code = fmt::format("{}/v1/measurements/{}/proof", order_.own_origin, values_.front().id),
       .signatures = {"Inspector", "Quality", "Date"}};
-  const bool lacks = plan_ && !plan_->missing.empty();
   if (plan_) {
     paper.summary.push_back(plan_->plan ? fmt::format("Held against plan {}.", *plan_->plan)
                                         : "Not held against a plan.");
   }
-  if (lacks) {
+  if (plan_ && !plan_->missing.empty()) {
     paper.summary.push_back(
         fmt::format("Missing of the plan: {}.", fmt::join(plan_->missing, ", ")));
   }
@@ -319,10 +350,7 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
                                     listed(gauge.certificate, gauge.laboratory)));
   }
   paper.statements.insert(paper.statements.end(), calibrations.begin(), calibrations.end());
-  if (worst_verdict_ != gauging::Verdict::Unjudged &&
-      !(lacks && worst_verdict_ == gauging::Verdict::Good)) {
-    paper.worst = std::move(worst_);
-  }
+  if (has_verdict()) paper.worst = paper.lines[static_cast<std::size_t>(&worst() - values_.data())];
   std::string made = fmt::format("Made {} UTC by fitgauge {}", time_text(made_at), kVersion);
   for (const auto& [revision, uses] : revisions_) made += ", tables " + revision;
   paper.facts.push_back(made);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "api/plans/characteristic_key.hpp"
 #include "api/resources.hpp"
 #include "formats/certificate/certificate.hpp"
 #include "record/measurement.hpp"
@@ -32,9 +33,9 @@ class CertificateDraft {
   explicit CertificateDraft(CertificateOrder order) : order_(std::move(order)) {}
 
   const CertificateOrder& order() const { return order_; }
-  std::size_t count() const { return count_; }
-  std::size_t bytes() const { return bytes_; }             ///< of the records
-  const std::string& last_id() const { return last_id_; }  ///< of the measurements
+  std::size_t count() const { return values_.size(); }
+  std::size_t bytes() const { return bytes_; }                      ///< of the records
+  const std::string& last_id() const { return values_.back().id; }  ///< @pre count() > 0
 
   void add(const app::Measurement& measurement);
   /// @param plan of the part that the report is of
@@ -47,10 +48,25 @@ class CertificateDraft {
                   const certificate::Letterhead& letterhead);
 
  private:
+  /// A value, as far as the verdict on all needs it.
+  struct Counted {
+    std::string id{};
+    Timestamp measured_at{};
+    gauging::Verdict verdict{};
+    std::pair<int, double> badness{};  ///< by its verdict, then by its share of the tolerance
+    std::string text{};                ///< on paper
+    bool counts = true;                ///< it is not measured again
+  };
+
+  void count(const app::Measurement& measurement);
+  /// The worst value of those that count.
+  const Counted& worst() const;
+  std::size_t measured_again() const { return values_.size() - last_.size(); }
+  /// Not if no value has limits, nor if it is good but a value is missing.
+  bool has_verdict() const;
   std::string summary() const;
 
   CertificateOrder order_;
-  std::size_t count_ = 0;
   std::size_t bytes_ = 0;
   app::VerdictTally verdicts_{};
   std::optional<PlanOfPart> plan_;  ///< of a part
@@ -71,15 +87,9 @@ class CertificateDraft {
   std::set<UsedGauge> gauges_;
   std::map<std::string, int> revisions_;
   std::set<std::string, std::less<>> parts_;
-  std::map<std::string, std::size_t> rules_;  ///< in words, numbered from 1 on
-  std::pair<int, double>
-      badness_;  ///< of the worst value: its verdict, then its share of the tolerance
-  std::string worst_id_;
-  gauging::Verdict worst_verdict_ = gauging::Verdict::Unjudged;
-  certificate::Line worst_;
-  std::string worst_text_;
-  std::string first_id_;
-  std::string last_id_;
+  std::map<std::string, std::size_t> rules_;       ///< in words, numbered from 1 on
+  std::vector<Counted> values_;                    ///< in the order of lines_
+  std::map<CharacteristicKey, std::size_t> last_;  ///< place in values_ of the one that counts
 };
 
 }  // namespace fitgauge::api

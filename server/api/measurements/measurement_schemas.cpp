@@ -225,8 +225,15 @@ void add_measurement_schemas(Schemas& schemas) {
             {"verdicts", schema::ref("VerdictCounts"), ""},
             {"parts", schema::count(), "Different part numbers"},
             {"worst_id", schema::text(),
-             "Id of the worst value: by verdict, then by position within the limits"},
-            {"verdict", verdict_words(), "Worst verdict; absent if no value has limits", false},
+             "Id of the worst value that counts: by verdict, then by position within the limits"},
+            {"verdict", verdict_words(),
+             "Worst verdict of the values that count; absent if none has limits, or if it is good "
+             "but a value is missing",
+             false},
+            {"measured_again", schema::array(schema::text()),
+             "Ids of the values that do not count: of their characteristic of a part another was "
+             "measured later",
+             false},
             {"plan", schema::text(), "Plan that the part is held against; absent if it is none",
              false},
             {"missing", schema::array(schema::text()),

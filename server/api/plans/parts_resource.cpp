@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "api/handlers.hpp"
+#include "api/plans/characteristic_key.hpp"
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"
 #include "service/documents/document_service.hpp"
@@ -19,6 +20,7 @@ using app::NamedDocument;
 constexpr std::size_t kMostValues = 10'000;  ///< of one part; older ones are ignored
 
 struct PartValue {
+  CharacteristicKey key{};
   std::optional<std::string> characteristic{};
   std::string measurement{};
   std::optional<std::string_view> verdict{};
@@ -141,14 +143,14 @@ void judge(Part& part) {
 /// Of a characteristic, the value that was measured last counts, of two at one time the later one.
 /// @param m stored before those that are there
 void add_value(const app::Measurement& m, Part& part) {
-  PartValue value{.measurement = app::measurement_id_text(m.id, m.origin),
+  PartValue value{.key = key_of(m),
+                  .measurement = app::measurement_id_text(m.id, m.origin),
                   .measured = m.measured,
                   .measured_at = m.measured_at,
                   .has_note = !m.notes.empty()};
   if (m.characteristic) value.characteristic.emplace(*m.characteristic);
   if (m.is_judged()) value.verdict = word(m.result.verdict);
-  const auto newer =
-      std::ranges::find(part.values, value.characteristic, &PartValue::characteristic);
+  const auto newer = std::ranges::find(part.values, value.key, &PartValue::key);
   if (newer == part.values.end()) {
     part.values.push_back(std::move(value));
   } else if (newer->measured_at < value.measured_at) {
@@ -210,7 +212,8 @@ void add_parts_routes(Routes& add) {
       {.summary = "A part: its verdict, what is missing, its values and open reactions",
        .description =
            "The value of each characteristic that was measured last, with corrections; the verdict "
-           "is the worst of them. Without `plan` the plan with the name of the part is used, or "
+           "is the worst of them. A value without a characteristic is measured again by one of its "
+           "size. Without `plan` the plan with the name of the part is used, or "
            "the "
            "only plan that has every measured characteristic; without a plan nothing is missing.",
        .parameters = {path_parameter("part", "part_id of its measurements"),

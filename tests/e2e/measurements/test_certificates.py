@@ -55,7 +55,7 @@ class Certificates(DaemonTest):
         text = self.flat("part_id=M-1")
         self.assertIn("Held against plan 7-A. Missing of the plan: a-seat, a-slot.", text)
         self.assertEqual(len(re.findall(r"\bgood\b", text)), 2)  # in the summary and in its line, not as the verdict of the part
-        self.assertEqual([sheet("part_id=M-1")[name] for name in ("plan", "missing")], ["7-A", ["a-seat", "a-slot"]])
+        self.assertEqual([sheet("part_id=M-1").get(name) for name in ("plan", "missing", "verdict")], ["7-A", ["a-seat", "a-slot"], None])
         self.assertFalse({"plan", "missing"} & sheet("order=WO-M").keys())
         measure("a-seat", "30 k6", "30.1")
         self.assertEqual(len(re.findall(r"\brework\b", self.flat("part_id=M-1&order=WO-M"))), 3)
@@ -71,6 +71,33 @@ class Certificates(DaemonTest):
         self.assertIn("Not held against a plan.", self.flat("part_id=M-2"))
         sheet = self.daemon.get("/v1/certificates?part_id=M-2", Accept="application/json").json
         self.assertEqual((sheet.get("plan"), sheet["missing"]), (None, []))
+
+    def test_a_part_that_was_measured_again_has_one_verdict(self):
+        """That of GET /v1/parts, whichever value came in last; the earlier values stay in the report."""
+        measure = lambda hour, mm, **more: self.daemon.measure({
+            "designation": "25 H7", "measured_mm": mm, "part_id": "A-1", "order": "WO-A", "measured_at": f"2026-11-20T{hour:02d}:00:00Z", **more}).json["id"]
+        sheet = lambda query: self.daemon.get(f"/v1/certificates?{query}", Accept="application/json").json
+        part = lambda: self.daemon.get("/v1/parts/A-1").json
+        again = [measure(8, "25.03", characteristic="bore")]
+        self.assertEqual((part()["verdict"], sheet("part_id=A-1")["verdict"]), ("reject", "reject"))
+        self.assertNotIn("measured_again", sheet("part_id=A-1"))
+        last = measure(9, "25.02", characteristic="bore")
+        again.append(measure(7, "24.99", characteristic="bore"))
+        for query in ("part_id=A-1", "order=WO-A"):
+            seen = sheet(query)
+            self.assertEqual([part()["verdict"], seen["verdict"], seen["worst_id"], seen["measured_again"], seen["count"]],
+                             ["good", "good", last, again, 3], query)
+            head, table = self.flat(query).split("Measured at", 1)
+            self.assertIn("Measured again: 2;", head)
+            self.assertIn("25.020 mm", head)
+            self.assertEqual(len(re.findall(r"\bagain\b", table)), 2)
+        # Values without a name are of one characteristic only if they have one size.
+        measure(10, "29.9", designation="30 k6")
+        measure(11, "25.01")
+        self.assertEqual((part()["verdict"], sheet("part_id=A-1")["verdict"]), ("reject", "reject"))
+        measure(9, "25.5")
+        measure(12, "30.01", designation="30 k6")
+        self.assertEqual((part()["verdict"], sheet("part_id=A-1")["verdict"], len(sheet("part_id=A-1")["measured_again"])), ("good", "good", 4))
 
     def test_the_pictures_of_reports_have_these_words(self):
         self.daemon.measure({"designation": "25 H7", "measured_mm": "25.0106", "order": "WO-P", "part_id": "SN-00001", "characteristic": "bore-A",
@@ -118,9 +145,9 @@ class Certificates(DaemonTest):
             self.assertIn(name.replace(" ", ""), text)
 
     def test_the_worst_stands_first(self):
-        for part, measured in (("W1", "25.010"), ("W2", "25.0205"), ("W3", "24.999"), ("W3", "25.012")):
+        for part, name, measured in (("W1", "bore", "25.010"), ("W2", "bore", "25.0205"), ("W3", "bore", "24.999"), ("W3", "seat", "25.012")):
             self.daemon.measure({"designation": "25 H7", "measured_mm": measured, "part_id": part, "order": "WO-W",
-                                 "machine": "M-12", "operator": "anna", "gauge": "G-07", "characteristic": "bore"})
+                                 "machine": "M-12", "operator": "anna", "gauge": "G-07", "characteristic": name})
         text = self.flat("order=WO-W")
         self.assertIn("rework", text.split("4 measured values of 3 parts: 3 good, 1 rework")[0])
         for word in ("Worst value: W3, bore, 25 H7: 24.999 mm, 1 µm below the lower limit.", "-1 rework", "+12 good", "G-07, M-12, anna"):
