@@ -72,13 +72,23 @@ void make_certificate(const Services& services, const http::Request& request,
   if (!query) return responder.fail(query.error());
   const auto draft = std::make_shared<CertificateDraft>(*std::move(order));
   const SharedResponder shared = share(std::move(responder));
+  const auto simulated = std::make_shared<std::string>();  // the first id
   services.measurements.list(
       *query, 0, kMostMeasurements,
-      [draft](const app::Measurement& measurement) {
-        if (draft->bytes() <= kMostBytes) draft->add(measurement);
+      [draft, simulated](const app::Measurement& m) {
+        if (draft->bytes() <= kMostBytes) draft->add(m);
+        if (m.source == app::Source::Gauge || !simulated->empty()) return;
+        *simulated = app::measurement_id_text(m.id, m.origin);
       },
-      [&services, draft, shared](const Result<app::ListPage>& page) {
+      [&services, draft, shared, simulated](const Result<app::ListPage>& page) {
         if (!page) return shared->fail(page.error());
+        if (!simulated->empty()) {
+          return shared->fail({ErrorCode::QueryInvalid,
+                               fmt::format("a report cannot contain {}: it is simulated, not the "
+                                           "result of an inspection; exclude it by source=gauge",
+                                           *simulated),
+                               "source"});
+        }
         if (draft->count() == 0) {
           return shared->fail(
               {ErrorCode::MeasurementUnknown,
@@ -125,7 +135,8 @@ void add_certificates_routes(Routes& add) {
            "rule, uncertainty, gauge, machine, operator and the signed head of the log that has "
            "them; before them the verdict of all and the worst value, of a part also its plan and "
            "what is missing of it, or that it is held against no plan. A tagged PDF, or JSON by "
-           "Accept; at most 10,000 values, whose records have at most 16 MiB.",
+           "Accept; at most 10,000 values, whose records have at most 16 MiB. Simulated values are "
+           "refused.",
        .parameters = parameters(),
        .response_types = {std::string(kPdf), std::string(kJson)},
        .outcomes = {{.meaning = "The certificate",

@@ -9,6 +9,7 @@ import tempfile
 import unittest
 import zlib
 
+from support import releases
 from support.daemon import ROOT, SANITIZED, Daemon, DaemonTest, command
 
 
@@ -292,6 +293,17 @@ class Certificates(DaemonTest):
         self.assert_problem(self.daemon.get("/v1/certificates?order=none"), 404, "measurement.unknown")
         self.assert_problem(self.daemon.get("/v1/certificates?order=WO-1&paper=a5"), 400, "query.invalid")
         self.assert_problem(self.daemon.get("/v1/certificates?order=WO-1", Accept="text/csv"), 406, "media_type.not_acceptable")
+
+    def test_no_report_is_of_simulated_values(self):
+        releases.put(self.daemon, "/v1/files/nc_prog/hole.h", releases.PROGRAM.encode())
+        run = releases.post(self.daemon, "/v1/runs", {"program": "nc_prog/hole.h", "setup": releases.SETUP, "part_id": "SIM", "order": "WO-X"})
+        self.daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "part_id": "SIM", "order": "WO-X"})
+        for query in ("part_id=SIM&source=all", "order=WO-X&source=simulation", f"part_id=SIM&run_id={run['id']}"):
+            for form in ("application/pdf", "application/json"):
+                problem = self.daemon.get(f"/v1/certificates?{query}", Accept=form)
+                self.assert_problem(problem, 400, "query.invalid")
+                self.assertIn("it is simulated, not the result of an inspection", problem.json["detail"])
+        self.assertEqual(self.daemon.get("/v1/certificates?part_id=SIM", Accept="application/json").json["count"], 1)
 
 
 def png(width, height, colour=2, damaged=False):
