@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/csv.hpp"
 #include "base/json/json_value.hpp"
@@ -185,15 +184,6 @@ std::optional<Timestamp> parse_due(std::string_view text) {
 std::optional<std::string> due_in_utc(std::string_view text) {
   if (const auto time = parse_rfc3339(text)) return format_rfc3339(*time);
   return parse_due(text) ? std::optional(std::string(text)) : std::nullopt;
-}
-
-std::optional<Length> rounded_up(double micrometres) {
-  constexpr double kNanometres = 1e3;
-  constexpr double kNoise = 1e6;  // binary fractions of decimals are not rounded up
-  constexpr double kMost = 1e9;
-  const double nanometres = std::ceil(std::round(micrometres * kNanometres * kNoise) / kNoise);
-  if (!(nanometres >= 0 && nanometres <= kMost)) return std::nullopt;
-  return Length::nanometres(static_cast<std::int64_t>(nanometres));
 }
 
 void take_full(MeasurementBatch& batch, const BatchContext& context, const FieldErrors& errors) {

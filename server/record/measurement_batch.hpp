@@ -54,10 +54,6 @@ std::optional<Timestamp> parse_due(std::string_view text);
 /// Returns the text with its time in UTC; a date stays unchanged.
 std::optional<std::string> due_in_utc(std::string_view text);
 
-/// Standard uncertainty in µm as in measurements, rounded up to the nanometre. None if it is not a
-/// length.
-std::optional<Length> rounded_up(double micrometres);
-
 class FieldErrors;
 
 /// The judged measurements of one request. Their texts are views of the body and of `texts`.

@@ -422,6 +422,7 @@ class _RunMeasurementsSizes(TypedDict):
 class RunMeasurementsSizes(_RunMeasurementsSizes, total=False):
     upper_limit_mm: Decimal
     lower_limit_mm: Decimal
+    uncertainty_um: Decimal
 
 
 class _RunMeasurementsForm(TypedDict):

@@ -96,6 +96,8 @@ void members(auto& v, const probing::MeasuredSize& size) {
              "Limit, if the cycle has limits");
   v.optional("lower_limit_mm", limits != nullptr ? &limits->lower : nullptr, Millimetres{},
              "Limit, if the cycle has limits");
+  v.optional("uncertainty_um", size.uncertainty, Micrometres{},
+             "Standard uncertainty, if the setup states that of a touch: twice it is a guard band");
   v.member("verdict", size.verdict, kVerdict);
 }
 

@@ -124,6 +124,15 @@ std::int64_t added_uncertainty(Length corrected, const ThermalBody& part,
   return to_15_digits(std::abs(size) * std::hypot(relative(part), relative(scale)));
 }
 
+std::optional<Length> rounded_up(double micrometres) {
+  constexpr double kNanometres = 1e3;
+  constexpr double kNoise = 1e6;  // binary fractions of decimals are not rounded up
+  constexpr auto kMost = static_cast<double>(kLongest.count());
+  const double nanometres = std::ceil(std::round(micrometres * kNanometres * kNoise) / kNoise);
+  if (!(nanometres >= 0 && nanometres <= kMost)) return std::nullopt;
+  return Length::nanometres(static_cast<std::int64_t>(nanometres));
+}
+
 Length combined_uncertainty(Length u, std::int64_t added_pm) {
   constexpr std::int64_t kPicometres = 1000;
   if (added_pm == 0 || u > kLongest) return u;

@@ -107,6 +107,10 @@ std::int64_t added_uncertainty(Length corrected, const ThermalBody& part, const 
 /// √(u² + added²), rounded up to the nanometre. @param added_pm in pm
 Length combined_uncertainty(Length u, std::int64_t added_pm);
 
+/// Standard uncertainty in µm as in measurements, rounded up to the nanometre. None if it is not a
+/// length.
+std::optional<Length> rounded_up(double micrometres);
+
 /// A material by name, with its mean coefficient near 20 °C and the source.
 struct Material {
   std::string_view name;

@@ -28,7 +28,11 @@ struct MeasuredSize {
   Length nominal{};
   Length measured{};
   std::optional<Limits> limits{};             ///< nothing when the block switches the check off
+  std::optional<Length> uncertainty{};        ///< standard uncertainty, if it decides
   std::optional<gauging::Verdict> verdict{};  ///< nothing without limits
+
+  /// Its uncertainty makes a guard band.
+  gauging::DecisionRule rule() const;
 };
 
 /// The judgement of form that the number of points of a circular feature allows.
@@ -63,5 +67,10 @@ struct MeasuringRecord {
   std::optional<gauging::Verdict> verdict{};  ///< of the whole cycle; nothing without limits
   std::optional<Form> form{};                 ///< of circular features
 };
+
+/// Where the setup states the uncertainty of a touch, that of the diameter decides on it, and the
+/// worst verdict is that of the cycle. The control knows no uncertainty: its parameters and its log
+/// stay.
+void judge_by_uncertainty(MeasuringRecord& record);
 
 }  // namespace fitgauge::probing

@@ -107,6 +107,7 @@ void RunLog::add(MessageKind kind, int number, std::string text, const Place& pl
 }
 
 NcResult<void> RunLog::record(probing::MeasuringRecord record, const Place& place) {
+  probing::judge_by_uncertainty(record);
   const std::size_t size = sizeof(Measurement) + place.path().size() +
                            record.sizes.size() * sizeof(probing::MeasuredSize);
   if (auto charged = budget_.charge(size); !charged) return charged;

@@ -33,7 +33,7 @@ void set_budget(GaugePeriod& period, std::string name,
   period.budget = std::move(name);
   const auto found = combined.find(period.budget);
   if (found == combined.end()) return;
-  period.standard_uncertainty = rounded_up(found->second.combined);
+  period.standard_uncertainty = gauging::rounded_up(found->second.combined);
   const double degrees = found->second.degrees_of_freedom * 1e6;
   period.degrees_of_freedom.reset();
   if (degrees <= static_cast<double>(app::kDegreesOfFreedom.most)) {

@@ -8,7 +8,6 @@
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/run/q_parameters.hpp"
 #include "nc/run/run_files.hpp"
-#include "record/measurement_batch.hpp"
 
 namespace fitgauge::app {
 namespace {
@@ -161,11 +160,9 @@ Measurement record_of(const RunReport& report, const interpreter::Measurement& m
     record.start_angle = std::llround(form->start_angle_deg * 1e6);
     record.diameter_factor = std::llround(form->diameter_factor * 1e6);
     if (form->deviation) record.form = form->deviation->count();
-    if (form->touch_uncertainty_um && limits) {
-      record.standard_uncertainty =
-          api::rounded_up(form->diameter_factor * *form->touch_uncertainty_um)
-              .value_or(Length::nanometres(1'000'000'000));
-      record.rule = gauging::DecisionRule::guard_band(*record.standard_uncertainty).value();
+    if (size.uncertainty) {
+      record.standard_uncertainty = size.uncertainty;
+      record.rule = size.rule();
       record.coverage_factor = record.rule.coverage_factor();
     }
   }

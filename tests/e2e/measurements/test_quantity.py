@@ -160,12 +160,22 @@ class Quantity(DaemonTest):
         self.assertEqual((centre["rule"], "uncertainty_um" in centre), ("simple", False))
         probe["machine"]["probes"][0]["uncertainty_um"] = 6
         run, stored = self.run_program(PROGRAM, **probe)
-        self.assertEqual((stored[0]["uncertainty_um"], stored[0]["verdict"], run["verdict"]),
-                         (6, "indeterminate", "good"))
+        self.assertEqual((stored[0]["uncertainty_um"], stored[0]["verdict"]), (6, "indeterminate"))
+        # Of the run too, whose control compares with the limits alone.
+        cycle = run["measurements"][0]
+        self.assertEqual([run["verdict"], cycle["verdict"], *((size["verdict"], size.get("uncertainty_um")) for size in cycle["sizes"])],
+                         ["indeterminate", "indeterminate", ("indeterminate", 6), ("good", None), ("good", None)])
+        self.assertEqual([run["parameters"][name] for name in ("Q180", "Q181", "Q182")], [1, 0, 0])
+        self.assertEqual(self.daemon.get("/v1/runs/" + run["id"]).json["verdict"], "indeterminate")
         # Three points on 120 degrees: 2 / sqrt 3 times 2 um, rounded up to the nanometre.
         probe["machine"]["probes"][0]["uncertainty_um"] = 2
         _, stored = self.run_program(PROGRAM.replace("Q423=+4", "Q423=+3").replace("Q247=+90", "Q247=+120"), **probe)
         self.assertEqual((stored[0]["diameter_factor"], stored[0]["uncertainty_um"]), (1.154701, 2.31))
+        # On 10 degrees of the circle it is more than a metre.
+        probe["machine"]["probes"][0]["uncertainty_um"] = 10000
+        _, stored = self.run_program(PROGRAM.replace("Q423=+4", "Q423=+3").replace("Q247=+90", "Q247=+5"), **probe)
+        self.assertGreater(stored[0]["uncertainty_um"], 1e6)
+        self.assertAlmostEqual(stored[0]["uncertainty_um"] / stored[0]["diameter_factor"] / 1e4, 1, 6)
         _, free = self.run_program(FREE, **probe)
         self.assertNotIn("uncertainty_um", free[0])
         self.assertEqual(self.daemon.command("verify").returncode, 0)

@@ -396,16 +396,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("what a budget comes to is rounded up to the nanometre, without the noise of binaries") {
-  CHECK(rounded_up(0.5) == Length::nanometres(500));
-  CHECK(rounded_up(0.1 + 0.2) == Length::nanometres(300));
-  CHECK(rounded_up(0.3000001) == Length::nanometres(301));
-  CHECK(rounded_up(0) == Length());
-  CHECK_FALSE(rounded_up(-1).has_value());
-  CHECK_FALSE(rounded_up(1e300).has_value());
-  CHECK_FALSE(rounded_up(std::numeric_limits<double>::quiet_NaN()).has_value());
-}
-
 TEST_CASE("an offset is kept in nanometres, and is at most a metre either way") {
   const auto m = one(R"({"designation":"25 H7","measured_mm":25.01,"offset_um":-2.125})");
   CHECK(m.offset == -2'125);

@@ -116,6 +116,17 @@ TEST_CASE("uncertainties are combined exactly and rounded up") {
   CHECK(combined_uncertainty(Length::nanometres(5), -7) == Length::nanometres(5));
 }
 
+TEST_CASE("what a budget comes to is rounded up to the nanometre, without the noise of binaries") {
+  CHECK(rounded_up(0.5) == Length::nanometres(500));
+  CHECK(rounded_up(0.1 + 0.2) == Length::nanometres(300));
+  CHECK(rounded_up(0.3000001) == Length::nanometres(301));
+  CHECK(rounded_up(0) == Length());
+  CHECK(rounded_up(2.5e6) == Length::millimetres(2500));
+  CHECK_FALSE(rounded_up(-1).has_value());
+  CHECK_FALSE(rounded_up(1e300).has_value());
+  CHECK_FALSE(rounded_up(std::numeric_limits<double>::quiet_NaN()).has_value());
+}
+
 TEST_CASE("materials have a name of their own and a source") {
   for (const Material& material : materials()) {
     CHECK(find_material(material.name) == &material);
