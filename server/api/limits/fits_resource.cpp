@@ -82,6 +82,8 @@ Result<iso286::Fit> find_fit(const iso286::FitDesignation& designation,
 /// Reads `25 H7/g6`, and with a bearing `25 ISO 492-P6/k6` (its bore) or `52 H7/ISO 492-P6` (its
 /// outer ring).
 Result<iso286::FitDesignation> read_fit(std::string_view hole, std::string_view shaft) {
+  hole = trim(hole);
+  shaft = trim(shaft);
   const std::size_t at = hole.find("ISO 492-");
   const bool is_bore = at != std::string_view::npos;
   const bool is_ring = standards::is_bearing_class(shaft);
@@ -119,7 +121,7 @@ Result<iso286::FitDesignation> of_one_segment(const http::Request& request) {
   const std::string_view text = *request.text("fit");
   const std::size_t stroke = text.find('/');
   if (stroke == std::string_view::npos) return iso286::parse_fit_designation(text);
-  return read_fit(trim(text.substr(0, stroke)), trim(text.substr(stroke + 1)));
+  return read_fit(text.substr(0, stroke), text.substr(stroke + 1));
 }
 
 /// The fit of a designation: from the tables and cached, and with stored values if a query selects

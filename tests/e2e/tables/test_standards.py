@@ -98,6 +98,8 @@ class Standards(DaemonTest):
         self.assertEqual((spindle["max_clearance_um"], spindle["min_clearance_um"]), (-2, -16))
         self.assertEqual(self.limits("/v1/fits/400H6/ISO%20492-P4")["max_clearance_um"], 51)
         self.assertEqual(ring, self.limits("/v1/fits/52%20H7%20%2F%20ISO%20492-normal"))
+        self.assertEqual(ring, self.limits("/v1/fits/52%20H7%20/%20ISO%20492-normal"))
+        self.assertEqual(bore["designation"], self.limits("/v1/fits/25%20ISO%20492-P6%20/%20k6")["designation"])
         self.assertEqual(bore["designation"], self.limits("/v1/fits/25%20ISO%20492-P6%2Fk6")["designation"])
         for path, status, code in (("25%20ISO%20492-P6/ISO%20492-P6", 400, "fit.malformed"),
                                    ("25%20ISO%20492-P6/K6", 400, "fit.malformed"),
