@@ -190,6 +190,15 @@ std::string distance_text(const JsonValue& document, std::string_view unit) {
                      distance > Length() ? "above" : "below", limit);
 }
 
+/// Result of the GO gauge, of a size whose envelope is required.
+std::string_view envelope_text(const JsonValue& document) {
+  const std::string_view result = document.text_of("envelope_result");
+  return result.empty()         ? ""
+         : result == "verified" ? "envelope verified: the GO gauge passes\n"
+         : result == "failed"   ? "envelope failed: the GO gauge does not pass\n"
+                                : "envelope not verified: no GO gauge was used\n";
+}
+
 std::string verdict_query(const GaugeOptions& options, const std::string& measured) {
   std::string query = "?measured_mm=" + percent_encoded(measured);
   // The others are of a record.
@@ -242,6 +251,7 @@ std::string format_verdict(const JsonValue& document, const Terminal& terminal) 
   if (const std::string_view corrected = document.text_of("corrected_mm"); !corrected.empty()) {
     text += fmt::format("{} mm at 20 degrees\n", corrected);
   }
+  text += envelope_text(document);
   if (const std::string_view id = document.text_of("id"); !id.empty()) {
     text += fmt::format("stored as {}\n", id);
   }

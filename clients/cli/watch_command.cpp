@@ -123,9 +123,10 @@ std::string record_line(const JsonValue& record, const Terminal& terminal) {
   const std::string_view verdict = record.text_of("verdict");
   const std::string text = joined(record, {"measured_at", "id", "designation", "measured_mm"});
   const std::string about = joined(record, {"part_id", "characteristic", "order", "machine"});
-  return fmt::format("{} mm  {}{}{}\n", text,
+  const bool is_open = record.text_of("envelope_result") == "not_verified";
+  return fmt::format("{} mm  {}{}{}{}\n", text,
                      terminal.painted(ascii_upper(verdict), verdict_colour(verdict)),
-                     about.empty() ? "" : "  ", about);
+                     is_open ? " (envelope not verified)" : "", about.empty() ? "" : "  ", about);
 }
 
 std::string event_json(const Event& event) {

@@ -105,6 +105,16 @@ class Gauge(ClientTest):
                 self.assert_fails(4, "gauge", "25H7", measured)
 
 
+class Reservations(ClientTest):
+    def test_a_required_envelope_is_good_only_with_its_gauge(self):
+        said = lambda code, *more: self.assert_runs(code, "gauge", "25H7(E)", "25.01", *more)
+        for more in ((), ("--record",)):
+            self.assertIn("envelope not verified: no GO gauge was used\n", said(0, *more))
+        self.assertIn("envelope verified: ", said(0, "--record", "--go-gauge", "passes"))
+        self.assertIn("envelope failed: ", said(1, "--record", "--go-gauge", "fails"))
+        self.assertNotIn("envelope", self.assert_runs(0, "gauge", "25H7", "25.01"))
+
+
 class Refusals(ClientTest):
     def test_a_refusal_is_one_line_with_its_exit_code(self):
         self.assertIn("unknown tolerance class 'H99'", self.assert_fails(7, "limits", "25H99"))
