@@ -178,6 +178,12 @@ Outcome<ExitCode> run_capability(const Context& context, const CapabilityQuery& 
     context.print("{:<3} {} ({} to {})\n", name, rounded(index, "value", 3),
                   rounded(index, "lower", 3), rounded(index, "upper", 3));
   }
+  if (const JsonValue& fit = found->member("distribution"); fit.kind == JsonValue::Kind::Object) {
+    context.print("distribution {}, p {}\n", fit.text_of("name"), rounded(fit, "p", 3));
+  }
+  if (const JsonValue& reason = found->member("reason"); reason.kind == JsonValue::Kind::String) {
+    context.print("no figure (-) because {}\n", reason.text);
+  }
   const bool stable = found->text_of("stable") == "true";
   context.print("{}\n", stable ? "stable: no rule is broken"
                                : "NOT STABLE: these figures do not predict the next parts");
