@@ -16,7 +16,7 @@ constexpr std::size_t kMostClasses = 4096;
 constexpr std::array<std::string_view, 6> kWords = {"normal",  "folded_normal", "rayleigh",
                                                     "weibull", "lognormal",     "mixture"};
 
-/// Number of values at a place; the classes end in the middle between two places.
+/// Number of values in a class, and their mean; a class ends in the middle between two values.
 struct Place {
   double x = 0;
   double count = 0;
@@ -32,17 +32,21 @@ Places places_of(const Ranking& ranking, int scale) {
   const bool many = ranking.values().size() > kMostClasses;
   Places places;
   double before = 0;
+  double first = 0;  // of the class
+  double last = 0;
   for (std::size_t i = 0; i < ranking.values().size(); ++i) {
     const double x = at(ranking.values()[i]);
     const double count = ranking.ends()[i] - std::exchange(before, ranking.ends()[i]);
-    if (many && !places.empty() && x - places.back().x < step) {
-      places.back().count += count;
+    if (many && !places.empty() && x - first < step) {
+      Place& place = places.back();
+      place.count += count;
+      place.x += (x - place.x) * count / place.count;
     } else {
+      if (!places.empty()) places.back().end = (last + x) / 2;
       places.push_back({.x = x, .count = count});
+      first = x;
     }
-  }
-  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-    places[i].end = (places[i].x + places[i + 1].x) / 2;
+    last = x;
   }
   return places;
 }

@@ -96,6 +96,17 @@ TEST_CASE("the index of a normal distribution is not given to a folded one") {
   CHECK(static_cast<double>(c.ppk->value) == Approx(0.919).epsilon(0.02));
 }
 
+TEST_CASE("values in more classes than are counted give the figures of all of them") {
+  const Population folded = populations().front();
+  const std::vector<Wide> values = ideal_sample(folded, 20'000, 1e7);
+  double squares = 0;
+  for (const Wide value : values) squares += std::pow(static_cast<double>(value) / 1e7, 2);
+  const auto fit = fit_distribution(Ranking(values), 7);
+  REQUIRE(fit);
+  CHECK(fit->name == ProcessDistribution::FoldedNormal);
+  CHECK(fit->parameters[0] == Approx(std::sqrt(squares / 20'000)).epsilon(1e-6));
+}
+
 TEST_CASE("normal values of a coarse gauge are normal") {
   const Population of{
       .name = {}, .fitted = {}, .quantile = normal, .lower = -5, .upper = 5, .ppk = 0};
