@@ -183,6 +183,11 @@ class Quantity(DaemonTest):
             **SETUP, "machine": {"probes": [{"number": 1, "uncertainty_um": 0}]}}})
         self.assertIn("/setup/machine/probes/0/uncertainty_um", [each["pointer"] for each in refused.json["errors"]])
 
+    def test_a_minimum_of_0_is_told(self):
+        said = lambda program: [message["text"] for message in self.run_program(program)[0]["messages"]]
+        self.assertEqual(said(PROGRAM.replace("Q276=+25", "Q276=+0")), ['the minimum of "Diameter" is 0: no size is too small'])
+        self.assertEqual([said(program) for program in (PROGRAM, FREE)], [[], []])
+
     def test_a_cycle_without_a_tolerance_has_no_verdict(self):
         run, stored = self.run_program(FREE)
         self.assertIsNone(run["verdict"])

@@ -150,7 +150,17 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
     add_short_arc(log, measurement.form);
   }
   if (auto written = deliver_log(context, std::move(log)); !written) return written;
-  host.record(record_of(context, measurement));
+  const MeasuringRecord record = record_of(context, measurement);
+  for (const MeasuredSize& size : record.sizes) {
+    const bool is_size = gauging::has_feature(quantity_of(record.cycle, size.is_position));
+    if (!is_size || !size.limits || size.limits->lower != Length{}) continue;
+    if (auto noted = host.note(
+            fmt::format("the minimum of \"{}\" is 0: no size is too small", size.characteristic));
+        !noted) {
+      return noted;
+    }
+  }
+  host.record(record);
   if (measurement.correction) {
     if (auto corrected = correct_tool(context, *measurement.correction); !corrected) {
       return corrected;
