@@ -183,7 +183,9 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   }
 
   api::GaugesInUse gauges(app.documents());
-  if (const auto loaded = gauges.load(); !loaded) return loaded.error();
+  // Without its gauges a damaged database takes no measurement: every write is refused.
+  const auto loaded = gauges.load();
+  if (!loaded && loaded.error().code != ErrorCode::StorageCorrupt) return loaded.error();
   auto connecting = start_connections(config, app, clock, gauges);
   if (!connecting) return connecting.error();
   connections::Connections& outside = **connecting;

@@ -117,8 +117,9 @@ Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> 
                                                         Plant plant) {
   std::unique_ptr<Connections> all(new Connections(std::move(plant)));
   const auto stored = all->plant_.documents.wait_for_list(app::DocumentKind::Connection);
-  if (!stored) return stored.error();
+  if (!stored && stored.error().code != ErrorCode::StorageCorrupt) return stored.error();
   for (Definition& definition : configured) all->begin(std::move(definition), true);
+  if (!stored) return all;  // the readiness shows the damage
   for (const app::NamedDocument& document : *stored) {
     const auto not_started = [&](std::string_view why) {
       all->plant_.tell("connection_not_started", fmt::format("{}: {}", document.name, why));

@@ -163,6 +163,28 @@ class Altered(StorageTest):
               "DELETE FROM measurements WHERE id = 3")
         self.assertIn("3", self.findings(daemon))
 
+    def test_an_altered_gauge_or_connection_shows_in_the_readiness(self):
+        """It is no reason not to start: values can be read, and no write is taken without the history of its gauge."""
+        for alteration, where in ((("DROP TRIGGER changes_are_not_updated", "UPDATE changes SET before_text = after_text WHERE kind = 'gauge'"), "changes"),
+                                  (("UPDATE documents SET text = replace(text, '2027', '2028') WHERE name = 'G-1'",), "documents"),
+                                  (("UPDATE documents SET text = replace(text, '127', '128') WHERE name = 'hook'",), "documents")):
+            with self.subTest(alteration):
+                daemon = self.stopped_with(1)
+                daemon.start()
+                for due in ("2026-12-31", "2027-12-31"):
+                    daemon.request("PUT", "/v1/gauges-in-use/G-1", {"calibration_due": due})
+                self.assertEqual(daemon.request("PUT", "/v1/connections/hook", {
+                    "kind": "webhook", "url": "http://127.0.0.1:1/", "secrets": ["whsec_" + "A" * 32]}).status, 201)
+                daemon.stop()
+                alter(daemon.database, *alteration)
+                daemon.start()
+                ready = daemon.get("/readyz")
+                self.assertEqual((ready.status, ready.json["code"]), (503, "storage.corrupt"))
+                self.assertIn(f"a row of {where} does not match its seal", ready.json["detail"])
+                self.assertEqual(len(daemon.get("/v1/measurements").json["measurements"]), 1)
+                self.assertEqual(daemon.measure({**PART, "gauge": "G-1"}).status, 503)
+                daemon.stop()
+
     def test_a_changed_table_cell_stops_verdicts(self):
         daemon = self.stopped_with(1)
         # IT9 of 18 to 30 mm from 52 to 53 um keeps every rule of the tables.
