@@ -369,10 +369,13 @@ class PartCharacteristics(_PartCharacteristics, total=False):
     characteristic: str
 
 
-class PartOpenReactions(TypedDict):
+class _PartOpenReactions(TypedDict):
     characteristic: str
-    reaction: str
     measurement_id: str
+
+
+class PartOpenReactions(_PartOpenReactions, total=False):
+    reaction: str
 
 
 class _Part(TypedDict):

@@ -163,6 +163,7 @@ export default {
   'part.by_plan': 'nach Plan {plan}',
   'part.by_no_plan': 'nach keinem Plan',
   'part.open': 'Noch zu erledigende Reaktionen',
+  'part.cause': 'Ursache und Maßnahme angeben',
   'part.rule': 'Das schlechteste seiner neuesten Ergebnisse; gut, wenn vom Plan nichts fehlt.',
   'trend.all': 'Alle',
   'trend.count': 'Werte',

@@ -163,6 +163,7 @@ export default {
   'part.by_plan': 'held against plan {plan}',
   'part.by_no_plan': 'not held against a plan',
   'part.open': 'Reactions to be done',
+  'part.cause': 'Give cause and action',
   'part.rule': 'The worst of its newest values; good when nothing of its plan is missing.',
   'trend.all': 'All',
   'trend.count': 'Values',

@@ -163,6 +163,7 @@ export default {
   'part.by_plan': 'secondo il piano {plan}',
   'part.by_no_plan': 'senza un piano',
   'part.open': 'Reazioni da fare',
+  'part.cause': 'Indicare causa e provvedimento',
   'part.rule': 'Il peggiore dei suoi valori più recenti; buono se del piano non manca nulla.',
   'trend.all': 'Tutte',
   'trend.count': 'Valori',

@@ -163,6 +163,7 @@ export default {
   'part.by_plan': 'volgens plan {plan}',
   'part.by_no_plan': 'zonder plan',
   'part.open': 'Reacties die nog te doen zijn',
+  'part.cause': 'Geef oorzaak en maatregel',
   'part.rule': 'Het slechtste van zijn nieuwste waarden; goed als er van het plan niets ontbreekt.',
   'trend.all': 'Alle',
   'trend.count': 'Waarden',

@@ -96,6 +96,6 @@ export async function partSheet(part, signal) {
     h('div', h('p.headline', [part, !isOpenEnded(found) && wordOf(found)].filter(Boolean).join(' · ')),
       h('p', [counted, plan === undefined ? t('part.by_no_plan') : t('part.by_plan', { plan })].filter(Boolean).join(' · ')),
       missing.length > 0 && h('p.missing', t('part.missing', { names: missing.join(', ') }), ' ', station),
-      open.length > 0 && h('ul', { 'aria-label': t('part.open') }, open.map(({ characteristic, reaction }) => h('li', h('strong', characteristic), ` ${reaction}`))),
+      open.length > 0 && h('ul', { 'aria-label': t('part.open') }, open.map(({ characteristic, reaction }) => h('li', h('strong', characteristic), ` ${reaction ?? t('part.cause')}`))),
       h('p.aside', t('part.rule'))));
 }

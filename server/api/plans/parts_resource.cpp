@@ -39,13 +39,14 @@ void members(auto& v, const PartValue& value) {
 /// A characteristic of a plan and its record.
 struct Reaction {
   std::string characteristic{};
-  std::string reaction{};
+  std::optional<std::string> reaction{};
   std::string measurement{};
+  bool is_demanded = false;     ///< by a reaction or a catalogue
   bool is_at_each_part = true;  ///< no frequency says otherwise
 };
 void members(auto& v, const Reaction& open) {
   v.member("characteristic", open.characteristic);
-  v.member("reaction", open.reaction, "Reaction of the plan");
+  v.optional("reaction", open.reaction, "Absent if the plan names a catalogue alone");
   v.member("measurement_id", open.measurement, "The record that is not good and has no note");
 }
 
@@ -66,7 +67,7 @@ void members(auto& v, const Part& part) {
   v.member("characteristics", part.values,
            "Characteristics in the order of the plan, then the others");
   v.member("open_reactions", part.reactions,
-           "Reactions that the plan demands and that have no note");
+           "Reactions, or causes of a catalogue, that the plan demands and that have no note");
 }
 
 /// @errors StorageCorrupt.
@@ -75,10 +76,14 @@ Result<std::vector<Reaction>> characteristics_of(const NamedDocument& plan) {
   if (!json) return json.error();
   std::vector<Reaction> found;
   for (const JsonValue& each : json->find("characteristics")->items) {
-    const JsonValue* reaction = each.find("reaction");
-    const JsonValue* frequency = each.find("frequency");
-    found.push_back({each.find("name")->text, reaction == nullptr ? "" : reaction->text, "",
-                     frequency == nullptr || frequency->text.empty()});
+    const auto has = [&each](std::string_view name) {
+      const JsonValue* text = each.find(name);
+      return text != nullptr && !text->text.empty();
+    };
+    Reaction& one = found.emplace_back(Reaction{.characteristic = each.find("name")->text});
+    if (has("reaction")) one.reaction = each.find("reaction")->text;
+    one.is_demanded = one.reaction || has("catalogue");
+    one.is_at_each_part = !has("frequency");
   }
   return found;
 }
@@ -95,9 +100,8 @@ void hold_against(const std::vector<Reaction>& plan, Part& part) {
         std::ranges::find(part.values, each.characteristic, &PartValue::characteristic);
     if (value == part.values.end()) {
       if (each.is_at_each_part) part.missing.push_back(each.characteristic);
-    } else if (value->verdict.value_or("good") != "good" && !value->has_note &&
-               !each.reaction.empty()) {
-      part.reactions.push_back({each.characteristic, each.reaction, value->measurement});
+    } else if (value->verdict.value_or("good") != "good" && !value->has_note && each.is_demanded) {
+      part.reactions.emplace_back(each).measurement = value->measurement;
     }
   }
 }

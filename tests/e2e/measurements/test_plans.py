@@ -69,6 +69,17 @@ class Plans(DaemonTest):
         for name in ("9-B", "9-C"):
             self.daemon.request("DELETE", f"/v1/plans/{name}")
 
+    def test_a_value_waits_for_a_cause_of_its_catalogue(self):
+        self.daemon.request("PUT", "/v1/catalogues/bores", {"causes": ["Insert worn"], "measures": []})
+        self.put("9-D", {"name": "seat", "designation": "25 H7", "catalogue": "bores"})
+        bad = self.daemon.measure({"part_id": "P-2", "characteristic": "seat", "designation": "25 H7", "measured_mm": "25.05"}).json["id"]
+        open_reactions = lambda: self.daemon.get("/v1/parts/P-2?plan=9-D").json["open_reactions"]
+        self.assertEqual(open_reactions(), [{"characteristic": "seat", "measurement_id": bad}])
+        self.daemon.post(f"/v1/measurements/{bad}/notes", {"cause": "Insert worn"})
+        self.assertEqual(open_reactions(), [])
+        for path in ("plans/9-D", "catalogues/bores"):
+            self.daemon.request("DELETE", f"/v1/{path}")
+
     def test_every_bad_field_is_named(self):
         cases = [
             ([{**BORE, "designation": "25 H19"}], "/characteristics/0/designation", "class.unknown"),

@@ -113,6 +113,14 @@ describe('the parts', () => {
     assert.match(decodeURIComponent(hashOf(page)), /^#\/gauge\b(?=.*part_id=V-HALF).*plan=4713-A/);
   });
 
+  it('wait for a cause where the plan names a catalogue alone', async () => {
+    await daemon.send('PUT', '/v1/catalogues/k', { causes: ['Insert worn'], measures: ['Insert changed'] });
+    await daemon.send('PUT', '/v1/plans/4714-A', { characteristics: [{ name: 'k-bore', designation: '25 H7', catalogue: 'k' }] });
+    await daemon.send('POST', '/v1/measurements', { designation: '25 H7', characteristic: 'k-bore', measured_mm: '25.04', part_id: 'K-BAD' });
+    page = await open(browser, daemon, '#/parts?part_id=K-BAD');
+    await page.waitForFunction(() => /k-bore Give cause and action/.test(document.querySelector('.part-verdict ul')?.textContent));
+  });
+
   it('come to nothing good without a plan, and are asked for again when there was no answer', async () => {
     const of = (part_id, characteristic, measured_mm) => ({ designation: '25 H7', characteristic, measured_mm, part_id, order: 'WO-F' });
     await daemon.send('POST', '/v1/measurements', [of('F-3', 'f-a', '25.010'), ...Array.from({ length: 40 }, (_, i) => of(`F-OLD-${i}`, 'f-a', '25.010')),
