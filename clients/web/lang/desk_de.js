@@ -203,6 +203,7 @@ export default {
   'trend.too_few': 'n = {count}: mindestens {fewest} Werte verwenden',
   'trend.value_number': 'Wert {number}',
   'trend.no_capability': 'Die Fähigkeit braucht zwei verschiedene Werte oder mehr, alle mit denselben Grenzmaßen.',
+  'trend.no_limits': 'Keine Fähigkeit: Die Werte haben keine Grenzmaße.',
   'trend.boxes': 'Boxen nach Maschine, Werkzeug oder Prüfer',
   'trend.boxes_by': 'Gruppiert nach',
   'trend.boxes_title': 'Abweichungen in µm: Quartile, Median, kleinste und größte',

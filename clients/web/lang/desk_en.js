@@ -203,6 +203,7 @@ export default {
   'trend.too_few': 'n = {count}: use at least {fewest} values',
   'trend.value_number': 'value {number}',
   'trend.no_capability': 'Capability needs two different values or more, all with the same limits.',
+  'trend.no_limits': 'No capability: the values have no limits.',
   'trend.boxes': 'Boxes by machine, tool or operator',
   'trend.boxes_by': 'Grouped by',
   'trend.boxes_title': 'Deviations in µm: quartiles, median, least and greatest',

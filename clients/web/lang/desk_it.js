@@ -203,6 +203,7 @@ export default {
   'trend.too_few': 'n = {count}: usare almeno {fewest} valori',
   'trend.value_number': 'valore {number}',
   'trend.no_capability': 'La capacità richiede due o più valori diversi, tutti con gli stessi limiti.',
+  'trend.no_limits': 'Nessuna capacità: i valori non hanno limiti.',
   'trend.boxes': 'Riquadri per macchina, utensile o operatore',
   'trend.boxes_by': 'Raggruppati per',
   'trend.boxes_title': 'Scostamenti in µm: quartili, mediana, minimo e massimo',

@@ -203,6 +203,7 @@ export default {
   'trend.too_few': 'n = {count}: gebruik minstens {fewest} waarden',
   'trend.value_number': 'waarde {number}',
   'trend.no_capability': 'Capabiliteit vraagt twee of meer verschillende waarden, alle met dezelfde grenzen.',
+  'trend.no_limits': 'Geen capabiliteit: de waarden hebben geen grenzen.',
   'trend.boxes': 'Boxen per machine, gereedschap of controleur',
   'trend.boxes_by': 'Gegroepeerd op',
   'trend.boxes_title': 'Afwijkingen in µm: kwartielen, mediaan, kleinste en grootste',

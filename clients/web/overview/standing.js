@@ -3,7 +3,7 @@
 import { getJson, url } from '../api.js';
 import { FEWEST } from '../trend/figures.js';
 import { isCounted } from '../trend/phases.js';
-import { countVerdicts, pointOf } from '../trend/series.js';
+import { countVerdicts, hasLimits, pointOf } from '../trend/series.js';
 
 /** So many of the newest values of each. */
 export const LAST = 100;
@@ -20,8 +20,8 @@ export async function standingOf(filter, signal) {
   };
 }
 
-/** Only two different deviations from one size make figures. */
-const hasSpread = (records) => new Set(records.map((record) => record.deviation_um)).size > 1
+/** Only two different deviations from one size with limits make figures. */
+const hasSpread = (records) => records.some(hasLimits) && new Set(records.map((record) => record.deviation_um)).size > 1
   && new Set(records.map((record) => [record.nominal_mm, record.upper_limit_mm, record.lower_limit_mm].join())).size === 1;
 
 /** Of so many of the newest values that count. Null where they have no figures all the same. */

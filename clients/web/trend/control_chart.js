@@ -17,6 +17,8 @@ const GAP = 36;
 const AXIS = 46;
 const LEFT = 74;
 const RIGHT = 92;
+/** Values from zero, of this many nm and more, have long labels. */
+const LONG = { from: 1e6, right: 122 };
 /** Of the outermost points from the edge. */
 const INSET = 12;
 const HISTOGRAM = 150;
@@ -38,9 +40,11 @@ const OUTLYING = 2;
 export const PAPER = { width: 650, dots: 4 };
 
 export const SPREADS = { mr: 'MR', r: 'R', s: 's' };
+const DISC = 'M0-4.5a4.5 4.5 0 1 1 0 9a4.5 4.5 0 1 1 0-9z';
 /** From below to above. */
 const MARKS = {
-  good: 'M0-4.5a4.5 4.5 0 1 1 0 9a4.5 4.5 0 1 1 0-9z',
+  good: DISC,
+  unjudged: DISC,
   rework: 'M0-7L7 6H-7z',
   indeterminate: 'M0-7.5L7.5 0 0 7.5-7.5 0z',
   reject: 'M-3-7H3L7-3V3L3 7H-3L-7 3V-3z',
@@ -76,7 +80,8 @@ export class ControlChart {
     const control = (own ? [own, ...this.phases.flatMap(({ charts }) => charts?.[0] ?? [])] : []).flatMap((one) => [one.upper_limit, one.lower_limit]).map((value) => value * NM_PER_UM);
     const counted = points.filter(isCounted);
     this.range = rangeOf(counted.length ? counted : points, [...control, ...singles.map(({ deviation }) => deviation)]);
-    this.inside = width - beside - LEFT - RIGHT - 2 * INSET;
+    this.right = Math.max(this.range.high, -this.range.low) < LONG.from ? RIGHT : LONG.right;
+    this.inside = width - beside - LEFT - this.right - 2 * INSET;
     const inner = VALUES + (spread ? GAP + SPREAD : 0);
     const height = TOP + inner + AXIS;
     const { high, low } = this.range;
@@ -125,7 +130,7 @@ export class ControlChart {
     const of = Object.fromEntries(Object.keys(MARKS).map((verdict) => [verdict, []]));
     points.forEach((point, i) => {
       if (point.deviation > range.high || point.deviation < range.low) this.beyond.push(i);
-      (isCounted(point) ? of[point.record.verdict] : aside)?.push(i);
+      (isCounted(point) ? of[point.record.verdict ?? 'unjudged'] : aside).push(i);
     });
     const sides = points[0].members ? [] : ['upper', 'lower'].filter((side) => Number.isFinite(range[side]));
     const limits = [range.upper, range.lower].filter(Number.isFinite);
@@ -137,14 +142,14 @@ export class ControlChart {
         { ...row, stroke: colours.edge, width: dots },
         marked(row, RING, this.firsts, dots, { apart: APART.rules, stroke: colours.ink, width: 1.75 }),
         ...Object.entries(MARKS).map(([verdict, shape]) => marked(row, shape, of[verdict], dots, {
-          always: verdict !== 'good', fill: colours[verdict], stroke: verdict === 'rework' ? colours.ink : colours.sheet })),
+          always: MARKS[verdict] !== DISC, fill: colours[verdict] ?? colours.edge, stroke: verdict === 'rework' ? colours.ink : colours.sheet })),
         marked(row, CROSS, aside, dots, { stroke: colours.soft, width: 2 }),
       ],
       axes: [
         ...(own ? this.#controlLines('nm', own, NM_PER_UM, (range.high - range.low) / VALUES) : []),
         line('nm', target, colours.good, 1, [10, 3, 2, 3]),
         axis({ scale: 'nm', side: 3, size: LEFT, splits: [range.high, ...limits, ...target], values: ['µm', ...limits.map((value) => `${value === range.upper ? 'U' : 'L'} ${signed(umText(value))}`), ...target.map((value) => `T ${signed(umText(value))}`)] }),
-        axis({ scale: 'nm', side: 1, size: RIGHT }),
+        axis({ scale: 'nm', side: 1, size: this.right }),
       ],
     };
   }

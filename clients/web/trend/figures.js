@@ -2,6 +2,7 @@
 
 import { request, url } from '../api.js';
 import { Decimal } from '../exact.js';
+import { deviationOf, hasLimits } from './series.js';
 
 const RULES = [1, 2, 3, 4];
 /** Below this many values an index says little (Q-DAS and AIAG ask for 25 subgroups and more). */
@@ -13,7 +14,7 @@ const post = async (what, body, signal) => (await request('POST', url(['statisti
 const decimal = (um) => (um === undefined ? undefined : new Decimal(String(um)));
 
 /** Deviations in µm as the service printed them: nothing is rounded on the way. One text, as there may be 100,000. */
-const valuesOf = (points) => new Decimal(`[${points.map(({ record }) => record.deviation_um).join()}]`);
+const valuesOf = (points) => new Decimal(`[${points.map(({ record }) => deviationOf(record)).join()}]`);
 
 /** Values one by one, or subgroup by subgroup where `groups` are given. */
 const dataOf = (points, groups) => (groups ? { subgroups: groups.map(valuesOf) } : { values: valuesOf(points) });
@@ -30,12 +31,12 @@ export async function controlChart(points, { kind, groups = null, rules = RULES,
   return orNull(post('chart', { kind, ...dataOf(points, groups), rules, ...known }, signal));
 }
 
-/** Cp, Cpk, Pp, Ppk with their intervals; null where they have no meaning: other limits among the values, too few of them, or no spread. */
+/** Cp, Cpk, Pp, Ppk with their intervals; null where they have no meaning: no limits, or others among the values, too few of them, or no spread. */
 export async function capability(points, groups, signal) {
   const [{ record }] = points;
   const same = points.every(({ upper, lower }) => upper === points[0].upper && lower === points[0].lower);
   const isEqual = points.every(({ deviation }) => deviation === points[0].deviation);
-  if (!same || isEqual || (groups ?? points).length < 2) return null;
+  if (!hasLimits(record) || !same || isEqual || (groups ?? points).length < 2) return null;
   return orNull(post('capability', {
     ...dataOf(points, groups), lower: decimal(record.lower_deviation_um), upper: decimal(record.upper_deviation_um),
   }, signal));

@@ -3,7 +3,7 @@
 import { getJson, url } from '../api.js';
 import { Latest } from '../latest.js';
 import { newestValues } from './recent_values.js';
-import { sizeOf } from './series.js';
+import { isDesignation, sizeOf } from './series.js';
 
 /** More than so many values missed are a list to read anew. */
 const MOST_MISSED = 1000;
@@ -56,7 +56,7 @@ export class HeldValues {
 
   /** A drawing's own limits have no designation that the service could look for. */
   get query() {
-    return { ...this.bar.query, characteristic: this.characteristic, designation: this.size.includes('/') ? '' : this.size };
+    return { ...this.bar.query, characteristic: this.characteristic, designation: isDesignation(this.size) ? this.size : '' };
   }
 
   /** A record that was just stored. @returns whether it belongs to what is shown, and was not there */

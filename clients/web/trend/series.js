@@ -1,6 +1,6 @@
 /** What a trend shows: deviations in nm with their limits, the newest last. */
 
-import { NM_PER_UM } from '../exact.js';
+import { nmFromMm, NM_PER_UM, umText } from '../exact.js';
 import { VERDICTS } from '../verdict.js';
 import { isNoted } from './aside.js';
 
@@ -10,15 +10,21 @@ const FARTHEST = 3;
 const FEW = 30;
 const OUTSIDE = 0.5;
 
-/** What a record was measured against: a size and class, or the limits of a drawing. */
-export const sizeOf = (record) => record.designation
-  ?? `${record.nominal_mm} ${[record.upper_deviation_um, record.lower_deviation_um].map((um = '–') => (um > 0 ? `+${um}` : um)).join('/')} µm`;
+export const hasLimits = ({ upper_deviation_um: upper, lower_deviation_um: lower }) => upper !== undefined || lower !== undefined;
+
+/** What a record was measured against: a size and class, the limits of a drawing, or a nominal size alone, if any. */
+export const sizeOf = (record) => record.designation ?? (hasLimits(record)
+  ? `${record.nominal_mm} ${[record.upper_deviation_um, record.lower_deviation_um].map((um = '–') => (um > 0 ? `+${um}` : um)).join('/')} µm` : `${record.nominal_mm ?? '–'} mm`);
+export const isDesignation = (size) => !/ [mµ]m$/.test(size);
+
+/** In µm; of a value without a nominal size, from zero. */
+export const deviationOf = (record) => record.deviation_um ?? umText(nmFromMm(record.measured_mm));
 
 /** A deviation in µm is a decimal of whole nanometres. */
 const nmOf = (um) => Math.round(um * NM_PER_UM);
 
 /** A limit that a drawing does not have is infinite. */
-export const pointOf = (record) => ({ record, deviation: nmOf(record.deviation_um), upper: nmOf(record.upper_deviation_um ?? Infinity), lower: nmOf(record.lower_deviation_um ?? -Infinity) });
+export const pointOf = (record) => ({ record, deviation: nmOf(deviationOf(record)), upper: nmOf(record.upper_deviation_um ?? Infinity), lower: nmOf(record.lower_deviation_um ?? -Infinity) });
 
 /**
  * Points by their subgroup, in order: {groups, left}. Groups of another size than most, such as one that is
@@ -72,7 +78,7 @@ export function eventsOf(points) {
   return found;
 }
 
-/** The range of the vertical axis, with the limits, of which one may be infinite. @param others values in nm that are to be seen too */
+/** The range of the vertical axis, with the limits, which may be infinite. @param others values in nm that are to be seen too */
 export function rangeOf(points, others = []) {
   let [upper, lower] = [-Infinity, Infinity];
   for (const point of points) {
@@ -80,7 +86,7 @@ export function rangeOf(points, others = []) {
     lower = Math.min(lower, point.lower);
   }
   const limits = [lower, upper].filter(Number.isFinite);
-  const tolerance = Math.max(limits.length === 2 ? upper - lower : Math.abs(limits[0]), 1);
+  const tolerance = Math.max(limits.length === 2 ? upper - lower : Math.abs(limits[0] ?? 0), 1);
   const isOut = ({ deviation }) => deviation > upper + OUTSIDE * tolerance || deviation < lower - OUTSIDE * tolerance;
   const out = points.filter(isOut).length;
   const isFew = out > 0 && out <= points.length / FEW;
@@ -98,8 +104,8 @@ export function rangeOf(points, others = []) {
 }
 
 export function countVerdicts(points) {
-  const counts = Object.fromEntries(VERDICTS.map((verdict) => [verdict, 0]));
-  for (const { record } of points) ++counts[record.verdict];
+  const counts = Object.fromEntries([...VERDICTS, 'unjudged'].map((verdict) => [verdict, 0]));
+  for (const { record } of points) ++counts[record.verdict ?? 'unjudged'];
   return counts;
 }
 

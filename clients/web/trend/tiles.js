@@ -5,7 +5,7 @@ import { umText } from '../exact.js';
 import { has, number, signed, t } from '../i18n.js';
 import { verdictShape, VERDICTS } from '../verdict.js';
 import { FEWEST } from './figures.js';
-import { countVerdicts, statisticsOf } from './series.js';
+import { countVerdicts, hasLimits, statisticsOf } from './series.js';
 
 const INDICES = ['cp', 'cpk', 'pp', 'ppk'];
 
@@ -16,8 +16,9 @@ export function countTiles(points, aside = 0) {
   const { mean, deviation } = statisticsOf(points);
   const um = (nm) => `${signed(umText(Math.round(nm / 10) * 10))} µm`;
   return [
-    ...VERDICTS.filter((verdict) => verdict !== 'indeterminate' || counts[verdict])
+    ...VERDICTS.filter((verdict) => counts[verdict] || (verdict !== 'indeterminate' && counts.unjudged < Math.max(points.length, 1)))
       .map((verdict) => tile(verdictShape(verdict), t(`verdict.${verdict}`), String(counts[verdict]))),
+    counts.unjudged > 0 && tile(null, t('verdict.unjudged'), String(counts.unjudged)),
     aside > 0 && tile(null, t('aside.tile'), String(aside)),
     tile(null, t('trend.mean'), points.length ? um(mean) : '–'),
     tile(null, t('trend.deviation'), Number.isFinite(deviation) ? um(deviation).replace('+', '') : '–'),
@@ -26,7 +27,7 @@ export function countTiles(points, aside = 0) {
 
 /** The indices with their 95 % interval and n. Never green: grey, and with the reason, while they mean little. */
 export function capabilityTiles(figures, points, chart, drawn = points) {
-  if (!figures) return [h('p.aside', t('trend.no_capability'))];
+  if (!figures) return [h('p.aside', t(points[0] && !hasLimits(points[0].record) ? 'trend.no_limits' : 'trend.no_capability'))];
   const doubt = doubtOf(points, chart, drawn);
   const index = (value) => number(value.toFixed(2));
   const { reason } = figures;

@@ -482,6 +482,33 @@ describe('the trend', () => {
     assert.doesNotMatch(await page.textContent('.trend'), /NaN|undefined|Infinity/);
   });
 
+  it('draws values without limits, with a nominal size or none, as values: no limits, no index, no question for one', async () => {
+    const of = (characteristic, i, more) => ({ quantity: 'position', measured_mm: `40.0${10 + (i * 7) % 20}`, characteristic, machine: 'FREE', part_id: `F-${i}`, ...more });
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 30 }, (_, i) => [of('no-limits', i, { nominal_mm: 40 }), of('no-nominal', i)]).flat());
+    page = await openChart(browser, daemon, '#/trend?characteristic=one-limit');
+    const refused = [];
+    page.on('response', (answer) => answer.status() >= 400 && refused.push(answer.url()));
+    for (const [name, size, mean] of [['no-limits', '40 mm', '18.83'], ['no-nominal', '– mm', '40018.83']]) {
+      await page.evaluate((address) => { location.hash = address; }, `#/trend?characteristic=${name}`);
+      await page.waitForFunction((wanted) => document.querySelector('#trend-designation')?.selectedOptions[0]?.textContent === wanted, size);
+      await untilPoints(page, 30);
+      assert.match(hash(), new RegExp(`designation=${size.replace(' ', '.')}`));
+      const texts = await lettering(page);
+      assert.deepEqual(texts.filter((text) => /^[ULT] /.test(text)), [], 'no limits, no target');
+      assert.deepEqual(['CL', 'UCL', 'LCL'].filter((line) => !texts.some((text) => text.startsWith(`${line} `))), []);
+      assert.match(await page.textContent('.indices'), /No capability: the values have no limits/);
+      assert.match(await page.textContent('.tiles'), new RegExp(`^Not judged30Mean\\+${mean}`));
+      assert.equal((await marksOf(page, 'edge')).length > 0, true, 'each value has a mark');
+      assert.match(await page.textContent('.trend > .scroll tbody tr'), /^Not judged40\.0\d\d mm/);
+      assert.doesNotMatch(await page.textContent('.trend'), /NaN|undefined|Infinity/);
+    }
+    await picture(page, 'trend-no-limits', { fullPage: true });
+    await page.evaluate(() => { location.hash = '#/overview?machine=FREE'; });
+    await page.waitForFunction(() => /no-limits30.*no-nominal30/.test(document.querySelector('.overview tbody')?.textContent));
+    assert.doesNotMatch(await page.textContent('.overview'), /NaN|undefined|Infinity/);
+    assert.deepEqual(refused, []);
+  });
+
   it('charts the means of subgroups, and leaves out one that is still being measured', async () => {
     // Piston rings (Montgomery), 25 samples of five, as R's qcc has them: means 74.001176 between 73.98805 and
     // 74.01431, ranges 0.02276 below 0.04812; with s 0.00924 below 0.0193.
