@@ -8,6 +8,8 @@ import { nameIn } from './gauge/reading.js';
 import { date, t } from './i18n.js';
 
 const NAMES = ['machine', 'tool', 'order', 'operator'];
+/** By whom, where no name was given: the name of a key, as of a badge, is asked for and kept as this. */
+const KEY = 'caller';
 /** Those in the first row: the others are folded, with their number. */
 const FIRST = ['machine', 'order'];
 const DAYS = ['from', 'to'];
@@ -41,15 +43,21 @@ export function searched(input) {
   if (!isOffered) input.value = nameIn(typed, input.name, prefixes) ?? typed;
 }
 
+const ofKey = (name) => t('filter.of_key', { name });
+
 export class FilterBar {
   /** @param options of the address; @param onChange is told of another choice */
   constructor(options, onChange) {
-    const changed = () => { this.#press(); onChange(); };
+    const changed = () => { this.#nameKey(); this.#press(); onChange(); };
+    this.changed = changed;
     this.inputs = Object.fromEntries([
       ...NAMES.map((name) => [name, h('input', { type: 'text', name, list: `filter-${name}`, autocomplete: 'off', spellcheck: 'false', onchange: ({ target }) => { searched(target); changed(); } })]),
       ...DAYS.map((name) => [name, h('input', { type: 'date', name, onchange: () => this.#choose('', changed) })]),
     ]);
     for (const [name, input] of Object.entries(this.inputs)) input.value = options[name] ?? '';
+    if (options[KEY]) this.inputs.operator.value = ofKey(options[KEY]);
+    this.keys = new Set([options[KEY]].filter(Boolean));
+    this.operators = new Set();
     this.period = PERIODS.includes(options.period) ? options.period : '';
     this.lists = NAMES.map((name) => h('datalist', { id: `filter-${name}` }));
     this.chips = PERIODS.map((period) => h('button', { type: 'button', onclick: () => this.#choose(this.period === period ? '' : period, changed) }, t(`period.${period}`)));
@@ -62,7 +70,13 @@ export class FilterBar {
     this.more = h('details.of-more', this.summary, h('div.line', fieldsOf(this.folded), h('div.chips', this.without), this.rule));
     this.element = [fieldsOf(FIRST), h('div.chips', this.chips), this.more, this.lists];
     this.#press();
-    this.more.open = this.isWithout || this.folded.some((name) => options[name]);
+    this.more.open = this.isWithout || [...this.folded, KEY].some((name) => options[name]);
+  }
+
+  /** Says that a name is that of a key. */
+  #nameKey() {
+    const key = this.#names[KEY];
+    if (key) this.inputs.operator.value = ofKey(key);
   }
 
   #choose(period, changed) {
@@ -83,12 +97,23 @@ export class FilterBar {
 
   /** Asks which names there are. */
   offer(signal) {
-    NAMES.forEach((name, i) => getJson(url(['measurements', 'summary'], { group_by: name }), { signal, asks: false }).then(({ groups }) =>
-      refill(this.lists[i], groups.map((group) => group[name]).filter(Boolean).slice(0, MOST_OFFERED).map((value) => h('option', { value }))), () => {}));
+    const namesOf = async (name) => (await getJson(url(['measurements', 'summary'], { group_by: name }), { signal, asks: false })).groups.map((group) => group[name]).filter(Boolean);
+    const fill = (name, values) => refill(this.lists[NAMES.indexOf(name)], values.slice(0, MOST_OFFERED).map((value) => h('option', { value })));
+    for (const name of NAMES.filter((each) => each !== 'operator')) namesOf(name).then((values) => fill(name, values), () => {});
+    Promise.all([namesOf('operator'), namesOf(KEY)]).then(([operators, keys]) => {
+      const before = this.#names[KEY];
+      for (const name of operators) this.operators.add(name);
+      for (const name of keys) this.keys.add(name);
+      fill('operator', [...operators, ...keys.map(ofKey)]);
+      if (this.#names[KEY] !== before) this.changed();
+    }, () => {});
   }
 
+  /** A name that only a key has is that of the key. */
   get #names() {
-    return Object.fromEntries(NAMES.map((name) => [name, this.inputs[name].value.trim()]));
+    const { operator, ...names } = Object.fromEntries(NAMES.map((name) => [name, this.inputs[name].value.trim()]));
+    const key = [...this.keys].find((name) => operator === ofKey(name) || (operator === name && !this.operators.has(name)));
+    return { ...names, operator: key ? '' : operator, [KEY]: key ?? '' };
   }
 
   /** As the address has it. */

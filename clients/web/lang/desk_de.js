@@ -108,6 +108,7 @@ export default {
   'period.today': 'Heute',
   'period.yesterday': 'Gestern',
   'period.shift': 'Diese Schicht',
+  'filter.of_key': '{name} · Schlüssel',
   'confirmed.without': 'Ohne bestätigte Werte',
   'confirmed.rule': 'Weggelassen: Werte weit außerhalb der Grenzen, die jemand bestätigt hat.',
   'fit.label': 'Passung',

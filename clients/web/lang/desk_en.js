@@ -108,6 +108,7 @@ export default {
   'period.today': 'Today',
   'period.yesterday': 'Yesterday',
   'period.shift': 'This shift',
+  'filter.of_key': '{name} · key',
   'confirmed.without': 'Without confirmed values',
   'confirmed.rule': 'Left out: values far outside the limits that somebody confirmed.',
   'fit.label': 'Fit',

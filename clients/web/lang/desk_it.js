@@ -108,6 +108,7 @@ export default {
   'period.today': 'Oggi',
   'period.yesterday': 'Ieri',
   'period.shift': 'Questo turno',
+  'filter.of_key': '{name} · chiave',
   'confirmed.without': 'Senza valori confermati',
   'confirmed.rule': 'Esclusi: i valori molto fuori dai limiti che qualcuno ha confermato.',
   'fit.label': 'Accoppiamento',

@@ -108,6 +108,7 @@ export default {
   'period.today': 'Vandaag',
   'period.yesterday': 'Gisteren',
   'period.shift': 'Deze ploeg',
+  'filter.of_key': '{name} · sleutel',
   'confirmed.without': 'Zonder bevestigde waarden',
   'confirmed.rule': 'Weggelaten: waarden ver buiten de grenzen die iemand heeft bevestigd.',
   'fit.label': 'Passing',

@@ -7,6 +7,7 @@ import { periodOf } from '../../../clients/web/filter_bar.js';
 import { nameIn, notWords } from '../../../clients/web/gauge/reading.js';
 import { close, hashOf, open, picture } from './support/browser.mjs';
 import { untilPoints } from './support/chart.mjs';
+import { Daemon } from './support/daemon.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 describe('a line in a field', () => {
@@ -86,6 +87,35 @@ describe('the filter bar', () => {
         assert.ok(height < 100, `${view} in ${language}: ${height}`);
       }
     }
+    await close(page);
+  });
+
+  it('finds the values of an operator by the name that the list shows, also that of a key', async () => {
+    const own = await new Daemon().start();
+    const keys = { Kim: await own.key('Kim', 'operator'), Lee: await own.key('Lee', 'operator') };
+    const measure = (key, record) => fetch(`${own.url}/v1/measurements`, {
+      method: 'POST', body: JSON.stringify({ designation: '25 H7', measured_mm: '25.01', characteristic: 'by', ...record }), headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${keys[key]}` } });
+    for (let i = 0; i < 3; ++i) await measure('Kim', { part_id: `K-${i}` });
+    await measure('Lee', { part_id: 'L-1' });
+    await measure('Lee', { part_id: 'L-2', operator: 'Lee' });
+    const page = await open(browser, own, '#/parts?operator=Kim');
+    const parts = (...wanted) => page.waitForFunction((names) => [...document.querySelectorAll('.records tbody tr')].map((row) => row.cells[0].textContent).join() === names, wanted.join());
+    await parts('K-2', 'K-1', 'K-0');
+    assert.match(hashOf(page), /^#\/parts\?caller=Kim/);
+    assert.equal(await page.textContent('.of-more summary'), 'More filters · Operator Kim · key');
+    assert.deepEqual(await page.$$eval('#filter-operator option', (all) => all.map(({ value }) => value)), ['Lee', 'Kim · key', 'Lee · key']);
+    const find = async (name) => { await page.fill('[name="operator"]', name); await page.press('[name="operator"]', 'Enter'); };
+    await find('Lee');
+    await parts('L-2');
+    await find('Lee · key');
+    await parts('L-2', 'L-1');
+    await find('Kim');
+    await parts('K-2', 'K-1', 'K-0');
+    await page.evaluate(() => { location.hash = '#/trend?characteristic=by&caller=Kim'; });
+    await untilPoints(page, 3);
+    await measure('Lee', {});
+    await measure('Kim', {});
+    await untilPoints(page, 4);
     await close(page);
   });
 
