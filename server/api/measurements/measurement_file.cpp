@@ -146,6 +146,12 @@ std::vector<std::pair<std::string_view, std::string>> other_fields(const app::Me
   for (const app::MeasurementField& field : app::kLabels) {
     if (field.name != "part_id" && field.name != "characteristic") add(field);
   }
+  if (m.corrected) {  // the value and its uncertainty are those of the size at 20 degrees
+    fields.emplace_back("measured_mm", format_mm(m.measured));
+    if (m.standard_uncertainty) {
+      fields.emplace_back("uncertainty_um", format_um(*m.standard_uncertainty));
+    }
+  }
   if (m.rule.kind() != gauging::DecisionRule::Kind::Simple) {
     fields.emplace_back("rule", word(m.rule.kind()));
   }
@@ -215,7 +221,7 @@ Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& m) {
     return Error{ErrorCode::FieldInvalid, "it is simulated, not the result of an inspection"};
   }
   qif::OutgoingValue value{.origin = m.origin, .number = m.id, .measured_at = m.measured_at};
-  value.measured = m.measured;
+  value.measured = m.decisive();
   if (m.has_nominal) value.nominal = m.nominal_size;
   if (m.has_upper_limit()) value.upper = m.upper_limit();
   if (m.has_lower_limit()) value.lower = m.lower_limit();
@@ -226,7 +232,7 @@ Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& m) {
   value.size_operator = m.size_operator.value_or("");
   value.has_envelope = m.envelope.has_value();
   value.status = status_of(m.result.verdict);
-  value.uncertainty = m.standard_uncertainty;
+  if (m.standard_uncertainty) value.uncertainty = known_uncertainty(m).u;
   value.part_id = m.part_id;
   value.characteristic = m.characteristic;
   value.fields = other_fields(m);

@@ -139,11 +139,11 @@ Result<void> QifRows::Converter::read_value(const Element& element, std::uint32_
   }
   const auto measured = length("value", values.front().own_text(), line);
   if (!measured) return measured.error();
-  fields_[aqdef::kMeasured] = format_mm(*measured);
+  fill(aqdef::kMeasured, format_mm(*measured));
   if (const std::string said = values.front().attribute("combinedUncertainty"); !said.empty()) {
     const auto uncertainty = length("combinedUncertainty", said, line);
     if (!uncertainty) return uncertainty.error();
-    fields_.at(kUncertainty) = format_um(*uncertainty);
+    fill(kUncertainty, format_um(*uncertainty));
   }
   return {};
 }
