@@ -33,17 +33,17 @@ export async function runReport(run, { onMoves, onMove }) {
   ].filter(Boolean);
 }
 
-/** The columns of what was measured: their names and units. */
-const COLUMNS = [['programs.cycle'], ['field.characteristic'], ['programs.nominal', 'mm'], ['parts.limits', 'mm'], ['programs.measured', 'mm'], ['parts.deviation', 'µm'], ['trend.verdict']];
+/** The columns of what was measured: their names and units. Those that say how it is come first: they are in sight in a narrow place too. */
+const COLUMNS = [['trend.verdict'], ['parts.deviation', 'µm'], ['field.characteristic'], ['programs.measured', 'mm'], ['programs.nominal', 'mm'], ['parts.limits', 'mm'], ['programs.cycle']];
 const hasLimits = (size) => size.upper_limit_mm !== undefined || size.lower_limit_mm !== undefined;
 
 /** Equally many decimals in a column. */
 const millimetres = (value) => number(mmText(Math.round(value * NM_PER_MM)));
 
 function measured(measurements) {
-  const rows = measurements.flatMap(({ cycle, sizes }) => sizes.map((size) => h('tr', h('td', String(cycle)), h('td', size.characteristic),
-    h('td.number', millimetres(size.nominal_mm)), h('td', hasLimits(size) ? limitsText(size).replace(/ mm$/, '') : '–'), h('td.number', millimetres(size.measured_mm)),
-    h('td.number', signed(umText(Math.round(size.deviation_um * NM_PER_UM)))), h('td', size.verdict ? verdictMark(size.verdict) : ''))));
+  const rows = measurements.flatMap(({ cycle, sizes }) => sizes.map((size) => h('tr', h('td', size.verdict ? verdictMark(size.verdict) : ''),
+    h('td.number', signed(umText(Math.round(size.deviation_um * NM_PER_UM)))), h('td', size.characteristic), h('td.number', millimetres(size.measured_mm)),
+    h('td.number', millimetres(size.nominal_mm)), h('td', hasLimits(size) ? limitsText(size).replace(/ mm$/, '') : '–'), h('td', String(cycle)))));
   return h('div.wide.sizes', { tabindex: 0, role: 'region', 'aria-label': t('programs.measurements') }, h('table', h('caption', t('programs.measurements')),
     h('thead', h('tr', COLUMNS.map(([name, unit]) => h('th', { scope: 'col', class: unit && name !== 'parts.limits' && 'number' }, unit ? `${t(name)}, ${unit}` : t(name))))), h('tbody', rows)));
 }

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';
 
-import { close, open } from './support/browser.mjs';
+import { close, drawn, open } from './support/browser.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 /** What is there for the eye at another time: on paper, for screen readers, or where a folder is opened. */
@@ -36,8 +36,8 @@ describe('the style sheets', () => {
     const looks = await page.$$eval('path.probe', (all) => all.map((path) => [getComputedStyle(path).display, getComputedStyle(path).stroke !== 'none']));
     assert.ok(looks.length >= 3 && looks.every(([display, stroke]) => display !== 'none' && stroke), JSON.stringify(looks));
     // The run says why it is good, and is gone through by block.
-    assert.match(await page.textContent('.report .sizes thead'), /Nominal, mmLimits, mmMeasured, mmDeviation, µm/);
-    const lines = await page.$$eval('.report .sizes :is(td.number, td:nth-child(4))', (cells) => cells.map((cell) => {
+    assert.match(await page.textContent('.report .sizes thead'), /Deviation, µmCharacteristicMeasured, mmNominal, mmLimits, mm/);
+    const lines = await page.$$eval('.report .sizes :is(td.number, td:nth-child(6))', (cells) => cells.map((cell) => {
       const range = document.createRange();
       range.selectNodeContents(cell);
       return new Set([...range.getClientRects()].map(({ top }) => top)).size;
@@ -47,6 +47,33 @@ describe('the style sheets', () => {
     assert.match(await page.textContent('.moves output'), /\S/);
     await page.click('.steps button:first-child');
     await page.click('.steps button:last-child');
+    await close(page);
+  });
+
+  it('have room for what was measured and how it is, whatever the width and the language', async () => {
+    const page = await open(browser, daemon, '#/programs');
+    await page.click('text=8255');
+    await page.waitForSelector('.report .sizes td');
+    const names = await page.$$eval('.report .sizes thead th', (all) => all.map(({ textContent }) => textContent));
+    const columns = ['Verdict', 'Deviation, µm', 'Characteristic', 'Measured, mm'].map((name) => names.indexOf(name));
+    for (const language of ['de', 'it', 'nl', 'en']) {
+      await page.selectOption('#language', language);
+      await page.waitForFunction((wanted) => document.documentElement.lang === wanted, language);
+      await page.waitForSelector('.report .sizes td');
+      for (const width of [1024, 1280, 1366, 1536]) {
+        await page.setViewportSize({ width, height: 768 });
+        await drawn(page);
+        const cut = await page.$eval('.report .sizes', (place, wanted) => {
+          const { left, right } = place.getBoundingClientRect();
+          return [...place.querySelectorAll('tr')].flatMap(({ cells }) => wanted.map((i) => {
+            const range = document.createRange();
+            range.selectNodeContents(cells[i]);
+            return [cells[i].textContent, range.getBoundingClientRect()];
+          }).filter(([text, at]) => text && (at.left < left || at.right > Math.min(right, innerWidth))).map(([text]) => text));
+        }, columns);
+        assert.deepEqual(cut, [], `${language} at ${width}`);
+      }
+    }
     await close(page);
   });
 
