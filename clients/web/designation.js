@@ -6,7 +6,9 @@ import { number } from './i18n.js';
 const DESIGNATION = /^[Øø⌀∅\s]*([\d.,]+)\s*(?:mm)?\s*\/?\s*([A-Za-z]\w*)$/;
 /** The envelope requirement of ISO 14405-1 behind a class. */
 const ENVELOPE = /\s*(?:\(E\)|Ⓔ)$/;
-const FIT = /^[Øø⌀∅\s]*([\d.,]+)\s*(?:mm)?\s*([A-Z]\w*(?:\s*(?:\(E\)|Ⓔ))?)\s*[/\s-]\s*([a-z]\w*(?:\s*(?:\(E\)|Ⓔ))?)$/;
+/** A side of a fit that is a bearing: its bore as a hole, its outer ring as a shaft. */
+const BEARING = /ISO\s*492\s*[-−–]\s*(\w+)/;
+const FIT = new RegExp(String.raw`^[Øø⌀∅\s]*([\d.,]+)\s*(?:mm)?\s*(${BEARING.source}|[A-Z]\w*(?:\s*(?:\(E\)|Ⓔ))?)\s*[/\s-]\s*(${BEARING.source}|[a-z]\w*(?:\s*(?:\(E\)|Ⓔ))?)$`);
 const THREAD = /^M\s*(\d+(?:[.,]\d+)?)(?:\s*[xX×]\s*(\d+(?:[.,]\d+)?))?\s*[-−–]\s*((?:\d[A-Za-z]){1,2})$/i;
 const GENERAL = /^(?:([RC])|[Øø⌀∅])?\s*(\d+(?:[.,]\d+)?)\s*(?:mm)?\s*ISO\s*2768\s*[-−–]\s*([fmcv])$/i;
 /** A general tolerance of a length does not say whether it is of an outside or an inside dimension. */
@@ -41,10 +43,14 @@ export const isThread = (limits) => THREAD.test(limits?.tolerance_class ?? '');
 export const designationText = (designation) => (otherStandard(designation)
   ? number(designation).replaceAll('\u2212', '-') : `Ø ${number(designation)}`);
 
+export const isBearing = (name) => BEARING.test(name);
+
 /** {size: "25", hole: "H7", shaft: "g6", envelope: {hole, shaft}: whether there is Ⓔ}; null where it cannot be one. */
 export function parseFit(typed) {
   const match = FIT.exec(typed.trim());
   const size = match && parseMeasured(match[1]);
-  const [hole, shaft] = match?.slice(2).map((one) => one.replace(ENVELOPE, '')) ?? [];
-  return size && { size, hole, shaft, envelope: { hole: hole !== match[2], shaft: shaft !== match[3] } };
+  if (!size) return null;
+  const classes = { hole: match[2], shaft: match[4] };
+  const read = (text, of) => (of ? `ISO 492-${/^n/i.test(of) ? of.toLowerCase() : of.toUpperCase()}` : text.replace(ENVELOPE, ''));
+  return { size, hole: read(classes.hole, match[3]), shaft: read(classes.shaft, match[5]), envelope: Object.fromEntries(Object.entries(classes).map(([side, text]) => [side, ENVELOPE.test(text)])) };
 }

@@ -1,10 +1,10 @@
 /** A hole and a shaft: zones, clearances, the classes to choose from. */
 
 import { getJson, url } from '../api.js';
-import { parseFit } from '../designation.js';
+import { isBearing, parseFit } from '../designation.js';
 import { copyText, field, h, refill } from '../dom.js';
 import { followTables } from '../events.js';
-import { mmText, nmFromMm, nmFromUm, parseMeasured, umText } from '../exact.js';
+import { judge, mmText, nmFromMm, nmFromUm, parseMeasured, umText } from '../exact.js';
 import { ClassMap } from '../fit/class_map.js';
 import { clearanceBar } from '../fit/clearance_bar.js';
 import { drawingText, Finder } from '../fit/finder.js';
@@ -128,6 +128,7 @@ export function mount(main, route) {
   const verdicts = async (fit, sizes, signal) => Object.fromEntries(await Promise.all(FEATURES
     .filter((feature) => sizes[feature] > 0)
     .map(async (feature) => {
+      if (isBearing(fit[feature].tolerance_class)) return [feature, { verdict: judge(sizes[feature], fit[feature]) }];
       const name = `${fit[feature].nominal_mm}${fit[feature].tolerance_class}`;
       return [feature, await getJson(url(['verdicts', name], { measured_mm: mmText(sizes[feature], 0) }), { signal })];
     })));

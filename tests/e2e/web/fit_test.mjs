@@ -60,6 +60,25 @@ describe('the fit', () => {
     assert.deepEqual(assumed, [true, true, true, false]);
   });
 
+  it('takes the bore or the outer ring of a bearing, with blanks at the stroke, in the address too, and judges it', async () => {
+    page = await open(browser, daemon, '#/fit/25H7/g6');
+    await page.waitForSelector('.limits');
+    for (const [typed, shown, address, limits] of [
+      ['52 H7 / ISO 492-P6', '52 H7/ISO 492-P6', '#/fit/52H7/ISO 492-P6', /^hole H7.*shaft ISO 492-P6.*0 \/ −11 µm/],
+      ['25 ISO 492 - Normal / k6', '25 ISO 492-normal/k6', '#/fit/25ISO 492-normal/k6', /^hole ISO 492-normal.*0 \/ −10 µm.*shaft k6/]]) {
+      await page.fill('#fit', typed);
+      await page.press('#fit', 'Enter');
+      await page.waitForFunction((wanted) => document.querySelector('#fit').value === wanted && !document.querySelector('.result').ariaBusy, shown);
+      assert.match(await page.textContent('.limits'), limits);
+      assert.equal(hash(), address);
+    }
+    await page.reload();
+    await page.waitForFunction(() => /ISO 492-normal/.test(document.querySelector('.limits')?.textContent));
+    await page.fill('#measured-hole', '24.989');
+    await page.press('#measured-hole', 'Enter');
+    await page.waitForSelector('.limits [data-verdict="rework"]');
+  });
+
   it('is found by the clearance it must have, and copied for a drawing', async () => {
     page = await open(browser, daemon, '#/fit/25H7/k6');
     await page.waitForSelector('.limits');
