@@ -176,10 +176,11 @@ struct KeysStore::Statements {
       "UPDATE api_keys SET revoked_at = ?2 WHERE name = ?1 AND revoked_at IS NULL "
       "RETURNING id"};
   sql::Statement forget_replaced{
-      // revoked when its successor was made
+      // revoked when its successor was made; the log of changes knows successors that are gone too
       c,
       "DELETE FROM api_keys WHERE token_hash = ?1 AND name = ?2 AND role = ?3 AND revoked_at IN "
-      "(SELECT created_at FROM api_keys WHERE name = ?2)"};
+      "(SELECT created_at FROM api_keys WHERE name = ?2 UNION ALL SELECT at FROM changes "
+      "WHERE kind = 'key' AND name = ?2 AND action = 'created')"};
   Seal seal{c, kApiKeys};
 };
 

@@ -1,5 +1,6 @@
 """What a start refuses, --check-config refuses too; the administrator's key of a file."""
 
+import itertools
 import pathlib
 import shutil
 import subprocess
@@ -8,7 +9,7 @@ import unittest
 from support.certificates import certificate
 from support.daemon import Daemon, command
 
-FIRST, SECOND = "fg_first_key_of_the_shop", "fg_second_key_of_the_shop"
+FIRST, SECOND, THIRD = (f"fg_{number}_key_of_the_shop" for number in ("first", "second", "third"))
 
 
 class CheckConfig(unittest.TestCase):
@@ -106,7 +107,8 @@ class AdminKeyFile(unittest.TestCase):
         self.assertEqual(self.daemon.stop(), 0)
         self.assertIn("admin_key_replaced", self.daemon.log)
 
-        for key, old in ((FIRST, SECOND), (SECOND, FIRST), (FIRST, SECOND)):
+        turns = (SECOND, FIRST, SECOND, THIRD, SECOND, FIRST)
+        for old, key in itertools.pairwise(turns):
             self.start_with(key)
             self.assertEqual((self.status(key), self.status(old)), (200, 401))
             self.assertEqual(self.daemon.stop(), 0)
