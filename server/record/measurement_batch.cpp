@@ -167,11 +167,12 @@ Result<void> decode_csv(std::string_view body, const BatchContext& context,
 
 }  // namespace
 
-const GaugePeriod& GaugeInUse::at(Timestamp time) const {
+const GaugePeriod* GaugeInUse::at(Timestamp time) const {
+  if (deleted_at && *deleted_at <= time) return nullptr;
   const auto next = std::upper_bound(
       periods.begin() + 1, periods.end(), time,
       [](Timestamp wanted, const GaugePeriod& period) { return wanted < period.from; });
-  return *(next - 1);
+  return &*(next - 1);
 }
 
 std::optional<Timestamp> parse_from(std::string_view text) {

@@ -39,12 +39,13 @@ struct GaugeInUse {
   /// By time: the entries of the gauge itself, each from its change on, then its calibrations. The
   /// first has no beginning.
   std::vector<GaugePeriod> periods{1};
+  std::optional<Timestamp> deleted_at{};  ///< none: it is in use
 
-  /// Returns the period of a time.
-  const GaugePeriod& at(Timestamp time) const;
+  /// Returns the period of a time; null from the deletion on.
+  const GaugePeriod* at(Timestamp time) const;
 };
 
-/// The gauges in use, by name.
+/// The gauges in use, and the deleted ones for values that arrive late, by name.
 using GaugeBook = std::map<std::string, GaugeInUse, std::less<>>;
 
 /// Reads when a calibration begins or is due: a date, which counts from its beginning or to its end

@@ -268,9 +268,13 @@ void MeasurementRowReader::apply_gauge() {
   }
   if (context_.gauges == nullptr || !m.gauge) return;
   const GaugeInUse* gauge = find_gauge(*m.gauge);
-  m.has_unknown_gauge = gauge == nullptr && !context_.gauges->empty();
-  if (gauge == nullptr) return;
-  const GaugePeriod& period = gauge->at(m.measured_at);
+  const GaugePeriod* found = gauge == nullptr ? nullptr : gauge->at(m.measured_at);
+  if (found == nullptr) {
+    m.has_unknown_gauge = std::ranges::any_of(
+        *context_.gauges, [](const auto& each) { return !each.second.deleted_at; });
+    return;
+  }
+  const GaugePeriod& period = *found;
   if (draft_.gauge_of == nullptr && period.is_overdue(m.measured_at)) {
     m.calibration_due = period.calibration_due;
   } else if (draft_.gauge_of == nullptr && !period.is_blocked) {

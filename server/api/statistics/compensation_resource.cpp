@@ -44,8 +44,8 @@ struct CorrectedParts {
     if (value.calibration_due || value.gauge_blocked) return false;
     const auto gauge = value.gauge ? gauges->find(*value.gauge) : gauges->end();
     if (gauge == gauges->end()) return true;
-    const GaugePeriod& period = gauge->second.at(value.measured_at);
-    return !period.is_blocked && !period.is_overdue(value.measured_at);
+    const GaugePeriod* period = gauge->second.at(value.measured_at);
+    return period == nullptr || (!period->is_blocked && !period->is_overdue(value.measured_at));
   }
 
   void add(const app::Measurement& value) {

@@ -64,16 +64,22 @@ GaugeBook book_of(const Documents& gauges, const Documents& calibrations, const 
       book.emplace(document.name, std::move(gauge));
     }
   }
-  // The present state of a gauge counts from its last change on.
+  // The present state of a gauge counts from its last change on; a deleted gauge has none.
+  GaugeBook deleted;
   for (const app::NamedDocument& document : past) {
-    const auto gauge = book.find(document.name);
-    if (gauge == book.end()) continue;
-    GaugePeriod& now = gauge->second.periods.back();
+    const auto found = book.find(document.name);
+    GaugeInUse& gauge = found != book.end() ? found->second : deleted[document.name];
+    if (found == book.end()) gauge.deleted_at = document.modified_at;
+    GaugePeriod& now = gauge.periods.back();
     GaugePeriod before = now;
     now.from = document.modified_at;
     if (take_gauge(before, document.text, combined)) {
-      gauge->second.periods.insert(gauge->second.periods.end() - 1, std::move(before));
+      gauge.periods.insert(gauge.periods.end() - 1, std::move(before));
     }
+  }
+  for (auto& [name, gauge] : deleted) {
+    gauge.periods.pop_back();
+    if (!gauge.periods.empty()) book.emplace(name, std::move(gauge));
   }
   std::map<std::string_view, std::vector<GaugePeriod>> calibrated;
   for (const app::NamedDocument& document : calibrations) {

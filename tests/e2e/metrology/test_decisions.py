@@ -318,9 +318,29 @@ class Kept(DaemonTest):
         # A calibration counts from its own beginning on, and is how a wrong date is mended.
         answer = self.daemon.post("/v1/gauges-in-use/G-40/calibrations", {"from": "2026-05-01", "due": "2199-12-31"})
         self.assertEqual(answer.status, 201, answer)
-        self.assertEqual((measure(**june), measure(measured_at="2026-04-30T08:00:00Z"), measure()),
-                         ((2, None), (0.5, "2026-01-01"), (2, None)))
+        april = {"measured_at": "2026-04-30T08:00:00Z"}
+        self.assertEqual((measure(**june), measure(**april), measure()), ((2, None), (0.5, "2026-01-01"), (2, None)))
         self.assertEqual(self.daemon.command("verify").returncode, 0)
+
+    def test_a_deleted_gauge_counts_for_what_it_measured(self):
+        self.put("/v1/uncertainties/own", {"contributions": [{"name": "all", "standard_uncertainty": 0.5}]})
+        self.put("/v1/gauges-in-use/G-60", {"calibration_due": "2199-01-01"})  # one that stays
+        self.put("/v1/gauges-in-use/G-61", {"calibration_due": "2026-01-01", "uncertainty": "own"})
+        self.daemon.post("/v1/gauges-in-use/G-61/calibrations", {"from": "2026-05-01", "due": "2026-06-01"})
+
+        def measure(**at):
+            answer = self.daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "gauge": "G-61", **at}).json
+            return answer.get("calibration_due"), [each["code"] for each in answer.get("warnings", [])]
+
+        april, may, july = ({"measured_at": f"2026-0{month}-09T08:00:00Z", "rule": "guard_band"} for month in (4, 5, 7))
+        at = [measure(**april), measure(**may), measure(**july)]
+        self.assertEqual(at, [("2026-01-01", ["gauge.overdue"]), (None, []), ("2026-06-01", ["gauge.overdue"])])
+        self.daemon.request("DELETE", "/v1/gauges-in-use/G-61")
+        for _ in range(2):
+            self.assertEqual([measure(**april), measure(**may), measure(**july)], at)
+            self.assertEqual(measure(), (None, ["gauge.unknown"]))
+            self.daemon.stop()
+            self.daemon.start()
 
     def test_a_record_says_that_its_gauge_was_blocked(self):
         self.put("/v1/gauges-in-use/G-50", {"calibration_due": "2026-12-31"})
