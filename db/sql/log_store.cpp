@@ -187,6 +187,8 @@ struct ChangesStore::Statements {
                      "AND (?3 IS NULL OR name = ?3) AND at >= ?4 AND at < ?5 ORDER BY id "
                      "LIMIT ?6",
                      kChanges.columns, kChanges.is_sound(c))};
+  sql::Statement of_kind{c, fmt::format("SELECT {}, {} FROM changes WHERE kind = ?1 ORDER BY id",
+                                        kChanges.columns, kChanges.is_sound(c))};
   sql::Statement leaves{c, "SELECT leaf FROM changes WHERE id > ?1 AND id <= ?2 ORDER BY id"};
 };
 
@@ -204,6 +206,22 @@ void ChangesStore::append(const Change& change, const Digest& leaf) {
                           change.action, change.before, change.after, leaf);
 }
 
+namespace {
+
+Change read_change(const Rows& rows) {
+  require_sound(rows, 9, kChanges);
+  return {.id = rows.get<std::int64_t>(0),
+          .at_ns = rows.get<std::int64_t>(1),
+          .caller = rows.get<std::optional<std::string>>(2),
+          .kind = rows.get<std::string>(3),
+          .name = rows.get<std::string>(4),
+          .action = rows.get<std::string>(5),
+          .before = rows.get<std::optional<std::string>>(6),
+          .after = rows.get<std::optional<std::string>>(7)};
+}
+
+}  // namespace
+
 ChangesStore::Page ChangesStore::list(const ChangeFilter& filter, std::int64_t after,
                                       std::int64_t limit) const {
   using Limits = std::numeric_limits<std::int64_t>;
@@ -216,19 +234,18 @@ ChangesStore::Page ChangesStore::list(const ChangeFilter& filter, std::int64_t a
        rows.next();) {
     page.has_more = page.changes.size() == static_cast<std::size_t>(limit) || bytes > kMostBytes;
     if (page.has_more) break;
-    require_sound(rows, 9, kChanges);
-    const Change& change =
-        page.changes.emplace_back(Change{.id = rows.get<std::int64_t>(0),
-                                         .at_ns = rows.get<std::int64_t>(1),
-                                         .caller = rows.get<std::optional<std::string>>(2),
-                                         .kind = rows.get<std::string>(3),
-                                         .name = rows.get<std::string>(4),
-                                         .action = rows.get<std::string>(5),
-                                         .before = rows.get<std::optional<std::string>>(6),
-                                         .after = rows.get<std::optional<std::string>>(7)});
+    const Change& change = page.changes.emplace_back(read_change(rows));
     bytes += change.before.value_or("").size() + change.after.value_or("").size();
   }
   return page;
+}
+
+std::vector<Change> ChangesStore::of_kind(std::string_view kind) const {
+  std::vector<Change> changes;
+  for (Rows rows = statements_->of_kind.query(kind); rows.next();) {
+    changes.push_back(read_change(rows));
+  }
+  return changes;
 }
 
 void ChangesStore::leaves(std::int64_t after, std::int64_t count,

@@ -232,6 +232,8 @@ class ChangesStore {
   /// Returns the changes after `after`, oldest first, at most `limit`, and at most about 4 MiB of
   /// texts.
   Page list(const ChangeFilter& filter, std::int64_t after, std::int64_t limit) const;
+  /// All changes of a kind, oldest first; reads no others.
+  std::vector<Change> of_kind(std::string_view kind) const;
   /// Visits the hashes of `count` changes after `after`.
   void leaves(std::int64_t after, std::int64_t count,
               const std::function<void(const Digest&)>& visit) const;

@@ -111,15 +111,10 @@ Result<std::vector<NamedDocument>> all_of(const store::Stores& stores, DocumentK
 /// The texts of gauges in use that were replaced, the oldest first.
 std::vector<NamedDocument> past_gauges(const store::Stores& stores) {
   std::vector<NamedDocument> past;
-  store::ChangesStore::Page page;
-  do {
-    const std::int64_t after = page.changes.empty() ? 0 : page.changes.back().id;
-    page = stores.changes.list({.kind = "gauge"}, after, 1000);
-    for (store::Change& change : page.changes) {
-      if (!change.before) continue;
-      past.push_back({std::move(change.name), *std::move(change.before), {change.at_ns}});
-    }
-  } while (page.has_more);
+  for (store::Change& change : stores.changes.of_kind("gauge")) {
+    if (!change.before) continue;
+    past.push_back({std::move(change.name), *std::move(change.before), {change.at_ns}});
+  }
   return past;
 }
 

@@ -46,11 +46,15 @@ TEST_CASE("changes are listed by kind, name and time, in pages") {
   CHECK(listed_changes(fixture, {.name = "none"}, 0, 9, false).empty());
   CHECK(listed_changes(fixture, {.from_ns = 20, .to_ns = 40}, 0, 9, false) == Ids{2, 3});
   std::vector<Digest> leaves;
+  Ids gauges;
   fixture.read([&](const Stores& stores) -> Result<bool> {
+    CHECK(stores.changes.of_kind("none").empty());
+    for (const Change& change : stores.changes.of_kind("gauge")) gauges.push_back(change.id);
     stores.changes.leaves(3, 2, [&](const Digest& leaf) { leaves.push_back(leaf); });
     return true;
   });
   CHECK(leaves == std::vector<Digest>{sha256("4"), sha256("5")});
+  CHECK(gauges == Ids{1, 3, 5});
 }
 
 TEST_CASE("a page of long changes ends behind 4 MiB") {
