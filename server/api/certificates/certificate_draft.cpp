@@ -230,14 +230,14 @@ void CertificateDraft::add(const app::Measurement& m) {
 void CertificateDraft::count(const app::Measurement& m) {
   const std::optional<double> place = place_of(m);
   values_.push_back({.id = app::measurement_id_text(m.id, m.origin),
-                     .measured_at = m.measured_at,
+                     .standing = standing_of(m),
                      .verdict = m.result.verdict,
                      .badness = {kSeverity.at(static_cast<std::size_t>(m.result.verdict)),
                                  place ? std::abs(2 * *place - 1) : 0}});
   const std::size_t here = values_.size() - 1;
   std::size_t& last = last_.try_emplace(key_of(m), here).first->second;
   if (last == here) return;
-  const bool is_earlier = m.measured_at < values_[last].measured_at;
+  const bool is_earlier = standing_of(m) < values_[last].standing;
   values_[is_earlier ? here : last].counts = false;
   if (!is_earlier) last = here;
 }

@@ -51,7 +51,7 @@ class CertificateDraft {
   /// A value, as far as the verdict on all needs it.
   struct Counted {
     std::string id{};
-    Timestamp measured_at{};
+    Standing standing{};
     gauging::Verdict verdict{};
     std::pair<int, double> badness{};  ///< by its verdict, then by its share of the tolerance
     std::string text{};                ///< on paper

@@ -7,29 +7,30 @@
 
 namespace fitgauge::api {
 
-/// Two values with one key are of one characteristic of one part: the value measured last counts.
+/// Two values with one key are of one characteristic of one part: one of them counts.
 struct CharacteristicKey {
-  std::string part{};  ///< empty: the value stands alone
+  std::string part{};  ///< empty: the value stands alone, under its id
   std::string name{};
-  // Of a value without a name, its size tells it from others:
-  Length nominal{};
-  Length upper{};
-  Length lower{};
 
   friend auto operator<=>(const CharacteristicKey&, const CharacteristicKey&) = default;
 };
 
+/// A value that names no characteristic stands alone: three bores of one size are three.
 inline CharacteristicKey key_of(const app::Measurement& m) {
-  if (!m.part_id) return {.name = app::measurement_id_text(m.id, m.origin)};
-  CharacteristicKey key{.part = std::string(*m.part_id)};
-  if (m.characteristic) {
-    key.name = *m.characteristic;
-  } else {
-    key.nominal = m.nominal_size;
-    key.upper = m.deviations.upper;
-    key.lower = m.deviations.lower;
+  if (!m.part_id || !m.characteristic) {
+    return {.name = app::measurement_id_text(m.id, m.origin)};
   }
-  return key;
+  return {.part = std::string(*m.part_id), .name = std::string(*m.characteristic)};
 }
+
+/// The greatest counts: a value with a verdict before one without, then the one measured last.
+struct Standing {
+  bool is_judged = false;
+  Timestamp measured_at{};
+
+  friend auto operator<=>(const Standing&, const Standing&) = default;
+};
+
+inline Standing standing_of(const app::Measurement& m) { return {m.is_judged(), m.measured_at}; }
 
 }  // namespace fitgauge::api

@@ -21,6 +21,7 @@ constexpr std::size_t kMostValues = 10'000;  ///< of one part; older ones are ig
 
 struct PartValue {
   CharacteristicKey key{};
+  Standing standing{};
   std::optional<std::string> characteristic{};
   std::string measurement{};
   std::optional<std::string_view> verdict{};
@@ -144,10 +145,11 @@ void judge(Part& part) {
   }
 }
 
-/// Of a characteristic, the value that was measured last counts, of two at one time the later one.
+/// Of a characteristic one value counts; of two that were measured at one time the later one.
 /// @param m stored before those that are there
 void add_value(const app::Measurement& m, Part& part) {
   PartValue value{.key = key_of(m),
+                  .standing = standing_of(m),
                   .measurement = app::measurement_id_text(m.id, m.origin),
                   .measured = m.measured,
                   .measured_at = m.measured_at,
@@ -157,7 +159,7 @@ void add_value(const app::Measurement& m, Part& part) {
   const auto newer = std::ranges::find(part.values, value.key, &PartValue::key);
   if (newer == part.values.end()) {
     part.values.push_back(std::move(value));
-  } else if (newer->measured_at < value.measured_at) {
+  } else if (newer->standing < value.standing) {
     *newer = std::move(value);
   }
 }
@@ -216,10 +218,10 @@ void add_parts_routes(Routes& add) {
       {.summary = "A part: its verdict, what is missing, its values and open reactions",
        .description =
            "The value of each characteristic that was measured last, with corrections; the verdict "
-           "is the worst of them. A value without a characteristic is measured again by one of its "
-           "size. Without `plan` the plan with the name of the part is used, or "
-           "the "
-           "only plan that has every measured characteristic; without a plan nothing is missing.",
+           "is the worst of them. A value without a characteristic stands alone, and one without "
+           "limits takes no other's place. Without `plan` the plan with the name of the part is "
+           "used, or the only plan that has every measured characteristic; without a plan nothing "
+           "is missing.",
        .parameters = {path_parameter("part", "part_id of its measurements"),
                       {.name = "plan",
                        .description = "Part number of the plan to hold it against"}},

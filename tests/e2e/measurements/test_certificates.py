@@ -92,13 +92,23 @@ class Certificates(DaemonTest):
             self.assertIn("Measured again: 2;", head)
             self.assertIn("25.020 mm", head)
             self.assertEqual(len(re.findall(r"\bagain\b", table)), 2)
-        # Values without a name are of one characteristic only if they have one size.
-        measure(10, "29.9", designation="30 k6")
-        measure(11, "25.01")
-        self.assertEqual((part()["verdict"], sheet("part_id=A-1")["verdict"]), ("reject", "reject"))
-        measure(9, "25.5")
-        measure(12, "30.01", designation="30 k6")
-        self.assertEqual((part()["verdict"], sheet("part_id=A-1")["verdict"], len(sheet("part_id=A-1")["measured_again"])), ("good", "good", 4))
+
+    def test_a_good_value_hides_no_reject_of_another_characteristic(self):
+        bad, good = {"designation": "25 H7", "measured_mm": 25.05}, {"designation": "25 H7", "measured_mm": 25.01}
+        pairs = [
+            (bad, good),  # two bores of one size
+            ({"designation": "R5 ISO 2768-m", "measured_mm": 9}, {"designation": "C5 ISO 2768-m", "measured_mm": 5}),
+            ({**bad, "designation": "25 H7(E)", "measured_mm": 25.01, "go_gauge": "fails"}, good),
+            # A value without limits says nothing of the one before it.
+            ({**bad, "characteristic": "d"}, {"quantity": "diameter", "measured_mm": 25.4, "characteristic": "d"}),
+        ]
+        for number, pair in enumerate(pairs):
+            part = f"B-{number}"
+            for hour, value in enumerate((*pair, {**good, "characteristic": "e"})):
+                self.assertEqual(self.daemon.measure({**value, "part_id": part, "measured_at": f"2026-11-20T{hour:02d}:00:00Z"}).status, 201, value)
+            report = self.daemon.get(f"/v1/certificates?part_id={part}", Accept="application/json").json
+            self.assertEqual(report["verdict"], self.daemon.get(f"/v1/parts/{part}").json["verdict"], part)
+            self.assertIn(report["verdict"], ("reject", "rework"), part)
 
     def test_the_pictures_of_reports_have_these_words(self):
         self.daemon.measure({"designation": "25 H7", "measured_mm": "25.0106", "order": "WO-P", "part_id": "SN-00001", "characteristic": "bore-A",
