@@ -28,6 +28,7 @@ struct PartValue {
   Length measured{};
   Timestamp measured_at{};
   bool has_note = false;
+  bool has_cause = false;  ///< or an action: what a catalogue asks for
 };
 void members(auto& v, const PartValue& value) {
   v.optional("characteristic", value.characteristic, "Absent if the value names no characteristic");
@@ -42,13 +43,13 @@ struct Reaction {
   std::string characteristic{};
   std::optional<std::string> reaction{};
   std::string measurement{};
-  bool is_demanded = false;     ///< by a reaction or a catalogue
+  bool has_catalogue = false;
   bool is_at_each_part = true;  ///< no frequency says otherwise
 };
 void members(auto& v, const Reaction& open) {
   v.member("characteristic", open.characteristic);
   v.optional("reaction", open.reaction, "Absent if the plan names a catalogue alone");
-  v.member("measurement_id", open.measurement, "The record that is not good and has no note");
+  v.member("measurement_id", open.measurement, "The record that is not good");
 }
 
 struct Part {
@@ -68,7 +69,8 @@ void members(auto& v, const Part& part) {
   v.member("characteristics", part.values,
            "Characteristics in the order of the plan, then the others");
   v.member("open_reactions", part.reactions,
-           "Reactions, or causes of a catalogue, that the plan demands and that have no note");
+           "Reactions that the plan demands and that have no note; with a catalogue, no cause or "
+           "action");
 }
 
 /// @errors StorageCorrupt.
@@ -83,7 +85,7 @@ Result<std::vector<Reaction>> characteristics_of(const NamedDocument& plan) {
     };
     Reaction& one = found.emplace_back(Reaction{.characteristic = each.find("name")->text});
     if (has("reaction")) one.reaction = each.find("reaction")->text;
-    one.is_demanded = one.reaction || has("catalogue");
+    one.has_catalogue = has("catalogue");
     one.is_at_each_part = !has("frequency");
   }
   return found;
@@ -101,7 +103,8 @@ void hold_against(const std::vector<Reaction>& plan, Part& part) {
         std::ranges::find(part.values, each.characteristic, &PartValue::characteristic);
     if (value == part.values.end()) {
       if (each.is_at_each_part) part.missing.push_back(each.characteristic);
-    } else if (value->verdict.value_or("good") != "good" && !value->has_note && each.is_demanded) {
+    } else if (value->verdict.value_or("good") != "good" &&
+               (each.has_catalogue ? !value->has_cause : each.reaction && !value->has_note)) {
       part.reactions.emplace_back(each).measurement = value->measurement;
     }
   }
@@ -153,7 +156,9 @@ void add_value(const app::Measurement& m, Part& part) {
                   .measurement = app::measurement_id_text(m.id, m.origin),
                   .measured = m.measured,
                   .measured_at = m.measured_at,
-                  .has_note = !m.notes.empty()};
+                  .has_note = !m.notes.empty(),
+                  .has_cause = std::ranges::any_of(
+                      m.notes, [](const auto& note) { return note.cause || note.measure; })};
   if (m.characteristic) value.characteristic.emplace(*m.characteristic);
   if (m.is_judged()) value.verdict = word(m.result.verdict);
   const auto newer = std::ranges::find(part.values, value.key, &PartValue::key);

@@ -75,6 +75,8 @@ class Plans(DaemonTest):
         bad = self.daemon.measure({"part_id": "P-2", "characteristic": "seat", "designation": "25 H7", "measured_mm": "25.05"}).json["id"]
         open_reactions = lambda: self.daemon.get("/v1/parts/P-2?plan=9-D").json["open_reactions"]
         self.assertEqual(open_reactions(), [{"characteristic": "seat", "measurement_id": bad}])
+        self.daemon.post(f"/v1/measurements/{bad}/notes", {"text": "looked at"})
+        self.assertEqual(len(open_reactions()), 1, "a text is no cause")
         self.daemon.post(f"/v1/measurements/{bad}/notes", {"cause": "Insert worn"})
         self.assertEqual(open_reactions(), [])
         for path in ("plans/9-D", "catalogues/bores"):
