@@ -8,14 +8,14 @@ import { countVerdicts, hasLimits, pointOf } from '../trend/series.js';
 /** So many of the newest values of each. */
 export const LAST = 100;
 
-/** {records: the newest last, count: of those not set aside, verdicts, ppk: {value, lower, upper} or undefined, stable: undefined where the values tell nothing} */
+/** {records: the newest last, count: of those not set aside, isLimited: whether one has limits, verdicts, ppk: {value, lower, upper} or undefined, stable: undefined where the values tell nothing} */
 export async function standingOf(filter, signal) {
   const { measurements } = await getJson(url(['measurements'], { ...filter, last: LAST, notes: 'shown' }), { signal });
   const points = measurements.map(pointOf);
   const counted = points.filter(isCounted);
   const figures = hasSpread(counted.map(({ record }) => record)) ? await figuresOf(filter, counted.length, signal) : null;
   return {
-    records: measurements, count: counted.length, verdicts: countVerdicts(counted),
+    records: measurements, count: counted.length, isLimited: counted.some(({ record }) => hasLimits(record)), verdicts: countVerdicts(counted),
     ppk: figures?.ppk?.value == null ? undefined : figures.ppk, stable: figures?.stable,
   };
 }

@@ -154,8 +154,9 @@ function indexOf(standing) {
     ppk.lower != null && h('span.aside', t('trend.interval', { lower: text(ppk.lower), upper: text(ppk.upper) })));
 }
 
-function processOf({ count, stable }) {
+function processOf({ count, isLimited, stable }) {
   if (!count) return t('overview.nothing');
+  if (!isLimited) return t('trend.no_limits');
   if (stable === undefined) return t('overview.unknown');
   if (!stable) return h('span.stability.doubt', t('overview.unstable'));
   return count < FEWEST ? t('trend.too_few', { count, fewest: FEWEST }) : h('span.stability', t('overview.stable'));

@@ -505,6 +505,7 @@ describe('the trend', () => {
     await picture(page, 'trend-no-limits', { fullPage: true });
     await page.evaluate(() => { location.hash = '#/overview?machine=FREE'; });
     await page.waitForFunction(() => /no-limits30.*no-nominal30/.test(document.querySelector('.overview tbody')?.textContent));
+    assert.match(await page.textContent('.overview'), /the values have no limits/);
     assert.doesNotMatch(await page.textContent('.overview'), /NaN|undefined|Infinity/);
     assert.deepEqual(refused, []);
   });
