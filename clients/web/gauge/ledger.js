@@ -59,7 +59,7 @@ export class Ledger extends EventTarget {
     const old = of && this.ofRecord(of.id);
     const { plan, round, characteristic, reaction, catalogue } = old?.shown ?? {};
     const inherited = old && { plan, round, characteristic, reaction, catalogue };
-    this.#put({ key, state: 'waiting', shown: { ...inherited, ...shown }, root: old?.root ?? old?.key, partial: old?.partial });
+    this.#put({ key, state: 'waiting', shown: { ...inherited, ...shown }, root: old?.root ?? old?.key, partial: old?.partial, past: old?.past });
     if (old) this.#change(old.key, (value) => { value.by = [...value.by ?? [], key]; });
   }
 
@@ -85,8 +85,10 @@ export class Ledger extends EventTarget {
     const isOwn = !old || (old.by ?? []).some((key) => this.get(key)?.state === 'waiting') || this.ofRecord(record.id);
     if (isOwn) return;
     const { measured_mm, part_id, characteristic, designation, measured_at } = record;
-    this.taken(record.id, { measured: String(measured_mm), part_id, characteristic, designation, at: measured_at }, old.record);
-    this.stored(record.id, {}, record);
+    const shown = { ...old.shown, measured: String(measured_mm), part_id, characteristic, designation, at: measured_at };
+    // The old value is in force until the new one is there: at no time is there none.
+    this.#change(old.key, (value) => { value.by = [...value.by ?? [], record.id]; });
+    this.#put({ key: record.id, state: 'stored', record, shown, root: old.root ?? old.key, partial: old.partial, past: old.past });
   }
 
   /** The service tells of a note: a cause or an action that was given elsewhere is given. */

@@ -4,6 +4,8 @@ import { getJson, PATIENCE_MS, url } from '../api.js';
 
 export const WORST_FIRST = ['reject', 'rework', 'indeterminate', 'good'];
 
+const AGAIN_MS = 5000;
+
 const ask = (path, query) => getJson(url(path, query), { timeout: PATIENCE_MS, asks: false });
 const isOld = (state) => ['corrected', 'moved'].includes(state);
 const timeOf = ({ record, shown }) => new Date(record?.measured_at ?? shown.at).getTime();
@@ -28,15 +30,17 @@ async function askOf(ledger, value) {
 export class PartRecord {
   #of;
   #found;
+  #isStale = false;
+  #asking;
 
-  /** @param ledger the values of this station; @param onAnswer is told of an answer */
-  constructor(ledger, onAnswer) {
-    Object.assign(this, { ledger, onAnswer });
+  /** @param ledger the values of this station; @param onAnswer is told of an answer; @param leaving ends it */
+  constructor(ledger, onAnswer, leaving) {
+    Object.assign(this, { ledger, onAnswer, leaving });
   }
 
   /** The part has changed elsewhere, or may have. */
   forget() {
-    this.#of = undefined;
+    this.#isStale = true;
   }
 
   /**
@@ -56,27 +60,38 @@ export class PartRecord {
   /** The values of others; undefined while they are asked for, null where there was no answer. */
   #others(part, plan, own) {
     const state = [part, plan, ...own.map(({ value }) => value.record.id)].join('\n');
-    if (state !== this.#of) this.#ask(state, part, plan);
+    if (this.#isStale || state !== this.#of) this.#ask(state, part, plan);
     if (!this.#found) return this.#found;
     const { characteristics, missing } = this.#found;
     // The service has lost what it had stored.
     if (own.some(({ name }) => missing.includes(name))) return null;
-    return characteristics.filter((one) => one.verdict && this.#isOther(one, own))
+    return characteristics.filter((one) => one.verdict && this.#isOther(one, part, plan, own))
       .map(({ characteristic, verdict, measured_mm: measured, measured_at: at }) => ({ name: characteristic ?? '', verdict, value: { shown: { measured, at } } }));
   }
 
-  /** Whether a value of the service is none of this station's that count here, and none that was corrected since. */
-  #isOther({ measurement_id: id, characteristic }, own) {
+  /** Whether a value of the service is none of those that count here, and none that was corrected since. */
+  #isOther({ measurement_id: id, characteristic }, part, plan, own) {
     const here = this.ledger.ofRecord(id);
-    return !here || (!isOld(this.ledger.stateOf(here)) && (here.past || !own.some(({ name }) => name === characteristic)));
+    if (here && isOld(this.ledger.stateOf(here))) return false;
+    return !this.ledger.of(plan, part).includes(here) || !own.some(({ name }) => name === characteristic);
   }
 
+  /** What was answered of the same state stands until there is another answer; where there is none, it is asked again. */
   async #ask(state, part, plan) {
+    if (state !== this.#of) this.#found = undefined;
     this.#of = state;
-    this.#found = undefined;
+    this.#isStale = false;
+    const asking = this.#asking = {};
     const found = await ask(['parts', part], { plan }).catch(() => null);
-    if (this.#of !== state) return;
+    if (this.#asking !== asking || this.leaving.aborted) return;
     this.#found = found;
+    if (!found) {
+      setTimeout(() => {
+        if (this.#asking !== asking || this.leaving.aborted) return;
+        this.forget();
+        this.onAnswer();
+      }, AGAIN_MS);
+    }
     this.onAnswer();
   }
 }

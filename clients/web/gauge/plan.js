@@ -62,7 +62,7 @@ export class Plan {
    */
   constructor({ ledger, onStep, onChoose, onRecord, machine, subject, leaving }) {
     Object.assign(this, { ledger, onStep });
-    this.record = new PartRecord(ledger, onRecord);
+    this.record = new PartRecord(ledger, onRecord, leaving);
     this.subjectNow = subject;
     this.samples = new Samples({ machine, leaving, onChange: () => this.#renew() });
     leaving.addEventListener('abort', () => clearTimeout(this.timer));

@@ -97,6 +97,16 @@ export function mount(main, route) {
     else next();
   }
 
+  /** A value was corrected elsewhere. @param shown the record that stands in the panel, unless that shows a part */
+  function corrected(record, shown) {
+    recent.add(record.id);
+    if (shown?.id !== record.correction_of) return;
+    if (record.part_id !== shown.part_id) return next();
+    panel.begin(record.id);
+    panel.judged(record);
+    sayPart();
+  }
+
   const askOfOpen = () => askOfValues(ledger, ledger.open);
 
   /** The part was measured elsewhere, or may have been. */
@@ -250,7 +260,7 @@ export function mount(main, route) {
     if (of) return ledger.get(of)?.state === 'refused' ? undefined : entry.unread(t('note.refused', { reason }));
     recent.add(key);
     if (shown.late) arrivals.refused(key, shown, reason);
-    else panel.refused(shown, reason);
+    if (!shown.late || panel.of === key) panel.refused(shown, reason);
   }, { signal });
   ledger.addEventListener('change', ({ detail: { value, elsewhere } }) => {
     recent.draw(value);
@@ -292,14 +302,12 @@ export function mount(main, route) {
     if (type === 'measurement.recorded') {
       const record = JSON.parse(data);
       const shown = ledger.get(panel.of)?.record;
+      const wasPart = panel.isOfPart;
       ledger.told(record);
-      // What is shown was corrected elsewhere.
-      if (ledger.get(record.id) && shown?.id === record.correction_of && !panel.isOfPart) {
-        panel.begin(record.id);
-        panel.judged(record);
-      }
       plan.samples.told(record);
-      if (record.part_id === job.part && !ledger.ofRecord(record.id)) partIsOld();
+      if (ledger.get(record.id)) corrected(record, !wasPart && shown);
+      const isOwn = ledger.of(plan.part, job.part).some((value) => value.record?.id === record.id);
+      if (!isOwn && (record.part_id === job.part || record.correction_of)) partIsOld();
     }
     if (type === 'note.added') ledger.noted(JSON.parse(data));
     if (type === 'resync') {

@@ -141,6 +141,52 @@ describe('a part that is handled elsewhere', () => {
     await close(page);
   });
 
+  it('ends with the verdict of the record when a value is corrected or moved elsewhere while the page is open', async () => {
+    await station('E-7');
+    for (const value of ['25.01', '40.01', '120.1']) await line(value);
+    await says('GoodPart E-7All 3 measured');
+    const [first, second] = await storedOf('E-7', 3);
+    const { id } = await (await correct(first.id, 25.05)).json();
+    await says('RejectPart E-7 · bore-A Reject');
+    await page.waitForSelector('.reactions .catalogue');
+    await say(id);
+    await hidden();
+    await correct(second.id, 40.02);
+    await page.waitForFunction(() => /40\.020/.test(document.querySelector('.recent li').textContent));
+    await says('RejectPart E-7 · bore-A Reject');
+    const other = await store('E-7', { measured_mm: 25.012 }); // of another station: it counts
+    await says('GoodPart E-7All 3 measured');
+    await daemon.send('POST', `/v1/measurements/${other.id}/corrections`, { measured_mm: 25.012, part_id: 'E-70', reason: 'slip' });
+    await says('RejectPart E-7 · bore-A Reject');
+    assert.equal(await verdictOf('E-7'), 'reject');
+    await close(page);
+  });
+
+  it('counts a later value of this station that was measured by another plan', async () => {
+    await daemon.send('PUT', '/v1/plans/FINAL', { characteristics: [{ name: 'bore-A', designation: '25 H7' }] });
+    await station('E-8');
+    for (const value of ['25.01', '40.01', '120.1']) await line(value);
+    await says('GoodPart E-8All 3 measured');
+    await page.selectOption('.plan select', 'FINAL');
+    await page.waitForFunction(() => document.querySelectorAll('.tiles-of-plan li').length === 1);
+    await line('25.05');
+    await says('RejectPart E-8');
+    await page.selectOption('.plan select', '4711-A');
+    await says('RejectPart E-8 · bore-A Reject');
+    assert.equal(await verdictOf('E-8'), 'reject');
+    await close(page);
+  });
+
+  it('is asked for again after an answer that did not come', async () => {
+    await station('E-9');
+    let refusals = 0;
+    await page.route('**/v1/parts/*', (route) => (refusals++ ? route.continue() : route.fulfill({ status: 503, body: '{}' })));
+    for (const value of ['25.01', '40.01', '120.1']) await line(value);
+    await says('GoodPart E-9All 3 measured');
+    assert.ok(refusals >= 2);
+    await close(page);
+  });
+
   it('shows a value that was corrected elsewhere as it is now', async () => {
     await station('E-5');
     await line('25.04');
