@@ -178,14 +178,16 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   const auto provided = provide_admin_key(config, mode != api::AuthMode::Open, app.keys());
   if (!provided) return provided.error();
 
-  if (const auto opened_runs = app.runs().open(api::run_format()); !opened_runs) {
+  // Nor is a row that is damaged: every write is refused, so that no value lacks its gauge.
+  const auto fails = [](const Result<void>& done) {
+    return !done && done.error().code != ErrorCode::StorageCorrupt;
+  };
+  if (const auto opened_runs = app.runs().open(api::run_format()); fails(opened_runs)) {
     return opened_runs.error();
   }
 
   api::GaugesInUse gauges(app.documents());
-  // Without its gauges a damaged database takes no measurement: every write is refused.
-  const auto loaded = gauges.load();
-  if (!loaded && loaded.error().code != ErrorCode::StorageCorrupt) return loaded.error();
+  if (const auto loaded = gauges.load(); fails(loaded)) return loaded.error();
   auto connecting = start_connections(config, app, clock, gauges);
   if (!connecting) return connecting.error();
   connections::Connections& outside = **connecting;
