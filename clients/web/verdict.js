@@ -28,6 +28,11 @@ export function verdictMark(verdict) {
   return h('span.mark-of', { 'data-verdict': verdict }, verdictShape(verdict), t(`verdict.${verdict}`));
 }
 
+export const isUnverified = ({ verdict, envelope_result: found }) => verdict === 'good' && found === 'not_verified';
+
+/** The verdict of a record; one that is good says where no GO gauge has verified the envelope that is required. */
+export const recordMark = (record) => [verdictMark(record.verdict), isUnverified(record) && h('span.aside', t('envelope.not_verified'))];
+
 /** "8 µm below the upper limit": where the value lies from the limit that is nearest to it. */
 export function distanceText(record) {
   const measured = nmFromMm(record.corrected_mm ?? record.measured_mm);

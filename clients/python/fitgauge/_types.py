@@ -367,6 +367,7 @@ class _PartCharacteristics(TypedDict):
 
 class PartCharacteristics(_PartCharacteristics, total=False):
     characteristic: str
+    envelope_result: str
 
 
 class _PartOpenReactions(TypedDict):

@@ -5,7 +5,7 @@ import { h } from '../dom.js';
 import { number, t, time } from '../i18n.js';
 import { certificateLink } from '../parts/certificate.js';
 import { LaterStore, readJson, store } from '../stored.js';
-import { distanceText, limitsText, measuredText, noteText, verdictMark, verdictShape } from '../verdict.js';
+import { distanceText, limitsText, measuredText, noteText, recordMark, verdictShape } from '../verdict.js';
 
 const MOST = 100;
 /** So many values stand beside a verdict, with its own. */
@@ -71,7 +71,7 @@ export class Recent {
     const { part_id, characteristic, designation, confirmed } = { ...shown, ...record };
     const what = designation ? designationText(designation) : shown.limits && limitsText(shown.limits);
     return h('li', { class: isOld ? 'corrected' : state },
-      record ? verdictMark(record.verdict) : waitingMark(state, shown),
+      record ? recordMark(record) : waitingMark(state, shown),
       h('span.figure', record ? measuredText(record) : number(shown.measured)),
       h('span.aside', [part_id, characteristic, what, time(new Date(shown.at)), confirmed && t('confirmed.mark'), isOld && t(`recent.${now}`)].filter(Boolean).join(' · ')),
       h('span.aside', record ? distanceText(record) : value.reason ?? ''), said.done && h('span.aside.noted', noteText(said)),

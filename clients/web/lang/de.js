@@ -111,6 +111,7 @@ export default {
   'envelope.go': 'Gutlehre',
   'envelope.passes': 'passt',
   'envelope.fails': 'passt nicht',
+  'envelope.not_verified': 'Hüllbedingung nicht geprüft',
   'envelope.operator': 'Größenmaß-Operator',
 
   'gauge.due': '{gauge} kalibriert bis {date}',

@@ -159,6 +159,8 @@ export default {
   'part.missing_count': '{count} fehlen',
   'part.open_count': '{count} zu erledigen',
   'part.missing': 'Noch nicht gemessen: {names}.',
+  'part.unverified': 'Keine Gutlehre hat die Hüllbedingung geprüft: {names}.',
+  'part.unnamed': 'ein Wert ohne Merkmal',
   'part.measure': 'Jetzt messen',
   'part.measured_count': '{count} gemessen',
   'part.by_plan': 'nach Plan {plan}',

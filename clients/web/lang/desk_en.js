@@ -159,6 +159,8 @@ export default {
   'part.missing_count': '{count} missing',
   'part.open_count': '{count} to be done',
   'part.missing': 'Not measured yet: {names}.',
+  'part.unverified': 'No GO gauge has verified the envelope: {names}.',
+  'part.unnamed': 'a value without a characteristic',
   'part.measure': 'Measure it',
   'part.measured_count': '{count} measured',
   'part.by_plan': 'held against plan {plan}',

@@ -159,6 +159,8 @@ export default {
   'part.missing_count': '{count} mancanti',
   'part.open_count': '{count} da fare',
   'part.missing': 'Non ancora misurati: {names}.',
+  'part.unverified': 'Nessun calibro passa ha verificato l’inviluppo: {names}.',
+  'part.unnamed': 'un valore senza caratteristica',
   'part.measure': 'Misura ora',
   'part.measured_count': '{count} misurati',
   'part.by_plan': 'secondo il piano {plan}',

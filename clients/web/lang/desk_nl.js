@@ -159,6 +159,8 @@ export default {
   'part.missing_count': '{count} ontbreken',
   'part.open_count': '{count} te doen',
   'part.missing': 'Nog niet gemeten: {names}.',
+  'part.unverified': 'Geen goedkaliber heeft de omhulling gecontroleerd: {names}.',
+  'part.unnamed': 'een waarde zonder kenmerk',
   'part.measure': 'Nu meten',
   'part.measured_count': '{count} gemeten',
   'part.by_plan': 'volgens plan {plan}',

@@ -111,6 +111,7 @@ export default {
   'envelope.go': 'GO gauge',
   'envelope.passes': 'passes',
   'envelope.fails': 'does not pass',
+  'envelope.not_verified': 'envelope not verified',
   'envelope.operator': 'Size operator',
 
   'gauge.due': '{gauge} calibrated until {date}',

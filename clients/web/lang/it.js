@@ -111,6 +111,7 @@ export default {
   'envelope.go': 'Calibro passa',
   'envelope.passes': 'passa',
   'envelope.fails': 'non passa',
+  'envelope.not_verified': 'inviluppo non verificato',
   'envelope.operator': 'Operatore dimensionale',
 
   'gauge.due': '{gauge} tarato fino al {date}',

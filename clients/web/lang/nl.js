@@ -111,6 +111,7 @@ export default {
   'envelope.go': 'Goedkaliber',
   'envelope.passes': 'past',
   'envelope.fails': 'past niet',
+  'envelope.not_verified': 'omhulling niet gecontroleerd',
   'envelope.operator': 'Maatoperator',
 
   'gauge.due': '{gauge} gekalibreerd tot {date}',

@@ -5,7 +5,7 @@ import { dateTime, t } from '../i18n.js';
 import { fragment } from '../route.js';
 import { asideOf } from '../trend/aside.js';
 import { pointOf } from '../trend/series.js';
-import { distanceText, measuredText, placesOf, verdictMark, verdictShape, VERDICTS } from '../verdict.js';
+import { distanceText, measuredText, placesOf, recordMark, verdictShape, VERDICTS } from '../verdict.js';
 
 const CELL = { width: 26, widest: 44, height: 30 };
 const HEAD = 58;
@@ -118,7 +118,7 @@ export class HeatMap {
     if (!part || !name) return refill(this.said, h('p.aside', t('heat.pick')));
     const record = part.values.get(name);
     const links = [h('a', { href: fragment({ view: 'parts', options: { part_id: part.name } }) }, part.name), h('a', { href: fragment({ view: 'trend', options: { ...this.options(), characteristic: name } }) }, name)];
-    return refill(this.said, h('div.line', links, record ? [verdictMark(record.verdict), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)), asideOf(record) && h('span.aside', `${t('aside.mark')}: ${asideOf(record).cause}`), h('span.aside', dateTime(new Date(record.measured_at)))]
+    return refill(this.said, h('div.line', links, record ? [recordMark(record), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)), asideOf(record) && h('span.aside', `${t('aside.mark')}: ${asideOf(record).cause}`), h('span.aside', dateTime(new Date(record.measured_at)))]
       : h('span', t('heat.none'))));
   }
 
@@ -132,7 +132,7 @@ export class HeatMap {
       h('thead', h('tr', h('th', { scope: 'col' }, t('field.part_id')), names.map((name) => h('th', { scope: 'col' }, name)))),
       h('tbody', [...this.parts].reverse().map((part) => h('tr', h('th', { scope: 'row' }, part.name), names.map((name, i) => {
         const record = part.values.get(name);
-        return h('td', record ? [verdictMark(record.verdict), ` ${measuredText(record, places[i])}`] : '–');
+        return h('td', record ? [recordMark(record), ` ${measuredText(record, places[i])}`] : '–');
       })))))));
   }
 }

@@ -5,7 +5,7 @@ import { number, t } from '../i18n.js';
 import { fragment } from '../route.js';
 import { asideOf } from '../trend/aside.js';
 import { pointOf, rangeOf } from '../trend/series.js';
-import { measuredText, verdictMark, verdictShape } from '../verdict.js';
+import { measuredText, recordMark, verdictShape } from '../verdict.js';
 import { isDoubtful } from './standing.js';
 
 const WIDTH = 300;
@@ -56,6 +56,6 @@ export class Wall {
       h('div.line', h('h2', h('a', { href: fragment({ view: 'trend', options: { ...this.options(), characteristic: name } }) }, name)),
         ppk && h('span', { class: isDoubtful(standing) ? 'ppk in-doubt' : 'ppk' }, `Ppk ${number(ppk.value.toFixed(2))}`)),
       last ? spark(records) : h('p.empty', t('overview.nothing')),
-      last && h('div.line.last', verdictMark(last.verdict), h('strong', `${measuredText(last)} mm`), last.part_id && h('span.aside', last.part_id)));
+      last && h('div.line.last', recordMark(last), h('strong', `${measuredText(last)} mm`), last.part_id && h('span.aside', last.part_id)));
   }
 }

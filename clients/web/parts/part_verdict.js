@@ -4,7 +4,7 @@ import { getJson, url } from '../api.js';
 import { h, refill } from '../dom.js';
 import { t } from '../i18n.js';
 import { fragment } from '../route.js';
-import { verdictShape } from '../verdict.js';
+import { isUnverified, verdictShape } from '../verdict.js';
 
 /** So many questions at once. */
 const MOST_ASKED = 3;
@@ -13,6 +13,7 @@ const MOST_ASKED = 3;
 const saysMore = ({ plan, characteristics }) => plan !== undefined || characteristics.length > 1;
 /** Without a plan nobody knows what is missing: good values make no good part. */
 const isOpenEnded = ({ verdict, plan }) => verdict === 'good' && plan === undefined;
+const unverifiedOf = ({ characteristics }) => characteristics.filter(isUnverified);
 const wordOf = ({ verdict, missing }) => t(verdict ? `verdict.${verdict}` : missing.length ? 'part.incomplete' : 'verdict.unjudged');
 const shapeOf = (found) => (isOpenEnded(found) ? null : found.verdict ?? (found.missing.length ? 'open' : null));
 
@@ -77,7 +78,7 @@ export class PartVerdicts {
     this.watch.unobserve(place);
     if (!saysMore(found)) return;
     const { missing, open_reactions: open } = found;
-    refill(place, shapeOf(found) && verdictShape(shapeOf(found)), [!isOpenEnded(found) && wordOf(found), missing.length > 0 && t('part.missing_count', { count: missing.length }),
+    refill(place, shapeOf(found) && verdictShape(shapeOf(found)), [!isOpenEnded(found) && wordOf(found), found.verdict === 'good' && unverifiedOf(found).length > 0 && t('envelope.not_verified'), missing.length > 0 && t('part.missing_count', { count: missing.length }),
       open.length > 0 && t('part.open_count', { count: open.length })].filter(Boolean).join(' · '));
     place.title = [...missing, ...open.map(({ characteristic }) => characteristic)].join(', ');
   }
@@ -95,6 +96,7 @@ export async function partSheet(part, signal) {
   return h('section.sheet.part-verdict', { 'data-verdict': found.verdict, 'aria-label': t('panel.part', { part }) }, shapeOf(found) ? verdictShape(shapeOf(found)) : null,
     h('div', h('p.headline', [part, !isOpenEnded(found) && wordOf(found)].filter(Boolean).join(' · ')),
       h('p', [counted, plan === undefined ? t('part.by_no_plan') : t('part.by_plan', { plan })].filter(Boolean).join(' · ')),
+      unverifiedOf(found).length > 0 && h('p.missing', t('part.unverified', { names: unverifiedOf(found).map(({ characteristic }) => characteristic ?? t('part.unnamed')).join(', ') })),
       missing.length > 0 && h('p.missing', t('part.missing', { names: missing.join(', ') }), ' ', station),
       open.length > 0 && h('ul', { 'aria-label': t('part.open') }, open.map(({ characteristic, reaction }) => h('li', h('strong', characteristic), ` ${reaction ?? t('part.cause')}`))),
       h('p.aside', t('part.rule'))));

@@ -5,7 +5,7 @@ import { field, h } from '../dom.js';
 import { dateTime, t } from '../i18n.js';
 import { orderOf } from '../parts/order.js';
 import { nameOf, refusedWords, wordField } from '../parts/words.js';
-import { measuredText, operatorOf, placesOf, verdictMark } from '../verdict.js';
+import { measuredText, operatorOf, placesOf, recordMark } from '../verdict.js';
 
 const [ASIDE, COUNTED] = ['set aside', 'counted again'];
 const decides = ({ measure }) => measure === ASIDE || measure === COUNTED;
@@ -56,7 +56,7 @@ export function asideList(points, onGo, onBack) {
   const head = ['trend.verdict', 'trend.value', 'field.part_id', 'correct.reason', 'field.operator', 'trend.time'].map((name) => h('th', { scope: 'col' }, t(name)));
   return [h('h2', t('aside.list', { count: found.length })), h('p.aside', t('aside.rule')),
     h('div.wide', { tabindex: 0, role: 'region', 'aria-label': t('aside.list', { count: found.length }) }, h('table', h('thead', h('tr', head, h('td'))),
-      h('tbody', found.map(({ record, index, note }) => h('tr', h('td', verdictMark(record.verdict)), h('th', { scope: 'row' }, h('button.quiet', { type: 'button', onclick: () => onGo(index) }, `${measuredText(record, places)} mm`)),
+      h('tbody', found.map(({ record, index, note }) => h('tr', h('td', recordMark(record)), h('th', { scope: 'row' }, h('button.quiet', { type: 'button', onclick: () => onGo(index) }, `${measuredText(record, places)} mm`)),
         h('td', record.part_id ?? ''), h('td', note.cause), h('td', operatorOf(note) ?? ''), h('td', dateTime(new Date(note.received_at))),
         h('td', h('button.quiet', { type: 'button', 'aria-label': t('aside.back_this', { mm: measuredText(record), part: record.part_id ?? t('part.none') }), onclick: () => onBack(record) }, t('aside.back')))))))),
   ];

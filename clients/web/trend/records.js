@@ -4,7 +4,7 @@ import { h } from '../dom.js';
 import { umText } from '../exact.js';
 import { dateTime, signed, t } from '../i18n.js';
 import { fragment } from '../route.js';
-import { distanceText, measuredText, noteText, operatorOf, placesOf, verdictMark } from '../verdict.js';
+import { distanceText, measuredText, noteText, operatorOf, placesOf, recordMark, verdictMark } from '../verdict.js';
 import { asideOf } from './aside.js';
 
 const ROWS = 12;
@@ -17,7 +17,7 @@ export function pointDetail({ record, members, deviation }, broken, onAside) {
     return h('div.line', verdictMark(record.verdict), h('strong', `x̄ = ${signed(umText(Math.round(deviation)))} µm`), h('span', record.subgroup),
       h('span.aside', members.map((each) => `${measuredText(each.record)} mm`).join(' · ')), marks);
   }
-  return h('div.line', verdictMark(record.verdict), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)),
+  return h('div.line', recordMark(record), h('strong', `${measuredText(record)} mm`), h('span', distanceText(record)),
     record.part_id && h('a', { href: fragment({ view: 'parts', options: { part_id: record.part_id } }) }, record.part_id),
     h('span.aside', [record.characteristic, record.machine, record.tool, operatorOf(record), record.gauge, dateTime(new Date(record.measured_at))].filter(Boolean).join(' · ')),
     record.confirmed && h('span.aside', t('confirmed.mark')),
@@ -33,6 +33,6 @@ export function lastRows(points) {
   return h('table', h('caption', t('recent.title')),
     h('thead', h('tr', HEAD.map((name) => h('th', { scope: 'col' }, t(name))))),
     h('tbody', rows.map(({ record }) => h('tr',
-      h('td', verdictMark(record.verdict)), h('td', `${measuredText(record, places)} mm`, asideOf(record) && h('span.aside', ` ${t('aside.mark')}`)), h('td', distanceText(record)),
+      h('td', recordMark(record)), h('td', `${measuredText(record, places)} mm`, asideOf(record) && h('span.aside', ` ${t('aside.mark')}`)), h('td', distanceText(record)),
       h('td', record.part_id ?? ''), h('td', dateTime(new Date(record.measured_at)))))));
 }

@@ -14,7 +14,7 @@ import { LongList } from '../parts/long_list.js';
 import { note } from '../parts/note.js';
 import { partSheet, PartVerdicts } from '../parts/part_verdict.js';
 import { runRow } from '../parts/run_row.js';
-import { limitsText, measuredText, noteText, operatorOf, placesOf, verdictMark, VERDICTS } from '../verdict.js';
+import { limitsText, measuredText, noteText, operatorOf, placesOf, recordMark, VERDICTS } from '../verdict.js';
 
 const FIELDS = ['part_id', 'characteristic', 'cause'];
 /** What the service writes a list as, by its `format`. */
@@ -132,7 +132,7 @@ function row(record, isReplaced, { places, verdicts, onCorrect, onNote }) {
   return h('tr', { class: isReplaced && 'corrected' },
     h('td', part ? h('a', { href: fragment({ view: 'parts', options: { part_id: part, history: 'all' } }) }, part) : '–', part && verdicts.placeOf(part)),
     h('td', record.characteristic ?? '', h('span.aside', record.designation ? designationText(record.designation) : '')),
-    h('td', verdictMark(record.verdict), (isReplaced || record.correction_of)
+    h('td', recordMark(record), (isReplaced || record.correction_of)
       && h('span.aside', [t(isReplaced ? 'recent.corrected' : 'parts.correction'), record.conflict && t('parts.conflict'), record.reason].filter(Boolean).join(' · ')),
     record.confirmed && h('span.aside', t('confirmed.mark')),
     (record.notes ?? []).map((one) => h('span.aside.noted', [noteText(one), operatorOf(one), dateTime(new Date(one.received_at))].filter(Boolean).join(' · ')))),

@@ -7,6 +7,7 @@
 #include "api/plans/characteristic_key.hpp"
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"
+#include "record/record_members.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/measurements/measurement_service.hpp"
 
@@ -25,6 +26,7 @@ struct PartValue {
   std::optional<std::string> characteristic{};
   std::string measurement{};
   std::optional<std::string_view> verdict{};
+  std::optional<std::string_view> envelope{};
   Length measured{};
   Timestamp measured_at{};
   bool has_note = false;
@@ -34,6 +36,8 @@ void members(auto& v, const PartValue& value) {
   v.optional("characteristic", value.characteristic, "Absent if the value names no characteristic");
   v.member("measurement_id", value.measurement, "The newest record");
   v.member("verdict", value.verdict, "Verdict; null without limits");
+  v.optional("envelope_result", value.envelope,
+             "verified, not_verified or failed, if the envelope is required");
   v.member("measured_mm", value.measured, Millimetres{});
   v.member("measured_at", value.measured_at, Time{}, "Time in UTC");
 }
@@ -161,6 +165,7 @@ void add_value(const app::Measurement& m, Part& part) {
                       m.notes, [](const auto& note) { return note.cause || note.measure; })};
   if (m.characteristic) value.characteristic.emplace(*m.characteristic);
   if (m.is_judged()) value.verdict = word(m.result.verdict);
+  if (m.envelope) value.envelope = app::members::envelope_result(m);
   const auto newer = std::ranges::find(part.values, value.key, &PartValue::key);
   if (newer == part.values.end()) {
     part.values.push_back(std::move(value));

@@ -69,6 +69,13 @@ class Plans(DaemonTest):
         for name in ("9-B", "9-C"):
             self.daemon.request("DELETE", f"/v1/plans/{name}")
 
+    def test_a_value_of_a_part_says_what_its_go_gauge_found(self):
+        for name, said in (("seat", {}), ("pin", {"go_gauge": "passes"})):
+            self.daemon.measure({"part_id": "P-3", "characteristic": name, "designation": "25 H7(E)", "measured_mm": "25.01", **said})
+        self.daemon.measure({"part_id": "P-3", "characteristic": "free", "designation": "25 H7", "measured_mm": "25.01"})
+        self.assertEqual([(one["characteristic"], one.get("envelope_result")) for one in self.daemon.get("/v1/parts/P-3").json["characteristics"]],
+                         [("seat", "not_verified"), ("pin", "verified"), ("free", None)])
+
     def test_a_value_waits_for_a_cause_of_its_catalogue(self):
         self.daemon.request("PUT", "/v1/catalogues/bores", {"causes": ["Insert worn"], "measures": []})
         self.put("9-D", {"name": "seat", "designation": "25 H7", "catalogue": "bores"})

@@ -113,6 +113,20 @@ describe('the parts', () => {
     assert.match(decodeURIComponent(hashOf(page)), /^#\/gauge\b(?=.*part_id=V-HALF).*plan=4713-A/);
   });
 
+  it('say beside a good verdict that no GO gauge has verified the envelope', async () => {
+    await daemon.send('PUT', '/v1/plans/4716-A', { characteristics: [{ name: 'h-bore', designation: '25 H7(E)' }, { name: 'h-pin', designation: '25 H7(E)' }] });
+    await daemon.send('POST', '/v1/measurements', ['H-1', 'H-2'].flatMap((part_id, i) => [['h-bore', i ? 'passes' : undefined], ['h-pin', 'passes']].map(([characteristic, go_gauge]) => ({ designation: '25 H7(E)', measured_mm: '25.01', part_id, characteristic, order: 'WO-H', go_gauge }))));
+    page = await open(browser, daemon, '#/parts?order=WO-H');
+    await page.waitForFunction(() => document.querySelector('.of-part[data-part="H-1"]')?.textContent === 'Good · envelope not verified' && document.querySelector('.of-part[data-part="H-2"]').textContent === 'Good');
+    assert.deepEqual(await page.$$eval('.records tbody td:nth-child(3)', (all) => all.map(({ textContent }) => textContent)), ['Good', 'Good', 'Good', 'Goodenvelope not verified']);
+    for (const [part, said] of [['H-1', 'No GO gauge has verified the envelope: h-bore.'], ['H-2', '']]) {
+      await page.fill('[name="part_id"]', part);
+      await page.press('[name="part_id"]', 'Enter');
+      await page.waitForFunction((wanted) => document.querySelector('.part-verdict .headline')?.textContent === wanted, `${part} · Good`);
+      assert.equal(await page.$$eval('.part-verdict .missing', ([line]) => line?.textContent ?? ''), said);
+    }
+  });
+
   it('wait for a cause where the plan names a catalogue alone', async () => {
     await daemon.send('PUT', '/v1/catalogues/k', { causes: ['Insert worn'], measures: ['Insert changed'] });
     await daemon.send('PUT', '/v1/plans/4714-A', { characteristics: [{ name: 'k-bore', designation: '25 H7', catalogue: 'k' }] });
