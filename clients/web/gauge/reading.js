@@ -72,8 +72,17 @@ export function notWords(line, { burst = false, prefixes = PREFIXES } = {}) {
 
 /** Whether a number of a part is as the plan says: `#` is a figure, `?` a character, `*` any text. */
 export function isOfPattern(text, pattern) {
-  const each = { '#': '\\d', '?': '.', '*': '.*' };
-  return !pattern || new RegExp(`^${[...pattern].map((sign) => each[sign] ?? sign.replace(/[^\w\s]/, '\\$&')).join('')}$`, 'i').test(text);
+  const [signs, wanted] = [text, pattern || '*'].map((one) => [...one.toLowerCase()]);
+  const fits = (sign, of) => of === '?' || (of === '#' ? /\d/.test(sign) : sign === of);
+  let at = 0;
+  let [last, begun] = [-1, 0]; // the last `*`, and where the text behind it begins
+  for (let i = 0; i < signs.length;) {
+    if (wanted[at] === '*') [last, begun, at] = [at, i, at + 1];
+    else if (at < wanted.length && fits(signs[i], wanted[at])) [i, at] = [i + 1, at + 1];
+    else if (last >= 0) [at, i] = [last + 1, ++begun]; // that `*` takes one more; those before it never do
+    else return false;
+  }
+  return wanted.slice(at).every((of) => of === '*');
 }
 
 /** A scan in the place of the name of a part: taken, or asked about, as an address, ß or ' of another layout of keys, or what the plan does not expect. */

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';
 
 import { periodOf } from '../../../clients/web/filter_bar.js';
-import { nameIn, notWords } from '../../../clients/web/gauge/reading.js';
+import { isOfPattern, nameIn, notWords } from '../../../clients/web/gauge/reading.js';
 import { close, hashOf, open, picture } from './support/browser.mjs';
 import { untilPoints } from './support/chart.mjs';
 import { Daemon } from './support/daemon.mjs';
@@ -15,6 +15,13 @@ describe('a line in a field', () => {
     for (const [line, field, name] of [['P:SN-1', 'part_id', 'SN-1'], [' ]C1p:SN-1', 'part_id', 'SN-1'], [']Q3SN-1', 'part_id', 'SN-1'], ['SN-1', 'order', 'SN-1'], ['25 H7', 'part_id', '25 H7'],
       ['O:WO-1', 'part_id', null], ['P:SN-1', 'order', null], ['', 'part_id', '']]) assert.equal(nameIn(line, field), name, line);
     assert.equal(nameIn('#SN-1', 'part_id', { part_id: '#' }), 'SN-1');
+  });
+
+  it('is of a pattern of parts, which no number of stars keeps from an end', () => {
+    for (const [text, pattern, is] of [['SN-0042', 'sn-####', true], ['SN-42', 'SN-####', false], ['SN-#', 'SN-#', false], ['a.b', 'a?b', true], ['axb', 'a.b', false], ['', '*', true], ['x', '', true],
+      ['A-17/B', 'A*#*B', true], ['aab', '*ab', true], ['abc', '*ab', false], ['a*b', 'a*b**', true]]) assert.equal(isOfPattern(text, pattern), is, `${text} of ${pattern}`);
+    // Whoever tries every way to share the text among the stars never ends.
+    for (const pattern of ['*#', '*?', '*1']) assert.equal(isOfPattern('1'.repeat(200), `${pattern.repeat(60)}x`), false);
   });
 
   it('is words unless a gauge or a scanner has sent it', () => {
