@@ -28,7 +28,7 @@ export function mount(main, route) {
     h('input', { type: 'text', name, autocomplete: 'off', spellcheck: 'false', onchange: ({ target }) => { searched(target); search(); } })]));
   const bar = new FilterBar(route.options, () => search());
   for (const name of FIELDS) inputs[name].value = route.options[name] ?? '';
-  const verdict = h('select', { name: 'verdict', onchange: () => search() }, ['', ...VERDICTS].map((word) =>
+  const verdict = h('select', { name: 'verdict', onchange: () => search() }, ['', ...VERDICTS, 'unjudged'].map((word) =>
     h('option', { value: word, selected: word === (route.options.verdict ?? '') }, word ? t(`verdict.${word}`) : t('parts.any'))));
   const corrected = h('input', { type: 'checkbox', checked: route.options.history === 'all', onchange: () => search() });
   const said = h('p.note', { role: 'status' });

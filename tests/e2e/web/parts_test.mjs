@@ -127,6 +127,18 @@ describe('the parts', () => {
     }
   });
 
+  it('are found by verdict, also those that are not judged', async () => {
+    await daemon.send('POST', '/v1/measurements', [{ quantity: 'position', nominal_mm: 40, measured_mm: '40.01', part_id: 'N-1', order: 'WO-N' }, { designation: '25 H7', measured_mm: '25.01', part_id: 'N-2', order: 'WO-N' }]);
+    page = await open(browser, daemon, '#/parts?order=WO-N');
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 2);
+    await page.selectOption('[name="verdict"]', { label: 'Not judged' });
+    await page.waitForFunction(() => /^N-1.*Not judged40\.010\+10 µm–/.test(document.querySelector('.records tbody tr')?.textContent) && document.querySelectorAll('.records tbody tr').length === 1);
+    assert.match(hash(), /verdict=unjudged/);
+    await page.reload();
+    await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 1);
+    assert.equal(await page.$eval('[name="verdict"]', ({ selectedOptions: [{ textContent }] }) => textContent), 'Not judged');
+  });
+
   it('wait for a cause where the plan names a catalogue alone', async () => {
     await daemon.send('PUT', '/v1/catalogues/k', { causes: ['Insert worn'], measures: ['Insert changed'] });
     await daemon.send('PUT', '/v1/plans/4714-A', { characteristics: [{ name: 'k-bore', designation: '25 H7', catalogue: 'k' }] });
