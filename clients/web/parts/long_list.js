@@ -61,6 +61,20 @@ export class LongList {
     if (rank !== undefined && this.length - 1 - rank > 0) await this.#goTo(this.length - 1 - rank);
   }
 
+  rowOfRecord(id) {
+    return this.held.find(({ record }) => record.id === id);
+  }
+
+  /** Rows may have come at the top: they are read where it is in sight, else when it comes into sight. */
+  async renew() {
+    if (!this.held.length) return this.open();
+    const isHere = this.isTop && this.scroller.scrollTop === 0;
+    this.isTop = false;
+    if (!isHere) return this.#look();
+    await this.#extend(false);
+    this.scroller.scrollTop = 0;
+  }
+
   /** One question at a time; the newest counts. */
   async #ask(work) {
     this.isBusy = true;
@@ -173,7 +187,7 @@ export class LongList {
   /** Reads on at one end; what is farthest from there goes. */
   #extend(isDown) {
     const edge = this.held.at(isDown ? -1 : 0).record.id;
-    this.#ask(async (signal) => {
+    return this.#ask(async (signal) => {
       const rows = await this.read({ sort: isDown ? 'newest' : 'oldest', limit: PAGE, after: edge }, signal);
       if (signal.aborted) return;
       const { from } = this.#edges();

@@ -34,6 +34,18 @@ export class PartVerdicts {
     for (const map of [this.#answers, this.#asked, this.#places]) map.clear();
   }
 
+  /** A part may have changed: it is asked for anew where it is in sight. */
+  renew(part) {
+    this.#asked.get(part)?.abort();
+    for (const map of [this.#answers, this.#asked]) map.delete(part);
+    for (const place of document.querySelectorAll('.of-part')) {
+      if (place.dataset.part !== part) continue;
+      this.#places.delete(place);
+      this.watch.unobserve(place);
+      this.watch.observe(place);
+    }
+  }
+
   /** The place of a part's verdict. */
   placeOf(part) {
     const place = h('span.aside.of-part', { 'data-part': part });

@@ -4,6 +4,7 @@ import { getJson, url } from '../api.js';
 import { designationText } from '../designation.js';
 import { field, h } from '../dom.js';
 import { downloadLink } from '../download.js';
+import { follow } from '../events.js';
 import { FilterBar, searched } from '../filter_bar.js';
 import { date, dateTime, explain, signed, t, time } from '../i18n.js';
 import { Latest } from '../latest.js';
@@ -19,6 +20,8 @@ import { limitsText, measuredText, noteText, operatorOf, placesOf, recordMark, V
 const FIELDS = ['part_id', 'characteristic', 'cause'];
 /** What the service writes a list as, by its `format`. */
 const FORMS = { csv: 'CSV', xlsx: 'Excel', dfq: 'Q-DAS', qif: 'QIF' };
+/** Many events make one reading. */
+const GATHER_MS = 500;
 /** Of the times in a workbook. */
 const ZONE = Intl.DateTimeFormat().resolvedOptions().timeZone ?? '';
 
@@ -119,9 +122,52 @@ export function mount(main, route) {
     if (await note(record)) search(at);
   }
 
+  /** What happens elsewhere: rows come at the top; what a held row says anew takes the whole list anew. */
+  let timer = 0;
+  let isAnew = false;
+  let isFollowed = false;
+  function arrived({ type, data }) {
+    const told = JSON.parse(data);
+    if (type === 'note.added') {
+      const row = list.rowOfRecord(told.measurement_id);
+      if (!row || row.record.notes?.some(({ id }) => id === told.id)) return;
+      isAnew = true;
+    } else if (type === 'measurement.recorded') {
+      const isCorrected = list.rowOfRecord(told.correction_of) !== undefined;
+      if (!isCorrected && !isListed(told)) return;
+      isAnew ||= isCorrected;
+      verdicts.renew(told.part_id);
+    } else if (type === 'resync') {
+      // The first comes when the stream begins, just after the list was read.
+      isAnew ||= isFollowed;
+      isFollowed = true;
+    } else return;
+    timer ||= setTimeout(renew, GATHER_MS);
+  }
+
+  function isListed(record) {
+    return bar.has(record) && ['part_id', 'characteristic'].every((name) => ['', record[name]].includes(filter()[name]));
+  }
+
+  async function renew() {
+    timer = list.isBusy ? setTimeout(renew, GATHER_MS) : 0;
+    if (timer || location.hash !== address) return;
+    if (isAnew) {
+      isAnew = false;
+      search(at);
+    } else {
+      showPart(filter().part_id);
+      await list.renew();
+      said.textContent = list.length === 0 ? t('parts.none') : '';
+    }
+  }
+
   bar.offer(leaving.signal);
-  search(at);
-  return () => leaving.abort();
+  search(at).then(() => follow(leaving.signal, arrived));
+  return () => {
+    leaving.abort();
+    clearTimeout(timer);
+  };
 }
 
 function row(record, isReplaced, { places, verdicts, onCorrect, onNote }) {

@@ -127,6 +127,36 @@ describe('the parts', () => {
     }
   });
 
+  it('show what is stored, corrected and noted elsewhere', async () => {
+    await daemon.send('PUT', '/v1/plans/4717-A', { characteristics: [{ name: 'l-a', designation: '25 H7' }, { name: 'l-b', designation: '25 H7', reaction: 'Stop' }] });
+    const measure = async (part_id, characteristic, measured_mm) => (await daemon.send('POST', '/v1/measurements', { designation: '25 H7', characteristic, measured_mm, part_id, order: 'WO-LIVE' })).json();
+    const rows = (...wanted) => page.waitForFunction((texts) => {
+      const shown = [...document.querySelectorAll('.records tbody tr')].map(({ cells }) => `${cells[0].textContent} ${cells[3].textContent}`);
+      return shown.join() === texts.join();
+    }, wanted);
+    page = await open(browser, daemon, '#/parts?order=WO-LIVE');
+    await page.waitForFunction(() => /No measurements match/.test(document.querySelector('.parts .note').textContent));
+    await measure('L-1', 'l-a', '25.01');
+    await rows('L-1Not complete · 1 missing 25.010');
+    assert.equal(await page.textContent('.parts .note'), '');
+    await page.evaluate(() => { globalThis.first = document.querySelector('.records tbody tr'); });
+    const bad = await measure('L-1', 'l-b', '25.04');
+    await measure('L-2', 'l-a', '25.012');
+    await rows('L-2Not complete · 1 missing 25.012', 'L-1Reject · 1 to be done 25.040', 'L-1Reject · 1 to be done 25.010');
+    assert.ok(await page.evaluate(() => document.contains(globalThis.first)), 'rows that are there stay');
+    await daemon.send('POST', `/v1/measurements/${bad.id}/notes`, { cause: 'Insert worn' });
+    await page.waitForFunction(() => /Insert worn/.test(document.querySelector('.records tbody').textContent));
+    await daemon.send('POST', `/v1/measurements/${bad.id}/corrections`, { measured_mm: '25.014', reason: 'misread' });
+    await rows('L-1Good 25.014', 'L-2Not complete · 1 missing 25.012', 'L-1Good 25.010');
+    await page.fill('.parts [name="part_id"]', 'L-2');
+    await page.press('.parts [name="part_id"]', 'Enter');
+    await page.waitForFunction(() => /L-2 · Not complete/.test(document.querySelector('.part-verdict')?.textContent));
+    await measure('L-1', 'l-a', '25.02');
+    await measure('L-2', 'l-b', '25.013');
+    await page.waitForFunction(() => /L-2 · Good/.test(document.querySelector('.part-verdict')?.textContent));
+    await page.waitForFunction(() => [...document.querySelectorAll('.records tbody td:nth-child(4)')].map(({ textContent }) => textContent).join() === '25.013,25.012');
+  });
+
   it('are found by verdict, also those that are not judged', async () => {
     await daemon.send('POST', '/v1/measurements', [{ quantity: 'position', nominal_mm: 40, measured_mm: '40.01', part_id: 'N-1', order: 'WO-N' }, { designation: '25 H7', measured_mm: '25.01', part_id: 'N-2', order: 'WO-N' }]);
     page = await open(browser, daemon, '#/parts?order=WO-N');
