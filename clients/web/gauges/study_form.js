@@ -23,7 +23,8 @@ const MOST = { parts: 100, operators: 20, trials: 20 };
 /** So many records are read for a study at the most. */
 const MOST_RECORDS = 1000;
 
-const listOf = (text) => [...new Set(text.split(/[,;\n]/).map((one) => one.trim()).filter(Boolean))];
+/** Names stand between commas; where there is a semicolon it alone is between them, and a comma is of a name. */
+const listOf = (text) => [...new Set(text.split(text.includes(';') ? ';' : /[,\n]/).map((one) => one.trim()).filter(Boolean))];
 /** "10" are parts 1 to 10; "A, B" are named. */
 const namesOf = (text, most) => (/^\d+$/.test(text.trim()) ? Array.from({ length: Math.min(Number(text), most) }, (_, i) => String(i + 1)) : listOf(text).slice(0, most));
 
@@ -228,6 +229,9 @@ function fitting(readings) {
   });
 }
 
+/** As listOf and namesOf read it. */
+const textOf = (names) => (names.some((name) => name.includes(',')) || /^\d+$/.test(names.join()) ? `${names.join('; ')};` : names.join(', '));
+
 /** The grid of readings [{part, operator, trial, value}]; without a trial they count up within part and operator. */
 function gridOf(readings) {
   const counts = new Map();
@@ -240,7 +244,7 @@ function gridOf(readings) {
     trials.add(name);
     cells[JSON.stringify([String(part), String(operator), name])] = String(value);
   }
-  const all = (name) => [...new Set(readings.map((reading) => reading[name]))].join(', ');
+  const all = (name) => textOf([...new Set(readings.map((reading) => String(reading[name])))]);
   const counted = [...trials].every((name) => Number(name) >= 1 && Number(name) <= trials.size);
   return { cells, parts: all('part'), operators: all('operator'), trials: counted ? String(trials.size) : [...trials].join(', ') };
 }

@@ -96,6 +96,20 @@ describe('a gauge', () => {
     await close(page);
   });
 
+  it('is studied with the records of parts whose numbers have commas, or of one that is a figure', async () => {
+    const record = (characteristic, part_id, operator, i) => ({ designation: '25 H7', measured_mm: `25.01${i}`, part_id, operator, characteristic });
+    await daemon.send('POST', '/v1/measurements', ['C,1', 'C,2'].flatMap((part) => ['Kim', 'Lee, J.'].flatMap((operator) => [0, 1].map((i) => record('study-commas', part, operator, i)))));
+    await daemon.send('POST', '/v1/measurements', [0, 1].map((i) => record('study-17', '17', 'Kim', i)));
+    const page = await open(browser, daemon, '#/gauges');
+    await page.waitForSelector('.study option[value="study-17"]', { state: 'attached' });
+    for (const [characteristic, parts] of [['study-commas', ['C,1', 'C,2']], ['study-17', ['17']]]) {
+      await page.selectOption('.study [name="characteristic"]', characteristic);
+      await page.waitForFunction((wanted) => [...document.querySelectorAll('.study-grid tbody th')].map(({ textContent }) => textContent).join(';') === wanted, parts.join(';'));
+      assert.ok((await page.$$eval('.study-grid tbody input', (all) => all.map(({ value }) => value))).every((value) => /^25\.01\d?$/.test(value)), 'each place has its value');
+    }
+    await close(page);
+  });
+
   it('is studied with the newest records of a time, without those set aside, and says that there are more', async () => {
     const content = { designation: '25 H7', measured_mm: '25.01', operator: 'Kim', characteristic: 'study-many' };
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 1001 }, (_, i) => (
