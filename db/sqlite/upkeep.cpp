@@ -111,6 +111,10 @@ void Scrub::check_file(const std::stop_token& stop) {
 }
 
 void Scrub::pass(const std::stop_token& stop) {
+  constexpr std::chrono::milliseconds kBetweenGlances{5};
+  while (options_.is_open && !options_.is_open()) {
+    if (!rest(stop, kBetweenGlances)) return;
+  }
   try {
     sqlite::Session session(options_, clock_, sqlite::Mode::Read);
     Verifier verifier(session, options_.check_measurement);

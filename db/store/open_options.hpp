@@ -78,9 +78,12 @@ struct OpenOptions {
   std::chrono::hours run_retention{90 * 24};  ///< finished runs with their files and traces
   std::int64_t event_retention = 100'000;     ///< events stored for replay
 
-  /// The error of a stored measurement, for the scrub. Called on its thread; may wait for the
-  /// application to be ready, and lives as long as the database.
+  /// The error of a stored measurement, for the scrub. Called on its thread; lives as long as the
+  /// database.
   MeasurementCheck check_measurement{};
+  /// Whether the service is open, for the scrub: it begins no earlier, since a start writes, and
+  /// damage that is found refuses every write.
+  std::function<bool()> is_open{};
 
   /// Called on the writer thread after each commit; calls its argument, which delivers the outcomes
   /// to the jobs. If it is not set, the writer delivers them.

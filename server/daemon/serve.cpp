@@ -174,14 +174,14 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   for (const Error& finding : app.tables().state()->findings) {
     log_error("tables_inconsistent", finding.message);
   }
-  const api::AuthMode mode = auth_mode(config, *addresses);
-  const auto provided = provide_admin_key(config, mode != api::AuthMode::Open, app.keys());
-  if (!provided) return provided.error();
-
   // Nor is a row that is damaged: every write is refused, so that no value lacks its gauge.
   const auto fails = [](const Result<void>& done) {
     return !done && done.error().code != ErrorCode::StorageCorrupt;
   };
+  const api::AuthMode mode = auth_mode(config, *addresses);
+  const auto provided = provide_admin_key(config, mode != api::AuthMode::Open, app.keys());
+  if (fails(provided)) return provided.error();
+
   if (const auto opened_runs = app.runs().open(api::run_format()); fails(opened_runs)) {
     return opened_runs.error();
   }

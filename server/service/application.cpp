@@ -163,7 +163,6 @@ Application::Application() = default;
 /// storage jobs.
 Application::~Application() {
   stage_ = Stage::Closing;
-  stage_.notify_all();
   if (jobs_) jobs_->call_off();
   if (runs_) runs_->stop();
   committed_.stop();
@@ -180,8 +179,8 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
     if (app->stage_ == Stage::Open) app->log_->committed();
   };
   if (!options.attach) {
+    open_options.is_open = [app = app.get()] { return app->stage_ == Stage::Open; };
     open_options.check_measurement = [app = app.get()](const store::MeasurementRow& row) {
-      app->stage_.wait(Stage::Opening);
       return app->stage_ == Stage::Open ? app->check_leaf(row) : std::nullopt;
     };
   }
@@ -245,7 +244,6 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
     app->log_->start();
   }
   app->stage_ = Stage::Open;
-  app->stage_.notify_all();
   return app;
 }
 
