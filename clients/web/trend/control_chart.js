@@ -17,7 +17,7 @@ const GAP = 36;
 const AXIS = 46;
 const LEFT = 74;
 const RIGHT = 92;
-/** Values from zero, of this many nm and more, have long labels. */
+/** Values from zero and limits that an outlier has moved, of this many nm and more, have long labels. */
 const LONG = { from: 1e6, right: 122 };
 /** Of the outermost points from the edge. */
 const INSET = 12;
@@ -80,7 +80,7 @@ export class ControlChart {
     const control = (own ? [own, ...this.phases.flatMap(({ charts }) => charts?.[0] ?? [])] : []).flatMap((one) => [one.upper_limit, one.lower_limit]).map((value) => value * NM_PER_UM);
     const counted = points.filter(isCounted);
     this.range = rangeOf(counted.length ? counted : points, [...control, ...singles.map(({ deviation }) => deviation)]);
-    this.right = Math.max(this.range.high, -this.range.low) < LONG.from ? RIGHT : LONG.right;
+    this.right = Math.max(this.range.high, -this.range.low, ...control.map(Math.abs)) < LONG.from ? RIGHT : LONG.right;
     this.inside = width - beside - LEFT - this.right - 2 * INSET;
     const inner = VALUES + (spread ? GAP + SPREAD : 0);
     const height = TOP + inner + AXIS;
@@ -146,7 +146,7 @@ export class ControlChart {
         marked(row, CROSS, aside, dots, { stroke: colours.soft, width: 2 }),
       ],
       axes: [
-        ...(own ? this.#controlLines('nm', own, NM_PER_UM, (range.high - range.low) / VALUES) : []),
+        ...(own ? this.#controlLines('nm', own, NM_PER_UM, (range.high - range.low) / VALUES, range) : []),
         line('nm', target, colours.good, 1, [10, 3, 2, 3]),
         axis({ scale: 'nm', side: 3, size: LEFT, splits: [range.high, ...limits, ...target], values: ['µm', ...limits.map((value) => `${value === range.upper ? 'U' : 'L'} ${signed(umText(value))}`), ...target.map((value) => `T ${signed(umText(value))}`)] }),
         axis({ scale: 'nm', side: 1, size: this.right }),
@@ -174,21 +174,26 @@ export class ControlChart {
       ],
       axes: [
         axes(dots, this.font, colours.soft).axis({ scale: 'spread', side: 3, splits: [most], values: [SPREADS[own.name]] }),
-        ...this.#controlLines('spread', { ...own, lower_limit: null }, 1, most / SPREAD),
+        ...this.#controlLines('spread', { ...own, lower_limit: null }, 1, most / SPREAD, { low: 0, high: most }),
       ],
     };
   }
 
-  /** Centre and control limits with their values at the right; none over another. @param unit of the scale in a µm */
-  #controlLines(scale, { centre, upper_limit: upper, lower_limit: lower }, unit, perPixel) {
+  /** Centre and control limits with their values at the right; none over another, those beyond the range at its edge. @param unit of the scale in a µm */
+  #controlLines(scale, { centre, upper_limit: upper, lower_limit: lower }, unit, perPixel, { low, high }) {
     const { axis, line } = axes(this.dots, this.font, this.colours.soft);
     const named = [['CL', centre], ['UCL', upper], ['LCL', lower]].filter(([, value]) => value !== null).map(([name, value]) => ({ name, value: value * unit }));
     const values = named.map(({ value }) => value);
-    const free = named.filter(({ value }, i) => values.slice(0, i).every((other) => Math.abs(other - value) > APART.control * perPixel));
+    const inside = named.filter(({ value }) => value >= low && value <= high);
+    const step = APART.control * perPixel;
+    const free = inside.filter(({ value }, i) => inside.slice(0, i).every((other) => Math.abs(other.value - value) > step)).map(({ name, value }) => [value, `${name} ${umOf(value / unit)}`]);
+    const at = (edge, way, sign) => ({ name, value }, i) => [edge - way * i * step, `${sign} ${name} ${number(String(Math.round(value / unit)))}`];
+    const beyond = [...named.filter(({ value }) => value > high).sort((one, other) => other.value - one.value).map(at(high, 1, '▲')), ...named.filter(({ value }) => value < low).sort((one, other) => one.value - other.value).map(at(low, -1, '▼'))];
+    const labels = [...free.filter(([place]) => beyond.every(([other]) => Math.abs(other - place) > step)), ...beyond];
     const { focus } = this.colours;
     const [centres, bounds] = this.phases.length > 1 ? [[], []] : [values.slice(0, 1), values.slice(1)];
     return [line(scale, centres, focus, 1.25), line(scale, bounds, focus, 1.25, [6, 4]),
-      axis({ scale, side: 1, splits: free.map(({ value }) => value), values: free.map(({ name, value }) => `${name} ${umOf(value / unit)}`) })];
+      axis({ scale, side: 1, splits: labels.map(([place]) => place), values: labels.map(([, text]) => text) })];
   }
 
   /** Time and part. */

@@ -123,6 +123,17 @@ describe('a control chart', () => {
     assert.deepEqual((await lettering(page)).filter((text) => text.startsWith('▲')), ['▲ +90', '▲ 79']);
   });
 
+  it('names centre and control limits at the edge where an outlier has moved them beyond it', async () => {
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 60 }, (_, i) => ({ designation: '25 H7', measured_mm: i === 30 ? '2009' : `25.01${i % 2}`, characteristic: 'outlier', confirmed: i === 30 || undefined })));
+    page = await openChart(browser, daemon, '#/trend?characteristic=outlier');
+    await untilPoints(page, 60);
+    const { charts: [{ centre, upper_limit: upper, lower_limit: lower }] } = await daemon.json('/v1/measurements/chart?characteristic=outlier');
+    const named = (await lettering(page)).filter((text) => /^[▲▼] [UL]?CL /.test(text));
+    const um = (mm) => String(Math.round((mm - 25) * 1000)).replace('-', '\u2212');
+    assert.deepEqual(named.slice(0, 3), [`▲ UCL ${um(upper)}`, `▲ CL ${um(centre)}`, `▼ LCL ${um(lower)}`]);
+    await picture(page, 'trend-outlier');
+  });
+
   it('writes the last values, and Parts its rows, with the decimals that most of them have, or more', async () => {
     await daemon.send('POST', '/v1/measurements', ['25.0101', '25.0112', '25.012', '25.013001'].map((measured_mm) => ({ designation: '25 H7', measured_mm, characteristic: 'decimals' })));
     const newest = ['25.013001', '25.0120', '25.0112', '25.0101'];
@@ -294,7 +305,8 @@ describe('a control chart', () => {
   it('draws values without limits, with a nominal size or none, as values: no limits, no index, no question for one', async () => {
     const of = (characteristic, i, more) => ({ quantity: 'position', measured_mm: `40.0${10 + (i * 7) % 20}`, characteristic, machine: 'FREE', part_id: `F-${i}`, ...more });
     await daemon.send('POST', '/v1/measurements', Array.from({ length: 30 }, (_, i) => [of('no-limits', i, { nominal_mm: 40 }), of('no-nominal', i)]).flat());
-    page = await openChart(browser, daemon, '#/trend?characteristic=one-limit');
+    page = await openChart(browser, daemon, '#/trend?characteristic=none-yet'); // what is asked of other values is not counted
+    await page.waitForSelector('.empty');
     const refused = [];
     page.on('response', (answer) => answer.status() >= 400 && refused.push(answer.url()));
     for (const [name, size, mean] of [['no-limits', '40 mm', '18.83'], ['no-nominal', '– mm', '40018.83']]) {
