@@ -276,8 +276,8 @@ export class ControlChart {
   }
 }
 
-/** Of points that break rules one after the other the first, and the first beyond a control limit (rule 1). */
-const firstsOf = (rules) => [...rules.keys()].filter((i) => !rules.has(i - 1) || (rules.get(i).has(1) && !rules.get(i - 1).has(1)));
+/** Where a rule begins to be broken; behind a value beyond a control limit (rule 1) the others say nothing new. */
+const firstsOf = (rules) => [...rules].filter(([i, broken]) => !rules.get(i - 1)?.has(1) && [...broken].some((rule) => !rules.get(i - 1)?.has(rule))).map(([i]) => i);
 
 /** {index: rules broken there}, in order, of the chart of the location. */
 export function rulesAt(chart) {

@@ -108,6 +108,16 @@ describe('a control chart', () => {
     await untilPoints(page, 31);
     assert.match((await rings()).at(-1), /^1/);
     await close(page);
+    // Rule 4 begins at the eighth value on one side, where rule 3 is broken already.
+    await post('far-side', 40, (i) => (i < 28 ? 25.01 + (i % 2) * 0.002 : 25.0135 + (i % 2) * 0.0002));
+    page = await openChart(browser, daemon, '#/trend?characteristic=far-side');
+    await untilPoints(page, 40);
+    const { violations, charts: [{ name }] } = await daemon.json('/v1/measurements/chart?characteristic=far-side&rules=1,2,3,4');
+    const broken = violations.filter(({ chart }) => chart === name);
+    const fourth = Math.min(...broken.filter(({ rule }) => rule === 4).map(({ index }) => index));
+    assert.ok(broken.some(({ index, rule }) => index === fourth - 1 && rule !== 4) && broken.every(({ rule }) => rule !== 1), JSON.stringify(broken));
+    assert.ok((await rings()).some((text) => /4/.test(text)), String(await rings()));
+    await close(page);
     await post('pairs-out', 1200, (i) => (i % 40 === 0 || i % 40 === 2 ? 25.018 : 25.01 + (i % 2) * 0.001));
     page = await openChart(browser, daemon, '#/trend?characteristic=pairs-out&count=5000&rules=1');
     await untilPoints(page, 1200);
