@@ -4,7 +4,7 @@ import { designationText } from '../designation.js';
 import { h } from '../dom.js';
 import { number, t } from '../i18n.js';
 import { limitStrip, runStrip } from '../figures/limit_strip.js';
-import { distanceText, limitsText, measuredText, verdictShape } from '../verdict.js';
+import { distanceText, isUnverified, limitsText, measuredText, verdictShape } from '../verdict.js';
 import { sound } from './sound.js';
 
 /** Long words get a smaller size, so that none is broken. */
@@ -78,20 +78,20 @@ export class Panel {
       verdictShape(record.verdict),
       h('div.said', word(t(`verdict.${record.verdict}`)), about(record),
         h('p.measured.figure', `${measuredText(record)} mm`),
-        h('p.distance', distanceText(record))),
+        h('p.distance', [distanceText(record), isUnverified(record) && t('envelope.not_verified')].filter(Boolean).join(' · '))),
       limitStrip(record), this.#run(record),
     ]);
   }
 
   /** All of a part is measured: the worst of it, with what is not good by its name, as large as the verdict of a value. */
-  part({ part, verdict, bad, count, newest, provisional }) {
+  part({ part, verdict, bad, count, newest, unverified, provisional }) {
     const { record, shown } = newest.value;
     const measured = measuredText(record ?? { measured_mm: shown.measured });
     const names = bad.map(({ name, verdict: of, value }) => [name || `${measuredText({ measured_mm: value.shown.measured })} mm`, t(`verdict.${of}`)].join(' '));
     this.#show(verdict, [
       verdictShape(verdict),
       h('div.said', word(t(`verdict.${verdict}`)), h('p.measured', [part && t('panel.part', { part }), ...names].filter(Boolean).join(' · ')),
-        !names.length && h('p.distance', t('plan.finished', { count })),
+        !names.length && h('p.distance', [t('plan.finished', { count }), unverified && t('envelope.not_verified')].filter(Boolean).join(' · ')),
         h('p.distance', [`${newest.name} ${measured} mm`.trim(), names.length && t(`verdict.${newest.verdict}`), record && distanceText(record)].filter(Boolean).join(' · '))),
     ].filter(Boolean), provisional);
     this.isOfPart = true;

@@ -1,6 +1,7 @@
 /** Asks the service what it has and no event told of: the page was closed, or another station was there. */
 
 import { getJson, PATIENCE_MS, url } from '../api.js';
+import { isUnverified } from '../verdict.js';
 
 export const WORST_FIRST = ['reject', 'rework', 'indeterminate', 'good'];
 
@@ -44,7 +45,7 @@ export class PartRecord {
   }
 
   /**
-   * How a part is, by its worst value, of this station or of others: {part, verdict, bad, count, newest, provisional}; `away` as the service has not
+   * How a part is, by its worst value, of this station or of others: {part, verdict, bad, count, newest, unverified, provisional}; `away` as the service has not
    * answered, `storing` while it is asked.
    * @param own its values in force here, as {name, value, verdict}: of a name the service counts another one that was measured later
    */
@@ -54,7 +55,7 @@ export class PartRecord {
     const measured = [...own.filter(({ name }) => !others?.some((other) => other.name === name)), ...others ?? []];
     const verdict = WORST_FIRST.find((word) => measured.some((each) => each.verdict === word));
     const newest = measured.reduce((one, other) => (timeOf(other.value) > timeOf(one.value) ? other : one));
-    return { part, verdict, bad: measured.filter((each) => each.verdict !== 'good'), count: measured.length, newest, provisional: !isStored || others === null ? 'away' : others ? undefined : 'storing' };
+    return { part, verdict, bad: measured.filter((each) => each.verdict !== 'good'), count: measured.length, newest, unverified: measured.some(({ value: { record } }) => record && isUnverified(record)), provisional: !isStored || others === null ? 'away' : others ? undefined : 'storing' };
   }
 
   /** The values of others; undefined while they are asked for, null where there was no answer. */

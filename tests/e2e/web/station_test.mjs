@@ -196,6 +196,7 @@ describe('a station with a scanner', () => {
     await scan('SN-E3'); // said of the part before
     await scan('25.013');
     await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 4);
+    await page.waitForFunction(() => /envelope not verified/.test(document.querySelector('.verdict').textContent));
     assert.deepEqual(await page.$$eval('.recent li', (all) => all.map(({ textContent: text }) => text.includes('envelope not verified'))), [true, true, false, false, false]);
     const said = (await storedSince()).map(({ envelope, envelope_result: found, go_gauge: go, size_operator: operator, verdict: word }) => [envelope, found, go, operator, word]);
     assert.deepEqual(said, [['required', 'failed', 'fails', 'LP', 'rework'], ['required', 'failed', 'fails', 'LP', 'rework'], ['required', 'verified', 'passes', 'GN', 'good'], ['required', 'not_verified', undefined, 'GN', 'good'], ['required', 'not_verified', undefined, 'GN', 'good']]);
