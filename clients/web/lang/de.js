@@ -161,7 +161,7 @@ export default {
   'panel.measure_part': '{part} messen',
   'panel.size': 'Jetzt {size}',
   'panel.part': 'Teil {part}',
-  'panel.correcting': '{mm} mm korrigieren',
+  'panel.correcting': '{mm} mm korrigieren',
   'panel.correcting_part': 'Teil {part} korrigieren',
   'panel.provisional': 'Noch nicht gespeichert. Mit den Grenzen auf diesem Gerät beurteilt; wird gesendet, sobald der Dienst zurück ist.',
   'plan.label': 'Prüfplan',

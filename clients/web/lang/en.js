@@ -161,7 +161,7 @@ export default {
   'panel.measure_part': 'Measure {part}',
   'panel.size': 'Now {size}',
   'panel.part': 'Part {part}',
-  'panel.correcting': 'Correct {mm} mm',
+  'panel.correcting': 'Correct {mm} mm',
   'panel.correcting_part': 'Correct part {part}',
   'panel.provisional': 'Not stored yet. Judged with the limits on this device; sent when the service is back.',
   'plan.label': 'Plan',

@@ -161,7 +161,7 @@ export default {
   'panel.measure_part': 'Misurare {part}',
   'panel.size': 'Ora {size}',
   'panel.part': 'Pezzo {part}',
-  'panel.correcting': 'Correggere {mm} mm',
+  'panel.correcting': 'Correggere {mm} mm',
   'panel.correcting_part': 'Correggere il pezzo {part}',
   'panel.provisional': 'Non ancora salvato. Giudicato con i limiti su questo dispositivo; inviato quando il servizio torna.',
   'plan.label': 'Piano',

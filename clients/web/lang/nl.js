@@ -161,7 +161,7 @@ export default {
   'panel.measure_part': '{part} meten',
   'panel.size': 'Nu {size}',
   'panel.part': 'Onderdeel {part}',
-  'panel.correcting': '{mm} mm corrigeren',
+  'panel.correcting': '{mm} mm corrigeren',
   'panel.correcting_part': 'Onderdeel {part} corrigeren',
   'panel.provisional': 'Nog niet opgeslagen. Beoordeeld met de grenzen op dit apparaat; wordt verzonden zodra de dienst terug is.',
   'plan.label': 'Meetplan',

@@ -173,7 +173,7 @@ describe('what a value demands', () => {
     await page.waitForFunction(() => document.querySelectorAll('.recent .stored .fix').length === 3);
     await page.click('.recent li:nth-child(2) .fix button'); // the reject was a slip of the gauge
     await page.waitForSelector('.verdict[data-verdict="correcting"]');
-    assert.match(await page.textContent('.verdict'), /Correct 40\.050 mm.*SN-6001 · bore-B · Ø 40 H8.*40\.000 to 40\.039/);
+    assert.match(await page.textContent('.verdict'), /Correct 40\.050\smm.*SN-6001 · bore-B · Ø 40 H8.*40\.000 to 40\.039/);
     assert.notEqual(await page.$eval('.verdict', (panel) => getComputedStyle(panel).backgroundColor), 'rgb(166, 15, 34)');
     assert.deepEqual(await findings(page), []);
     await page.keyboard.press('Escape');
