@@ -12,6 +12,8 @@ namespace {
 
 /// More classes than this add nothing to six digits of a quantile.
 constexpr std::size_t kMostClasses = 4096;
+constexpr double kWidestClass =
+    1.01;  ///< of a class of positive values, end by start: of logarithms
 
 constexpr std::array<std::string_view, 6> kWords = {"normal",  "folded_normal", "rayleigh",
                                                     "weibull", "lognormal",     "mixture"};
@@ -37,7 +39,8 @@ Places places_of(const Ranking& ranking, int scale) {
   for (std::size_t i = 0; i < ranking.values().size(); ++i) {
     const double x = at(ranking.values()[i]);
     const double count = ranking.ends()[i] - std::exchange(before, ranking.ends()[i]);
-    if (many && !places.empty() && x - first < step) {
+    const bool is_near = x - first < step && (first <= 0 || x < kWidestClass * first);
+    if (many && !places.empty() && is_near) {
       Place& place = places.back();
       place.count += count;
       place.x += (x - place.x) * count / place.count;

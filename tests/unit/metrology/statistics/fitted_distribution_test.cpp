@@ -107,6 +107,32 @@ TEST_CASE("values in more classes than are counted give the figures of all of th
   CHECK(fit->parameters[0] == Approx(std::sqrt(squares / 20'000)).epsilon(1e-6));
 }
 
+TEST_CASE("values that crowd near zero keep their logarithms in their classes") {
+  Population crowded = populations().at(2);
+  crowded.quantile = [](double p) { return 5 * std::pow(-std::log1p(-p), 1 / 0.6); };
+  const std::vector<Wide> values = ideal_sample(crowded, 20'000, 1e7);
+  // The most likely shape of all values, by bisection.
+  double low = 0.3;
+  double high = 1.2;
+  while (high - low > 1e-9) {
+    const double shape = (low + high) / 2;
+    double sum = 0;
+    double weighted = 0;
+    double logarithms = 0;
+    for (const Wide value : values) {
+      const double x = static_cast<double>(value) / 1e7;
+      sum += std::pow(x, shape);
+      weighted += std::pow(x, shape) * std::log(x);
+      logarithms += std::log(x) / 20'000;
+    }
+    (weighted / sum - 1 / shape > logarithms ? high : low) = shape;
+  }
+  const auto fit = fit_distribution(Ranking(values), 7);
+  REQUIRE(fit);
+  CHECK(fit->name == ProcessDistribution::Weibull);
+  CHECK(fit->parameters[0] == Approx(low).epsilon(1e-4));
+}
+
 TEST_CASE("normal values of a coarse gauge are normal") {
   const Population of{
       .name = {}, .fitted = {}, .quantile = normal, .lower = -5, .upper = 5, .ppk = 0};
