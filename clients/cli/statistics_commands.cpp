@@ -179,7 +179,9 @@ Outcome<ExitCode> run_capability(const Context& context, const CapabilityQuery& 
                   rounded(index, "lower", 3), rounded(index, "upper", 3));
   }
   if (const JsonValue& fit = found->member("distribution"); fit.kind == JsonValue::Kind::Object) {
-    context.print("distribution {}, p {}\n", fit.text_of("name"), rounded(fit, "p", 3));
+    const bool is_tested = fit.member("p").kind == JsonValue::Kind::Number;
+    context.print("distribution {}{}\n", fit.text_of("name"),
+                  is_tested ? ", p " + rounded(fit, "p", 3) : "");
   }
   if (const JsonValue& reason = found->member("reason"); reason.kind == JsonValue::Kind::String) {
     context.print("no figure (-) because {}\n", reason.text);

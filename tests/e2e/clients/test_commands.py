@@ -4,6 +4,7 @@ import json
 import os
 import pty
 import shutil
+import statistics
 import subprocess
 import unittest
 
@@ -115,10 +116,12 @@ class Reservations(ClientTest):
         self.assertNotIn("envelope", self.assert_runs(0, "gauge", "25H7", "25.01"))
 
     def test_capability_names_the_distribution_or_why_there_is_none(self):
-        for name, values in (("even", [25 + 0.0001 * (number % 101) for number in range(100)]),
+        normal = [25.01 + 0.002 * statistics.NormalDist().inv_cdf((number + 0.5) / 100) for number in range(100)]
+        for name, values in (("normal", normal), ("even", [25 + 0.0001 * (number % 101) for number in range(100)]),
                              ("lumps", [25 + 0.009 * (number // 40) for number in range(120)] + [25.006 + 0.00005 * number for number in range(120)])):
             self.daemon.measure([{"designation": "25 H7", "measured_mm": f"{value:.5f}", "characteristic": name} for value in values])
         even, lumps = (self.assert_runs(0, "capability", "--characteristic", name) for name in ("even", "lumps"))
+        self.assertIn("distribution normal\n", self.assert_runs(0, "capability", "--characteristic", "normal"))
         self.assertRegex(even, r"distribution mixture, p 0\.\d+\n")
         self.assertNotIn("because", even)
         self.assertIn("no figure (-) because the values are not normal, and no distribution of ISO 22514-2 fits them\n", lumps)
