@@ -135,11 +135,13 @@ gauging::KnownUncertainty known_uncertainty(const RuleWords& words) {
   const Length given = words.standard_uncertainty.value_or(Length());
   gauging::KnownUncertainty known(
       gauging::combined_uncertainty(given, words.added_uncertainty.value_or(0)));
-  if (!words.degrees_of_freedom) return known;
+  const std::int64_t added = words.added_uncertainty.value_or(0);
+  // Of nothing but what the correction to 20 °C adds the degrees of freedom have no end.
+  if (!words.degrees_of_freedom || (given == Length() && added != 0)) return known;
   constexpr double kPicometres = 1000;
   const double u = static_cast<double>(given.count()) * kPicometres;
-  const double ratio = static_cast<double>(words.added_uncertainty.value_or(0)) / u;
-  const double widened = given == Length() ? 1 : 1 + ratio * ratio;
+  const double ratio = added == 0 ? 0 : static_cast<double>(added) / u;
+  const double widened = 1 + ratio * ratio;
   known.degrees_of_freedom =
       static_cast<double>(*words.degrees_of_freedom) / 1e6 * widened * widened;
   return known;

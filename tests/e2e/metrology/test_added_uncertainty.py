@@ -57,6 +57,9 @@ class AddedUncertainty(DaemonTest):
         part["temperature_uncertainty_c"] = "0.5"
         found = judged(100.001972, rule="conformance")
         self.assertAlmostEqual(found["guard_band_um"], NormalDist().inv_cdf(0.95) * 0.986, places=8)
+        # Nothing but what the correction adds: the degrees of freedom of a reading without uncertainty count for nothing.
+        known = judged(100.001972, rule="conformance", uncertainty_um=0)["guard_band_um"]
+        self.assertEqual(judged(100.001972, rule="conformance", uncertainty_um=0, degrees_of_freedom=1)["guard_band_um"], known)
         found = judged(100.001972, rule="simple")
         self.assertEqual((found["verdict"], found["uncertainty_um"]), ("good", 0.8))
         self.assertEqual(self.daemon.command("verify").returncode, 0)
