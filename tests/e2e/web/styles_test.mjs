@@ -28,7 +28,7 @@ describe('the style sheets', () => {
 
   it('show every move of a program that probes, in the drawing and in its legend', async () => {
     const page = await open(browser, daemon, '#/programs');
-    await page.click('text=8255');
+    await page.click('.empty .actions button >> text=8255');
     await page.waitForSelector('.path');
     if (await page.$('.switch >> text=As a drawing')) await page.click('.switch >> text=As a drawing');
     await page.waitForSelector('.path-view path.probe');
@@ -52,7 +52,7 @@ describe('the style sheets', () => {
 
   it('have room for what was measured and how it is, whatever the width and the language', async () => {
     const page = await open(browser, daemon, '#/programs');
-    await page.click('text=8255');
+    await page.click('.empty .actions button >> text=8255');
     await page.waitForSelector('.report .sizes td');
     const names = await page.$$eval('.report .sizes thead th', (all) => all.map(({ textContent }) => textContent));
     const columns = ['Verdict', 'Deviation, µm', 'Characteristic', 'Measured, mm'].map((name) => names.indexOf(name));
