@@ -42,10 +42,10 @@ export async function followStream(path, { key, last, signal, onEvent }) {
       });
       if (response.status === 401) return;
       if (response.ok) {
-        // What came between the first reading of a list and this moment is in no event.
-        if (!last) onEvent({ type: 'resync', data: '{}' });
         for await (const event of eventsOf(response)) {
           wait = 250;
+          // The stream begins at its first id: what came between the first reading of a list and this moment is in no event.
+          if (!last && event.id) onEvent({ type: 'resync', id: event.id, data: '{}' });
           last = event.id ?? last;
           if (event.data !== undefined) onEvent(event);
         }
