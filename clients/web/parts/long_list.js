@@ -71,8 +71,7 @@ export class LongList {
     const isHere = this.isTop && this.scroller.scrollTop === 0;
     this.isTop = false;
     if (!isHere) return this.#look();
-    await this.#extend(false);
-    this.scroller.scrollTop = 0;
+    await this.#extend(false, true);
   }
 
   /** One question at a time; the newest counts. */
@@ -184,13 +183,14 @@ export class LongList {
     else if (below < 2 * height && !this.isBottom) this.#extend(true);
   }
 
-  /** Reads on at one end; what is farthest from there goes. */
-  #extend(isDown) {
+  /** Reads on at one end; what is farthest from there goes. @param isShown whether what comes at the top is to be in sight, unless somebody scrolls meanwhile */
+  #extend(isDown, isShown = false) {
     const edge = this.held.at(isDown ? -1 : 0).record.id;
     return this.#ask(async (signal) => {
       const rows = await this.read({ sort: isDown ? 'newest' : 'oldest', limit: PAGE, after: edge }, signal);
       if (signal.aborted) return;
       const { from } = this.#edges();
+      const isAtTop = isShown && this.scroller.scrollTop === 0;
       const seen = this.held[this.#first(from)]?.element;
       const before = seen?.getBoundingClientRect().top;
       const all = isDown ? [...this.held, ...rows] : [...rows.reverse(), ...this.held];
@@ -209,7 +209,8 @@ export class LongList {
       if (!isDown && isEnd) this.length -= this.start;
       this.#number();
       this.#space();
-      if (seen?.isConnected) this.scroller.scrollTop += seen.getBoundingClientRect().top - before;
+      if (isAtTop) this.scroller.scrollTop = 0;
+      else if (seen?.isConnected) this.scroller.scrollTop += seen.getBoundingClientRect().top - before;
     });
   }
 

@@ -11,6 +11,7 @@ import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';
 
 import { close, findings, open, openIn, picture } from './support/browser.mjs';
+import { eventually } from './support/eventually.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 const ROWS = 100_000;
@@ -115,6 +116,26 @@ describe('the list of 100,000', () => {
     await page.keyboard.press('PageDown');
     await page.waitForFunction(() => document.querySelector('.place input').value > 4);
     assert.ok((await inSight(page))[0][0] < 20);
+    await close(page);
+  });
+
+  it('stays where somebody has scrolled to while it looks for new rows', async () => {
+    const context = await browser.newContext(VIEW);
+    let go;
+    let isHeld = false;
+    const told = new Promise((resolve) => { go = resolve; });
+    await context.route(/\/v1\/measurements\?(?=.*sort=oldest).*after=/, async (route) => {
+      isHeld = true;
+      await told;
+      await route.continue().catch(() => {}); // the page may have given it up
+    });
+    const page = await openIn(context, daemon, '#/parts?order=WO-L');
+    await eventually(() => assert.ok(isHeld));
+    await page.$eval('.records', (list) => { list.scrollTop = (list.scrollHeight - list.clientHeight) / 2; });
+    go();
+    await rest(page);
+    const [[first]] = await inSight(page);
+    assert.ok(Math.abs(first - ROWS / 2) < 20, String(first));
     await close(page);
   });
 
