@@ -56,11 +56,7 @@ export class Ledger extends EventTarget {
    * @param of the record that it corrects: what it does not name it has of that
    */
   taken(key, shown, of) {
-    const old = of && this.ofRecord(of.id);
-    const { plan, round, characteristic, reaction, catalogue } = old?.shown ?? {};
-    const inherited = old && { plan, round, characteristic, reaction, catalogue };
-    this.#put({ key, state: 'waiting', shown: { ...inherited, ...shown }, root: old?.root ?? old?.key, partial: old?.partial, past: old?.past });
-    if (old) this.#change(old.key, (value) => { value.by = [...value.by ?? [], key]; });
+    this.#link({ key, state: 'waiting', shown }, of && this.ofRecord(of.id));
   }
 
   stored(key, shown, record) {
@@ -85,10 +81,8 @@ export class Ledger extends EventTarget {
     const isOwn = !old || (old.by ?? []).some((key) => this.get(key)?.state === 'waiting') || this.ofRecord(record.id);
     if (isOwn) return;
     const { measured_mm, part_id, characteristic, designation, measured_at } = record;
-    const shown = { ...old.shown, measured: String(measured_mm), part_id, characteristic, designation, at: measured_at };
-    // The old value is in force until the new one is there: at no time is there none.
-    this.#change(old.key, (value) => { value.by = [...value.by ?? [], record.id]; });
-    this.#put({ key: record.id, state: 'stored', record, shown, root: old.root ?? old.key, partial: old.partial, past: old.past });
+    const shown = { measured: String(measured_mm), part_id, characteristic, designation, at: measured_at };
+    this.#link({ key: record.id, state: 'stored', record, shown }, old);
   }
 
   /** The service tells of a note: a cause or an action that was given elsewhere is given. */
@@ -174,6 +168,14 @@ export class Ledger extends EventTarget {
       const isHere = shown.plan === plan && (part ? shown.part_id === part : !shown.part_id && shown.round === round);
       return isHere && !value.past && !isGone(value) && !this.#nextOf(value);
     });
+  }
+
+  /** A value, or the next one of a chain: at no time is none of it in force. */
+  #link(value, old) {
+    const { plan, round, characteristic, reaction, catalogue } = old?.shown ?? {};
+    const inherited = old && { plan, round, characteristic, reaction, catalogue };
+    if (old) this.#change(old.key, (one) => { one.by = [...one.by ?? [], value.key]; });
+    this.#put({ ...value, shown: { ...inherited, ...value.shown }, root: old?.root ?? old?.key, partial: old?.partial, past: old?.past });
   }
 
   #rootOf(value) {

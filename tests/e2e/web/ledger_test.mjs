@@ -61,6 +61,15 @@ describe('the ledger', () => {
     assert.ok(found(class extends Ledger { hear() {} }) > 10);
   });
 
+  it('takes of a value that is corrected elsewhere what it is of, and not what was said of its size', () => {
+    const [{ ledger }] = new Desk(1).tabs;
+    ledger.taken('first', { measured: '2009', plan: 'P', part_id: 'SN', characteristic: 'bore', confirmed: true, verdict: 'reject', at: 0 });
+    ledger.stored('first', {}, { id: 'r', verdict: 'reject' });
+    ledger.told({ id: 'c', correction_of: 'r', measured_mm: 25, verdict: 'good', part_id: 'SN', characteristic: 'bore' });
+    const { shown: { plan, confirmed, verdict } } = ledger.get('c');
+    assert.deepEqual([plan, confirmed, verdict, ledger.stateOf(ledger.get('first'))], ['P', undefined, undefined, 'corrected']);
+  });
+
   it('keeps what is not done when it forgets the oldest', () => {
     const desk = new Desk(1);
     const [{ ledger }] = desk.tabs;
