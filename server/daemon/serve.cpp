@@ -174,7 +174,7 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   for (const Error& finding : app.tables().state()->findings) {
     log_error("tables_inconsistent", finding.message);
   }
-  // Nor is a row that is damaged: every write is refused, so that no value lacks its gauge.
+  // A damaged row does not stop a start: every write is refused, so that no value lacks its gauge.
   const auto fails = [](const Result<void>& done) {
     return !done && done.error().code != ErrorCode::StorageCorrupt;
   };

@@ -12,8 +12,8 @@ namespace {
 
 /// More classes than this add nothing to six digits of a quantile.
 constexpr std::size_t kMostClasses = 4096;
-constexpr double kWidestClass =
-    1.01;  ///< of a class of positive values, end by start: of logarithms
+/// A class of positive values ends below this multiple of its start: logarithms differ little.
+constexpr double kWidestClass = 1.01;
 
 constexpr std::array<std::string_view, 6> kWords = {"normal",  "folded_normal", "rayleigh",
                                                     "weibull", "lognormal",     "mixture"};
