@@ -38,6 +38,7 @@ async function show() {
   const moved = shown && shown !== view;
   shown = view;
   leave();
+  document.documentElement.lang = language; // with the view, so that it never names the language of a text that is still to come
   leave = mount(main, route) ?? (() => {});
   document.title = `${t(`view.${view}`)} · fitgauge`;
   drawViews(view);

@@ -38,7 +38,6 @@ export async function loadLanguage(wanted = preferred()) {
   const texts = await Promise.all([...TEXTS[wanted](), ...[...opened].map((group) => LATER[group][wanted]())]);
   words = Object.assign({}, en, ...texts.map((text) => text.default));
   language = wanted;
-  document.documentElement.lang = wanted;
 }
 
 /** The texts of a view that is opened later. */

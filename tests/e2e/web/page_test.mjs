@@ -296,8 +296,13 @@ describe('the page', () => {
       assert.equal(await page.getAttribute('html', 'lang'), locale === 'fr-FR' ? 'en' : locale.slice(0, 2));
       if (locale === 'de-DE') {
         assert.equal(await page.textContent('.verdict .measured'), '25,0131 mm');
+        // The language that the page names is never that of a view still to come.
+        await page.evaluate(() => {
+          const before = document.getElementById('main').firstElementChild;
+          new MutationObserver(() => { globalThis.named = before.isConnected ? 'too early' : document.documentElement.lang; }).observe(document.documentElement, { attributeFilter: ['lang'] });
+        });
         await page.selectOption('#language', 'it');
-        await page.waitForFunction(() => document.documentElement.lang === 'it');
+        assert.equal(await (await page.waitForFunction(() => globalThis.named)).jsonValue(), 'it');
         await page.reload();
         await page.waitForFunction(() => document.querySelector('#views [aria-current]')?.textContent === 'Misura');
         assert.equal(await page.inputValue('#designation'), '25H7');
