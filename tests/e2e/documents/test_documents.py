@@ -5,9 +5,14 @@ import subprocess
 import sys
 import unittest
 import xml.etree.ElementTree as tree
+from pathlib import Path
 
+from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT, DaemonTest
 from support.documents import Reader, agrees, blocks
+
+sys.path.insert(0, str(ROOT / "scripts"))
+import man_pages  # noqa: E402
 
 DOCUMENTS = [ROOT / "README.md", ROOT / "clients/python/README.md", *sorted((ROOT / "docs").glob("tutorial/*.md")),
              *sorted((ROOT / "docs").glob("guide/*.md")), *sorted((ROOT / "docs").glob("explanation/*.md"))]
@@ -119,10 +124,13 @@ class Commands(unittest.TestCase):
         self.assertEqual(without, set(re.findall(r"\| `(/\S+)` \|", listed)))
         settings = re.findall(r"^\| `(\w+)` \| `(--[\w-]+)` \| `(FITGAUGE_\w+)`",
                               (ROOT / "docs/reference/configuration.md").read_text(encoding="utf-8"), re.MULTILINE)
-        commands = re.findall(r"^\.It Cm ([a-z][a-z -]*)", (ROOT / "docs/man/fitgauge.1").read_text(encoding="utf-8"), re.MULTILINE)
-        self.assertGreater(min(len(paths), len(settings), len(commands)), 30)
-        for names in [*settings, *((f"fitgauge {command.strip()}",) for command in commands)]:
-            self.assertRegex(guides, rf"({'|'.join(map(re.escape, names))})(?![\w-])", f"{names[0]} is in no guide")
+        self.assertGreater(min(len(paths), len(settings)), 30)
+        for names in settings:
+            self.assertRegex(guides, rf"({'|'.join(names)})(?![\w-])", f"{names[0]} is in no guide")
+        commands = {(program.name, *command.words) for program in map(Path, (FITGAUGE, FITGAUGED)) for command in man_pages.commands(program)}
+        without = {words[:2] for words in commands if not re.search(rf"{words[0]}( --[\w-]+ \S+)* {' '.join(words[1:])}(?![\w-])", guides)}
+        self.assertEqual(without - {("fitgauge",), ("fitgauged",)}, {tuple(name.split()) for name in re.findall(r"`(fitgauge \w+) …`", listed)})
+        self.assertGreater(len(commands), 60)
 
     def test_the_page_on_decisions_has_every_warning(self):
         sources = (ROOT / "server/record/verdict_codec.cpp", ROOT / "server/api/measurements/measurement_posting.cpp")
