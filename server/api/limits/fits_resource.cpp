@@ -226,7 +226,7 @@ void add_fits_routes(Routes& add) {
        .refusals = {404, 422}});
   add("GET /v1/fits/{fit} getFitAsOne open", answer_fit(add, of_one_segment),
       {.summary = "Fit of a hole and a shaft, written as one",
-       .description = "The same with an encoded slash: 25H7%2Fg6.",
+       .description = "One path segment, with an encoded slash: 25H7%2Fg6.",
        .parameters = with_filters({path_parameter("fit", "25H7/g6, the stroke percent-encoded")}),
        .query_access = "viewer",
        .outcomes = {{.meaning = "The fit", .schema = "Fit"}},

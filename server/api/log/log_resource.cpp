@@ -73,8 +73,8 @@ void add_tree_routes(Routes& add) {
   add("GET " + path + "checkpoint get" + of + "Checkpoint viewer", checkpoint<of_changes>,
       {.summary = "The signed head of " + log,
        .description = of_changes
-                          ? "The same form as the checkpoint of the log. Its name is the name of "
-                            "the log and `/changes`."
+                          ? "A C2SP tlog-checkpoint, as for the log. Its name is the name of the "
+                            "log and `/changes`."
                           : "A C2SP tlog-checkpoint: the log's name, its size and the root of its "
                             "tree as a signed note. A new one at most once a second.",
        .response_types = {},

@@ -246,8 +246,8 @@ std::string openapi_path(std::string pattern) {
 }
 
 constexpr std::string_view kSecurity =
-    R"({"key":{"type":"http","scheme":"bearer","description":"A key of fitgauged key create"},)"
-    R"("header":{"type":"apiKey","in":"header","name":"X-API-Key","description":"The same key"}})";
+    R"({"key":{"type":"http","scheme":"bearer","description":"Key of fitgauged key create"},)"
+    R"("header":{"type":"apiKey","in":"header","name":"X-API-Key","description":"Key of fitgauged key create"}})";
 /// The groups of operations, in the order of a first reading.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTags = {{
     {"limits", "Limits of size, fits and verdicts (ISO 286-1)"},

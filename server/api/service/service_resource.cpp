@@ -78,7 +78,7 @@ void add_service_schemas(Schemas& schemas) {
       {"Problem",
        schema::object({
            {"type", schema::text(), "urn:fitgauge:problem: and the code"},
-           {"title", schema::text(), "The same for every problem of the code"},
+           {"title", schema::text(), "Meaning of the code; does not depend on the request"},
            {"status", schema::integer(400, 599), "HTTP status code"},
            {"detail", schema::text(), "What is wrong and what to do"},
            {"instance", schema::text(), "Id of this request in the log"},

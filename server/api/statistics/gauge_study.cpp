@@ -149,7 +149,7 @@ void members(auto& v, StabilityOrder& study) {
   v.member("method", method, Word{"stability"});
   choice_members(v, study.choices, "stability", false);
   v.member("measurements", study, StudyRows<StabilityOrder>{},
-           "The same number of readings at each time");
+           "Rows of readings; each time needs an equal number of readings");
 }
 
 /// The components of a study: standard deviations, or their shares.

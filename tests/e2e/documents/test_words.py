@@ -11,7 +11,7 @@ BANNED = re.compile(r"\b(any more|no longer|whoever|whatever|(?:is|are) told|rej
                     r"inspection certificates?|own columns?|columns? of the shop)\b", re.IGNORECASE)
 # Help: half sentences. Errors: idioms in place of what is wrong.
 RIDDLES = re.compile(r"  Of .*|[a-z], else \d+|when absent")
-SPOKEN = re.compile(r"^Of\b|^an? \w+ takes|is no (?:number|length|date|key)\b|stands? (?:twice|before|behind)|goes on behind|put back|"
+SPOKEN = re.compile(r"^(?:Of|The same)\b|^an? \w+ takes|is no (?:number|length|date|key)\b|stands? (?:twice|before|behind)|goes on behind|put back|"
                     r"does not (?:say|tell)|says '|which holds$|of its own\b|the other way round")
 # The words themselves stand in the first two; the others are for developers.
 LEFT_OUT = {"STYLE.md", "glossary.md", "ARCHITECTURE.md", "api.md", "cycles.md"}
