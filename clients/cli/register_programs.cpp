@@ -145,7 +145,8 @@ void add_control(CLI::App& app, Action& chosen) {
   const auto put = std::make_shared<ControlPutOptions>();
   CLI::App* send = add_command(*control, "put", "Send files: control put tnc part.h TNC:/nc_prog/",
                                chosen, put, run_control_put);
-  send->add_option("paths", put->words, "Control, files, then the path or folder/ on the control")
+  send->add_option("paths", put->words,
+                   "Address of the control, local files, then the path or folder/ on the control")
       ->required()
       ->expected(3, CLI::detail::expected_max_vector_size);
   send->add_flag("--force", put->force, "Replace an existing file on the control");

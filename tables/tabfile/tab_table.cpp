@@ -141,7 +141,7 @@ Result<void> TabTable::set_number(std::int64_t row, std::string_view column, dou
   if (!place) return place.error();
   if (!std::isfinite(value)) {
     return Error{ErrorCode::NumberOutOfRange,
-                 fmt::format("{} takes finite numbers only", place_of(row, column))};
+                 fmt::format("{} accepts only finite numbers", place_of(row, column))};
   }
   const TabColumn& target = columns_[place->column];
   return set_text(row, column,

@@ -326,8 +326,8 @@ Result<std::string> stability(const JsonValue& body) {
   std::vector<metrology::Wide> counts;
   for (const auto& group : groups) {
     if (group.size() != groups.front().size()) {
-      return at_member("measurements",
-                       {ErrorCode::StatisticsUnbalanced, "every time has as many readings"});
+      return at_member("measurements", {ErrorCode::StatisticsUnbalanced,
+                                        "every time must have an equal number of readings"});
     }
     counts.insert(counts.end(), group.begin(), group.end());
   }

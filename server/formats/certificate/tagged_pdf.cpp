@@ -64,7 +64,7 @@ Result<Picture> read_picture(const std::string& path) {
   }
   if (file[24] != 8 || (file[25] != 0 && file[25] != 2) || file[28] != 0) {
     return refused(
-        "must be grey or RGB with 8 bits, neither transparent nor interlaced: save it so");
+        "must be grey or RGB with 8 bits, neither transparent nor interlaced: save it again");
   }
   for (std::size_t at = kHead; at + 12 <= file.size(); at += std::size_t{12} + number(at)) {
     if (file.compare(at + 4, 4, "IDAT") == 0) picture.packed.append(file, at + 8, number(at));

@@ -16,7 +16,7 @@ Statement parse_formula_of(BlockReader& in, QRef target, AssignmentForm form) {
   const Expr value = parse_formula(in);
   if (!in.failure() && in.is_string(value) != target.is_string()) {
     in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
-            target.is_string() ? "a QS parameter takes a text: TOCHAR makes one of a number"
+            target.is_string() ? "a QS parameter must have a text: TOCHAR converts a number"
                                : "this parameter takes a number: TONUMB makes one of a text");
   }
   return Assignment{.target = target, .form = form, .fn = 0, .value = value};

@@ -118,7 +118,7 @@ Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
     }
     if (origin->checkpoint.empty() && origin->first_row) {
       return Error{ErrorCode::RequestInvalid,
-                   fmt::format("{} is the centre of this folder: it cannot be its station too",
+                   fmt::format("{} is the centre of this folder and cannot also be a station of it",
                                batch.origin)};
     }
     if (origin->checkpoint.empty()) return known;
