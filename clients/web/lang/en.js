@@ -280,7 +280,7 @@ export default {
   'study.u_cal': 'u of the master in mm',
   'study.u_bi': 'u of the bias in mm, from the type 1 study',
   'study.u_evr': 'u of the repeatability in mm, from the type 1 study',
-  'study.empty': 'Give the readings: a trial may be missing.',
+  'study.empty': 'Enter the readings. Single trials may be missing.',
   'study.interval': '{percent} % interval, µm',
   'study.re_percent': '%RE, resolution',
   'study.q_ms_percent': 'Q_MS, measuring system',

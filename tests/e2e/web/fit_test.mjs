@@ -45,7 +45,7 @@ describe('the fit', () => {
 
   it('takes the envelope requirement of both sizes, in the address too, and says what it means', async () => {
     page = await open(browser, daemon, '#/fit/25H7/g6');
-    await page.waitForFunction(() => /form counts too/.test(document.querySelector('.fit .result')?.textContent));
+    await page.waitForFunction(() => /form also counts/.test(document.querySelector('.fit .result')?.textContent));
     await page.fill('#fit', '25 H7 Ⓔ/g6(E)');
     await page.press('#fit', 'Enter');
     await page.waitForFunction(() => /hold for every form/.test(document.querySelector('.fit .result').textContent));
@@ -55,7 +55,7 @@ describe('the fit', () => {
     await page.waitForFunction(() => /hold for every form/.test(document.querySelector('.fit .result')?.textContent));
     await page.fill('#fit', '25H7(E)/g6'); // one alone is not enough
     await page.press('#fit', 'Enter');
-    await page.waitForFunction(() => /form counts too/.test(document.querySelector('.fit .result').textContent));
+    await page.waitForFunction(() => /form also counts/.test(document.querySelector('.fit .result').textContent));
     const assumed = await Promise.all(['25H7/g6', '25H7(E)/g6', '25H7/g6(E)', '25H7(E)/g6(E)'].map(async (fit) => (await daemon.json(`/v1/fits/${fit}`)).assumes_envelope));
     assert.deepEqual(assumed, [true, true, true, false]);
   });
