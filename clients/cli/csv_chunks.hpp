@@ -66,7 +66,7 @@ class CsvChunks {
 
   CsvChunks(Read read, Limits limits) : read_(std::move(read)), limits_(limits) {}
 
-  /// To be called first. @errors LocalFile when the input is empty or cannot be read.
+  /// Reads the header; call it first. @errors LocalFile if the input is empty or cannot be read.
   Outcome<void> read_header();
 
   /// Reads NDJSON instead: each line is a record, without a header.
@@ -82,7 +82,7 @@ class CsvChunks {
   /// @errors LocalFile, also for a row that is larger than a chunk.
   Outcome<std::optional<CsvChunk>> next();
 
-  /// Returns the rows up to `end`, where a chunk ended earlier; none if the input is another one.
+  /// Returns the rows up to `end`, where a chunk ended earlier; none if the input is different.
   Outcome<std::optional<CsvChunk>> next_until(const CsvPosition& end);
 
   /// Returns the line of the input for a line of a chunk's body, both from 1. May be called while

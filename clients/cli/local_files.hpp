@@ -28,7 +28,7 @@ class InputFile {
   /// Size of a regular file.
   std::optional<std::uint64_t> size() const;
 
-  /// To be read from its begin again. @errors LocalFile
+  /// Returns to the begin of the file. @errors LocalFile
   Outcome<void> rewind();
 
  private:

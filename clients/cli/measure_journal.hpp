@@ -37,7 +37,7 @@ struct MeasureState {
 std::optional<MeasureState> parse_state(std::string_view line);
 std::string format_state(const MeasureState& state);
 
-/// The idempotency key of the rows up to `end`: another one for every place and every content.
+/// The idempotency key of the rows up to `end`. Each place and each content has a different key.
 std::string chunk_key(const MeasureState& state, const CsvPosition& end);
 
 /// A file to which every change of a MeasureState is appended, so that it survives a kill and a
@@ -58,7 +58,7 @@ class MeasureJournal {
   const std::string& path() const { return path_; }
   const std::optional<MeasureState>& state() const { return state_; }
 
-  /// On the disk when it returns. @errors LocalFile
+  /// Appends a state and flushes it to the disk. @errors LocalFile
   Outcome<void> append(const MeasureState& state);
 
   /// Forgets everything. @errors LocalFile

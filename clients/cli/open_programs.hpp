@@ -28,7 +28,7 @@ struct Edit {
   Place end;
   std::string by;
 };
-/// By URI.
+/// Edits by URI.
 using Changes = std::map<std::string, std::vector<Edit>>;
 
 /// UTF-8 that an editor changes piece by piece; lines end with CRLF, LF or CR. Places beyond a line
@@ -39,9 +39,9 @@ class EditedText {
 
   const std::string& text() const { return text_; }
   std::size_t lines() const { return starts_.size(); }
-  /// Without its line end; empty beyond the last.
+  /// Returns a line without its line end; empty beyond the last line.
   std::string_view line(std::size_t number) const;
-  /// In bytes.
+  /// Returns the column in bytes.
   std::size_t column(Place place) const;
   Place place(std::size_t line, std::size_t column) const;
   /// @param column in characters from 1, as a finding has it
@@ -83,7 +83,7 @@ struct OpenProgram {
 /// The programs of an editor, and the files in their folders. Single-threaded.
 class OpenPrograms {
  public:
-  /// By URI.
+  /// The programs by URI.
   std::map<std::string, OpenProgram>& all() { return all_; }
   OpenProgram& open(const std::string& uri, std::string text);
 

@@ -17,7 +17,7 @@ enum class ExitCode : std::uint8_t {
   LocalFile = 5,      ///< a file or folder of this machine
   NoAnswer = 6,       ///< the service cannot be reached, or is busy
   Refused = 7,        ///< the service refuses the request
-  KeyNeeded = 8,      ///< the service wants a key, or another one
+  KeyNeeded = 8,      ///< the service wants a key, or a different key
   ProgramFailed = 9,  ///< the NC program has errors or did not complete
   Defect = 10,        ///< a bug in fitgauge
 };

@@ -26,7 +26,7 @@ class EventReader {
 
   explicit EventReader(Sink sink) : sink_(std::move(sink)) {}
 
-  /// @returns false when the sink wanted no more.
+  /// @returns false if the sink ended the stream.
   bool feed(std::string_view piece);
 
   /// Discards the incomplete event of a connection.

@@ -60,7 +60,7 @@ class MeasurementTable {
   virtual std::optional<std::int64_t> own_rows() { return std::nullopt; }
 };
 
-/// In what engines differ.
+/// The differences between engines.
 struct Dialect {
   bool has_seals = false;         ///< rows carry a digest, `row_digest` of the other columns
   bool streams = false;           ///< rows arrive one by one; false: all together

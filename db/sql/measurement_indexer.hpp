@@ -22,9 +22,9 @@ struct NodeIndex {
   std::int64_t min_received_at = 0;
   std::int64_t max_received_at = 0;
 
-  /// By field and value; of a block, empty for other nodes.
+  /// Rows of a block by field and value; empty for other nodes.
   std::map<std::pair<int, std::string>, RowSet> postings;
-  /// By field, value and kind (8 * source + verdict) of the rows that no other row corrects.
+  /// Field, value and kind (8 * source + verdict) of the rows that no other row corrects.
   using AggregateKey = std::tuple<int, std::optional<std::string>, int>;
   std::map<AggregateKey, ExactStatistics> aggregates;
   /// Values of a block as store::ValueBlock reads them. None for nodes above blocks, and if a row

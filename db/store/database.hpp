@@ -27,7 +27,7 @@ struct ServerFigures {
 /// Counts of the writer since the start, for metrics. Written by the writer's thread, read by
 /// any.
 struct WriterCounters {
-  /// From the transaction's begin until it is on disk.
+  /// Time from a transaction's begin until it is on disk.
   Histogram<12> commit_seconds{
       {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5}};
   Histogram<9> batch_jobs{{1, 2, 4, 8, 16, 32, 64, 256, 1024}};

@@ -127,8 +127,8 @@ class KeysStore {
   explicit KeysStore(sql::Connection& connection);
   ~KeysStore();
 
-  /// Stores the hash of `token` (new_token, or an administrator's own of at least 16 characters).
-  /// A token that another of that name and role has replaced is valid again.
+  /// Stores the hash of `token`, from new_token or with at least 16 characters of an
+  /// administrator. A token that was replaced under this name and role is valid again.
   /// @errors FieldConflict when a valid key has the name, or a key the token; FieldInvalid.
   Result<ApiKey> create(std::string_view name, Role role, std::string_view token,
                         std::int64_t now_ns, std::optional<std::int64_t> expires_at_ns = {});

@@ -36,7 +36,7 @@ struct TextColumn {
   std::optional<std::string_view> MeasurementRow::*text = nullptr;
 };
 
-/// By their places.
+/// The text columns by their places.
 inline constexpr auto kTextColumns = [] {
   std::array<TextColumn, app::kTextFilters.size()> columns{};
   columns.fill({TextField::ToleranceClass, "tolerance_class", &MeasurementRow::tolerance_class});
@@ -141,7 +141,7 @@ struct IndexNode {
   }
 };
 
-/// No id is greater.
+/// The greatest id.
 inline constexpr std::int64_t kLastId = std::numeric_limits<std::int64_t>::max();
 
 /// Fields with postings, by the stored number: the text fields, and these.

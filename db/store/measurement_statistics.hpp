@@ -140,7 +140,7 @@ class ExactStatistics {
   std::int64_t min_nm() const { return min_; }
   std::int64_t max_nm() const { return max_; }
 
-  /// In mm to 1e-12, half away from zero, as the shortest decimal.
+  /// Returns the mean in mm to 1e-12, half away from zero, as the shortest decimal.
   std::string mean_mm() const;
   /// Returns the standard deviation of n - 1 in mm to 1e-12. @pre count() >= 2
   std::string standard_deviation_mm() const;

@@ -41,7 +41,7 @@ class MeasurementsStore {
 
   using Visitor = std::function<void(const MeasurementRow&)>;
 
-  /// @returns whether there is such a row; `visit` was called with it if so.
+  /// @returns whether there is such a row; then `visit` was called with it.
   bool find(std::int64_t id, const Visitor& visit) const;
 
   /// Returns the id of the row that corrects `id`, if there is one. Of several corrections that

@@ -115,7 +115,7 @@ void add_service_routes(Routes& add);
 /// The web page at / and the files it is made of below /web/.
 void add_page_routes(Routes& add);
 
-/// Every operation of the service. /openapi.json is made from the others.
+/// Every operation of the service, with /openapi.json, which describes all other operations.
 /// @param of_plant, schemas the routes and the components of the rooms above
 http::RouteTable make_routes(Routes of_plant, const Schemas& schemas);
 
@@ -147,7 +147,7 @@ Schemas make_schemas(const Schemas& of_plant = {});
 
 /// The limits of a class; with explicit limits the fields of the tables are absent.
 schema::Fields limits_fields();
-/// In addition to the limits: the measured value and its verdict.
+/// The measured value and its verdict, to add to the limits.
 schema::Fields verdict_fields();
 schema::Fields warnings_field();
 

@@ -35,7 +35,7 @@ class Allowance {
   Spent look();
   bool is_spent() { return look() != Spent::Nothing; }
 
-  /// While it lives, loops of the calling thread find an allowance by of_thread().
+  /// Lets loops of the calling thread find an allowance by of_thread() while it lives.
   class OfThread {
    public:
     /// @param allowance null: none; outlives this.

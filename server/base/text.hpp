@@ -57,7 +57,7 @@ std::string ascii_upper(std::string_view text);
 std::string ascii_lower(std::string_view text);
 bool ascii_iequals(std::string_view a, std::string_view b);
 
-/// Without leading and trailing blanks and tabs.
+/// Returns the text without leading and trailing blanks and tabs.
 std::string_view trim(std::string_view text);
 
 /// Whether a name is of a pattern with `*` and `?`; letters count in either case.
@@ -95,7 +95,7 @@ struct SourcePosition {
   friend auto operator<=>(const SourcePosition&, const SourcePosition&) = default;
 };
 
-/// From `begin` up to and not including `end`.
+/// A range from `begin` to before `end`.
 struct SourceRange {
   SourcePosition begin;
   SourcePosition end;

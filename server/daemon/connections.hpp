@@ -42,7 +42,7 @@ std::optional<app::AtCentre> ask_centre(const Config& config, std::string_view d
 /// Starts to forward the log to the centre; null when there is none.
 std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app,
                                                       Tell tell);
-/// To the log of the service.
+/// Writes to the log of the service.
 void tell_log(std::string_view event, const std::string& detail);
 
 /// Writes the number and age of records that the centre does not have. @param forwarder may be

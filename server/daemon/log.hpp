@@ -12,7 +12,7 @@
 
 namespace fitgauge::daemon {
 
-/// In rising order; `Off` is above all.
+/// Levels in rising order; `Off` is the highest.
 enum class LogLevel { Debug, Info, Warning, Error, Off };
 
 /// `warning` as the configuration names it. @pre one of its words.

@@ -31,7 +31,7 @@ struct ConnectionState {
   bool is_read_only = false;  ///< belongs to the configuration file
 
   bool is_failing = false;   ///< its last attempt failed
-  bool is_stopped = false;   ///< for good: the other side wants no more
+  bool is_stopped = false;   ///< for good: the other side ended the connection
   std::string last_error{};  ///< of the last failed attempt; empty: none failed
   std::optional<Timestamp> last_attempt_at{};
   std::optional<Timestamp> last_success_at{};

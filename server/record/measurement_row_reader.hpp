@@ -47,7 +47,7 @@ struct RowField {
   const app::MeasurementField* plain = nullptr;  ///< stored unchanged; otherwise the reader uses it
 };
 
-/// By RowField::Index: the fields that the readers accept and /openapi.json describes.
+/// The fields that the readers accept and /openapi.json describes, by RowField::Index.
 inline constexpr std::array<RowField, RowField::Count> kRowFields = [] {
   std::array<RowField, RowField::Count> fields = {{
       {"measured_mm", RowField::Kind::Length, 0,
@@ -155,7 +155,7 @@ class MeasurementRowReader {
   bool check_number(std::size_t field, const RawValue& value);
   std::optional<Length> length(std::size_t field, const RawValue& value, bool micrometres,
                                bool round = false);
-  /// In millionths, or as the field has it.
+  /// Returns the number in millionths, or in the unit of the field.
   std::optional<std::int64_t> decimal(std::size_t field, const RawValue& value);
   /// A decimal number between the two, as decimal() returns it. @param range both bounds in words
   std::optional<std::int64_t> decimal_in(std::size_t field, const RawValue& value,

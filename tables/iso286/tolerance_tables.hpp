@@ -86,7 +86,7 @@ class ToleranceTables {
   static constexpr std::size_t kSlots = 42;
   static constexpr std::int32_t kElsewhere = std::numeric_limits<std::int32_t>::min();
 
-  /// In nanometres; `upper` is kElsewhere for an undefined class and for every custom column.
+  /// Deviations in nanometres; `upper` is kElsewhere for an undefined class and a custom column.
   struct Cell {
     std::int32_t upper = kElsewhere;
     std::int32_t lower = kElsewhere;

@@ -62,7 +62,7 @@ class CertificateDraft {
   /// The worst value of those that count.
   const Counted& worst() const;
   std::size_t measured_again() const { return values_.size() - last_.size(); }
-  /// Not if no value has limits, nor if it is good but a value is missing.
+  /// Returns false if no value has limits, or if all are good but one is missing.
   bool has_verdict() const;
   std::string summary() const;
 

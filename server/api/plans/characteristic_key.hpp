@@ -23,7 +23,7 @@ inline CharacteristicKey key_of(const app::Measurement& m) {
   return {.part = std::string(*m.part_id), .name = std::string(*m.characteristic)};
 }
 
-/// The greatest counts: a value with a verdict before one without, then the one measured last.
+/// Orders the values of a characteristic: judged values are greater, then newer ones.
 struct Standing {
   bool is_judged = false;
   Timestamp measured_at{};

@@ -61,7 +61,7 @@ struct KindOfDocument {
   void (*changed)(const Services& services, std::function<void(Result<void>)> done) = nullptr;
 };
 
-/// The refusal of a write: of its member `uncertainty` if its budget does not exist.
+/// Names the member `uncertainty` in the refusal of a write whose budget does not exist.
 Error at_budget(const Error& error);
 
 /// The schema of a list of names and times.

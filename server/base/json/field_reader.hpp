@@ -43,7 +43,7 @@ void refuse_not_applicable(std::span<const Applicable> table, std::string_view w
 /// Collects all errors of a body, to report them together.
 class FieldErrors {
  public:
-  /// Beyond this many the rest is counted, not listed.
+  /// Number of errors that are listed; further errors are counted.
   static constexpr std::size_t kMostListed = 100;
 
   /// @param line of a format that has lines; it becomes the place of a detail of the entry.

@@ -52,9 +52,9 @@ class JsonWriter {
   JsonWriter& value(double value);
   /// 17 significant digits, the nearest to the value; null when it is not finite.
   JsonWriter& figure(long double value);
-  /// At most so many significant digits; null when it is not finite.
+  /// Writes a number with at most `digits` significant digits; null if it is not finite.
   JsonWriter& significant(double value, int digits);
-  /// At most so many decimals, without trailing zeros; null when it is not finite.
+  /// Writes a number without trailing zeros; null if it is not finite.
   JsonWriter& fixed(double value, int decimals);
   JsonWriter& value(std::string_view text);
   JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }

@@ -50,7 +50,7 @@ std::string array(const std::string& item, std::size_t least, std::size_t most =
 /// An object with any names and values of one kind.
 std::string map(const std::string& value);
 std::string object(const Fields& fields, Others others = Others::Allowed);
-/// At least one of them fits.
+/// The schema of a value that fits at least one of `schemas`.
 std::string any_of(const std::vector<std::string>& schemas);
 std::string ref(std::string_view name);
 /// Adds the value that absence stands for, in JSON. The key is `x-default`, because client

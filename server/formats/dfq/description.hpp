@@ -32,7 +32,7 @@ class FieldList {
   const Described* find(int number) const;
   std::string_view text(int number) const;
   const std::vector<Described>& all() const { return fields_; }
-  /// @errors kMalformed: it has another text here.
+  /// @errors kMalformed: the field has a different text already.
   Result<void> add(const FieldLine& field, std::uint32_t line, std::string text);
 
  private:

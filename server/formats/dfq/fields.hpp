@@ -25,7 +25,7 @@ struct FieldInfo {
   std::string_view name;
 };
 
-/// By its number: K0001, K1xxx, K2xxx and so on.
+/// Returns the level of a number: K0001, K1xxx, K2xxx and so on.
 Level level_of(int number);
 
 /// Returns a field that is read or written here; null for others, which are stored unchanged.

@@ -37,7 +37,7 @@ bool is_qif(std::string_view file_name);
 /// element by element, in a bounded piece of memory. Of no more use after an error.
 class QifRows {
  public:
-  /// @param first and again read the same document from its begin, one after the other
+  /// @param first, again two readers of one document: `first` is read first, then `again`
   /// @errors CsvMalformed with the line
   static Result<QifRows> open(Read first, Read again, QifOptions options);
   QifRows(QifRows&&) noexcept;

@@ -86,7 +86,7 @@ Result<bool> append_next(Source& source, std::string& rows, std::vector<std::uin
 /// An error in a line of a table; `where` is the line.
 Error at_table_line(ErrorCode code, std::size_t line, std::string_view what);
 
-/// Without blanks, tabs and no-break spaces around it.
+/// Returns the text without blanks, tabs and no-break spaces around it.
 std::string_view bare(std::string_view text);
 
 /// One line of a table, which may span several of the text.
@@ -101,8 +101,8 @@ struct Record {
   }
 };
 
-/// Takes records from the front of a text, and keeps at most one and a piece. Unusable after an
-/// error.
+/// Reads the records of a text in order. Holds at most one record and a piece of the text. Unusable
+/// after an error.
 class RecordReader {
  public:
   static constexpr std::size_t kMostCells = 1000;

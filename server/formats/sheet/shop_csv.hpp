@@ -35,7 +35,7 @@ struct ShopCsvOptions {
 /// bounded memory; a row has at most 1 MiB. Unusable after an error.
 class ShopRows {
  public:
-  /// @param first and again read the same table from its begin, one after the other; `first` only
+  /// @param first, again two readers of one table: `first` is read first, only
   /// to detect the encoding.
   /// @errors TextEncoding, CsvMalformed
   static Result<ShopRows> open(const Read& first, Read again, ShopCsvOptions options);
@@ -43,7 +43,7 @@ class ShopRows {
   ShopRows& operator=(ShopRows&&) noexcept;
   ~ShopRows();
 
-  /// Returns the header, with as many lines as the table has up to the end of its own.
+  /// Returns the header, with an empty line for each line of the table before its header.
   const std::string& header() const { return header_; }
   /// Appends the next row. @returns false at the end.
   /// @errors TextEncoding; CsvMalformed and TimeMalformed with the line in `where`.

@@ -55,8 +55,8 @@ Result<Encoding> detected_encoding(const Read& read);
 /// more use after an error.
 class Utf8Input {
  public:
-  /// @param first and again read the same text from its begin, one after the other; `first` only to
-  /// detect the encoding.
+  /// @param first, again two readers of one text: `first` is read first, only to detect the
+  /// encoding.
   static Result<Utf8Input> open(const Read& first, Read again, Encoding encoding);
 
   /// Appends the next piece. @returns false at the end. @errors TextEncoding with the byte, counted

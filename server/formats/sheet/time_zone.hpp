@@ -29,7 +29,7 @@ class TimeZone {
  public:
   /// @param name as in Europe/Berlin. @errors ConfigInvalid: there is none, or its file is no TZif.
   static Result<TimeZone> load(std::string_view name);
-  /// From the bytes of a file in the form of RFC 8536. @errors ConfigInvalid
+  /// Reads the bytes of a file in the form of RFC 8536. @errors ConfigInvalid
   static Result<TimeZone> parse(std::string_view bytes);
 
   /// Returns the instant. An hour that occurs twice is the first one, before the clock goes back.

@@ -124,7 +124,7 @@ class BodyReader {
   Outcome finish() const;
 
   FileText bytes() const { return {{data(), size_}, spooled_.bytes() != nullptr}; }
-  /// After NoBudget: the budget that lacked the bytes.
+  /// Returns the budget that lacked the bytes. @pre the result was NoBudget
   ByteBudget& lacking() const { return *lacking_; }
   /// Another body waits for bytes of this body.
   bool is_wanted() const { return share_.is_wanted(); }

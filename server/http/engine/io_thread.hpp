@@ -160,7 +160,7 @@ class IoThread {
   void bound_unsent();
 
   ServerShared& shared_;
-  /// Only its own thread uses its sockets, so they need no locks. post() and the timer have locks.
+  /// Needs no locks for sockets, which one thread uses. post() and the timer have locks.
   asio::io_context context_{BOOST_ASIO_CONCURRENCY_HINT_UNSAFE_IO};
   Timer timer_{context_.get_executor()};
   NextReads next_reads_{context_};

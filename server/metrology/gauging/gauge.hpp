@@ -127,10 +127,10 @@ class DecisionRule {
  public:
   enum class Kind : std::uint8_t { Simple, GuardBand, Conformance };
 
-  /// Against the limits themselves.
+  /// Judges by the limits themselves.
   constexpr DecisionRule() = default;
 
-  /// Against limits moved inwards and outwards by g = k·u.
+  /// Judges by limits moved inwards and outwards by g = k·u.
   /// @errors RuleInvalid when the uncertainty is negative.
   static Result<DecisionRule> guard_band(Length standard_uncertainty, CoverageFactor factor = {});
 

@@ -53,8 +53,8 @@ struct FittedDistribution {
 inline constexpr std::size_t kFewestForFit = 25;
 
 /// The distribution with the least information criterion (Akaike 1974) among those whose test has
-/// p >= 0.01; none if all are refused. Values are compared by classes between neighbouring ones, so
-/// that their resolution counts for none and against none.
+/// p >= 0.01; none if all are refused. The tests compare classes between neighbouring
+/// values, so that the resolution of the values favours no distribution.
 /// @param ranking of kFewestForFit values or more, with spread, times a power of ten
 std::optional<FittedDistribution> fit_distribution(const Ranking& ranking, int scale);
 

@@ -95,10 +95,10 @@ struct Pair {
   friend bool operator==(const Pair&, const Pair&) = default;
 };
 
-/// Pairs measured holes with measured shafts: as many pairs as there are of the fewer, with the
-/// least sum of squares of clearance - target of all assignments. By hole, ascending.
-/// Squares are convex, so of two pairs that cross the straight ones are never worse: both sorted,
-/// only which of the more are left out is a question, and a table of the differences answers it.
+/// Pairs measured holes with measured shafts so that the sum of squares of clearance - target is
+/// least. Every part of the smaller group gets a partner. Sorted by hole, ascending.
+/// Squares are convex, so two sorted pairs are never worse than the crossed ones. A table of the
+/// differences then finds the parts of the larger group that are left out.
 /// @errors StatisticsTooFew without a hole or a shaft; FieldTooLong above kLargestPairing;
 ///   FiguresLimit where the thread's allowance is spent.
 Result<std::vector<Pair>> pair(const std::vector<Length>& holes, const std::vector<Length>& shafts,

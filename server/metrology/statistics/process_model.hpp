@@ -48,7 +48,7 @@ std::string_view meaning(ProcessModel model);
 /// The tests that chose the model; each a probability, compared with `significance`.
 struct ModelTests {
   long double location = kUndefined;  ///< subgroup means are equal: analysis of variance
-  /// Subgroup spreads are equal: Brown and Forsythe 1974, without structural zeros; undefined of
+  /// Subgroup spreads are equal: Brown and Forsythe 1974, without structural zeros; undefined for
   /// subgroups of two.
   long double dispersion = kUndefined;
   long double trend = kUndefined;  ///< subgroup means have no slope: regression on their index

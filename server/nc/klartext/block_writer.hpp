@@ -19,7 +19,7 @@ class BlockWriter {
   void quoted(Text text);
   void number(double number);
   BlockWriter& parameter(QRef parameter);
-  /// With a sign before numbers: `+10`, `-Q5`; texts and QS parameters have none.
+  /// Writes a sign before a number: `+10`, `-Q5`; texts and QS parameters have no sign.
   BlockWriter& signed_value(const Expr& expr);
   /// Writes like signed_value(), without `+`.
   BlockWriter& value(const Expr& expr);

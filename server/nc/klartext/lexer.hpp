@@ -105,7 +105,7 @@ class Lexer {
     at_ = at;
     if (*at == '~') skip_wraps();
   }
-  /// No more code in this block: its end, or a comment.
+  /// Returns true at the end of the block or a comment.
   bool at_end() {
     skip_blanks();
     return at_ == end_ || *at_ == ';';

@@ -29,7 +29,7 @@ void write_block(BlockWriter& out, const PatternDefinition& pattern);
 void write_block(BlockWriter& out, const Cycle& cycle);
 void write_block(BlockWriter& out, const CyclePart& part);
 void write_block(BlockWriter& out, const CycleCall& call);
-/// With the comment of its first line, which ends before the parameters.
+/// Writes a cycle; the comment of its first line is before the parameters.
 void write_cycle(BlockWriter& out, const Cycle& cycle, std::string_view first_comment);
 
 // function_writer.cpp

@@ -69,7 +69,7 @@ class LetterSet {
   std::uint64_t bits_[2] = {0, 0};
 };
 
-/// From `A`; Letter::Value if no word has this single letter.
+/// The word of each letter from `A`; Letter::Value if there is none.
 extern const std::array<Letter, 26> kSingleLetters;
 
 /// Returns the letter of a word, in upper or lower case; none if there is no such word. Words with

@@ -23,7 +23,7 @@ struct SpindleTool {
 struct Motion {
   Feed feed;
   SpindleTool tool;
-  /// Looked at while the move lasts: its stop ends the move. Outlives the call.
+  /// A stop of this allowance ends the move. Must outlive the call.
   Allowance& allowance;
   /// Moves back along the last way of the probe, which is free.
   bool is_retract = false;

@@ -16,7 +16,7 @@ namespace fitgauge::machine {
 /// state contains the finished part of the command.
 class Control : public Machine {
  public:
-  /// @param allowance what its moves look at while they last; null: nothing interrupts them
+  /// @param allowance ends a move when it stops; null: nothing interrupts moves
   /// @pre validate() accepts the setup that `setup` is part of; `allowance` outlives the machine
   Control(const MachineSetup& setup, std::unique_ptr<Axes> axes, Allowance* allowance = nullptr);
 

@@ -88,7 +88,7 @@ class Frames {
   Vec3 direction_from_machine(const Vec3& direction,
                               CoordinateSystem system = CoordinateSystem::Input) const;
 
-  /// From input to Machine coordinates.
+  /// Converts input coordinates to Machine coordinates.
   const Transform& input() const { return input_; }
 
   /// Rotary positions A, B, C in degrees: offsets of the preset and the datum shift.

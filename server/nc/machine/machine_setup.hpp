@@ -166,7 +166,7 @@ struct Mesh {
   double unit = 1;          ///< of the file's figures, in mm
   Vec3 origin;              ///< origin_mm: position of the file's zero
   Vec3 spatial_angles_deg;  ///< how the file's axes are turned
-  /// In mm, from the file's zero. Null until the file is read; no machine is made before.
+  /// The body in mm, from the file's zero. Null until the file is read, before any machine.
   std::shared_ptr<const TriangleTree> body = nullptr;
 };
 

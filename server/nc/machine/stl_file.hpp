@@ -18,7 +18,7 @@ Result<std::vector<Triangle>> read_stl(std::string_view bytes);
 /// @errors FieldInvalid: the mesh is empty, degenerate, open, or inverted, and the place.
 Result<void> check_closed(const std::vector<Triangle>& triangles);
 
-/// In the cube of the triangles' unit.
+/// Returns the volume in the cube of the triangles' unit.
 double volume(const std::vector<Triangle>& triangles);
 
 }  // namespace fitgauge::machine

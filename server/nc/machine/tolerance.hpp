@@ -29,9 +29,9 @@ inline constexpr double kSag = 5e-4;
 
 /// Written angles are decimals: whole billionths of a degree.
 inline constexpr double kSameAngle = 1e-9;
-/// On a tooth of a Hirth grid: an angle that went through preset and datum shift.
+/// Greatest distance of an angle from its tooth of a Hirth grid, after preset and datum shift.
 inline constexpr double kOnTooth = 1e-6;
-/// By how much a tool may leave the plane of PATHCTRL VECTOR between two stops, in degrees.
+/// Angle by which a tool may leave the plane of PATHCTRL VECTOR between two stops, in degrees.
 inline constexpr double kToolVectorDeg = 1e-3;
 
 // Directions: the sine of the angle between them.

@@ -32,10 +32,10 @@ class ControlPath {
   const std::string& text() const { return text_; }
   /// Returns the key of a disk, which is equal for all spellings of a file.
   std::string key() const;
-  /// With its last `\`: `TNC:\nc_prog\8255\`.
+  /// Returns the directory with its last `\`: `TNC:\nc_prog\8255\`.
   std::string_view directory() const;
   std::string_view file_name() const;
-  /// With `extension` (such as `.H`) if the file name has none.
+  /// Returns the path, with `extension` (such as `.H`) if its file name has none.
   ControlPath with_default_extension(std::string_view extension) const;
   /// A file of the same directory. @pre `name` has no separator.
   ControlPath beside(std::string_view name) const;

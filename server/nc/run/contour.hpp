@@ -41,7 +41,7 @@ class Contour {
   NcResult<void> add(machine::Machine& machine, Approach approach);
   /// DEP: moves to the end of the contour. @returns the position of the tool's centre.
   NcResult<Vec2> depart(machine::Machine& machine, const WorkingPlane& plane);
-  /// From here on nothing moves: the path is the contour of an SL cycle.
+  /// Starts to draw the contour of an SL cycle: from here on nothing moves.
   void draw(const machine::Machine& machine) { drawing_.emplace(machine); }
   /// Null while the path moves the machine.
   const SlDrawing* drawing() const { return drawing_ ? &*drawing_ : nullptr; }

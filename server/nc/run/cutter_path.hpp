@@ -74,7 +74,7 @@ class CutterPath {
   /// the blocks after it.
   NcResult<void> move_to(machine::Machine& machine, Vec2 end);
 
-  /// From the contour to the centre of the cutter.
+  /// Returns the distance from the contour to the centre of the cutter.
   double reach(const machine::Machine& machine) const { return radius(machine) + allowance_; }
 
   double allowance_ = 0;

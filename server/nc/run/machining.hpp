@@ -22,7 +22,7 @@ class ToolMotion {
 
   NcResult<void> to_height(double height, const machine::Feed& feed);
   NcResult<void> to_point(Vec2 point, const machine::Feed& feed);
-  /// Around `centre` to `end` and to `height`; a sweep beyond 360 degrees is a helix.
+  /// Moves around `centre` to `end` and `height`; a sweep beyond 360 degrees is a helix.
   NcResult<void> arc(Vec2 centre, Vec2 end, double sweep_deg, double height,
                      const machine::Feed& feed);
   /// Waits; does nothing for 0.
@@ -33,7 +33,7 @@ class ToolMotion {
   double height() const;
   const WorkingPlane& plane() const { return plane_; }
   const machine::MachineState& state() const { return machine_.state(); }
-  /// In the plane: scaling does not scale the tool.
+  /// Returns the radius in the plane; scaling does not scale the tool.
   double tool_radius() const { return radius_in_plane(state(), state().tool_radius()); }
 
  private:

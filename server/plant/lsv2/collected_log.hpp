@@ -43,7 +43,7 @@ struct MachineOptions {
   std::size_t most_round_bytes = std::size_t{64} << 20;  ///< the rest is for the next round
   std::size_t most_entries = 10'000;                     ///< of a folder
 
-  /// Without a machine the connection's.
+  /// Returns the machine's name, or else the name of the connection.
   const std::string& machine_name() const { return machine && !machine->empty() ? *machine : name; }
 };
 

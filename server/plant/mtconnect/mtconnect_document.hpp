@@ -97,7 +97,7 @@ class Streams {
   void add(const app::Measurement& measurement, std::uint64_t sequence);
   /// @param newest of the measurements that are counted
   void add_counts(const Counts& counts, std::int64_t newest, Timestamp at);
-  /// No measurement is known yet.
+  /// Adds a part without values, if no measurement is known yet.
   void add_unavailable_part();
   void add_unavailable_feature();
   /// Adds the change of the asset. @param newest of the measurements it had; 0: there was none.

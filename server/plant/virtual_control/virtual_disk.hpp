@@ -54,7 +54,7 @@ class VirtualDisk {
   VirtualDisk(app::FileService& files, app::RunService& runs) : files_(files), runs_(runs) {}
 
   bool has_directory(std::string_view directory);
-  /// By name, directories first. @errors NoDirectory.
+  /// Lists entries by name, directories first. @errors NoDirectory.
   Answer<std::vector<DiskEntry>> list(std::string_view directory);
   /// @errors NoDirectory: its parent; FileExists; NoSpace.
   Answer<void> make_directory(std::string_view directory);

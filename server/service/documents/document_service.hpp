@@ -78,7 +78,7 @@ class DocumentService {
               std::optional<std::string> caller, std::vector<std::string> users, Done<bool> done);
   void list(DocumentKind kind, Done<std::vector<NamedDocument>> done);  ///< by name
   /// Lists several kinds, in one state of the storage. With `has_past` also the earlier texts of
-  /// gauges in use: `modified_at` is when another text replaced them.
+  /// gauges in use: `modified_at` is the time of the last change.
   void list_each(std::vector<DocumentKind> kinds, bool has_past,
                  Done<std::vector<std::vector<NamedDocument>>> done);
 

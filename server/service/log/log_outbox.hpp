@@ -46,10 +46,9 @@ class LogOutbox {
     std::string notes_after{};   ///< the id of the note before the first; empty: there is none
     std::int64_t last_note = 0;  ///< the number in the id of the last of them
   };
-  /// Returns the rows after the first `after` records, at most `most`, of one history; no record if
-  /// there is none.
-  /// @param noted include the notes after this number whose records are then at the centre; none:
-  /// the centre accepts no notes.
+  /// Returns at most `most` records of one history, after its first `after` records.
+  /// @param noted adds the notes after this number, if the centre then has their measurements;
+  ///   none: the centre accepts no notes.
   /// @errors those of storage.
   Result<Batch> next(std::int64_t after, std::int64_t most,
                      std::optional<std::int64_t> noted) const;

@@ -162,7 +162,7 @@ class LogService {
     bool is_partial = false;
     std::string_view leaves = "measurements";
   };
-  /// By origin, of which 0 is this folder and the last are its changes.
+  /// Logs by origin: 0 is this folder, the last origin is its changes.
   using Logs = std::map<std::int64_t, Facts>;
   static Result<Logs> logs(store::Database& database);
 

@@ -24,7 +24,7 @@ class CorrectedPlaces {
   /// Adds the id of the next value, which must be larger than the previous id.
   void pass(std::int64_t id);
 
-  /// In the order of their places.
+  /// Returns the moved values in the order of their places.
   std::vector<MovedValue> moves() const;
 
  private:

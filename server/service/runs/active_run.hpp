@@ -42,7 +42,7 @@ struct LiveState {
 /// The request of a reader of a run.
 enum class Look : std::uint8_t { Nothing, State, StateAndFiles };
 
-/// End of a run, for those who wait for it.
+/// End of a run, which callers await.
 struct FinishedRun {
   RunState state = RunState::Failed;
   std::string report;  ///< as it is stored
@@ -107,7 +107,7 @@ class ActiveRun {
   void started();
   void progressed(std::uint64_t blocks);
   void printed(std::string_view line);
-  /// Before its end is stored.
+  /// Marks that the end is about to be stored.
   void being_stored() { being_stored_ = true; }
   void finished(Result<FinishedRun> end);
 

@@ -127,7 +127,7 @@ class RunService {
   /// cancelled. @errors RunUnknown; RunFinished if it ended otherwise.
   void cancel(std::int64_t id, Done<void> done);
 
-  /// A run for those who wait for its end.
+  /// A run whose end callers await.
   struct Followed {
     std::shared_ptr<ActiveRun> active;  ///< here or at another daemon; null after its end
     StoredRun stored;                   ///< if it is over
@@ -143,7 +143,7 @@ class RunService {
     std::string path;
     std::string bytes;
   };
-  /// By its file name, the first by path, or by its path. @errors RunUnknown, FileUnknown.
+  /// Reads a file by its path, or by its name (the first by path). @errors RunUnknown, FileUnknown.
   void file(std::int64_t id, std::string name, Done<File> done);
 
   struct Page {

@@ -90,7 +90,7 @@ class TableCatalog {
   /// @errors TablesInconsistent: the standard's tables differ there, or the columns break a rule.
   Result<Received> receive(store::Stores& stores, const std::string& id,
                            const std::vector<iso286::CustomColumn>& columns, std::int64_t now_ns);
-  /// After the commit: every reader sees them.
+  /// Shows them to every reader. @pre they are committed
   void put_in_force(const Received& received);
 
   /// Loads revisions that other daemons have stored; the newest becomes current. Used inside a job.

@@ -46,7 +46,7 @@ struct FoundError {
   machine::Vec3 value;
   /// Half of the interval in which each coordinate is with a probability of 95 %, by the scatter of
   /// the poses (Student). Resting axes between this axis and the sphere, or the tool, add their
-  /// scatter as if it were that of a pose.
+  /// scatter, like a pose.
   machine::Vec3 uncertainty;
   double size = 0;                  ///< of the value: mm, or mm at 100 mm of a direction
   double standard_uncertainty = 0;  ///< along the value, in its unit

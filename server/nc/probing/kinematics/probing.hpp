@@ -28,7 +28,7 @@ class KinematicsProbing {
   CycleResult<void> turn(const Vec3& rotary);
   /// Turns and measures. @errors those of turn and of SphereProbe::measure.
   CycleResult<SpherePose> measure(const Vec3& rotary);
-  /// To the height before a turn.
+  /// Retracts to the height before a turn.
   CycleResult<void> retract();
 
  private:

@@ -21,7 +21,7 @@ class SphereProbe {
 
   /// Unit vector from the tip to the nose.
   Vec3 tool_direction() const;
-  /// From nose to ball, in mm.
+  /// Returns the distance from nose to ball in mm.
   double ball_length() const { return probe_.length - probe_.radius; }
 
   /// Moves over a sphere: up, if need be, across, down.

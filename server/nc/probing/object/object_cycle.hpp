@@ -90,7 +90,7 @@ Vec3 face_behind(const Contact& contact, const Vec3& direction, const Vec3& norm
                  double ball_radius);
 /// The shortest turn that brings one direction into another. @pre neither is zero.
 machine::Matrix3 shortest_turn(const Vec3& from, const Vec3& to);
-/// For the linker: the texts of dimensions can be read.
+/// Checks for the linker that the texts of dimensions can be read.
 CycleResult<void> check_dimensions(const Arguments& arguments);
 
 namespace parameter {

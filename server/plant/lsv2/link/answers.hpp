@@ -123,7 +123,7 @@ struct ProgramStack {
   std::string current{};
   FITGAUGE_TELEGRAM("S_RI", m.line, m.main, m.current)
 };
-/// In 0.01 %.
+/// The overrides in 0.01 %.
 struct Overrides {
   std::uint32_t feed = 0;
   std::uint32_t spindle = 0;

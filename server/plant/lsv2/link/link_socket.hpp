@@ -85,7 +85,7 @@ class LinkSocket {
   using Time = std::chrono::steady_clock::time_point;
 
   explicit LinkSocket(LinkClientOptions options);
-  /// Until the socket can be read or written. @errors Broken, Stopped
+  /// Waits until the socket can be read or written. @errors Broken, Stopped
   LinkResult<void> wait(short events, Time deadline) const;
   LinkFailure broken(std::string_view what) const;
 
