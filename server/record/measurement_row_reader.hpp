@@ -101,7 +101,7 @@ struct RawValue {
 RawValue raw_value(const JsonValue& value);
 
 /// Turns the fields of one row into a judged measurement, whichever format they came in: begin()
-/// the row, give it every field, end() it. What is wrong goes to the FieldErrors. Remembers the
+/// the row, give it every field, end() it. Adds faults to the FieldErrors. Remembers the
 /// last class, so that a batch of one class looks it up once. Refers to all it is given.
 class MeasurementRowReader {
  public:

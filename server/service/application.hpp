@@ -76,7 +76,7 @@ struct ApplicationOptions {
   std::function<std::optional<AtCentre>(std::string_view digits)> ask_centre{};
   bool has_centre = false;              ///< documents of a centre can only be changed there
   std::string origin_name = "station";  ///< of the log of a new data folder
-  /// Calls its argument on the writer thread: the `done` of everything a commit has stored.
+  /// Wraps, on the writer thread, the calls of every `done` after a commit; must call its argument.
   std::function<void(const std::function<void()>&)> around_outcomes{};
   /// Time for the expiry of runs and idempotency keys; without it, the clock itself.
   std::function<SteadyTime()> steady_time{};

@@ -238,7 +238,7 @@ export default {
   'study.from': 'An der Station gemessen',
   'study.take': 'Werte eines Merkmals übernehmen …',
   'study.cut': 'Das sind die neuesten {count} Messwerte, die in eine Studie passen; es gibt weitere.',
-  'study.no_records': 'Keine Messung davon hat Teil und Prüfer.',
+  'study.no_records': 'Keine Messung des Merkmals hat Teil und Prüfer.',
   'study.readings': 'Messwerte in mm',
   'study.compute': 'Auswerten',
   'study.clear': 'Messwerte leeren',

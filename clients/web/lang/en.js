@@ -238,7 +238,7 @@ export default {
   'study.from': 'Measured at the station',
   'study.take': 'Use the measurements of a characteristic …',
   'study.cut': 'These are the newest {count} readings that fit into a study; there are more.',
-  'study.no_records': 'No measurement of it has a part and an operator.',
+  'study.no_records': 'No measurement of this characteristic has a part and an operator.',
   'study.readings': 'Readings in mm',
   'study.compute': 'Evaluate',
   'study.clear': 'Clear the readings',
