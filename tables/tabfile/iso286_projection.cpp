@@ -102,10 +102,10 @@ TabTable project(const ToleranceTables& tables, Feature feature) {
   const std::string name = feature == Feature::Hole ? "82553_HOLE .TAB" : "82553_SHAFT .TAB";
   TabTable table({.name = name, .unit = "MM"}, std::move(columns));
   for (std::size_t row = 0; row < rows; ++row) {
-    std::vector<std::string> cells;
+    std::vector<std::string_view> cells;
     cells.reserve(filled_columns.size());
     for (const FilledColumn& column : filled_columns) cells.push_back(column.cells[row]);
-    table.append_row(std::move(cells)).value();
+    table.append_row(cells).value();
   }
   return table;
 }

@@ -22,6 +22,8 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::vector<std::string_view> lines;
+  const auto ends = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+  lines.reserve(std::min(ends, kMostLines) + 1);
   while (!text.empty() && lines.size() <= kMostLines) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);
@@ -208,7 +210,7 @@ class Reader {
       }
       cells += row->size();
       if (cells > kMostCells) return malformed(next_, "a table has at most a million cells");
-      if (auto appended = table.append_row(std::move(*row)); !appended) {
+      if (auto appended = table.append_row(*row); !appended) {
         return malformed(next_, appended.error().message);
       }
     }
@@ -222,8 +224,8 @@ class Reader {
     return {};
   }
 
-  Result<std::vector<std::string>> cut(std::string_view line) const {
-    std::vector<std::string> cells;
+  Result<std::vector<std::string_view>> cut(std::string_view line) const {
+    std::vector<std::string_view> cells;
     std::size_t begin = skip_characters(line, 0, places_.front().begin);
     if (!trim(line.substr(0, begin)).empty()) {
       return malformed(next_, "text before the first column");
@@ -237,7 +239,7 @@ class Reader {
       if (!cell.ends_with(' ') && count_characters(cell) == width) {
         return malformed(next_, fmt::format("the cell of column {} runs into the next one", i + 1));
       }
-      cells.emplace_back(trim(cell));
+      cells.push_back(trim(cell));
       begin = end;
     }
     return cells;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <tuple>
 
 #include "base/number.hpp"
 #include "base/text.hpp"
@@ -75,20 +76,38 @@ TabTable::TabTable(TabHeader header, std::vector<TabColumn> columns)
 }
 
 std::string_view TabTable::cell(std::size_t row, std::size_t column) const {
-  const auto& cells = rows_[row];
-  return column < cells.size() ? std::string_view(cells[column]) : std::string_view();
+  if (const auto written = changed_.find({row, column}); written != changed_.end())
+    return written->second;
+  const std::size_t at = (row == 0 ? 0 : rows_[row - 1]) + column;
+  if (at >= rows_[row]) return {};
+  const std::size_t begin = at == 0 ? 0 : ends_[at - 1];
+  return std::string_view(text_).substr(begin, ends_[at] - begin);
 }
 
-Result<void> TabTable::append_row(std::vector<std::string> cells) {
-  while (!cells.empty() && cells.back().empty()) cells.pop_back();
-  if (cells.size() > columns_.size()) {
+std::optional<std::int64_t> TabTable::number_of(std::size_t row) const {
+  return to_number<std::int64_t>(cell(row, 0));
+}
+
+Result<void> TabTable::append_row(const std::vector<std::string_view>& cells) {
+  std::size_t count = cells.size();
+  while (count > 0 && cells[count - 1].empty()) --count;
+  if (count > columns_.size()) {
     return Error{ErrorCode::TableFileMalformed, "a row has more cells than the table has columns"};
   }
-  const auto number = cells.empty() ? std::nullopt : to_number<std::int64_t>(cells.front());
-  if (number && !rows_by_number_.emplace(*number, rows_.size()).second) {
-    return Error{ErrorCode::TableFileMalformed, fmt::format("row {} is there twice", *number)};
+  if (const auto number = count == 0 ? std::nullopt : to_number<std::int64_t>(cells.front())) {
+    if (find_row(*number)) {
+      return Error{ErrorCode::TableFileMalformed, fmt::format("row {} is there twice", *number)};
+    }
+    if (ascending_.empty() || *number > number_of(ascending_.back()))
+      ascending_.push_back(static_cast<std::uint32_t>(rows_.size()));
+    else
+      others_.emplace(*number, rows_.size());
   }
-  rows_.push_back(std::move(cells));
+  for (std::size_t i = 0; i < count; ++i) {
+    text_ += cells[i];
+    ends_.push_back(static_cast<std::uint32_t>(text_.size()));
+  }
+  rows_.push_back(static_cast<std::uint32_t>(ends_.size()));
   return {};
 }
 
@@ -100,8 +119,10 @@ Result<std::size_t> TabTable::find_column(std::string_view name) const {
 }
 
 Result<std::size_t> TabTable::find_row(std::int64_t number) const {
-  const auto found = rows_by_number_.find(number);
-  if (found != rows_by_number_.end()) return found->second;
+  const auto found = std::ranges::lower_bound(ascending_, std::optional(number), {},
+                                              [this](std::size_t row) { return number_of(row); });
+  if (found != ascending_.end() && number_of(*found) == number) return *found;
+  if (const auto other = others_.find(number); other != others_.end()) return other->second;
   return Error{ErrorCode::TableRowMissing,
                fmt::format("table {} has no row {} in its column {}", header_.name, number,
                            columns_.front().name)};
@@ -163,11 +184,19 @@ Result<void> TabTable::set_text(std::int64_t row, std::string_view column, std::
                  fmt::format("'{}' is longer than the {} characters of {} in table {}", written,
                              target.width, place_of(row, column), header_.name)};
   }
-  auto& cells = rows_[place->row];
-  if (cells.size() <= place->column) cells.resize(place->column + 1);
-  cells[place->column] = written;
-  while (!cells.empty() && cells.back().empty()) cells.pop_back();
+  changed_[*place] = written;
   return {};
+}
+
+bool operator==(const TabTable& left, const TabTable& right) {
+  const auto shape = [](const TabTable& table) {
+    return std::tuple(table.header_, table.columns_, table.row_count());
+  };
+  if (shape(left) != shape(right)) return false;
+  for (std::size_t row = 0; row < left.row_count(); ++row)
+    for (std::size_t column = 0; column < left.columns_.size(); ++column)
+      if (left.cell(row, column) != right.cell(row, column)) return false;
+  return true;
 }
 
 std::string write_tab(const TabTable& table) {

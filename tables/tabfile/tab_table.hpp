@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -60,7 +61,7 @@ class TabTable {
 
   /// Appends a row; missing cells are blank.
   /// @errors TableFileMalformed if its number exists or it has more cells than columns.
-  Result<void> append_row(std::vector<std::string> cells);
+  Result<void> append_row(const std::vector<std::string_view>& cells);
 
   /// @errors TableColumnMissing.
   Result<std::size_t> find_column(std::string_view name) const;
@@ -85,20 +86,26 @@ class TabTable {
   ///   column, which numbers the rows.
   Result<void> set_text(std::int64_t row, std::string_view column, std::string_view value);
 
-  friend bool operator==(const TabTable&, const TabTable&) = default;
+  friend bool operator==(const TabTable& left, const TabTable& right);
 
  private:
   struct Place {
     std::size_t row;
     std::size_t column;
+    friend auto operator<=>(const Place&, const Place&) = default;
   };
+  std::optional<std::int64_t> number_of(std::size_t row) const;
   Result<Place> find(std::int64_t row, std::string_view column) const;
 
   TabHeader header_;
   std::vector<TabColumn> columns_;
   std::map<std::string, std::size_t, std::less<>> columns_by_name_;
-  std::vector<std::vector<std::string>> rows_;  ///< without trailing blank cells
-  std::map<std::int64_t, std::size_t> rows_by_number_;
+  std::string text_;                 ///< cells of the appended rows, without trailing blank ones
+  std::vector<std::uint32_t> ends_;  ///< of the cells in text_
+  std::vector<std::uint32_t> rows_;  ///< count of cells up to the end of each row
+  std::map<Place, std::string> changed_;        ///< cells written since
+  std::vector<std::uint32_t> ascending_;        ///< rows whose number is above all before
+  std::map<std::int64_t, std::size_t> others_;  ///< the other numbered rows
 };
 
 /// Writes a table in the form that its header names; read_tab returns an equal table.

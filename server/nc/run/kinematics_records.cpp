@@ -127,7 +127,7 @@ void append(TabTable& table, const std::string& name, std::string_view part, std
     for (std::size_t k = 0; k < 3; ++k) cells.push_back(fmt::format("{}", vector[k]));
   }
   cells.push_back(fmt::format("{}", zero_deg));
-  table.append_row(std::move(cells)).value();
+  table.append_row({cells.begin(), cells.end()}).value();
 }
 
 }  // namespace

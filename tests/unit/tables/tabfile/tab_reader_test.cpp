@@ -175,6 +175,26 @@ TEST_CASE("a table that takes all it may is refused where that shows") {
   CHECK(read_tab_file(rows, enough)->row_count() == 10'000);
 }
 
+TEST_CASE("a million cells fit in the memory of a run beside their file") {
+  std::string rows = "BEGIN A\nNR      X\n";
+  for (int i = 0; i < 500'000; ++i) rows += fmt::format("{:<8}{}\n", i, i % 1000);
+  rows += "[END]\n";
+  Allowance memory(std::chrono::hours(1), std::size_t{32} << 20, {});
+  const auto table = read_tab_file(rows, memory);
+  REQUIRE(table.has_value());
+  CHECK(*table->number(499'999, "X") == 999);
+}
+
+TEST_CASE("rows are found in any order of their numbers") {
+  TabTable points = table("BEGIN A\nNR X\n5  a\n3  b\n   c\n9  d\n-4 e\n[END]\n");
+  CHECK(*points.text(5, "X") == "a");
+  CHECK(*points.text(3, "X") == "b");
+  CHECK(*points.text(9, "X") == "d");
+  CHECK(*points.text(-4, "X") == "e");
+  CHECK(points.find_row(4).error().code == ErrorCode::TableRowMissing);
+  CHECK(refusal("BEGIN A\nNR X\n5\n3\n9\n3\n[END]\n") == "line 6: row 3 is there twice");
+}
+
 TEST_CASE("what is written reads back") {
   for (const char* file : {kItnc, kTnc640, "BEGIN TOOL\nT  NAME  R\n0\n1  A     +2\n[END]\n"}) {
     const TabTable first = table(file);
