@@ -30,6 +30,9 @@ export function verdictMark(verdict) {
 
 export const isUnverified = ({ verdict, envelope_result: found }) => verdict === 'good' && found === 'not_verified';
 
+/** How many characteristics have a value; each without a name is one by itself. */
+export const countOf = (names) => new Set(names.map((name) => name || {})).size;
+
 /** The verdict of a record; one that is good says where no GO gauge has verified the envelope that is required. */
 export const recordMark = (record) => [verdictMark(record.verdict), isUnverified(record) && h('span.aside', t('envelope.not_verified'))];
 

@@ -149,11 +149,13 @@ export class Ledger extends EventTarget {
     return this.of(plan, part, round).filter(({ shown }) => shown.characteristic === name).at(-1);
   }
 
-  /** The values in force of a sample: the newest, and those before it after which the sample went on. */
+  /** The values in force of a sample: the newest, those before it after which the sample went on, and a GO gauge that failed and was not used since. */
   sampleInForce(plan, part, round, name) {
     const all = this.of(plan, part, round).filter(({ shown }) => shown.characteristic === name);
     all.sort((one, other) => this.#rootOf(one).seq - this.#rootOf(other).seq);
-    return all.slice(all.findLastIndex((value, i) => i < all.length - 1 && !value.partial) + 1);
+    const from = all.findLastIndex((value, i) => i < all.length - 1 && !value.partial) + 1;
+    const tried = all.findLastIndex(({ record }) => record?.go_gauge);
+    return all.filter((value, i) => i >= from || (i === tried && value.record.go_gauge === 'fails'));
   }
 
   /** When a part was measured last, by its values in force: a date, or undefined. */

@@ -1,7 +1,7 @@
 /** Asks the service what it has and no event told of: the page was closed, or another station was there. */
 
 import { getJson, PATIENCE_MS, url } from '../api.js';
-import { isUnverified } from '../verdict.js';
+import { countOf, isUnverified } from '../verdict.js';
 
 export const WORST_FIRST = ['reject', 'rework', 'indeterminate', 'good'];
 
@@ -52,10 +52,10 @@ export class PartRecord {
   result(part, plan, own) {
     const isStored = own.every(({ value }) => value.record);
     const others = isStored && part ? this.#others(part, plan, own) : [];
-    const measured = [...own.filter(({ name }) => !others?.some((other) => other.name === name)), ...others ?? []];
+    const measured = [...own.filter(({ name, value }) => !others?.some((other) => other.name === name && timeOf(other.value) >= timeOf(value))), ...others ?? []];
     const verdict = WORST_FIRST.find((word) => measured.some((each) => each.verdict === word));
     const newest = measured.reduce((one, other) => (timeOf(other.value) > timeOf(one.value) ? other : one));
-    return { part, verdict, bad: measured.filter((each) => each.verdict !== 'good'), count: measured.length, newest, unverified: measured.some(({ value: { record } }) => record && isUnverified(record)), provisional: !isStored || others === null ? 'away' : others ? undefined : 'storing' };
+    return { part, verdict, bad: measured.filter((each) => each.verdict !== 'good'), count: countOf(measured.map(({ name }) => name)), newest, unverified: measured.some(({ value: { record } }) => record && isUnverified(record)), provisional: !isStored || others === null ? 'away' : others ? undefined : 'storing' };
   }
 
   /** The values of others; undefined while they are asked for, null where there was no answer. */

@@ -159,6 +159,7 @@ export default {
   'part.missing_count': '{count} fehlen',
   'part.open_count': '{count} zu erledigen',
   'part.missing': 'Noch nicht gemessen: {names}.',
+  'part.go_fails': 'Die Gutlehre passt nicht: {names}.',
   'part.unverified': 'Keine Gutlehre hat die Hüllbedingung geprüft: {names}.',
   'part.unnamed': 'ein Wert ohne Merkmal',
   'part.measure': 'Jetzt messen',

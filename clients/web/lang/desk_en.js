@@ -159,6 +159,7 @@ export default {
   'part.missing_count': '{count} missing',
   'part.open_count': '{count} to be done',
   'part.missing': 'Not measured yet: {names}.',
+  'part.go_fails': 'The GO gauge does not pass: {names}.',
   'part.unverified': 'No GO gauge has verified the envelope: {names}.',
   'part.unnamed': 'a value without a characteristic',
   'part.measure': 'Measure it',

@@ -159,6 +159,7 @@ export default {
   'part.missing_count': '{count} mancanti',
   'part.open_count': '{count} da fare',
   'part.missing': 'Non ancora misurati: {names}.',
+  'part.go_fails': 'Il calibro passa non passa: {names}.',
   'part.unverified': 'Nessun calibro passa ha verificato l’inviluppo: {names}.',
   'part.unnamed': 'un valore senza caratteristica',
   'part.measure': 'Misura ora',

@@ -159,6 +159,7 @@ export default {
   'part.missing_count': '{count} ontbreken',
   'part.open_count': '{count} te doen',
   'part.missing': 'Nog niet gemeten: {names}.',
+  'part.go_fails': 'Het goedkaliber past niet: {names}.',
   'part.unverified': 'Geen goedkaliber heeft de omhulling gecontroleerd: {names}.',
   'part.unnamed': 'een waarde zonder kenmerk',
   'part.measure': 'Nu meten',

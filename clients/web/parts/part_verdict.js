@@ -4,7 +4,7 @@ import { getJson, url } from '../api.js';
 import { h, refill } from '../dom.js';
 import { t } from '../i18n.js';
 import { fragment } from '../route.js';
-import { isUnverified, verdictShape } from '../verdict.js';
+import { countOf, isUnverified, verdictShape } from '../verdict.js';
 
 /** So many questions at once. */
 const MOST_ASKED = 3;
@@ -14,6 +14,7 @@ const saysMore = ({ plan, characteristics }) => plan !== undefined || characteri
 /** Without a plan nobody knows what is missing: good values make no good part. */
 const isOpenEnded = ({ verdict, plan }) => verdict === 'good' && plan === undefined;
 const unverifiedOf = ({ characteristics }) => characteristics.filter(isUnverified);
+const namesOf = (values) => values.map(({ characteristic }) => characteristic ?? t('part.unnamed')).join(', ');
 const wordOf = ({ verdict, missing }) => t(verdict ? `verdict.${verdict}` : missing.length ? 'part.incomplete' : 'verdict.unjudged');
 const shapeOf = (found) => (isOpenEnded(found) ? null : found.verdict ?? (found.missing.length ? 'open' : null));
 
@@ -103,12 +104,15 @@ export async function partSheet(part, signal) {
   const found = await verdictOf(part, signal).catch((problem) => { if (problem.status === 404) return null; throw problem; });
   if (!found) return null;
   const { plan, missing, open_reactions: open, characteristics } = found;
-  const counted = t('part.measured_count', { count: characteristics.length });
+  const failed = characteristics.filter(({ envelope_result: result }) => result === 'failed');
+  const unverified = unverifiedOf(found).filter(({ characteristic: name }) => !name || !failed.some(({ characteristic }) => characteristic === name));
+  const counted = t('part.measured_count', { count: countOf(characteristics.map(({ characteristic }) => characteristic)) });
   const station = plan && h('a', { href: fragment({ view: 'gauge', options: { plan, part_id: part } }) }, t('part.measure'));
   return h('section.sheet.part-verdict', { 'data-verdict': found.verdict, 'aria-label': t('panel.part', { part }) }, shapeOf(found) ? verdictShape(shapeOf(found)) : null,
     h('div', h('p.headline', [part, !isOpenEnded(found) && wordOf(found)].filter(Boolean).join(' · ')),
       h('p', [counted, plan === undefined ? t('part.by_no_plan') : t('part.by_plan', { plan })].filter(Boolean).join(' · ')),
-      unverifiedOf(found).length > 0 && h('p.missing', t('part.unverified', { names: unverifiedOf(found).map(({ characteristic }) => characteristic ?? t('part.unnamed')).join(', ') })),
+      failed.length > 0 && h('p.missing', t('part.go_fails', { names: namesOf(failed) })),
+      unverified.length > 0 && h('p.missing', t('part.unverified', { names: namesOf(unverified) })),
       missing.length > 0 && h('p.missing', t('part.missing', { names: missing.join(', ') }), ' ', station),
       open.length > 0 && h('ul', { 'aria-label': t('part.open') }, open.map(({ characteristic, reaction }) => h('li', h('strong', characteristic), ` ${reaction ?? t('part.cause')}`))),
       h('p.aside', t('part.rule'))));

@@ -146,11 +146,12 @@ std::string distance_text(const app::Measurement& m) {
   const Length below = m.lower_limit() - m.decisive();
   const bool is_upper = m.has_upper_limit() && (!m.has_lower_limit() || below <= above);
   const Length beyond = is_upper ? above : below;
-  return fmt::format("{} \u00b5m {} the {} limit", format_um(beyond < Length() ? -beyond : beyond),
-                     beyond <= Length() ? "inside"
-                     : is_upper         ? "above"
-                                        : "below",
-                     is_upper ? "upper" : "lower");
+  return fmt::format(
+      "{} \u00b5m {} the {} limit{}", format_um(beyond < Length() ? -beyond : beyond),
+      beyond <= Length() ? "inside"
+      : is_upper         ? "above"
+                         : "below",
+      is_upper ? "upper" : "lower", m.has_failed_envelope() ? ", the GO gauge does not pass" : "");
 }
 
 /// `2026-11-22 08:00:00`, UTC
@@ -229,25 +230,26 @@ void CertificateDraft::add(const app::Measurement& m) {
 
 void CertificateDraft::count(const app::Measurement& m) {
   const std::optional<double> place = place_of(m);
-  values_.push_back({.id = app::measurement_id_text(m.id, m.origin),
-                     .standing = standing_of(m),
+  values_.push_back({.candidate = candidate_of(m),
+                     .id = app::measurement_id_text(m.id, m.origin),
                      .verdict = m.result.verdict,
                      .badness = {kSeverity.at(static_cast<std::size_t>(m.result.verdict)),
                                  place ? std::abs(2 * *place - 1) : 0}});
-  const std::size_t here = values_.size() - 1;
-  std::size_t& last = last_.try_emplace(key_of(m), here).first->second;
-  if (last == here) return;
-  const bool is_earlier = standing_of(m) < values_[last].standing;
-  values_[is_earlier ? here : last].counts = false;
-  if (!is_earlier) last = here;
 }
 
 const CertificateDraft::Counted& CertificateDraft::worst() const {
-  return *std::ranges::max_element(
-      values_, {}, [](const Counted& value) { return std::pair(value.counts, value.badness); });
+  return *std::ranges::max_element(values_, {}, [](const Counted& value) {
+    return std::pair(value.candidate.counts, value.badness);
+  });
 }
 
-std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpoint) const {
+std::size_t CertificateDraft::measured_again() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(values_, [](const Counted& value) { return !value.candidate.counts; }));
+}
+
+std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpoint) {
+  choose(values_);
   return json_object([&](JsonWriter& json) {
     for (const auto& [name, value] : order_.of) json.member(name, value);
     json.member("title", order_.title);
@@ -260,7 +262,7 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
     if (measured_again() > 0) {
       json.key("measured_again").begin_array();
       for (const Counted& value : values_) {
-        if (!value.counts) json.value(value.id);
+        if (!value.candidate.counts) json.value(value.id);
       }
       json.end_array();
     }
@@ -298,7 +300,8 @@ std::string CertificateDraft::summary() const {
   text += '.';
   if (measured_again() > 0) {
     text += fmt::format(
-        " Measured again: {}; of each characteristic of a part the value measured last counts.",
+        " Measured again: {}; of each characteristic of a part the value measured last counts, and "
+        "a GO gauge that does not pass until it passes.",
         measured_again());
   }
   return text;
@@ -312,8 +315,9 @@ bool CertificateDraft::has_verdict() const {
 
 std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoint,
                                   const certificate::Letterhead& letterhead) {
+  choose(values_);
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    if (!values_[i].counts) lines_[i].measured += "; measured again";
+    if (!values_[i].candidate.counts) lines_[i].measured += "; measured again";
   }
   certificate::Certificate paper{
       .title = order_.title,

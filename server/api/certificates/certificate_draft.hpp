@@ -42,7 +42,7 @@ class CertificateDraft {
   void hold_against(PlanOfPart plan) { plan_ = std::move(plan); }
 
   /// @param checkpoint the signed head of the log
-  std::string json(Timestamp made_at, const std::string& checkpoint) const;
+  std::string json(Timestamp made_at, const std::string& checkpoint);
   /// Once. @throws std::runtime_error as certificate::to_pdf does.
   std::string pdf(Timestamp made_at, const std::string& checkpoint,
                   const certificate::Letterhead& letterhead);
@@ -50,18 +50,17 @@ class CertificateDraft {
  private:
   /// A value, as far as the verdict on all needs it.
   struct Counted {
+    Candidate candidate{};
     std::string id{};
-    Standing standing{};
     gauging::Verdict verdict{};
     std::pair<int, double> badness{};  ///< by its verdict, then by its share of the tolerance
     std::string text{};                ///< on paper
-    bool counts = true;                ///< it is not measured again
   };
 
   void count(const app::Measurement& measurement);
   /// The worst value of those that count.
   const Counted& worst() const;
-  std::size_t measured_again() const { return values_.size() - last_.size(); }
+  std::size_t measured_again() const;
   /// Returns false if no value has limits, or if all are good but one is missing.
   bool has_verdict() const;
   std::string summary() const;
@@ -87,9 +86,8 @@ class CertificateDraft {
   std::set<UsedGauge> gauges_;
   std::map<std::string, int> revisions_;
   std::set<std::string, std::less<>> parts_;
-  std::map<std::string, std::size_t> rules_;       ///< in words, numbered from 1 on
-  std::vector<Counted> values_;                    ///< in the order of lines_
-  std::map<CharacteristicKey, std::size_t> last_;  ///< place in values_ of the one that counts
+  std::map<std::string, std::size_t> rules_;  ///< in words, numbered from 1 on
+  std::vector<Counted> values_;               ///< in the order of lines_
 };
 
 }  // namespace fitgauge::api

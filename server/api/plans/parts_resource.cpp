@@ -21,25 +21,23 @@ using app::NamedDocument;
 constexpr std::size_t kMostValues = 10'000;  ///< of one part; older ones are ignored
 
 struct PartValue {
-  CharacteristicKey key{};
-  Standing standing{};
+  Candidate candidate{};
   std::optional<std::string> characteristic{};
   std::string measurement{};
   std::optional<std::string_view> verdict{};
   std::optional<std::string_view> envelope{};
   Length measured{};
-  Timestamp measured_at{};
   bool has_note = false;
   bool has_cause = false;  ///< or an action: what a catalogue asks for
 };
 void members(auto& v, const PartValue& value) {
   v.optional("characteristic", value.characteristic, "Absent if the value names no characteristic");
-  v.member("measurement_id", value.measurement, "The newest record");
+  v.member("measurement_id", value.measurement, "The record");
   v.member("verdict", value.verdict, "Verdict; null without limits");
   v.optional("envelope_result", value.envelope,
              "verified, not_verified or failed, if the envelope is required");
   v.member("measured_mm", value.measured, Millimetres{});
-  v.member("measured_at", value.measured_at, Time{}, "Time in UTC");
+  v.member("measured_at", value.candidate.measured_at, Time{}, "Time in UTC");
 }
 
 /// A characteristic of a plan and its record.
@@ -103,13 +101,15 @@ void hold_against(const std::vector<Reaction>& plan, Part& part) {
   std::ranges::stable_sort(part.values, {},
                            [&](const auto& value) { return place_in(plan, value); });
   for (const Reaction& each : plan) {
-    const auto value =
-        std::ranges::find(part.values, each.characteristic, &PartValue::characteristic);
-    if (value == part.values.end()) {
-      if (each.is_at_each_part) part.missing.push_back(each.characteristic);
-    } else if (value->verdict.value_or("good") != "good" &&
-               (each.has_catalogue ? !value->has_cause : each.reaction && !value->has_note)) {
-      part.reactions.emplace_back(each).measurement = value->measurement;
+    const auto values =
+        std::ranges::equal_range(part.values, &each - plan.data(), {},
+                                 [&](const auto& value) { return place_in(plan, value); });
+    if (values.empty() && each.is_at_each_part) part.missing.push_back(each.characteristic);
+    for (const PartValue& value : values) {
+      if (value.verdict.value_or("good") != "good" &&
+          (each.has_catalogue ? !value.has_cause : each.reaction && !value.has_note)) {
+        part.reactions.emplace_back(each).measurement = value.measurement;
+      }
     }
   }
 }
@@ -152,26 +152,17 @@ void judge(Part& part) {
   }
 }
 
-/// Of a characteristic one value counts; of two that were measured at one time the later one.
-/// @param m stored before those that are there
-void add_value(const app::Measurement& m, Part& part) {
-  PartValue value{.key = key_of(m),
-                  .standing = standing_of(m),
+PartValue value_of(const app::Measurement& m) {
+  PartValue value{.candidate = candidate_of(m),
                   .measurement = app::measurement_id_text(m.id, m.origin),
                   .measured = m.measured,
-                  .measured_at = m.measured_at,
                   .has_note = !m.notes.empty(),
                   .has_cause = std::ranges::any_of(
                       m.notes, [](const auto& note) { return note.cause || note.measure; })};
   if (m.characteristic) value.characteristic.emplace(*m.characteristic);
   if (m.is_judged()) value.verdict = word(m.result.verdict);
   if (m.envelope) value.envelope = app::members::envelope_result(m);
-  const auto newer = std::ranges::find(part.values, value.key, &PartValue::key);
-  if (newer == part.values.end()) {
-    part.values.push_back(std::move(value));
-  } else if (newer->standing < value.standing) {
-    *newer = std::move(value);
-  }
+  return value;
 }
 
 /// @param plan lives until `done` is called
@@ -182,7 +173,8 @@ void read_part(const Services& services, std::string_view id, std::optional<std:
   query.texts.at(app::filter_place(1)) = part->part;
   query.newest_first = query.shows_notes = true;
   services.measurements.list(
-      query, 0, kMostValues, [part](const app::Measurement& m) { add_value(m, *part); },
+      query, 0, kMostValues,
+      [part](const app::Measurement& m) { part->values.push_back(value_of(m)); },
       [&services, part, plan, done = std::move(done)](const Result<app::ListPage>& page) {
         if (!page) return done(page.error());
         if (part->values.empty()) {
@@ -190,6 +182,8 @@ void read_part(const Services& services, std::string_view id, std::optional<std:
                             fmt::format("no measurement has part_id '{}'", part->part)});
         }
         std::ranges::reverse(part->values);
+        choose(part->values);
+        std::erase_if(part->values, [](const auto& value) { return !value.candidate.counts; });
         services.documents.list(
             app::DocumentKind::Plan,
             [part, plan, done](const Result<std::vector<NamedDocument>>& plans) {
@@ -229,7 +223,8 @@ void add_parts_routes(Routes& add) {
        .description =
            "The value of each characteristic that was measured last, with corrections; the verdict "
            "is the worst of them. A value without a characteristic stands alone, and one without "
-           "limits takes no other's place. Without `plan` the plan with the name of the part is "
+           "limits takes no other's place. A value whose GO gauge failed also counts until this "
+           "gauge passes. Without `plan` the plan with the name of the part is "
            "used, or the only plan that has every measured characteristic; without a plan nothing "
            "is missing.",
        .parameters = {path_parameter("part", "part_id of its measurements"),

@@ -93,6 +93,32 @@ class Certificates(DaemonTest):
             self.assertIn("25.020 mm", head)
             self.assertEqual(len(re.findall(r"\bagain\b", table)), 2)
 
+    def test_a_failed_go_gauge_stands_until_it_is_used_again(self):
+        """A later reading shows the size, and not that the gauge enters."""
+        bore = {"designation": "25 H7(E)", "part_id": "E-1", "characteristic": "bore"}
+        def measure(hour, measured="25.01", **more):
+            return self.daemon.measure({**bore, "measured_mm": measured, "measured_at": f"2026-11-20T{hour:02d}:00:00Z", **more}).json["id"]
+        def verdicts():
+            report = self.daemon.get("/v1/certificates?part_id=E-1", Accept="application/json").json
+            part = self.daemon.get("/v1/parts/E-1").json
+            return part["verdict"], report["verdict"], [one["measurement_id"] for one in part["characteristics"]], report.get("measured_again")
+        self.daemon.request("PUT", "/v1/plans/E-1", {"characteristics": [{"name": "bore", "designation": "25 H7(E)", "reaction": "Stop"}]})
+        failed = measure(8, go_gauge="fails")
+        later = measure(9)
+        self.assertEqual(verdicts(), ("rework", "rework", [failed, later], None))
+        part = self.daemon.get("/v1/parts/E-1").json
+        self.assertEqual([part["open_reactions"], part["missing"]], [[{"characteristic": "bore", "reaction": "Stop", "measurement_id": failed}], []])
+        head = self.flat("part_id=E-1").split("Measured at", 1)[0]
+        self.assertIn("25.010 mm, 10 µm inside the lower limit, the GO gauge does not pass.", head)
+        bad = measure(10, "25.03")
+        self.assertEqual(verdicts(), ("reject", "reject", [failed, bad], [later]))
+        passed = measure(11, go_gauge="passes")
+        self.assertEqual(verdicts(), ("good", "good", [passed], [failed, later, bad]))
+        last = measure(12, designation="25 H7")
+        self.assertEqual(verdicts(), ("good", "good", [last], [failed, later, bad, passed]))
+        late = measure(7, go_gauge="fails")  # used before it passed
+        self.assertEqual(verdicts(), ("good", "good", [last], [failed, later, bad, passed, late]))
+
     def test_a_good_value_hides_no_reject_of_another_characteristic(self):
         bad, good = {"designation": "25 H7", "measured_mm": 25.05}, {"designation": "25 H7", "measured_mm": 25.01}
         pairs = [

@@ -127,6 +127,13 @@ describe('the parts', () => {
     }
   });
 
+  it('let a GO gauge that does not pass stand beside a later value without it', async () => {
+    for (const [characteristic, go_gauge] of [['h-bore', 'fails'], ['h-bore', undefined], ['h-pin', 'passes']]) await daemon.send('POST', '/v1/measurements', { designation: '25 H7(E)', measured_mm: '25.01', part_id: 'H-3', characteristic, go_gauge });
+    page = await open(browser, daemon, '#/parts?part_id=H-3');
+    await page.waitForFunction(() => document.querySelector('.part-verdict .headline')?.textContent === 'H-3 · Rework');
+    assert.deepEqual(await page.$$eval('.part-verdict p:not(.headline, .aside)', (all) => all.map(({ textContent }) => textContent)), ['2 measured · held against plan 4716-A', 'The GO gauge does not pass: h-bore.']);
+  });
+
   it('show what is stored, corrected and noted elsewhere', async () => {
     await daemon.send('PUT', '/v1/plans/4717-A', { characteristics: [{ name: 'l-a', designation: '25 H7' }, { name: 'l-b', designation: '25 H7', reaction: 'Stop' }] });
     const measure = async (part_id, characteristic, measured_mm) => (await daemon.send('POST', '/v1/measurements', { designation: '25 H7', characteristic, measured_mm, part_id, order: 'WO-LIVE' })).json();

@@ -222,6 +222,24 @@ describe('a station with a scanner', () => {
     await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 3);
     const said = (await storedSince()).map(({ characteristic, envelope, go_gauge: go, size_operator: operator }) => [characteristic, envelope, go, operator]);
     assert.deepEqual(said, [['e-bore', 'required', 'passes', 'GX'], ['e-pin', undefined, undefined, 'GG'], ['e-free', undefined, undefined, 'LP']]);
+    await scan('SN-E7'); // its GO gauge was tried at another station, and it fails
+    await daemon.send('POST', '/v1/measurements', { nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: 0, envelope: 'required', go_gauge: 'fails', measured_mm: '8.01', part_id: 'SN-E7', characteristic: 'e-bore', measured_at: '2020-01-01T08:00:00Z' });
+    for (const text of ['8.01', '24.99', '30.01']) {
+      await scan(text);
+      await page.waitForFunction((seen) => document.querySelector('.recent li.stored')?.textContent.includes(seen), text);
+    }
+    await page.waitForFunction(() => /Part SN-E7 · e-bore Rework/.test(document.querySelector('.verdict').textContent));
+    await scan('SN-E6');
+    await page.click('.envelope >> text=does not pass');
+    for (const text of ['8.01', '24.99', '30.01']) {
+      await scan(text);
+      await page.waitForFunction((seen) => document.querySelector('.recent li.stored')?.textContent.includes(seen), text);
+    }
+    await page.click('.tiles-of-plan >> text=e-bore'); // measured again, and the gauge is not tried
+    await scan('8.02');
+    await page.waitForFunction(() => document.querySelector('.recent li.stored')?.textContent.includes('8.02'));
+    await page.waitForFunction(() => /Part SN-E6 · e-bore Rework/.test(document.querySelector('.verdict').textContent));
+    assert.equal(await page.textContent('.tiles-of-plan button >> nth=0 >> .unseen'), 'Rework');
     await scan('SN-E8');
     await page.waitForSelector('.envelope:visible');
     await scan('8.01');
