@@ -35,10 +35,11 @@ export class Reactions {
     this.draw();
   }
 
-  /** What has still to be said of a value; without its catalogue both, in words of one's own. */
+  /** What has still to be said of a value; without its catalogue, or by an empty one, both in words of one's own. */
   #asked(value) {
     if (!value.shown.catalogue) return [];
-    const catalogue = readJson(`${KEPT_CATALOGUE}.${value.shown.catalogue}`, null);
+    const kept = readJson(`${KEPT_CATALOGUE}.${value.shown.catalogue}`, null);
+    const catalogue = PARTS.some((part) => kept?.[`${part}s`].length) ? kept : null;
     const said = this.ledger.said(value);
     return PARTS.filter((part) => !said[part] && (!catalogue || catalogue[`${part}s`].length))
       .map((part) => ({ part, choices: catalogue?.[`${part}s`] ?? [] }));

@@ -288,10 +288,11 @@ describe('a plan', () => {
     await locked.cleanup();
   });
 
-  it('takes a cause in words of one\'s own where its catalogue is not there', async () => {
-    await daemon.send('PUT', '/v1/plans/ODD', { characteristics: [{ name: 'odd', designation: '25 H7', catalogue: 'nowhere' }] });
+  for (const catalogue of ['nowhere', 'empty']) it(`takes a cause in words of one's own where its catalogue is ${catalogue}`, async () => {
+    await daemon.send('PUT', '/v1/catalogues/empty', { causes: [], measures: [] });
+    await daemon.send('PUT', '/v1/plans/ODD', { characteristics: [{ name: catalogue, designation: '25 H7', catalogue }] });
     page = await open(browser, daemon, '#/gauge?plan=ODD');
-    await page.waitForFunction(() => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7');
+    await page.waitForFunction((name) => document.querySelector('.echo strong')?.textContent === 'Ø 25 H7' && (name === 'nowhere' || localStorage.getItem(`fitgauge.catalogue.${name}`)), catalogue);
     await line('25.03');
     await verdict('reject');
     for (const [name, text] of [['cause', 'Insert worn'], ['measure', 'None']]) {
@@ -300,7 +301,7 @@ describe('a plan', () => {
     }
     await page.waitForSelector('.reactions', { state: 'hidden' });
     await page.waitForSelector('.link[data-state="up"]');
-    const [record] = await daemon.stored('characteristic=odd&notes=shown');
+    const [record] = await daemon.stored(`characteristic=${catalogue}&notes=shown`);
     assert.deepEqual([record.notes[0].cause, record.notes[0].measure], ['Insert worn', 'None']);
     await close(page);
   });
