@@ -367,6 +367,7 @@ class _PartCharacteristics(TypedDict):
 
 class PartCharacteristics(_PartCharacteristics, total=False):
     characteristic: str
+    other_size: str
     envelope_result: str
 
 

@@ -56,16 +56,22 @@ void read_own_fields(FieldReader& reader, std::set<std::string>& names) {
 }
 
 /// Judges some value as a measurement of the characteristic would be.
-void check_limits(const JsonValue& characteristic, std::size_t index, const BatchContext& context,
-                  FieldErrors& errors) {
-  FieldErrors found;
-  MeasurementRowReader row(context, found);
+std::optional<SizeLimits> judge_some(const JsonValue& characteristic, std::size_t index,
+                                     const BatchContext& context, FieldErrors& errors) {
+  MeasurementRowReader row(context, errors);
   row.begin(index);
   row.field("measured_mm", {.kind = RawValue::Kind::Number, .text = "1"});
   for (const std::string_view name : kMeasurementFields) {
     if (const JsonValue* value = characteristic.find(name)) row.field(name, raw_value(*value));
   }
-  row.end();
+  const app::Measurement* judged = row.end();
+  return judged != nullptr ? size_of(*judged) : std::nullopt;
+}
+
+void check_limits(const JsonValue& characteristic, std::size_t index, const BatchContext& context,
+                  FieldErrors& errors) {
+  FieldErrors found;
+  judge_some(characteristic, index, context, found);
   const auto error = found.take();
   if (!error) return;
   for (const Error& each : error->details) {
@@ -167,6 +173,12 @@ Result<std::string> read_plan(const JsonValue& body, std::string_view part,
   }
   if (auto error = errors.take()) return std::move(*error);
   return stored_text(body, part);
+}
+
+std::optional<SizeLimits> planned_size(const JsonValue& characteristic,
+                                       const BatchContext& context) {
+  FieldErrors ignored;
+  return judge_some(characteristic, 0, context, ignored);
 }
 
 Result<PlanHead> read_plan_head(std::string_view text) {
