@@ -3,9 +3,11 @@
 import { h } from '../dom.js';
 import { t } from '../i18n.js';
 import { pathFigure, pathLegend } from './path_figure.js';
+import { drawnFeatures } from './workpiece_outline.js';
 
 /** {element, show, destroy}. @param trace a Trace; @param space of prepareSpace; @param setup {radius, sphere}: of the stylus' ball in mm, and the calibration sphere */
-export async function pathView(trace, features, space, setup) {
+export async function pathView(trace, given, space, setup) {
+  const features = drawnFeatures(given);
   const scene = space && await sceneOf(trace, features, space, setup);
   const legend = pathLegend(trace);
   if (!scene) {

@@ -18,6 +18,16 @@ function side(corners) {
   return [[low.X, 0, low.Z], [high.X, 0, low.Z], [high.X, 0, high.Z], [low.X, 0, high.Z]].map(point);
 }
 
+/** Of a measured surface the material below its lowest point, as thick as a tenth of its length. */
+function below({ points_mm: points }) {
+  const [low, high] = [Math.min, Math.max].map((most) => [0, 1, 2].map((axis) => points.map((each) => each[axis]).reduce((one, other) => most(one, other))));
+  const thickness = Math.max(high[0] - low[0], high[1] - low[1]) / 10;
+  return { type: 'block', min_mm: [low[0], low[1], low[2] - thickness], max_mm: [high[0], high[1], low[2]] };
+}
+
+/** The features as they are drawn. */
+export const drawnFeatures = (features) => features.map((feature) => (feature.type === 'surface' ? below(feature) : feature));
+
 const OUTLINES = {
   block: (feature, up) => {
     const corners = box(feature.min_mm, feature.max_mm);

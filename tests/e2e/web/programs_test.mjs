@@ -14,6 +14,7 @@ import fs from 'node:fs';
 import { afterEach, before, describe, it } from 'node:test';
 
 import { sphereCentre, touchedSpheres } from '../../../clients/web/figures/touched_sphere.js';
+import { drawnFeatures, outlines } from '../../../clients/web/figures/workpiece_outline.js';
 import { KINDS, Trace } from '../../../clients/web/figures/trace.js';
 import { close, drawn, hashOf, open, openIn, picture } from './support/browser.mjs';
 import { eventually } from './support/eventually.mjs';
@@ -350,6 +351,16 @@ describe('the programs', () => {
     const spots = touchedSpheres(new Trace(new TextEncoder().encode(JSON.stringify({ moves }))));
     assert.deepEqual(spots.map(({ degrees: { C } }) => C), [0, 60]);
     spots.forEach(({ centre, degrees: { C } }) => centre.forEach((value, i) => assert.ok(Math.abs(value - [C, -C, 0][i]) < 1e-6)));
+  });
+
+  it('show the material below a measured surface', async () => {
+    page = await open(browser, daemon, '#/programs');
+    await page.click('.empty button:has-text("444")');
+    await showDrawing();
+    assert.equal(await page.locator('.path-view path.block').count(), 2);
+    const { workpiece: { features } } = JSON.parse(fs.readFileSync('clients/nc/444/setups/plate.json', 'utf8'));
+    const [{ points }] = outlines(drawnFeatures(features), 'Z');
+    assert.deepEqual(points.map(({ X, Z }) => [X, Z]), [[0, -10.015], [100, -10.015], [100, -0.015], [0, -0.015]]);
   });
 
   it('fall back to the drawing where there is no WebGL', async () => {
