@@ -65,6 +65,14 @@ export class LongList {
     return this.held.find(({ record }) => record.id === id);
   }
 
+  /** Whether its rows say something else by now; those that came at the top are no matter. */
+  async isOld(signal) {
+    const said = (rows) => JSON.stringify(rows.map(({ record, isReplaced }) => [record, isReplaced]));
+    const after = this.isBottom ? undefined : this.held.at(-1)?.record.id;
+    const held = this.held.slice(0, after ? -1 : undefined).reverse();
+    return held.length > 0 && said(await this.read({ sort: 'oldest', limit: held.length, after }, signal)) !== said(held);
+  }
+
   /** Rows may have come at the top: they are read where it is in sight, else when it comes into sight. */
   async renew() {
     if (!this.held.length) return this.open();

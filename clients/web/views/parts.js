@@ -126,6 +126,7 @@ export function mount(main, route) {
   let timer = 0;
   let isAnew = false;
   let isFollowed = false;
+  let isInDoubt = false;
   function arrived({ type, data }) {
     const told = JSON.parse(data);
     if (type === 'note.added') {
@@ -138,9 +139,9 @@ export function mount(main, route) {
       isAnew ||= isCorrected;
       verdicts.renew(told.part_id);
     } else if (type === 'resync') {
-      // The first comes when the stream begins, just after the list was read.
+      // The first comes when the stream begins: what the list has not read by then, no event tells.
       isAnew ||= isFollowed;
-      isFollowed = true;
+      isInDoubt = isFollowed = true;
     } else return;
     timer ||= setTimeout(renew, GATHER_MS);
   }
@@ -152,6 +153,12 @@ export function mount(main, route) {
   async function renew() {
     timer = list.isBusy ? setTimeout(renew, GATHER_MS) : 0;
     if (timer || location.hash !== address) return;
+    if (isInDoubt && !isAnew) {
+      const isOld = await list.isOld(leaving.signal).catch(() => false);
+      isAnew ||= isOld;
+    }
+    isInDoubt = false;
+    if (leaving.signal.aborted || location.hash !== address) return;
     if (isAnew) {
       isAnew = false;
       search(at);

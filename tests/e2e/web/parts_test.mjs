@@ -11,6 +11,7 @@ import { afterEach, describe, it } from 'node:test';
 
 import { close, findings, hashOf, open, picture, saved } from './support/browser.mjs';
 import { Daemon } from './support/daemon.mjs';
+import { holdAll } from './support/hold.mjs';
 import { scan } from './support/scanner.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
@@ -174,6 +175,24 @@ describe('the parts', () => {
     await page.reload();
     await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 1);
     assert.equal(await page.$eval('[name="verdict"]', ({ selectedOptions: [{ textContent }] }) => textContent), 'Not judged');
+  });
+
+  it('say what was noted and corrected between their reading and the begin of the stream', async () => {
+    const send = async (path, body) => (await daemon.send('POST', path, body)).json();
+    const [{ id: noted }, { id: corrected }] = [await send('/v1/measurements', { designation: '25 H7', measured_mm: '25.03', part_id: 'B-1', order: 'WO-B' }), await send('/v1/measurements', { designation: '25 H7', measured_mm: '25.04', part_id: 'B-2', order: 'WO-B' })];
+    page = await open(browser, daemon, '#/style');
+    await page.evaluate(() => { SharedWorker = undefined; }); // the driver holds no question of a worker
+    for (const [path, body, text] of [[`${noted}/notes`, { text: 'by hand' }, /by hand/], [`${corrected}/corrections`, { measured_mm: '25.012', reason: 'slipped' }, /slipped/]]) {
+      const go = await holdAll(page, '**/v1/events');
+      await page.evaluate(() => { location.hash = '#/parts?order=WO-B'; });
+      await page.waitForFunction(() => document.querySelectorAll('.records tbody tr').length === 2);
+      await send(`/v1/measurements/${path}`, body);
+      go();
+      await page.waitForFunction((wanted) => new RegExp(wanted).test(document.querySelector('.records tbody')?.textContent) && document.querySelectorAll('.records tbody tr').length === 2, text.source);
+      await page.unroute('**/v1/events');
+      await page.evaluate(() => { location.hash = '#/style'; });
+      await page.waitForSelector('.records', { state: 'detached' });
+    }
   });
 
   it('wait for a cause where the plan names a catalogue alone', async () => {
