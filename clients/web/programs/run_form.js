@@ -127,7 +127,7 @@ export class RunForm {
     const onMoves = (slider, figure) => {
       if (this.shown !== run.id) return figure.destroy();
       Object.assign(this, { slider, figure });
-      return null;
+      return this.onMove(slider.trace.at(slider.trace.length - 1));
     };
     const report = await runReport(run, { onMoves, onMove: this.onMove });
     if (this.shown !== run.id) return;

@@ -133,6 +133,14 @@ describe('a stored run', () => {
     await close(page);
   });
 
+  it('ends with the program of its last move open', async () => {
+    await daemon.send('PUT', '/v1/files/nc_prog/ENDS.H', '0 BEGIN PGM ENDS MM\n1 TOOL CALL 5 Z S2000\n2 Q1 = +1\n3 CALL PGM INNER\n4 END PGM ENDS MM\n', 'text/plain');
+    const { id } = await (await daemon.send('POST', '/v1/runs', { program: 'TNC:\\nc_prog\\ENDS.H', setup: 'mill' })).json();
+    const page = await open(browser, daemon, `#/programs/nc_prog/ENDS.H?run=${id}`);
+    await page.waitForSelector('.called:not([hidden]) .cm-here:has-text("L Z+20")');
+    await close(page);
+  });
+
   it('stops at what is set beside the lines of the editor, and of the program that it calls, for the window', async () => {
     const page = await open(browser, daemon, '#/programs/nc_prog/LOOP.H', { viewport: { width: 1366, height: 768 } });
     await page.waitForSelector('.cm-line');
