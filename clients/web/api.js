@@ -95,6 +95,9 @@ export async function request(method, path, { body, headers = {}, signal, timeou
 export const get = (path, options) => request('GET', path, options);
 export const getJson = async (path, options) => (await get(path, options)).json();
 
+/** Whether a browser folds a part out of a path, also where it is encoded. */
+export const isFolded = (part) => ['.', '..'].includes(part);
+
 /** A path from parts and a query; parts are encoded, empty options left out. */
 export function url(parts, options = {}) {
   const given = Object.entries(options).filter(([, value]) => value !== '' && value !== undefined && value !== null);

@@ -1,5 +1,6 @@
 /** The verdict across the shop: shape, word, value, of which part it is, and where it lies between the limits. */
 
+import { isFolded } from '../api.js';
 import { designationText } from '../designation.js';
 import { h } from '../dom.js';
 import { number, t } from '../i18n.js';
@@ -92,6 +93,7 @@ export class Panel {
       verdictShape(verdict),
       h('div.said', word(t(`verdict.${verdict}`)), h('p.measured', [part && t('panel.part', { part }), ...names].filter(Boolean).join(' · ')),
         !names.length && h('p.distance', [t('plan.finished', { count }), unverified && t('envelope.not_verified')].filter(Boolean).join(' · ')),
+        isFolded(part) && h('p.distance', t('part.folded', { part })),
         h('p.distance', [`${newest.name} ${measured} mm`.trim(), names.length && t(`verdict.${newest.verdict}`), record && distanceText(record)].filter(Boolean).join(' · '))),
     ].filter(Boolean), provisional);
     this.isOfPart = true;

@@ -1,6 +1,6 @@
 /** Asks the service what it has and no event told of: the page was closed, or another station was there. */
 
-import { getJson, PATIENCE_MS, url } from '../api.js';
+import { getJson, isFolded, PATIENCE_MS, url } from '../api.js';
 import { countOf, isUnverified } from '../verdict.js';
 
 export const WORST_FIRST = ['reject', 'rework', 'indeterminate', 'good'];
@@ -51,7 +51,7 @@ export class PartRecord {
    */
   result(part, plan, own) {
     const isStored = own.every(({ value }) => value.record);
-    const others = isStored && part ? this.#others(part, plan, own) : [];
+    const others = isStored && part && !isFolded(part) ? this.#others(part, plan, own) : [];
     const measured = [...own.filter(({ name, value }) => !others?.some((other) => other.name === name && timeOf(other.value) >= timeOf(value))), ...others ?? []];
     const verdict = WORST_FIRST.find((word) => measured.some((each) => each.verdict === word));
     const newest = measured.reduce((one, other) => (timeOf(other.value) > timeOf(one.value) ? other : one));

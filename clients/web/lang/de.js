@@ -184,6 +184,7 @@ export default {
   'plan.again': 'Neu messen',
   'panel.next_part': 'Nächstes Teil scannen',
   'part.none': 'kein Teil',
+  'part.folded': 'Nach einem Teil {part} kann kein Browser fragen: es braucht einen anderen Namen.',
   'arrived.stored': '{count} nach dem Ausfall gespeichert:',
   'arrived.good': '{count} gut',
   'arrived.rework': '{count} Nacharbeit',

@@ -184,6 +184,7 @@ export default {
   'plan.again': 'Measure again',
   'panel.next_part': 'Scan the next part',
   'part.none': 'no part',
+  'part.folded': 'No browser can ask about part {part}: give it another name.',
   'arrived.stored': '{count} stored after the outage:',
   'arrived.good': '{count} good',
   'arrived.rework': '{count} rework',

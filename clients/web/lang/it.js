@@ -184,6 +184,7 @@ export default {
   'plan.again': 'Misurare di nuovo',
   'panel.next_part': 'Leggere il pezzo seguente',
   'part.none': 'nessun pezzo',
+  'part.folded': 'Nessun browser può chiedere del pezzo {part}: dagli un altro nome.',
   'arrived.stored': '{count} salvati dopo l’interruzione:',
   'arrived.good': '{count} buoni',
   'arrived.rework': '{count} da rilavorare',

@@ -184,6 +184,7 @@ export default {
   'plan.again': 'Opnieuw meten',
   'panel.next_part': 'Scan het volgende onderdeel',
   'part.none': 'geen onderdeel',
+  'part.folded': 'Geen browser kan naar onderdeel {part} vragen: geef het een andere naam.',
   'arrived.stored': '{count} na de storing opgeslagen:',
   'arrived.good': '{count} goed',
   'arrived.rework': '{count} nabewerken',

@@ -1,6 +1,6 @@
 /** The verdict of a part: the worst of its plan, what is missing and which reactions are open. Only parts in sight are asked for, each once. */
 
-import { getJson, url } from '../api.js';
+import { getJson, isFolded, url } from '../api.js';
 import { designationText } from '../designation.js';
 import { h, refill } from '../dom.js';
 import { t } from '../i18n.js';
@@ -98,7 +98,10 @@ export class PartVerdicts {
   }
 }
 
-const verdictOf = (part, signal) => getJson(url(['parts', part]), { signal, asks: false });
+async function verdictOf(part, signal) {
+  if (isFolded(part)) throw new Error(t('part.folded', { part }));
+  return getJson(url(['parts', part]), { signal, asks: false });
+}
 
 /** What a part comes to, above its values: verdict, plan, what is missing, which reactions are open. Nothing where no value is of it. */
 export async function partSheet(part, signal) {

@@ -136,6 +136,15 @@ describe('a part that is handled elsewhere', () => {
     await close(page);
   });
 
+  it('says that nobody can ask about a part whose name a browser folds', async () => {
+    await station('..');
+    for (const value of ['25.01', '40.01', '120.1']) await line(value);
+    await says('GoodPart \\.\\.All 3 measuredNo browser can ask about part');
+    await page.goto(`${daemon.url}/#/parts?part_id=..`);
+    await page.waitForFunction(() => /No browser can ask about part/.test(document.querySelector('.parts .note')?.textContent));
+    await close(page);
+  });
+
   it('stays unconfirmed while the service lacks a value that it had stored', async () => {
     await station('E-6');
     await page.route('**/v1/parts/*', async (route) => {
