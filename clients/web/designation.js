@@ -7,7 +7,7 @@ const DESIGNATION = /^[Øø⌀∅\s]*([\d.,]+)\s*(?:mm)?\s*\/?\s*([A-Za-z]\w*)$/
 /** The envelope requirement of ISO 14405-1 behind a class. */
 const ENVELOPE = /\s*(?:\(E\)|Ⓔ)$/;
 /** A side of a fit that is a bearing: its bore as a hole, its outer ring as a shaft. */
-const BEARING = /ISO\s*492\s*[-−–]\s*(\w+)/;
+const BEARING = /[Ii][Ss][Oo]\s*492\s*[-−–]\s*(\w+)/;
 const FIT = new RegExp(String.raw`^[Øø⌀∅\s]*([\d.,]+)\s*(?:mm)?\s*(${BEARING.source}|[A-Z]\w*(?:\s*(?:\(E\)|Ⓔ))?)\s*[/\s-]\s*(${BEARING.source}|[a-z]\w*(?:\s*(?:\(E\)|Ⓔ))?)$`);
 const THREAD = /^M\s*(\d+(?:[.,]\d+)?)(?:\s*[xX×]\s*(\d+(?:[.,]\d+)?))?\s*[-−–]\s*((?:\d[A-Za-z]){1,2})$/i;
 const GENERAL = /^(?:([RC])|[Øø⌀∅])?\s*(\d+(?:[.,]\d+)?)\s*(?:mm)?\s*ISO\s*2768\s*[-−–]\s*([fmcv])$/i;

@@ -21,6 +21,21 @@ constexpr std::string_view kBearing = "ISO 492-";
 constexpr std::array<std::string_view, 4> kBearingClasses = {"ISO 492-normal", "ISO 492-P6",
                                                              "ISO 492-P5", "ISO 492-P4"};
 
+/// Returns the place of a word in capital or small letters; npos without it.
+std::size_t find_word(std::string_view text, std::string_view word) {
+  const auto lower = [](char c) { return ascii_lower(c); };
+  const auto found = std::ranges::search(text, word, {}, lower, lower);
+  return found.empty() ? text.npos : static_cast<std::size_t>(found.begin() - text.begin());
+}
+
+/// Returns the class as records name it; empty without one.
+template <std::size_t size>
+std::string_view known_class(const std::array<std::string_view, size>& all, std::string_view text) {
+  const auto same = [text](std::string_view each) { return ascii_iequals(each, text); };
+  const auto* const found = std::ranges::find_if(all, same);
+  return found == all.end() ? std::string_view() : *found;
+}
+
 Error not_a_general_tolerance(std::string_view text) {
   return {ErrorCode::DesignationMalformed,
           fmt::format("'{}' is not a general tolerance such as 25 ISO 2768-m, R2 ISO 2768-m or C2 "
@@ -42,12 +57,12 @@ Error unknown_class(std::string_view text) {
 
 /// Limits of ISO 2768-1, see limits_of(). An outside dimension by default.
 Result<DesignatedLimits> general_tolerance(Length nominal, std::string_view tolerance_class) {
-  const auto* const known = std::find(kClasses.begin(), kClasses.end(), tolerance_class);
-  if (known == kClasses.end()) return unknown_class(tolerance_class);
+  const std::string_view known = known_class(kClasses, tolerance_class);
+  if (known.empty()) return unknown_class(tolerance_class);
   static const Standard& standard = *find("iso2768-1");
-  const bool is_edge = known->front() != 'I';
+  const bool is_edge = known.front() != 'I';
   const Table& table = standard.table(is_edge ? "broken_edges" : "linear");
-  const std::string_view letter = known->substr(known->size() - 1);
+  const std::string_view letter = known.substr(known.size() - 1);
   for (const Row& row : table.rows) {
     // Its first range begins with 0.5 mm itself.
     const bool first = &row == &table.rows.front() && nominal == row.over;
@@ -56,7 +71,7 @@ Result<DesignatedLimits> general_tolerance(Length nominal, std::string_view tole
     const auto lower = row.length(letter, Member::Lower);
     if (!upper || !lower) break;
     DesignatedLimits limits{.standard = &standard,
-                            .tolerance_class = *known,
+                            .tolerance_class = known,
                             .feature_is_open = true,
                             .nominal = nominal,
                             .deviations = {.upper = *upper, .lower = *lower},
@@ -71,9 +86,10 @@ Result<DesignatedLimits> general_tolerance(Length nominal, std::string_view tole
 
 Result<DesignatedLimits> general_tolerance(std::string_view designation) {
   std::string_view rest = designation;
-  const bool is_edge = rest.starts_with('R') || rest.starts_with('C');
+  const bool is_edge =
+      ascii_iequals(rest.substr(0, 1), "R") || ascii_iequals(rest.substr(0, 1), "C");
   if (is_edge) rest.remove_prefix(1);
-  const std::size_t at = rest.find(kGeneralTolerance);
+  const std::size_t at = find_word(rest, kGeneralTolerance);
   if (at == std::string_view::npos || trim(designation) != designation) {
     return not_a_general_tolerance(designation);
   }
@@ -96,41 +112,47 @@ bool is_thread_class(std::string_view text) {
 }  // namespace
 
 bool is_designation(std::string_view text) {
-  const bool begins =
-      text.size() > 1 && (text[0] == 'M' || text[0] == 'R' || text[0] == 'C') && is_digit(text[1]);
-  return begins || text.find(kGeneralTolerance) != std::string_view::npos;
+  constexpr std::string_view kLetters = "MRC";
+  const bool begins = text.size() > 1 && is_digit(text[1]) &&
+                      kLetters.find(ascii_upper(text[0])) != std::string_view::npos;
+  return begins || is_class(text);
 }
 
 bool is_class(std::string_view text) {
-  return text.find(kGeneralTolerance) != std::string_view::npos;
+  return find_word(text, kGeneralTolerance) != std::string_view::npos;
 }
 
 Result<DesignatedLimits> limits_of(std::string_view designation) {
-  return designation.starts_with('M') ? thread_limits(designation) : general_tolerance(designation);
+  return ascii_iequals(designation.substr(0, 1), "M") ? thread_limits(designation)
+                                                      : general_tolerance(designation);
 }
 
 Result<DesignatedLimits> limits_of(Length nominal, std::string_view tolerance_class) {
   return general_tolerance(nominal, tolerance_class);
 }
 
-bool is_bearing_class(std::string_view text) { return text.starts_with(kBearing); }
+std::size_t find_bearing_class(std::string_view text) { return find_word(text, kBearing); }
+
+std::string_view bearing_class(std::string_view text) {
+  const std::string_view known = known_class(kBearingClasses, text);
+  return known.empty() ? text : known;
+}
 
 Result<DesignatedLimits> bearing_limits(Length nominal, std::string_view tolerance_class,
                                         iso286::Feature feature) {
   static const Standard& standard = *find("iso492");
-  const auto* const known =
-      std::find(kBearingClasses.begin(), kBearingClasses.end(), tolerance_class);
-  if (known == kBearingClasses.end()) {
+  const std::string_view known = known_class(kBearingClasses, tolerance_class);
+  if (known.empty()) {
     return Error{ErrorCode::ClassUnknown, fmt::format("unknown class '{}' of ISO 492: use {}",
                                                       first_characters(tolerance_class, 40),
                                                       fmt::join(kBearingClasses, ", "))};
   }
   const bool is_bore = feature == iso286::Feature::Hole;
   for (const Row& row : standard.table(is_bore ? "bores" : "outer_rings").rows) {
-    const std::string_view item = known->substr(kBearing.size());
+    const std::string_view item = known.substr(kBearing.size());
     if (!row.holds(nominal) || !row.length(item, Member::Upper)) continue;
     return DesignatedLimits{.standard = &standard,
-                            .tolerance_class = *known,
+                            .tolerance_class = known,
                             .feature = feature,
                             .nominal = nominal,
                             .deviations = {.upper = row.length(item, Member::Upper).value(),
@@ -142,7 +164,7 @@ Result<DesignatedLimits> bearing_limits(Length nominal, std::string_view toleran
       fmt::format(
           "{} has no {} of {} mm: use bores from 0.6 and outer rings from 2.5 to 630 mm (P4: bores "
           "to 250, outer rings to 400)",
-          *known, is_bore ? "bore" : "outer ring", format_mm(nominal))};
+          known, is_bore ? "bore" : "outer ring", format_mm(nominal))};
 }
 
 void append_designation(std::string& out, Length nominal, std::string_view tolerance_class) {

@@ -31,7 +31,7 @@ struct DesignatedLimits {
 };
 
 /// Returns whether a designation is meant to be one of these: it begins with M, R or C and a digit,
-/// or names ISO 2768. No such designation belongs to ISO 286.
+/// or names ISO 2768, in capital or small letters. No such designation belongs to ISO 286.
 bool is_designation(std::string_view text);
 /// Whether a class follows a nominal size: `ISO 2768-m`.
 bool is_class(std::string_view text);
@@ -50,8 +50,11 @@ Result<DesignatedLimits> limits_of(Length nominal, std::string_view tolerance_cl
 /// = d2 = d - 3 sqrt(3) P / 8, rounded to the micrometre as in ISO 724.
 Result<DesignatedLimits> thread_limits(std::string_view designation);
 
-/// Whether a class names one of bearings: `ISO 492-P6`.
-bool is_bearing_class(std::string_view text);
+/// Returns the place of a class of bearings, `ISO 492-P6`; npos without one.
+std::size_t find_bearing_class(std::string_view text);
+inline bool is_bearing_class(std::string_view text) { return find_bearing_class(text) == 0; }
+/// Returns a class of bearings as answers name it; an unknown one as it is.
+std::string_view bearing_class(std::string_view text);
 /// The mean diameter of a radial bearing but a tapered roller bearing (ISO 492): its bore as a
 /// hole, its outer ring as a shaft. @param tolerance_class `ISO 492-normal`, or `-P6`, `-P5`, `-P4`
 /// @errors ClassUnknown; ClassUndefinedForSize.

@@ -85,7 +85,7 @@ Result<std::optional<Length>> coarse_pitch(Length diameter) {
 
 Result<Thread> parse(std::string_view designation) {
   std::string_view rest = designation;
-  if (!take(rest, "M")) return not_a_thread(designation);
+  if (!take(rest, "M") && !take(rest, "m")) return not_a_thread(designation);
   const auto diameter = take_size(rest, designation);
   if (!diameter) return diameter.error();
   Thread thread{.diameter = *diameter, .pitch = {}, .coarse = {}};

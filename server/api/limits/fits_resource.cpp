@@ -84,7 +84,7 @@ Result<iso286::Fit> find_fit(const iso286::FitDesignation& designation,
 Result<iso286::FitDesignation> read_fit(std::string_view hole, std::string_view shaft) {
   hole = trim(hole);
   shaft = trim(shaft);
-  const std::size_t at = hole.find("ISO 492-");
+  const std::size_t at = standards::find_bearing_class(hole);
   const bool is_bore = at != std::string_view::npos;
   const bool is_ring = standards::is_bearing_class(shaft);
   // The bearing's side is read with a class of ISO 286 in its place.
@@ -102,8 +102,8 @@ Result<iso286::FitDesignation> read_fit(std::string_view hole, std::string_view 
                  fmt::format("'{}' is not a bore of a bearing such as 25 ISO 492-P6",
                              first_characters(hole, 40))};
   }
-  if (fit && is_bore) fit->hole_class = hole.substr(at);
-  if (fit && is_ring) fit->shaft_class = shaft;
+  if (fit && is_bore) fit->hole_class = standards::bearing_class(hole.substr(at));
+  if (fit && is_ring) fit->shaft_class = standards::bearing_class(shaft);
   return fit;
 }
 

@@ -1,6 +1,7 @@
 """Limits and verdicts by the designations of other standards: threads and general tolerances; the tables of all."""
 
 import sqlite3
+from urllib.parse import quote
 
 from support.daemon import DaemonTest
 
@@ -79,6 +80,11 @@ class Standards(DaemonTest):
                 self.assertEqual(answer.status, 422, answer)
                 self.assertEqual([(e["pointer"], e["code"]) for e in answer.json["errors"]], [(pointer, code)])
 
+    def test_words_of_other_standards_may_be_in_small_letters(self):
+        for text, written in (("25 iso 2768-M", "25 ISO 2768-m"), ("r2 Iso 2768-m", "R2 ISO 2768-m"), ("m10X1.25-6g", "M10x1.25-6g")):
+            self.assertEqual(self.limits(f"/v1/limits/{quote(text)}"), self.limits(f"/v1/limits/{quote(written)}"))
+            self.assertEqual(self.daemon.measure({"designation": text, "measured_mm": 2}).json["designation"], written)
+
     def test_a_bearing_fits_a_shaft_or_a_housing(self):
         # Bore 25 in P6: 0 to -8 um; k6: +2 to +15 um. Outer ring 52 in normal: 0 to -13 um; H7: 0 to +30 um.
         bore = self.limits("/v1/fits/25%20ISO%20492-P6/k6")
@@ -101,6 +107,8 @@ class Standards(DaemonTest):
         self.assertEqual(ring, self.limits("/v1/fits/52%20H7%20/%20ISO%20492-normal"))
         self.assertEqual(bore["designation"], self.limits("/v1/fits/25%20ISO%20492-P6%20/%20k6")["designation"])
         self.assertEqual(bore["designation"], self.limits("/v1/fits/25%20ISO%20492-P6%2Fk6")["designation"])
+        self.assertEqual(bore, self.limits("/v1/fits/25%20iso%20492-p6/k6"))
+        self.assertEqual(ring, self.limits("/v1/fits/52H7/iso%20492-Normal"))
         for path, status, code in (("25%20ISO%20492-P6/ISO%20492-P6", 400, "fit.malformed"),
                                    ("25%20ISO%20492-P6/K6", 400, "fit.malformed"),
                                    ("25x%20ISO%20492-P6/k6", 400, "designation.malformed"),

@@ -65,6 +65,7 @@ describe('the fit', () => {
     await page.waitForSelector('.limits');
     for (const [typed, shown, address, limits] of [
       ['52 H7 / ISO 492-P6', '52 H7/ISO 492-P6', '#/fit/52H7/ISO 492-P6', /^hole H7.*shaft ISO 492-P6.*0 \/ −11 µm/],
+      ['25 iso 492-p6/k6', '25 ISO 492-P6/k6', '#/fit/25ISO 492-P6/k6', /^hole ISO 492-P6.*0 \/ −8 µm.*shaft k6/],
       ['25 ISO 492 - Normal / k6', '25 ISO 492-normal/k6', '#/fit/25ISO 492-normal/k6', /^hole ISO 492-normal.*0 \/ −10 µm.*shaft k6/]]) {
       await page.fill('#fit', typed);
       await page.press('#fit', 'Enter');
