@@ -1,35 +1,17 @@
 """A machine clock that is set back: nothing is lost or doubled, order is kept, and the log says so."""
 
 import json
-import pathlib
 import unittest
 from datetime import datetime
 
-from support.daemon import Daemon, preload
+from support.clock import ClockTest
 from support.waiting import wait_for
 
-LIBRARY = next(iter(sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))), None)
 PART = {"designation": "25 H7", "measured_mm": 25.013}
 KEY = {"Idempotency-Key": "before"}
 
 
-@unittest.skipUnless(LIBRARY, "needs libfaketime")
-class SetBack(unittest.TestCase):
-    def setUp(self):
-        self.daemon = Daemon()
-        self.addCleanup(self.daemon.cleanup)
-        self.offset = self.daemon.folder / "offset"
-        self.daemon.environment |= preload(LIBRARY) | {
-            "FAKETIME_TIMESTAMP_FILE": str(self.offset),
-            "FAKETIME_NO_CACHE": "1", "FAKETIME_DONT_FAKE_MONOTONIC": "1"}
-        self.set_clock("+0")
-
-    def set_clock(self, offset):
-        """Written aside and renamed: the service reads it whenever it asks for the time."""
-        aside = self.offset.with_suffix(".new")
-        aside.write_text(offset + "\n")
-        aside.rename(self.offset)
-
+class SetBack(ClockTest):
     def measure(self):
         answer = self.daemon.measure(PART)
         self.assertEqual(answer.status, 201, answer)
