@@ -265,6 +265,12 @@ class Host(Sparkplug):
     def say(self, online, timestamp, host="scada-1"):
         self.broker.publish(f"spBv1.0/STATE/{host}", json.dumps({"online": online, "timestamp": timestamp}).encode(), retain=True)
 
+    def wait_for_refusals(self, said):
+        """Once it has `said` messages of the broker, three more looks find no host: the last two began after them."""
+        wait_for(lambda: len(re.findall(r"Received PUBACK from fitgauge-\w+-scada", self.broker.log)) >= said, self.state)
+        before = self.state()["failures"]
+        wait_for(lambda: self.state()["failures"] >= before + 3, self.state)
+
     def test_nothing_goes_out_without_the_primary_host(self):
         self.say(True, 1, host="scada-2")
         self.say(False, 10)
@@ -275,7 +281,7 @@ class Host(Sparkplug):
         self.say(True, 9)  # older than the last
         for payload in (b"ONLINE", b"{}", b'{"online":"true","timestamp":11}', b'{"online":true}', b'{"online":true,"timestamp":"x"}'):
             self.broker.publish("spBv1.0/STATE/scada-1", payload)
-        time.sleep(2)
+        self.wait_for_refusals(7)
         self.assertEqual(self.told(), [])
         self.say(True, 11)
         self.wait_told("DDATA")
@@ -288,7 +294,7 @@ class Host(Sparkplug):
         self.assertEqual(self.received()[-1], ("1", "0", NODE.format("NDEATH")))
         wait_for(lambda: "Received DISCONNECT from fitgauge-" in self.broker.log.split("'spBv1.0/shop/NDEATH/gauge-4'")[-1])
         ids.append(self.measure(3))
-        time.sleep(2)
+        self.wait_for_refusals(11)
         self.assertEqual(len(self.told("DDATA")), 2)
         self.say(True, 12)
         self.wait_told("DDATA", 3)  # what the host missed is not lost
