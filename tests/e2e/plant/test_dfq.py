@@ -4,7 +4,6 @@ when what was written comes in again. The reader here knows the format on its ow
 import decimal
 import re
 import subprocess
-import time
 import unittest
 
 from plant.test_folders import Folders
@@ -74,10 +73,11 @@ def parsed(content):
 
 
 class Dfq(Folders):
+    SETTINGS = {"time_zone": "Europe/Berlin", "set": {"feature": "shaft"}}
+
     def connected(self, **more):
         daemon = self.daemon().start()
-        settings = {"time_zone": "Europe/Berlin", "set": {"feature": "shaft"}}
-        self.connect(daemon, **{**settings, **more})
+        self.connect(daemon, **{**self.SETTINGS, **more})
         return daemon
 
     def told(self, name):
@@ -107,14 +107,15 @@ class Dfq(Folders):
         self.assertEqual(len(daemon.stored()), 3)
 
     def test_a_description_and_its_values(self):
-        daemon = self.connected()
+        daemon = self.connected(interval_s=600)  # an hour for the description
         self.drop("pair.dfx", dfq(VALUES))
-        time.sleep(1.5)
+        self.wait_for_looks(daemon, 3)  # the last of them began after the file had come
         self.assertEqual(self.files(), ["pair.dfx"])
         self.drop("pair.DFD", dfq(HEAD))
         self.drop("other.dfd", dfq(HEAD))
         self.wait(lambda: self.files("done") == ["pair.DFD", "pair.dfx"])
         self.assertEqual(self.parts(daemon), ["SN-1", "SN-1", "SN-2"])
+        self.connect(daemon, 200, **self.SETTINGS)
         self.drop("lone.dfx", dfq(VALUES))
         self.wait(lambda: "lone.dfx" in self.files("failed"))
         self.assertIn("its description lone.dfd is not in the folder", self.told("lone.dfx"))

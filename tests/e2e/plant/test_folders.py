@@ -50,6 +50,11 @@ class Folders(unittest.TestCase):
     def wait(self, condition):
         wait_for(condition, lambda: sorted(str(path.relative_to(self.root)) for path in self.root.rglob("*")))
 
+    def wait_for_looks(self, daemon, count):
+        looks = lambda: daemon.get("/v1/connections/cmm").json["attempts"]  # noqa: E731
+        before = looks()
+        self.wait(lambda: looks() >= before + count)
+
     def files(self, folder=""):
         return sorted(path.name for path in (self.folder / folder).glob("*") if path.is_file())
 
@@ -98,8 +103,8 @@ class Taking(Folders):
         (self.folder / "folder.csv").mkdir()
         os.symlink("/etc/passwd", self.folder / "link.csv")
         self.drop("a.csv", ROWS)
-        self.wait(lambda: self.files("done") == ["a.csv"])
-        time.sleep(2.5)
+        (self.folder / "rests.csv").write_text(ROWS)  # the last that is at rest
+        self.wait(lambda: self.files("done") == ["a.csv", "rests.csv"])
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), sorted(
             [".hidden.csv", "readme.md", "a.csv.part", "b.ndjson", "folder.csv", "link.csv", "done"]))
 
@@ -259,7 +264,7 @@ class Taking(Folders):
         daemon.measure({"designation": "25 H7", "measured_mm": 25.01})
         self.wait(lambda: (out / "out-000000000001-000000000001.csv").is_file())
         self.assertEqual(daemon.get("/v1/connections/cmm").json["state"], "ok")
-        self.assertEqual(daemon.stop(timeout=10), 0)
+        self.assertEqual(daemon.stop(), 0)
 
     def test_no_folder_beside_those_allowed(self):
         daemon = self.daemon().start()
