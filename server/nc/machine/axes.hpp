@@ -17,6 +17,7 @@ struct SpindleTool {
   double length = 0;    ///< in mm, from the spindle nose to the tip
   double radius = 0;    ///< in mm
   double spindle_deg = 0;
+  bool turns = false;
 };
 
 /// Settings of a move other than its way.
@@ -68,8 +69,8 @@ class Axes {
   /// Normal of the surface at the last contact, if the axes know it.
   virtual std::optional<Vec3> contact_normal() const { return std::nullopt; }
 
-  /// Returns whether a cutter has entered the part in the last motion, which was in rapid.
-  virtual bool has_cut_in_rapid() const { return false; }
+  /// Returns whether a cutter has entered the part in the last motion, in rapid or not turning.
+  virtual bool has_entered_part() const { return false; }
 
   /// Waits without motion.
   virtual MachineResult<void> dwell(double seconds, Allowance& allowance) = 0;

@@ -37,7 +37,7 @@ class Control : public Machine {
   void stop(std::string_view reason) final { axes_->stop(reason); }
   void message(std::string_view text) final { axes_->message(text); }
   std::optional<Vec3> contact_normal() const final { return axes_->contact_normal(); }
-  bool has_cut_in_rapid() const final { return axes_->has_cut_in_rapid(); }
+  bool has_entered_part() const final { return axes_->has_entered_part(); }
 
  private:
   static MachineResult<void> check_feed(const Feed& feed);

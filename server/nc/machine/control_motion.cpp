@@ -233,7 +233,8 @@ Motion Control::motion(const Feed& feed, bool is_retract) {
                    .axis = state_.tool_axis(),
                    .length = state_.tool_length(),
                    .radius = state_.tool_radius(),
-                   .spindle_deg = state_.modes.spindle_deg},
+                   .spindle_deg = state_.modes.spindle_deg,
+                   .turns = state_.modes.turns()},
           .allowance = allowance_,
           .is_retract = is_retract};
 }

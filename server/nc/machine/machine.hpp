@@ -89,7 +89,7 @@ class Machine {
 
   /// Returns whether a cutter has entered the part in the last motion, which was in rapid; false if
   /// the machine does not know the part.
-  virtual bool has_cut_in_rapid() const { return false; }
+  virtual bool has_entered_part() const { return false; }
 
   /// Moves a touch probe towards the workpiece, or another tool towards the tool touch probe TT.
   /// @faults ToolAxisMissing, NoTool, FeedMissing, ValueInvalid (nothing has moved);

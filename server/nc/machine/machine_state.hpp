@@ -23,6 +23,10 @@ enum class SpindleState : std::int8_t {
 struct Modes {
   SpindleState spindle = SpindleState::Undefined;
   double spindle_rpm = 0;
+  bool turns() const {
+    return spindle_rpm > 0 &&
+           (spindle == SpindleState::Clockwise || spindle == SpindleState::CounterClockwise);
+  }
   double spindle_deg = 0;  ///< angle of the oriented spindle, counter-clockwise seen from above
   bool coolant = false;    ///< M8
   double feed_mm_min = 0;  ///< the modal feed F, 0 when none is programmed

@@ -124,8 +124,8 @@ MachineResult<double> SimulatedAxes::follow(const Path& path, const Motion& moti
   };
   const double part = motion.tool.is_probe ? free(workpiece_) : 1;
   const bool is_cutter = !motion.tool.is_probe && motion.tool.number != 0;
-  has_cut_in_rapid_ =
-      is_cutter && motion.feed.is_rapid && starts_free(path, motion.tool) && free(workpiece_) < 1;
+  has_entered_part_ = is_cutter && (motion.feed.is_rapid || !motion.tool.turns) &&
+                      starts_free(path, motion.tool) && free(workpiece_) < 1;
   const double to_fixture = free(fixtures_);
   if (motion.allowance.found() != Allowance::Spent::Nothing) {
     return make_fault(FaultKind::Interrupted);

@@ -10,9 +10,9 @@ namespace fitgauge::machine {
 
 /// Axes of a setup: they, their tools and their probe may differ from the control's tables, and a
 /// workpiece is on their table. Only the ball of the touch probe touches; stylus and holder are not
-/// modelled, and cutters pass through material: only entering it in rapid is known. Fixtures
-/// collide with every tool, modelled as a ball of its radius at the tip. The same setup and the
-/// same commands give the same run. Not thread-safe.
+/// modelled, and cutters pass through material: only entering it in rapid or not turning is known.
+/// Fixtures collide with every tool, modelled as a ball of its radius at the tip. The same setup
+/// and the same commands give the same run. Not thread-safe.
 class SimulatedAxes final : public Axes {
  public:
   /// @pre validate(setup) succeeds.
@@ -23,7 +23,7 @@ class SimulatedAxes final : public Axes {
   MachineResult<Position> probe(const Vec3& direction, double distance,
                                 const Motion& motion) override;
   std::optional<Vec3> contact_normal() const override;
-  bool has_cut_in_rapid() const override { return has_cut_in_rapid_; }
+  bool has_entered_part() const override { return has_entered_part_; }
   MachineResult<void> dwell(double, Allowance&) override { return {}; }
   void stop(std::string_view) override {}
   void message(std::string_view) override {}
@@ -59,7 +59,7 @@ class SimulatedAxes final : public Axes {
   Vec3 slack_deg_;      ///< present backlash in the positions of A, B, C
   Displacements rest_;  ///< the current scatter of the axes
   Random random_;
-  bool has_cut_in_rapid_ = false;
+  bool has_entered_part_ = false;
   std::optional<Vec3> touching_;  ///< centre of the ball at the last contact, on the table
   Transform table_at_contact_;
 };

@@ -64,7 +64,7 @@ class TracingMachine final : public Machine {
 
   const MachineState& state() const override { return inner_.state(); }
   std::optional<Vec3> contact_normal() const override { return inner_.contact_normal(); }
-  bool has_cut_in_rapid() const override { return inner_.has_cut_in_rapid(); }
+  bool has_entered_part() const override { return inner_.has_entered_part(); }
   MachineResult<void> move(const LinearMove& move) override;
   MachineResult<void> move_arc(const ArcMove& arc) override;
   MachineResult<ContactPoint> probe(const ProbeMove& move) override;

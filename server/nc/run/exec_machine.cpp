@@ -60,12 +60,14 @@ std::optional<machine::Axis> tool_axis(const std::optional<klartext::Axis>& axis
 
 using klartext::Motion;
 
-NcResult<void> note_cut_in_rapid(Channel& channel) {
-  if (!channel.machine().has_cut_in_rapid()) return {};
-  return channel.note(
-      fmt::format("tool {} enters the part in rapid traverse: the simulation removes no material, "
-                  "so check whether it is gone there",
-                  channel.machine().state().tool.number));
+NcResult<void> note_entry(Channel& channel) {
+  if (!channel.machine().has_entered_part()) return {};
+  const auto& state = channel.machine().state();
+  return channel.note(fmt::format(
+      "tool {} enters the part {}", state.tool.number,
+      state.modes.turns() ? "in rapid traverse: the simulation removes no material, so check "
+                            "whether it is gone there"
+                          : "with a standing spindle: give its speed S, and M3 or M4 before"));
 }
 
 }  // namespace
@@ -143,7 +145,7 @@ NcResult<Next> execute(Channel& channel, const Motion& motion) {
   if (auto done = start_m_functions(channel, words->m); !done) return done.error();
   if (auto done = orient_tool(channel, motion, *words); !done) return done.error();
   if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
-  if (auto noted = note_cut_in_rapid(channel); !noted) return noted.error();
+  if (auto noted = note_entry(channel); !noted) return noted.error();
   return end_m_functions(channel, *words);
 }
 

@@ -1,5 +1,7 @@
 #include "nc/run/machining.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,6 +36,15 @@ Heights heights_of(const MachiningDefinition& definition, const ToolMotion& moti
                        ? definition.value(386)
                        : heights.surface + depth(definition, motion.state().active_tool());
   return heights;
+}
+
+/// Tapping and 241 start the spindle themselves.
+NcResult<void> note_standing(Channel& channel, const MachiningCycle& cycle) {
+  const int number = cycle.descriptor.number;
+  const bool starts = cycle.shape == MachiningShape::Tapping || number == 241;
+  if (starts || channel.machine().state().modes.turns()) return {};
+  return channel.note(fmt::format(
+      "cycle {} cuts with a standing spindle: give its speed S, and M3 or M4 before", number));
 }
 
 }  // namespace
@@ -115,6 +126,7 @@ NcResult<void> Machining::leave() {
 
 NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition) {
   Machining cycle({channel.machine(), channel.budget}, definition);
+  if (auto noted = note_standing(channel, *definition.cycle); !noted) return noted;
   switch (definition.cycle->shape) {
     case MachiningShape::Drilling: return drill(cycle);
     case MachiningShape::Boring: return bore(cycle);

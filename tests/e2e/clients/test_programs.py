@@ -84,6 +84,15 @@ class Programs(ClientTest):
         self.assertEqual(notes("L Z-5 F200", "L X+60 F500"), [])  # at feed it works, and away from material it may go in rapid
         self.assertEqual(notes("L Z+0 FMAX", "L X+60 FMAX"), [])  # on the face, not in it
         self.assertEqual(notes("L Z-5 FMAX", "L Z+2 FMAX", "L Z-5 FMAX"), [(5, "note")])
+        # A standing spindle cuts nothing.
+        self.assertEqual(notes("L Z-5 F200 M5", "L Z+2 FMAX", "L Z-5 F200"), [(7, "note")])
+        self.assertEqual(notes("L Z-5 F200 M4", "L Z+2 FMAX M5", "L Z+1 F200", "TOOL CALL 5 Z", "L Z-5 F200 M3"), [])
+        self.assertEqual(notes("TOOL CALL 5 Z S0", "L Z-5 F200"), [(6, "note")])
+        drill = "CYCL DEF {} Q200=2 Q201=-10 Q206=200 Q202=5 Q210=0 Q203=0 Q204=2 Q211=0"
+        self.assertEqual(notes("M5", drill.format(200), "CYCL CALL", "CYCL CALL"), [(7, "note")])
+        self.assertEqual(notes(drill.format(200), "CYCL CALL"), [])
+        tap = "CYCL DEF 207 Q200=2 Q201=-10 Q239=1 Q203=0 Q204=2"
+        self.assertEqual(notes("M5", tap, "CYCL CALL"), [])  # it starts the spindle itself
 
     def test_a_program_is_checked_on_the_part_of_a_setup(self):
         block = {"type": "block", "min_mm": [0, 0, -40], "max_mm": [100, 80, 0]}
