@@ -185,6 +185,7 @@ void add(Outcome& outcome, const interpreter::RunResult& result, std::string_vie
     outcome.end.line = is_in(message.program, file) ? message.line : 0;
   }
   for (const auto& found : interpreter::findings_of(result)) {
+    if (found.severity == klartext::Severity::Note) continue;
     if (found.severity == klartext::Severity::Warning)
       outcome.alarms.push_back(placed(found.message, found, file));
     else

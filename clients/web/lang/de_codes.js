@@ -144,6 +144,7 @@ export default {
   'finding.cycle.stylus_missing': 'Es steht kein Tastsystem in der Spindel, oder sie dreht sich.',
   'finding.parameter.result_unset': 'Kein Zyklus dieses Programms setzt diesen Parameter.',
   'finding.run.failed': 'Auf dieser Aufspannung scheitert der Satz.',
+  'finding.run.noted': 'Der Satz läuft hier anders als auf der Steuerung, oder die Werkzeugbewegung ist zu prüfen.',
   'finding.run.setup_contradicts': 'Das Teil der Aufspannung hat ein anderes Maß als der Zyklus.',
   'finding.mask.keyword_unknown': 'Dieses Schlüsselwort kennt die Maske nicht.',
   'finding.mask.placeholder_malformed': 'Der Platzhalter ist nicht lesbar.',

@@ -144,6 +144,7 @@ export default {
   'finding.cycle.stylus_missing': 'Nel mandrino non c\'è il tastatore, o il mandrino gira.',
   'finding.parameter.result_unset': 'Nessun ciclo di questo programma imposta questo parametro.',
   'finding.run.failed': 'Con questo attrezzaggio il blocco fallisce.',
+  'finding.run.noted': 'Qui il blocco si comporta diversamente dal controllo, oppure il movimento dell’utensile va verificato.',
   'finding.run.setup_contradicts': 'Il pezzo dell’attrezzaggio ha una misura diversa da quella del ciclo.',
   'finding.mask.keyword_unknown': 'La maschera non conosce questa parola chiave.',
   'finding.mask.placeholder_malformed': 'Il segnaposto non è leggibile.',

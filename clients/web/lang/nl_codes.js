@@ -144,6 +144,7 @@ export default {
   'finding.cycle.stylus_missing': 'Er staat geen taster in de spil, of de spil draait.',
   'finding.parameter.result_unset': 'Geen cyclus van dit programma zet deze parameter.',
   'finding.run.failed': 'Met deze opspanning mislukt het blok.',
+  'finding.run.noted': 'Het blok werkt hier anders dan op de besturing, of de beweging van het gereedschap moet worden gecontroleerd.',
   'finding.run.setup_contradicts': 'Het werkstuk van de opspanning heeft een andere maat dan de cyclus.',
   'finding.mask.keyword_unknown': 'Dit sleutelwoord kent het masker niet.',
   'finding.mask.placeholder_malformed': 'De plaatshouder is niet leesbaar.',

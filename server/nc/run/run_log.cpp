@@ -33,8 +33,12 @@ std::vector<klartext::Diagnostic> findings_of(const RunResult& result) {
     }
   };
   for (const RunMessage& message : result.messages) {
-    if (message.kind != MessageKind::Error && message.kind != MessageKind::Limit) continue;
-    add(message, klartext::Severity::Error, klartext::DiagnosticCode::RunFailed, message.text);
+    const bool is_note = message.kind == MessageKind::Note;
+    if (!is_note && message.kind != MessageKind::Error && message.kind != MessageKind::Limit)
+      continue;
+    add(message, is_note ? klartext::Severity::Note : klartext::Severity::Error,
+        is_note ? klartext::DiagnosticCode::RunNoted : klartext::DiagnosticCode::RunFailed,
+        message.text);
   }
   for (const Measurement& each : result.measurements) {
     const auto& sizes = each.record.sizes;  // positions come last, and belong to a size

@@ -84,8 +84,9 @@ struct RunResult {
   std::vector<machine::Preset> presets;
 };
 
-/// The findings of a run on a setup: an error that ended it, and a warning for every size or
-/// centre of a bore, stud, slot or ridge that is measured more than 0.5 mm from its nominal.
+/// The findings of a run on a setup: an error that ended it, its notes, and a warning for every
+/// size or centre of a bore, stud, slot or ridge that is measured more than 0.5 mm from its
+/// nominal.
 std::vector<klartext::Diagnostic> findings_of(const RunResult& result);
 
 }  // namespace fitgauge::interpreter

@@ -79,6 +79,9 @@ class Programs(ClientTest):
             lines = ["BEGIN PGM RAPID MM", "TOOL CALL 5 Z S1000", "L X+50 Y+40 FMAX M3", "L Z+2 FMAX", *blocks, "L Z+50 FMAX", "END PGM RAPID MM"]
             self.client.write("rapid.h", "\n".join(lines))
             run = json.loads(self.assert_runs(0, "--json", "nc", "run", "rapid.h", "--setup", "part.json"))
+            check = json.loads(self.assert_runs(0, "nc", "check", "rapid.h", "--setup", "part.json", "--format", "json"))
+            self.assertEqual([(each["line"], each["code"], each["severity"]) for each in check["diagnostics"]],
+                             [(message["line"], "run.noted", "note") for message in run["messages"]])
             return [(message["line"], message["kind"]) for message in run["messages"]]
 
         self.assertEqual(notes("L Z-5 F200", "L X+60 F500"), [])  # at feed it works, and away from material it may go in rapid
