@@ -1,6 +1,8 @@
 #include "nc/run/origins.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
@@ -90,22 +92,50 @@ bool begins_part(const Program& program, const Block& block, const klartext::Lab
   return call != nullptr && call->label == label->label;
 }
 
+/// Whether the block moves something, as far as the error can come from that.
+bool moves(const Block& block, const std::string& error) {
+  for (const std::string_view other : {"not available", "defined", "missing"})
+    if (error.find(other) != error.npos) return false;
+  return as<klartext::Motion>(block) != nullptr || as<klartext::CycleCall>(block) != nullptr ||
+         as<klartext::Cycle>(block) != nullptr || as<klartext::CyclePart>(block) != nullptr;
+}
+
+/// Whether it reads data of the control, such as FN 18 of a position.
+bool reads_control(const Program& program, const Block& block) {
+  const auto* set = as<klartext::Assignment>(block);
+  const auto* node = set == nullptr ? nullptr : std::get_if<klartext::NodeIndex>(&set->value);
+  return node != nullptr && program.node(*node).op == klartext::Operator::SystemRead;
+}
+
 class Origins {
  public:
   explicit Origins(std::span<const Place> chain) : chain_(chain) {}
 
-  /// Notes the nearest block before that sets something. @returns it, or null
-  const Block* find(const std::string& what, const auto& sets) {
-    for (std::size_t at = 0; at < chain_.size(); ++at) {
+  /// A block of the chain, or of the program that it is in.
+  struct Position {
+    std::size_t at = 0;
+    std::uint32_t index = 0;
+  };
+  const Program& program(const Position& position) const {
+    return chain_[position.at].program->program();
+  }
+  const Block& block(const Position& position) const {
+    return program(position).blocks()[position.index];
+  }
+
+  /// Notes the nearest block before `from` that sets something. @returns it
+  std::optional<Position> find(const std::string& what, const Position& from, const auto& sets) {
+    for (std::size_t at = from.at; at < chain_.size(); ++at) {
       const Program& program = chain_[at].program->program();
       const auto* call = at + 1 < chain_.size() ? call_before(program, chain_[at + 1]) : nullptr;
-      for (std::uint32_t i = chain_[at].index; i-- > 0 && left_ > 0; --left_) {
+      const std::uint32_t first = at == from.at ? from.index : chain_[at].index;
+      for (std::uint32_t i = first; i-- > 0 && left_ > 0; --left_) {
         const Block& block = program.blocks()[i];
-        if (sets(program, block)) return note(what, {chain_[at].program, i}), &block;
+        if (sets(program, block)) return note(what, {chain_[at].program, i}), Position{at, i};
         if (begins_part(program, block, call)) break;
       }
     }
-    return nullptr;
+    return std::nullopt;
   }
   void note(const std::string& what, const Place& place) {
     const std::uint32_t line = place.line();
@@ -137,26 +167,36 @@ class Origins {
 std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
                                                  const NcError& error) {
   Origins origins(chain);
-  const Program& program = chain.front().program->program();
-  const Block& block = chain.front().source();
+  const Origins::Position failed{0, chain.front().index};
+  const Block& block = origins.block(failed);
   // Tool axis is missing, tool not defined, no touch probe.
   if (error.number == 1001 || error.number == 1092 || error.number == 1093) {
-    origins.find("tool", [](const auto&, const Block& each) {
+    origins.find("tool", failed, [](const auto&, const Block& each) {
       return as<klartext::ToolCall>(each) != nullptr;
     });
     return std::move(origins.notes);
   }
-  bool is_moved = as<klartext::ConditionalJump>(block) == nullptr;
-  if (!is_moved) origins.note("condition", chain.front());
-  for (const QRef parameter : read_by(program, block, error.text)) {
-    const Block* setter = origins.find(name(parameter), [=](const auto& in, const Block& each) {
-      return sets(in, each, parameter);
-    });
-    // FN 18 of a position
-    const auto* formula = setter == nullptr ? nullptr : as<klartext::Assignment>(*setter);
-    is_moved |= formula != nullptr && std::holds_alternative<klartext::NodeIndex>(formula->value);
+  if (as<klartext::ConditionalJump>(block) != nullptr) origins.note("condition", chain.front());
+  std::optional<Origins::Position> moved;
+  if (moves(block, error.text)) moved = failed;
+  constexpr std::size_t kMostFollowed = 24;
+  std::vector<std::pair<QRef, Origins::Position>> read;
+  const auto follow = [&](const Origins::Position& reader) {
+    for (const QRef each : read_by(origins.program(reader), origins.block(reader), error.text))
+      if (read.size() < kMostFollowed) read.emplace_back(each, reader);
+  };
+  follow(failed);
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    const auto [parameter, reader] = read[i];
+    const auto setter = origins.find(
+        name(parameter), reader,
+        [parameter](const auto& in, const Block& each) { return sets(in, each, parameter); });
+    if (!setter) continue;
+    if (as<klartext::Assignment>(origins.block(*setter)) != nullptr) follow(*setter);
+    if (reads_control(origins.program(*setter), origins.block(*setter))) moved = setter;
   }
-  if (error.number == 1004 || !is_moved) return std::move(origins.notes);
+  if (reads_control(origins.program(failed), block)) origins.find("datum", failed, sets_datum);
+  if (error.number == 1004 || !moved) return std::move(origins.notes);
   for (const Letter axis : {Letter::X, Letter::Y, Letter::Z}) {
     const auto moves = [=](const Program& in, const Block& each) {
       return (as<klartext::Motion>(each) != nullptr || as<klartext::CycleCall>(each) != nullptr) &&
@@ -164,10 +204,12 @@ std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
                return word.letter == axis && !word.argument;
              });
     };
-    if (!moves(program, block)) origins.find(std::string(spelling(axis)), moves);
+    if (!moves(origins.program(*moved), origins.block(*moved)))
+      origins.find(std::string(spelling(axis)), *moved, moves);
   }
-  origins.find("datum", sets_datum);
-  if (chain.front().program->is_inch()) origins.notes.push_back(inch_note(program));
+  origins.find("datum", *moved, sets_datum);
+  if (chain.front().program->is_inch())
+    origins.notes.push_back(inch_note(chain.front().program->program()));
   return std::move(origins.notes);
 }
 
