@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/text.hpp"
 
@@ -41,6 +42,13 @@ void read_code(Lexer& in, const char* begin, BlockWords& block, Modes& modes) {
         fmt::format(
             "G{:02} is unknown to these controls; docs/reference/language.md lists their codes",
             number));
+  }
+  if (code->kind <= CodeKind::Plane) {
+    const Code* other = std::exchange(block.stated.at(static_cast<std::size_t>(code->kind)), code);
+    if (other != nullptr && other != code)
+      return fail(in, begin,
+                  fmt::format("G{:02} and G{:02} contradict each other: leave one of them out",
+                              other->number, number));
   }
   switch (code->kind) {
     case CodeKind::Absent:

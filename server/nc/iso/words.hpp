@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,7 @@ struct BlockWords {
   std::vector<Word> words;
   std::vector<std::string_view> p;  ///< the values of P01, P02, ...
   const Code* block = nullptr;      ///< a code with a separate block
+  std::array<const Code*, 3> stated{};  ///< the codes of Path, Compensation and Plane
   bool has_path = false;
   bool has_plane = false;
   std::string_view compensation;

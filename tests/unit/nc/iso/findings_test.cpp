@@ -45,6 +45,13 @@ TEST_CASE("A block says what is missing or does not belong to it") {
   CHECK(finding("N10 G04 F1 X+5 *") == "2:1 syntax.error: X+5 is not allowed in a block of G04");
   CHECK(finding("N10 G04 F1 G28 X *") ==
         "2:12 syntax.error: G28 must not be in the block of G04: write it into another block");
+  CHECK(finding("N10 G00 G01 X+5 F100 *") ==
+        "2:9 syntax.error: G00 and G01 contradict each other: leave one of them out");
+  CHECK(finding("N10 G01 G41 X+5 G42 F100 *") ==
+        "2:17 syntax.error: G41 and G42 contradict each other: leave one of them out");
+  CHECK(finding("N10 T5 G17 G18 S100 *") ==
+        "2:12 syntax.error: G17 and G18 contradict each other: leave one of them out");
+  CHECK(finding("N10 G01 G01 G91 X+5 G90 Y+5 F100 *").empty());
   CHECK(finding("N10 D01 Q1 P01 +5 *") == "2:1 syntax.error: P02 is missing");
   CHECK(finding("N10 D00 Q1 P01 +5 P02 +6 *") ==
         "2:1 syntax.error: P02 is not allowed in this block");
