@@ -110,12 +110,14 @@ void WordReader::read() {
       in_.fail(DiagnosticCode::SyntaxError, in_.place(begin, in_.at()),
                fmt::format("{} is not allowed in this block", spelling(word.letter)));
     }
-    if (seen_.contains(word.letter) && word.letter != Letter::M) {
+    // F100 and FMAX are two values of one word.
+    const Letter letter = kFeeds.contains(word.letter) ? Letter::F : word.letter;
+    if (seen_.contains(letter) && letter != Letter::M) {
       in_.fail(DiagnosticCode::WordRepeated, in_.place(begin, in_.at()),
-               fmt::format("{} is repeated in this block", spelling(word.letter)));
+               fmt::format("{} is repeated in this block", spelling(letter)));
     }
-    seen_.insert(word.letter);
-    plain_.erase(word.letter);
+    seen_.insert(letter);
+    plain_.erase(letter);
   }
   in_.add_word(word);
 }

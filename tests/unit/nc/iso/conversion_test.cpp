@@ -82,7 +82,7 @@ TEST_CASE("each block has its own G90 and G91") {
 }
 
 TEST_CASE("a block without a form is an error at its line, and a call by a parameter a note") {
-  const auto parsed = parse_program(framed("L X+1\nL X+2 F500 FMAX\nCALL PGM QS1\n"), "p.h");
+  const auto parsed = parse_program(framed("L X+1\nC X+2 Y+2\nCALL PGM QS1\n"), "p.h");
   REQUIRE_FALSE(parsed.has_errors());
   const auto converted = to_iso(parsed.program, ".H");
   REQUIRE(converted.findings.size() == 2);
