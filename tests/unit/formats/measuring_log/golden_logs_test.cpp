@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
@@ -38,7 +39,7 @@ TEST_CASE("every log of the measuring cycles' golden cases is read") {
   constexpr int kCycles[] = {420, 421, 422, 423, 424, 425, 426, 427, 430, 431, 444, 451};
   std::map<int, std::size_t> logs;
   for (const int cycle : kCycles) {
-    const std::string folder = std::string(kFolder) + "/cycle-" + std::to_string(cycle);
+    const std::string folder = fmt::format("{}/cycle-{}", kFolder, cycle);
     const std::string expected = content(folder + "/expected.txt");
     const std::string text =
         between(expected, "\n****** Measuring log", "End of measuring log ******");

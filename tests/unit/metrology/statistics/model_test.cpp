@@ -333,7 +333,7 @@ TEST_CASE("what is no model is refused with its place") {
 
 TEST_CASE("deep brackets and long powers are read within the length of a model") {
   const auto brackets = [](std::size_t deep) {
-    return std::string(deep, '(') + "a+b" + std::string(deep, ')');
+    return std::string(deep, '(').append("a+b").append(deep, ')');
   };
   CHECK(refusal(brackets(498)) == "read");
   std::string powers = "b+a";
