@@ -12,7 +12,7 @@ struct Row {
 };
 
 constexpr Row kRows[] = {
-#define FITGAUGE_ERROR(name, id, title) {id, title},
+#define FITGAUGE_ERROR(name, id, title, status) {id, title},
 #include "base/error_codes.inc"
 #undef FITGAUGE_ERROR
 };

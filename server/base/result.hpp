@@ -14,7 +14,7 @@ namespace fitgauge {
 /// Every expected failure of the service, from one table (error_codes.inc). The text id is part of
 /// the HTTP contract and never changes.
 enum class ErrorCode : std::uint8_t {
-#define FITGAUGE_ERROR(name, id, title) name,
+#define FITGAUGE_ERROR(name, id, title, status) name,
 #include "base/error_codes.inc"
 #undef FITGAUGE_ERROR
 };

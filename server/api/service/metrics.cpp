@@ -108,7 +108,7 @@ struct Metrics::Parts {
 Metrics::Metrics() : parts_(std::make_unique<Parts>()) {
   // Alarms need their series from the start: a series that begins with 1 has no increase.
   for (const ErrorCode code : {
-#define FITGAUGE_ERROR(name, id, title) ErrorCode::name,
+#define FITGAUGE_ERROR(name, id, title, status) ErrorCode::name,
 #include "base/error_codes.inc"
 #undef FITGAUGE_ERROR
        }) {

@@ -11,7 +11,7 @@ using namespace fitgauge;
 TEST_CASE("every error code has a stable id of its own and a title") {
   std::set<std::string> ids;
   std::size_t count = 0;
-#define FITGAUGE_ERROR(name, text_id, text_title)                       \
+#define FITGAUGE_ERROR(name, text_id, text_title, status)               \
   CHECK(id(ErrorCode::name) == (text_id));                              \
   CHECK_FALSE(title(ErrorCode::name).empty());                          \
   CHECK(std::string_view(text_id).find('.') != std::string_view::npos); \
