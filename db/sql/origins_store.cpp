@@ -33,16 +33,6 @@ std::optional<OriginsStore::Origin> read_one(Rows rows) {
   return rows.next() ? std::optional(read_origin(rows)) : std::nullopt;
 }
 
-/// The texts of the first column.
-std::vector<std::string> read_texts(Rows rows, const SealedTable& table) {
-  std::vector<std::string> texts;
-  while (rows.next()) {
-    require_sound(rows, 1, table);
-    texts.push_back(rows.get<std::string>(0));
-  }
-  return texts;
-}
-
 constexpr std::string_view kBeforeTheFirst = "0";
 constexpr std::string_view kPositionColumn = "number || '-' || lower(hex(tag))";
 
@@ -68,7 +58,6 @@ struct OriginsStore::Statements {
   Statement nodes{c,
                   "SELECT hash FROM origin_nodes WHERE origin = ? AND level = ? AND node >= ? AND "
                   "node < ? ORDER BY node"};
-  Statement forks{c, select(c, kOriginForks, "checkpoint", "WHERE origin = ? ORDER BY number")};
   Statement add_fork{c, kOriginForks.insert(c) + " ON CONFLICT DO NOTHING RETURNING 1"};
   Statement revisions{c, "SELECT number, id FROM origin_revisions ORDER BY number"};
   Statement revision{c, "SELECT number FROM origin_revisions WHERE id = ?"};
@@ -106,7 +95,12 @@ void OriginsStore::set_head(const Origin& origin) {
 }
 
 std::vector<std::string> OriginsStore::keys(std::int64_t origin) const {
-  return read_texts(statements_->keys.query(origin), kOriginKeys);
+  std::vector<std::string> keys;
+  for (Rows rows = statements_->keys.query(origin); rows.next();) {
+    require_sound(rows, 1, kOriginKeys);
+    keys.push_back(rows.get<std::string>(0));
+  }
+  return keys;
 }
 
 void OriginsStore::add_key(std::int64_t origin, std::string_view vkey, std::int64_t now_ns) {
@@ -136,10 +130,6 @@ std::int64_t OriginsStore::nodes(std::int64_t origin, int level, std::int64_t fi
   Rows rows = statements_->nodes.query(origin, level, first, first + count);
   for (; rows.next(); ++visited) visit(rows.get<Digest>(0));
   return visited;
-}
-
-std::vector<std::string> OriginsStore::forks(std::int64_t origin) const {
-  return read_texts(statements_->forks.query(origin), kOriginForks);
 }
 
 bool OriginsStore::add_fork(std::int64_t origin, std::string_view checkpoint, std::int64_t now_ns) {

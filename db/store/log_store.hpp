@@ -123,8 +123,7 @@ class OriginsStore {
   std::int64_t nodes(std::int64_t origin, int level, std::int64_t first, std::int64_t count,
                      const LogStore::Visitor& visit) const;
 
-  /// Signed heads that contradict the log: the folder was copied and started twice.
-  std::vector<std::string> forks(std::int64_t origin) const;
+  /// Adds a signed head that contradicts the log: the folder was copied and started twice.
   /// @returns false: this one is known.
   bool add_fork(std::int64_t origin, std::string_view checkpoint, std::int64_t now_ns);
 

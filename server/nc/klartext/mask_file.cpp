@@ -106,8 +106,6 @@ class MaskParser {
 
 }  // namespace
 
-bool ParsedMask::has_errors() const { return contains_error(diagnostics); }
-
 ParsedMask parse_mask(std::string bytes, std::string name) {
   if (bytes.size() > kLargestMask) {
     ParsedMask refused;

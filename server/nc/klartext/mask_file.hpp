@@ -118,8 +118,6 @@ inline constexpr std::size_t kLargestMask = std::size_t{1} << 20;
 struct ParsedMask {
   MaskFile mask;
   std::vector<Diagnostic> diagnostics{};  ///< lines with an error are not in the mask
-
-  bool has_errors() const;
 };
 
 /// Reads a mask file; encodings as of parse_program. Never throws on bad input.

@@ -369,12 +369,6 @@ MqttClient::Ticket MqttClient::unsubscribe(std::string topic) {
   return order(Unsubscribe{std::move(topic)});
 }
 
-std::optional<int> MqttClient::settled(Ticket ticket) {
-  const std::lock_guard lock(mutex_);
-  const auto found = settled_.extract(ticket);
-  return found ? std::optional(found.mapped()) : std::nullopt;
-}
-
 std::optional<int> MqttClient::wait_settled(Ticket ticket, std::chrono::milliseconds most,
                                             const std::stop_token& stop) {
   std::unique_lock lock(mutex_);

@@ -64,10 +64,8 @@ class MqttClient {
   Ticket subscribe(std::string topic, int qos);
   Ticket unsubscribe(std::string topic);
 
-  /// The broker has acknowledged it (QoS 0: it was sent). 0, a reason code of MQTT 5 from 128 on,
-  /// or kCannotBeSent; removed after it was returned.
-  std::optional<int> settled(Ticket ticket);
-  /// Waits until it is settled. None: it was lost, the time is over, or a stop was requested.
+  /// Waits until the broker has acknowledged it (QoS 0: it was sent). 0, a reason code of MQTT 5
+  /// from 128 on, or kCannotBeSent. None: it was lost, the time is over, or a stop was requested.
   std::optional<int> wait_settled(Ticket ticket, std::chrono::milliseconds most,
                                   const std::stop_token& stop);
   static constexpr int kCannotBeSent = 256;  ///< the library refused the message itself

@@ -97,7 +97,7 @@ TEST_CASE("what a broker acknowledged before it went is settled, also where a wr
   const auto lost = client.publish({.topic = "a", .payload = "2"});
   goes_on.set_value();
   CHECK_FALSE(client.wait_settled(lost, std::chrono::seconds(20), {}).has_value());
-  CHECK(client.settled(acknowledged) == 0);
+  CHECK(client.wait_settled(acknowledged, {}, {}) == 0);
   CHECK_FALSE(client.is_connected());
 }
 
