@@ -21,14 +21,9 @@ Error changed(const interpreter::ControlPath& path) {
 
 bool holds(const FileService::Precondition& precondition, const store::Stores& stores,
            const interpreter::ControlPath& path) {
+  if (!precondition) return true;
   const auto file = stores.files.find(path.text());
   return precondition(file ? std::optional<std::string_view>(file->content) : std::nullopt);
-}
-
-std::optional<std::int64_t> revision_of(const store::Stores& stores,
-                                        const interpreter::ControlPath& path) {
-  const auto file = stores.files.stat(path.text());
-  return file ? std::optional(file->revision) : std::nullopt;
 }
 
 DiskFile disk_file(store::FileEntry entry) {
@@ -104,33 +99,14 @@ bool DraftDisk::has_directory(std::string_view directory) const {
   return inner_.has_directory(directory);
 }
 
-void FileService::change(const interpreter::ControlPath& path, Precondition precondition,
-                         Change change, Done<bool> done) {
-  const auto write = [&writer = database_.writer(), change = std::move(change),
-                      done = std::move(done)](const Result<Holds>& holds) {
-    if (!holds) return done(holds.error());
-    writer.submit([change, holds = *holds](store::Stores& stores) { return change(stores, holds); },
-                  done);
-  };
-  if (!precondition) return write(Holds([](const store::Stores&) { return true; }));
-  database_.readers().submit(
-      [path, precondition = std::move(precondition)](const store::Stores& stores) -> Result<Holds> {
-        return Holds([path, precondition, revision = revision_of(stores, path),
-                      held = holds(precondition, stores, path)](const store::Stores& now) {
-          return revision_of(now, path) == revision ? held : holds(precondition, now, path);
-        });
-      },
-      write);
-}
-
 void FileService::write(interpreter::ControlPath path, std::string_view bytes,
                         std::optional<std::string> caller, Precondition precondition,
                         Done<bool> done) {
-  change(
-      path, std::move(precondition),
-      [path, bytes, caller = std::move(caller), now = clock_.now()](
-          store::Stores& stores, const Holds& holds) -> Result<bool> {
-        if (!holds(stores)) return changed(path);
+  database_.writer().submit(
+      [path = std::move(path), bytes, caller = std::move(caller),
+       precondition = std::move(precondition),
+       now = clock_.now()](store::Stores& stores) -> Result<bool> {
+        if (!holds(precondition, stores, path)) return changed(path);
         return stores.files
             .put({.path = path.text(),
                   .content = bytes,
@@ -156,21 +132,20 @@ void FileService::read(interpreter::ControlPath path, Done<DiskFile> done) {
 void FileService::remove(interpreter::ControlPath path, std::optional<std::string> caller,
                          Precondition precondition, std::vector<std::string> users,
                          Done<bool> done) {
-  change(
-      path, std::move(precondition),
-      [path, caller = std::move(caller), users = std::move(users), now = clock_.now()](
-          store::Stores& stores, const Holds& holds) -> Result<bool> {
-        std::vector<std::string> used_by = users;
+  database_.writer().submit(
+      [path = std::move(path), caller = std::move(caller), precondition = std::move(precondition),
+       users = std::move(users),
+       now = clock_.now()](store::Stores& stores) mutable -> Result<bool> {
         if (!stores.files.stat(path.text())) return unknown(path);
         for (const auto& [kind, member] :
              {std::pair{DocumentKind::Setup, "file"}, std::pair{DocumentKind::Plan, "picture"}}) {
-          add_users(used_by, stores, kind, [&path, name = member](const JsonValue& each) {
+          add_users(users, stores, kind, [&path, name = member](const JsonValue& each) {
             const auto named = parse_file_path(each.text_of(name));
             return named && *named == path;
           });
         }
-        if (const auto free = check_unused(path.text(), used_by); !free) return free.error();
-        if (!holds(stores)) return changed(path);
+        if (const auto free = check_unused(path.text(), users); !free) return free.error();
+        if (!holds(precondition, stores, path)) return changed(path);
         if (!stores.files.remove(path.text(), now.nanoseconds, caller)) return unknown(path);
         return true;
       },

@@ -74,9 +74,8 @@ class FileService {
 
   FileService(store::Database& database, const Clock& clock) : database_(database), clock_(clock) {}
 
-  /// Decides from the current bytes, if there is a file, whether the change is allowed; called on a
-  /// thread that reads, and again in the transaction of the change if the file has another revision
-  /// then. An empty function allows every change.
+  /// Decides from the current bytes, if there is a file, whether the change is allowed; called in
+  /// the transaction of the change. An empty function allows every change.
   using Precondition = std::function<bool(std::optional<std::string_view> bytes)>;
 
   /// Returns whether the file is new. @param bytes stays alive until `done`.
@@ -97,12 +96,6 @@ class FileService {
   void list(std::string prefix, Done<std::vector<DiskFile>> done);
 
  private:
-  using Holds = std::function<bool(const store::Stores&)>;
-  using Change = std::function<Result<bool>(store::Stores&, const Holds&)>;
-  /// Makes a change on the thread that writes, which then neither reads nor hashes the file.
-  void change(const interpreter::ControlPath& path, Precondition precondition, Change change,
-              Done<bool> done);
-
   store::Database& database_;
   const Clock& clock_;
 };

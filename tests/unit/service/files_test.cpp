@@ -1,5 +1,3 @@
-#include <thread>
-
 #include "service_fixture.hpp"
 
 namespace fitgauge::app {
@@ -61,31 +59,6 @@ TEST_CASE("a precondition is asked with the state that a change would replace") 
   CHECK(remove(is_first).error().code == ErrorCode::PreconditionFailed);
   CHECK(remove({}).has_value());
   CHECK(remove(is_first).error().code == ErrorCode::FileUnknown);
-}
-
-TEST_CASE("the thread that writes asks a precondition only if the file has changed meanwhile") {
-  Service service;
-  std::thread::id writer;
-  const auto write = [&](FileService::Precondition allowed, std::string_view bytes) {
-    return wait_for<bool>([&](auto done) {
-      service->files().write(path("TNC:\\a.h"), bytes, {}, std::move(allowed),
-                             [&writer, done](Result<bool> created) {
-                               writer = std::this_thread::get_id();
-                               done(std::move(created));
-                             });
-    });
-  };
-  REQUIRE(write({}, "x").has_value());
-  std::vector<bool> by_writer;
-  const auto is_first = [&](std::optional<std::string_view> stored) {
-    by_writer.push_back(std::this_thread::get_id() == writer);
-    if (by_writer == std::vector<bool>{false, false}) CHECK(write({}, "other").has_value());
-    return stored == "x";
-  };
-  CHECK(write(is_first, "x").has_value());
-  CHECK(by_writer == std::vector<bool>{false});
-  CHECK(write(is_first, "y").error().code == ErrorCode::PreconditionFailed);
-  CHECK(by_writer == std::vector<bool>{false, false, true});
 }
 
 TEST_CASE("a file is checked as what its extension says: program, mask or table") {
