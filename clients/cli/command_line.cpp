@@ -50,11 +50,7 @@ void add_common(CLI::App& app, CommonOptions& common) {
 /// Returns the key of --key-file or FITGAUGE_KEY; not of an argument, which other users can read.
 Outcome<std::string> read_key(const CommonOptions& common) {
   std::string text = environment_variable("FITGAUGE_KEY");
-  if (!common.key_file.empty()) {
-    auto file = read_file(common.key_file);
-    if (!file) return file;
-    text = *std::move(file);
-  }
+  if (!common.key_file.empty()) text = TRY(read_file(common.key_file));
   const std::string_view key = trim(std::string_view(text).substr(0, text.find_first_of("\r\n")));
   const bool printable =
       std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c < '\x7F'; });
@@ -66,21 +62,18 @@ Outcome<Connection> connection_of(const CommonOptions& common) {
   std::string server = common.server;
   if (server.empty()) server = environment_variable("FITGAUGE_SERVER");
   if (server.empty()) server = kDefaultServer;
-  auto url = service_url(server);
-  if (!url) return url.error();
-  auto key = read_key(common);
-  if (!key) return key.error();
-  return Connection{.url = *std::move(url),
-                    .key = *std::move(key),
+  auto url = TRY(service_url(server));
+  auto key = TRY(read_key(common));
+  return Connection{.url = std::move(url),
+                    .key = std::move(key),
                     .authority_file = common.authority_file,
                     .certificate_file = common.certificate_file,
                     .certificate_key_file = common.certificate_key_file};
 }
 
 Outcome<ExitCode> run_action(const Action& action, const CommonOptions& common) {
-  auto connection = connection_of(common);
-  if (!connection) return connection.error();
-  HttpClient client(*std::move(connection));
+  auto connection = TRY(connection_of(common));
+  HttpClient client(std::move(connection));
   return action({.client = client,
                  .out = terminal_of(STDOUT_FILENO),
                  .err = terminal_of(STDERR_FILENO),
@@ -153,9 +146,7 @@ int run_command_line(int argc, char** argv) {
       common.retry_seconds = kMeasureRetrySeconds;
     }
     for (int i = 1; i < argc; ++i) {
-      if (!is_utf8(argv[i])) {
-        return complain({ExitCode::Usage, "an argument is not UTF-8"}, false);
-      }
+      if (!is_utf8(argv[i])) return complain({ExitCode::Usage, "an argument is not UTF-8"}, false);
     }
     const auto done = run_action(action, common);
     if (!done) return complain(done.error(), common.json);

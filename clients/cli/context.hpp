@@ -57,9 +57,8 @@ Outcome<ExitCode> show(const Context& context, const Outcome<Answer>& answer, co
     context.print_document(answer->body);
     return ExitCode::Good;
   }
-  const auto document = read_document(*answer, context.client.url());
-  if (!document) return document.error();
-  print(*document);
+  const auto document = TRY(read_document(*answer, context.client.url()));
+  print(document);
   return ExitCode::Good;
 }
 

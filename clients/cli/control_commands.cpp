@@ -60,9 +60,9 @@ Outcome<LinkClient> connect(const std::string& address,
   }
   auto control = LinkClient::connect({.address = *parsed});
   if (!control) return failure_of(control.error());
-  if (const auto done = log_in(*control, {"INSPECT"}); !done) return done.error();
+  TRY(log_in(*control, {"INSPECT"}));
   if (const auto agreed = control->agree_buffer(); !agreed) return failure_of(agreed.error());
-  if (const auto done = log_in(*control, logins); !done) return done.error();
+  TRY(log_in(*control, logins));
   return *std::move(control);
 }
 
@@ -137,23 +137,15 @@ Outcome<MachineState> read_state(LinkClient& control) {
   control_link::State mode;
   control_link::State state{static_cast<std::uint16_t>(ProgramState::Idle)};
   control_link::Axes axes;
-  if (const auto got = ask_for(control, ReadRunInformation::kMode, mode); !got) return got.error();
-  if (const auto got = ask_for(control, ReadRunInformation::kState, state); !got) {
-    return got.error();
-  }
-  if (const auto got = ask_for(control, ReadRunInformation::kProgram, machine.program); !got) {
-    return got.error();
-  }
-  if (const auto got = ask_for(control, ReadRunInformation::kAxes, axes); !got) return got.error();
-  if (const auto got = ask_for(control, ReadRunInformation::kOverride, machine.overrides); !got) {
-    return got.error();
-  }
+  TRY(ask_for(control, ReadRunInformation::kMode, mode));
+  TRY(ask_for(control, ReadRunInformation::kState, state));
+  TRY(ask_for(control, ReadRunInformation::kProgram, machine.program));
+  TRY(ask_for(control, ReadRunInformation::kAxes, axes));
+  TRY(ask_for(control, ReadRunInformation::kOverride, machine.overrides));
   machine.mode = mode.value;
   machine.state = static_cast<ProgramState>(state.value);
   machine.axes = std::move(axes.axes);
-  auto errors = read_errors(control);
-  if (!errors) return errors.error();
-  machine.errors = *std::move(errors);
+  machine.errors = TRY(read_errors(control));
   return machine;
 }
 
@@ -242,10 +234,9 @@ Outcome<ProgramState> wait_for_end(LinkClient& control) {
 
 Outcome<ExitCode> run_control_ls(const Context& context, const std::string& address,
                                  const std::string& directory) {
-  auto control = connect(address, {"FILE"});
-  if (!control) return control.error();
+  auto control = TRY(connect(address, {"FILE"}));
   const std::string path = directory.empty() ? "TNC:\\" : control_path(directory);
-  const auto entries = control->list(path, kMostEntries);
+  const auto entries = control.list(path, kMostEntries);
   if (!entries) return failure_of(path, entries.error());
   std::vector<std::string> rows;
   for (const control_link::DirectoryEntry& entry : *entries) {
@@ -272,11 +263,10 @@ Outcome<ExitCode> run_control_ls(const Context& context, const std::string& addr
 Outcome<ExitCode> run_control_get(const Context&, const ControlGetOptions& options) {
   const std::string path = control_path(options.path);
   const std::string file = options.file.empty() ? std::string(base_name(path)) : options.file;
-  auto control = connect(options.address, {"FILE"});
-  if (!control) return control.error();
-  const auto bytes = control->download(path, Transfer::Binary, kMostBytes);
+  auto control = TRY(connect(options.address, {"FILE"}));
+  const auto bytes = control.download(path, Transfer::Binary, kMostBytes);
   if (!bytes) return failure_of(path, bytes.error());
-  if (const auto allowed = may_replace(file, options.force); !allowed) return allowed.error();
+  TRY(may_replace(file, options.force));
   const auto written = write_file(file, *bytes);
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }
@@ -288,31 +278,26 @@ Outcome<ExitCode> run_control_put(const Context& context, const ControlPutOption
     return Failure{ExitCode::Usage,
                    fmt::format("several files need a folder: write {}/", destination)};
   }
-  auto control = connect(options.words.front(), {"FILE"});
-  if (!control) return control.error();
+  auto control = TRY(connect(options.words.front(), {"FILE"}));
   for (const std::string& file : files) {
-    const auto bytes = read_file(file);
-    if (!bytes) return bytes.error();
+    const auto bytes = TRY(read_file(file));
     const std::string path = destination_of(destination, file);
     if (!options.force) {
-      const auto there = is_there(*control, path);
-      if (!there) return there.error();
-      if (*there) {
+      const auto there = TRY(is_there(control, path));
+      if (there)
         return Failure{ExitCode::Refused, path + ": exists on the control; --force replaces it"};
-      }
     }
-    const auto sent = control->upload(path, *bytes, transfer_of(path));
+    const auto sent = control.upload(path, bytes, transfer_of(path));
     if (!sent) return failure_of(path, sent.error());
-    if (!context.json) context.print("{}  {} bytes\n", path, bytes->size());
+    if (!context.json) context.print("{}  {} bytes\n", path, bytes.size());
   }
   return ExitCode::Good;
 }
 
 Outcome<ExitCode> run_control_run(const Context& context, const std::string& address,
                                   const std::string& program) {
-  auto control = connect(address, {});
-  if (!control) return control.error();
-  const auto identity = control->identity();
+  auto control = TRY(connect(address, {}));
+  const auto identity = control.identity();
   if (!identity) return failure_of(identity.error());
   if (identity->plc != control_link::kVirtualPlc) {
     return Failure{
@@ -321,33 +306,29 @@ Outcome<ExitCode> run_control_run(const Context& context, const std::string& add
             "{} at {} is a real control: start the program at the machine, LSV-2 has no NC start",
             identity->control, address)};
   }
-  if (const auto done = log_in(*control, {"FILE", "DNC", "PLCDEBUG"}); !done) return done.error();
+  TRY(log_in(control, {"FILE", "DNC", "PLCDEBUG"}));
   const std::string path = control_path(program);
-  const auto started = control->tell(control_link::WriteMachineParameter{
+  const auto started = control.tell(control_link::WriteMachineParameter{
       .name = std::string(control_link::kRunParameter), .value = path});
   if (!started) return failure_of(path, started.error());
-  const auto state = wait_for_end(*control);
-  if (!state) return state.error();
-  const auto errors = read_errors(*control);
-  if (!errors) return errors.error();
-  for (const auto& error : *errors) context.note(fmt::format("{}: {}", error.number, error.text));
-  if (*state != ProgramState::Finished) {
+  const auto state = TRY(wait_for_end(control));
+  const auto errors = TRY(read_errors(control));
+  for (const auto& error : errors) context.note(fmt::format("{}: {}", error.number, error.text));
+  if (state != ProgramState::Finished) {
     return Failure{ExitCode::ProgramFailed,
-                   fmt::format("{} ended with status {}", path, name_of(*state))};
+                   fmt::format("{} ended with status {}", path, name_of(state))};
   }
-  if (!context.json) context.print("{} {}\n", path, name_of(*state));
+  if (!context.json) context.print("{} {}\n", path, name_of(state));
   return ExitCode::Good;
 }
 
 Outcome<ExitCode> run_control_state(const Context& context, const std::string& address) {
-  auto control = connect(address, {"DNC"});
-  if (!control) return control.error();
-  const auto machine = read_state(*control);
-  if (!machine) return machine.error();
+  auto control = TRY(connect(address, {"DNC"}));
+  const auto machine = TRY(read_state(control));
   if (context.json) {
-    context.print_document(state_json(*machine));
+    context.print_document(state_json(machine));
   } else {
-    print_state(context, *machine);
+    print_state(context, machine);
   }
   return ExitCode::Good;
 }

@@ -72,8 +72,7 @@ Outcome<void> CsvChunks::fill_empty() {
 Outcome<void> CsvChunks::read_header() {
   std::optional<CsvRecord> header;
   while (!header && !(ended_ && buffer_.empty())) {
-    const auto filled = fill();
-    if (!filled) return filled.error();
+    TRY(fill());
     const std::string_view line =
         std::string_view(buffer_).substr(0, buffer_.find_first_of("\r\n"));
     separator_ = line.find(';') == std::string_view::npos ? ',' : ';';
@@ -115,7 +114,7 @@ Outcome<CsvMatch> CsvChunks::skip_to(const CsvPosition& place) {
   bool at_line_end = true;  // of the header; false: the header is the last line
   std::uint64_t left = place.bytes - position_.bytes;
   while (left > 0) {
-    if (const auto filled = fill_empty(); !filled) return filled.error();
+    TRY(fill_empty());
     if (buffer_.empty()) return CsvMatch::Different;
     const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(left, buffer_.size()));
     at_line_end = is_line_end(buffer_[size - 1]);
@@ -125,7 +124,7 @@ Outcome<CsvMatch> CsvChunks::skip_to(const CsvPosition& place) {
   position_ = {.bytes = place.bytes, .lines = place.lines, .sha256 = to_hex(digest_.so_far())};
   if (position_ != place) return CsvMatch::Different;
   if (at_line_end) return CsvMatch::Same;
-  if (const auto filled = fill_empty(); !filled) return filled.error();
+  TRY(fill_empty());
   if (!buffer_.empty() && !is_line_end(buffer_.front())) return CsvMatch::RowHasGrown;
   --position_.lines;  // its end was counted, and is yet to be read
   return CsvMatch::Same;
@@ -146,7 +145,7 @@ Outcome<std::optional<CsvChunk>> CsvChunks::next() {
       continue;
     }
     if (ended_ || buffer_.size() > most_bytes) break;
-    if (const auto filled = fill(); !filled) return filled.error();
+    TRY(fill());
   }
   if (rows > 0) return take(size, rows, lines);
   if (ended_ && size == buffer_.size()) return std::nullopt;
@@ -158,9 +157,7 @@ Outcome<std::optional<CsvChunk>> CsvChunks::next() {
 Outcome<std::optional<CsvChunk>> CsvChunks::next_until(const CsvPosition& end) {
   if (end.bytes <= position_.bytes) return std::nullopt;
   const std::uint64_t size = end.bytes - position_.bytes;
-  while (buffer_.size() <= size && !ended_) {
-    if (const auto filled = fill(); !filled) return filled.error();
-  }
+  while (buffer_.size() <= size && !ended_) TRY(fill());
   if (buffer_.size() < size) return std::nullopt;
   const bool goes_on = buffer_.size() > size && !is_line_end(buffer_[size]);
   if (goes_on && !is_line_end(buffer_[size - 1])) return std::nullopt;  // in the middle of a row

@@ -266,27 +266,25 @@ Outcome<std::string> measured_text(const std::string& typed) {
 }
 
 Outcome<ExitCode> show_verdict(const Context& context, const Answer& answer) {
-  const auto document = read_document(answer, context.client.url());
-  if (!document) return document.error();
+  const auto document = TRY(read_document(answer, context.client.url()));
   if (context.json) {
     context.print_document(answer.body);
   } else {
-    context.print("{}", format_verdict(*document, context.out));
+    context.print("{}", format_verdict(document, context.out));
   }
-  return verdict_exit_code(document->text_of("verdict"));
+  return verdict_exit_code(document.text_of("verdict"));
 }
 
 namespace {
 
 Outcome<ExitCode> judge(const Context& context, const GaugeOptions& options,
                         const std::string& measured) {
-  const auto text = measured_text(measured);
-  if (!text) return text.error();
+  const auto text = TRY(measured_text(measured));
   auto answer =
       options.record
-          ? context.post_once("/v1/measurements", record_body(options, *text))
+          ? context.post_once("/v1/measurements", record_body(options, text))
           : context.client.send({.target = "/v1/verdicts/" + percent_encoded(options.designation) +
-                                           verdict_query(options, *text)});
+                                           verdict_query(options, text)});
   answer = expect_ok(std::move(answer), context.client.url());
   return answer ? show_verdict(context, *answer) : answer.error();
 }
@@ -317,18 +315,15 @@ std::optional<std::string> value_in(const std::string& line, const std::regex& p
 
 /// Judges line by line, each value once; other lines are reported and not stored.
 Outcome<ExitCode> follow_port(const Context& context, GaugeOptions options) {
-  const auto pattern = pattern_of(options.pattern);
-  if (!pattern) return pattern.error();
-  auto port = SerialPort::open(options.serial, options.baud);
-  if (!port) return port.error();
+  const auto pattern = TRY(pattern_of(options.pattern));
+  auto port = TRY(SerialPort::open(options.serial, options.baud));
   context.note(options.serial + ": waiting for values");
   for (;;) {
-    const auto line = port->next();
-    if (!line) return line.error();
-    const auto value = line->whole ? value_in(line->text, *pattern) : std::nullopt;
+    const auto line = TRY(port.next());
+    const auto value = line.whole ? value_in(line.text, pattern) : std::nullopt;
     if (!value || !measured_text(*value)) {
-      context.note(fmt::format("{}: '{}' is not a value{}", options.serial, line->text,
-                               line->whole ? "" : ": it is incomplete"));
+      context.note(fmt::format("{}: '{}' is not a value{}", options.serial, line.text,
+                               line.whole ? "" : ": it is incomplete"));
       continue;
     }
     options.fields[RowField::MeasuredAt] = format_rfc3339(SystemClock().now());

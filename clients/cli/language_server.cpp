@@ -373,10 +373,9 @@ std::optional<Reply> next_message(bool& is_lost) {
 }  // namespace
 
 Outcome<ExitCode> run_nc_lsp(const Context&, const std::vector<std::string>& levels) {
-  const auto read = read_levels(levels);
-  if (!read) return read.error();
+  const auto read = TRY(read_levels(levels));
   std::ios::sync_with_stdio(false);
-  Server server{.programs = {}, .levels = *read};
+  Server server{.programs = {}, .levels = read};
   for (bool is_lost = false; !server.is_over;) {
     // Findings follow once no other keystroke waits.
     if (std::cin.rdbuf()->in_avail() <= 0) publish(server);

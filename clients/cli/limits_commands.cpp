@@ -238,21 +238,17 @@ Outcome<ExitCode> run_standards(const Context& context, const StandardQuery& que
 Outcome<ExitCode> run_tables_export(const Context& context, const TableOptions& options) {
   std::string format = options.format;
   if (format.empty()) format = context.json ? "json" : "csv";
-  const auto target = table_target(options, format);
-  if (!target) return target.error();
-  const auto answer = get(context, *target);
-  if (!answer) return answer.error();
-  const auto written = write_file(options.output, answer->body);
+  const auto target = TRY(table_target(options, format));
+  const auto answer = TRY(get(context, target));
+  const auto written = write_file(options.output, answer.body);
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }
 
 Outcome<ExitCode> run_version(const Context& context) {
   if (!context.json) context.print("fitgauge {}\n", FITGAUGE_VERSION);
-  const auto answer = get(context, "/openapi.json");
-  if (!answer) return answer.error();
-  const auto document = read_document(*answer, context.client.url());
-  if (!document) return document.error();
-  const std::string_view service = document->member("info").text_of("version");
+  const auto answer = TRY(get(context, "/openapi.json"));
+  const auto document = TRY(read_document(answer, context.client.url()));
+  const std::string_view service = document.member("info").text_of("version");
   if (context.json) {
     context.print_document(JsonObject()
                                .add("fitgauge", FITGAUGE_VERSION)

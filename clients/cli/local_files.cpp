@@ -74,30 +74,27 @@ Outcome<InputFile> open_to_read_again(const std::string& path) {
   if (kept.descriptor_ < 0) return failed(folder, "store the input there");
   std::string piece(kReadSize, '\0');
   for (;;) {
-    const auto count = input->read(piece);
-    if (!count) return count.error();
-    if (*count == 0) break;
-    for (std::string_view rest(piece.data(), *count); !rest.empty();) {
+    const auto count = TRY(input->read(piece));
+    if (count == 0) break;
+    for (std::string_view rest(piece.data(), count); !rest.empty();) {
       const ssize_t written = ::write(kept.descriptor_, rest.data(), rest.size());
       if (written < 0 && errno != EINTR) return failed(folder, "store the input there");
       rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
     }
   }
-  if (const auto rewound = kept.rewind(); !rewound) return rewound.error();
+  TRY(kept.rewind());
   return kept;
 }
 
 Outcome<std::string> read_file(const std::string& path) {
-  auto file = InputFile::open(path);
-  if (!file) return file.error();
+  auto file = TRY(InputFile::open(path));
   std::string bytes;
   for (;;) {
     const std::size_t size = bytes.size();
     bytes.resize(size + kReadSize);
-    const auto count = file->read(std::span(bytes).subspan(size));
-    if (!count) return count.error();
-    bytes.resize(size + *count);
-    if (*count == 0) return bytes;
+    const auto count = TRY(file.read(std::span(bytes).subspan(size)));
+    bytes.resize(size + count);
+    if (count == 0) return bytes;
   }
 }
 

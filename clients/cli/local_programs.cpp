@@ -79,17 +79,16 @@ void print(const Context& context, std::string_view format, const std::vector<Di
 
 /// The content of a file of the service. @errors as of the service
 Outcome<std::vector<Diagnostic>> found_there(const Context& context, const std::string& file) {
-  const auto answer = expect_ok(
+  const auto answer = TRY(expect_ok(
       context.client.send({.method = "POST", .target = file_target(file) + "?action=check"}),
-      context.client.url());
-  if (!answer) return answer.error();
-  const auto document = read_document(*answer, context.client.url());
-  if (!document) return document.error();
+      context.client.url()));
+  const auto document = TRY(read_document(answer, context.client.url()));
   std::vector<Diagnostic> all;
-  for (const JsonValue& item : document->member("diagnostics").items) {
+  for (const JsonValue& item : document.member("diagnostics").items) {
     Diagnostic& found = all.emplace_back();
-    for (const Severity each : {Severity::Note, Severity::Warning, Severity::Error})
+    for (const Severity each : {Severity::Note, Severity::Warning, Severity::Error}) {
       if (item.text_of("severity") == word(each)) found.severity = each;
+    }
     const auto* code = std::ranges::find(kCodes, item.text_of("code"));
     if (code != std::end(kCodes)) found.code = static_cast<DiagnosticCode>(code - kCodes);
     found.message = item.text_of("message");
@@ -147,8 +146,7 @@ void apply_levels(const Levels& levels, std::vector<Diagnostic>& found) {
 }
 
 Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& options) {
-  const auto levels = read_levels(options.levels);
-  if (!levels) return levels.error();
+  const auto levels = TRY(read_levels(options.levels));
   if (options.from_control && !options.run.setup_file.empty())
     return Failure{ExitCode::Usage, "--setup is for local files: remove it with --from-control"};
   std::vector<Diagnostic> all;
@@ -161,7 +159,7 @@ Outcome<ExitCode> run_nc_check(const Context& context, const CheckOptions& optio
       failed = found.error();
       continue;
     }
-    apply_levels(*levels, *found);
+    apply_levels(levels, *found);
     all.insert(all.end(), found->begin(), found->end());
   }
   print(context, !options.format.empty() ? options.format : context.json ? "json" : "text", all);
@@ -212,13 +210,10 @@ Outcome<ReadProgram> read_program(const Context& context, const std::string& fil
   std::string bytes;
   if (from_control) {
     auto answer =
-        expect_ok(context.client.send({.target = file_target(file)}), context.client.url());
-    if (!answer) return answer.error();
-    bytes = std::move(answer->body);
+        TRY(expect_ok(context.client.send({.target = file_target(file)}), context.client.url()));
+    bytes = std::move(answer.body);
   } else {
-    auto read = read_file(file);
-    if (!read) return read.error();
-    bytes = *std::move(read);
+    bytes = TRY(read_file(file));
   }
   const bool is_iso = iso::is_iso(bytes, file);
   ReadProgram read{.program = {},
@@ -253,18 +248,15 @@ Outcome<ExitCode> run_nc_format(const Context& context, const FormatOptions& opt
   if (options.in_place && options.from_control)
     return Failure{ExitCode::Usage, "--in-place is for local files: remove it with --from-control"};
   for (const std::string& file : options.files) {
-    const auto read = read_program(context, file, options.from_control);
-    if (!read) return read.error();
+    const auto read = TRY(read_program(context, file, options.from_control));
     const auto formatted =
-        text_of(file, read->is_iso ? iso::to_iso(read->program, {})
-                                   : iso::Conversion{klartext::format_program(read->program)});
-    if (!formatted) return formatted.error();
+        TRY(text_of(file, read.is_iso ? iso::to_iso(read.program, {})
+                                      : iso::Conversion{klartext::format_program(read.program)}));
     if (!options.in_place) {
-      context.print("{}", *formatted);
+      context.print("{}", formatted);
       continue;
     }
-    const auto written = write_file(file, read->as_written(*formatted));
-    if (!written) return written.error();
+    TRY(write_file(file, read.as_written(formatted)));
   }
   return ExitCode::Good;
 }
@@ -275,18 +267,15 @@ Outcome<ExitCode> run_nc_convert(const Context& context, const ConvertOptions& o
     return Failure{
         ExitCode::Usage,
         "exactly one of the two files must have the ending .i (DIN/ISO): nc convert bore.i bore.h"};
-  const auto read = read_program(context, options.file, options.from_control);
-  if (!read) return read.error();
-  if (read->is_iso != is_iso)
+  const auto read = TRY(read_program(context, options.file, options.from_control));
+  if (read.is_iso != is_iso)
     return Failure{ExitCode::LocalFile,
                    fmt::format("{} contains {}, which does not match its name: rename it",
                                options.file, is_iso ? "Klartext" : "DIN/ISO")};
-  const auto text = text_of(options.file, is_iso ? iso::to_klartext(read->program, ".I")
-                                                 : iso::to_iso(read->program, ".H"));
-  if (!text) return text.error();
-  if (const auto allowed = may_replace(options.target, options.force); !allowed)
-    return allowed.error();
-  const auto written = write_file(options.target, read->as_written(*text));
+  const auto text = TRY(text_of(options.file, is_iso ? iso::to_klartext(read.program, ".I")
+                                                     : iso::to_iso(read.program, ".H")));
+  TRY(may_replace(options.target, options.force));
+  const auto written = write_file(options.target, read.as_written(text));
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }
 

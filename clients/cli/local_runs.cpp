@@ -52,23 +52,19 @@ struct LocalRun {
 Outcome<LocalRun> check_and_run(RunOptions options, bool is_run, bool follows) {
   const std::string file = std::exchange(options.program, std::string(base_name(options.program)));
   if (options.setup_file.empty()) options.setup_file = std::exchange(options.setup, {});
-  const auto text = run_order(options);
-  if (!text) return text.error();
-  const auto name = local_program(file);
-  if (!name) return name.error();
+  const auto text = TRY(run_order(options));
+  const auto name = TRY(local_program(file));
   const FolderDisk disk(file);
   LocalRun local;
   Allowance unlimited;
   std::optional<app::RunOrder> order;
   if (is_run) {
-    auto made = order_of(*text, disk);
-    if (!made) return made.error();
-    order = *std::move(made);
+    order = TRY(order_of(text, disk));
     if (follows) order->watch = {{klartext::QSpace::Q, 0}};
     local.builder = order->options.builder;
   }
   interpreter::ProgramCache programs;
-  auto found = interpreter::check(*name, disk, programs, unlimited);
+  auto found = interpreter::check(name, disk, programs, unlimited);
   if (!found) return Failure{ExitCode::LocalFile, file + ": " + found.error().message};
   local.found = *std::move(found);
   for (klartext::Diagnostic& each : local.found) each.program = disk.name_here(each.program);
@@ -99,17 +95,15 @@ Outcome<LocalRun> check_and_run(RunOptions options, bool is_run, bool follows) {
 }  // namespace
 
 Outcome<std::vector<klartext::Diagnostic>> found_here(const RunOptions& options) {
-  auto local = check_and_run(options, !options.setup_file.empty(), true);
-  if (!local) return local.error();
+  auto local = TRY(check_and_run(options, !options.setup_file.empty(), true));
   const auto drop = [&](const std::string& hint) {
-    std::erase_if(local->found, [&](const auto& each) { return each.message == hint; });
+    std::erase_if(local.found, [&](const auto& each) { return each.message == hint; });
   };
-  for (const auto& each : local->builder.m_functions)
-    drop(interpreter::m_function_hint(each.first));
-  for (const auto& each : local->builder.cycles)
+  for (const auto& each : local.builder.m_functions) drop(interpreter::m_function_hint(each.first));
+  for (const auto& each : local.builder.cycles)
     for (const bool is_probing : {false, true})
       drop(interpreter::cycle_hint(is_probing, each.first));
-  return std::move(local->found);
+  return std::move(local.found);
 }
 
 Outcome<std::string> run_here(const Context& context, RunOptions options) {
@@ -118,23 +112,22 @@ Outcome<std::string> run_here(const Context& context, RunOptions options) {
         ExitCode::Usage,
         "--part-id and --order need --from-control: the service stores them with its records"};
   }
-  auto local = check_and_run(options, true, false);
-  if (!local) return local.error();
-  if (local->document.empty()) {
-    for (const klartext::Diagnostic& each : local->found)
+  auto local = TRY(check_and_run(options, true, false));
+  if (local.document.empty()) {
+    for (const klartext::Diagnostic& each : local.found)
       if (!context.json) fmt::print(stderr, "{}\n", klartext::render(each));
     return Failure{ExitCode::ProgramFailed,
                    options.program + " or a program that it calls has errors"};
   }
-  for (const interpreter::WrittenFile& each : local->report.result.files) {
+  for (const interpreter::WrittenFile& each : local.report.result.files) {
     if (options.files_to.empty()) break;
     std::error_code failed;
     const std::string target = options.files_to + "/" + relative_of(each.path.text());
     std::filesystem::create_directories(std::filesystem::path(target).parent_path(), failed);
-    if (const auto allowed = may_replace(target, options.force); !allowed) return allowed.error();
-    if (const auto written = write_file(target, each.bytes); !written) return written.error();
+    TRY(may_replace(target, options.force));
+    TRY(write_file(target, each.bytes));
   }
-  return std::move(local->document);
+  return std::move(local.document);
 }
 
 }  // namespace fitgauge::cli

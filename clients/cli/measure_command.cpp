@@ -65,8 +65,7 @@ class Upload {
       // waiting.
       auto upcoming = std::async(reads_ahead_ ? std::launch::async : std::launch::deferred,
                                  [&chunks] { return chunks->next(); });
-      const auto sent = send(*chunks, **chunk);
-      if (!sent) return sent.error();
+      TRY(send(*chunks, **chunk));
       chunk = upcoming.get();
     }
     if (!chunk) return chunk.error();
@@ -76,9 +75,8 @@ class Upload {
  private:
   Outcome<CsvChunks> open_input() {
     if (RowInput::is_one(options_)) return open_rows();
-    auto opened = InputFile::open(options_.input);
-    if (!opened) return opened.error();
-    const auto file = std::make_shared<InputFile>(std::move(*opened));
+    auto opened = TRY(InputFile::open(options_.input));
+    const auto file = std::make_shared<InputFile>(std::move(opened));
     progress_.bytes_in_all = file->size();
     reads_ahead_ = progress_.bytes_in_all.has_value();
     return begin_chunks([file](std::span<char> into) { return file->read(into); });
@@ -93,9 +91,8 @@ class Upload {
                      "--map, --set, --encoding, --time-zone and --leave-out-others are for tables: "
                      "remove them for NDJSON"};
     }
-    auto opened = RowInput::open(context_, options_);
-    if (!opened) return opened.error();
-    const auto input = std::make_shared<RowInput>(*std::move(opened));
+    auto opened = TRY(RowInput::open(context_, options_));
+    const auto input = std::make_shared<RowInput>(std::move(opened));
     // Requests for limits must wait while rows are on their way to the service.
     reads_ahead_ = RowInput::keeps_lines(options_) && options_.input != "-";
     const auto read = [input](std::span<char> into) { return input->read(into); };
@@ -115,7 +112,7 @@ class Upload {
   }
 
   Outcome<CsvChunks> begin_session() {
-    if (const auto cleared = journal_.clear(); !cleared) return cleared.error();
+    TRY(journal_.clear());
     auto chunks = open_input();
     if (chunks) {
       state_ = {.server = context_.client.url(),
@@ -132,10 +129,9 @@ class Upload {
     if (last->server != context_.client.url()) return other_server(*last);
     auto chunks = open_input();
     if (!chunks) return chunks;
-    const auto match = chunks->skip_to(last->stored);
-    if (!match) return match.error();
-    if (*match == CsvMatch::RowHasGrown) return row_has_grown(last->stored.lines);
-    if (*match == CsvMatch::Same) {
+    const auto match = TRY(chunks->skip_to(last->stored));
+    if (match == CsvMatch::RowHasGrown) return row_has_grown(last->stored.lines);
+    if (match == CsvMatch::Same) {
       state_ = *last;
       state_.complete = false;
       return chunks;
@@ -172,7 +168,7 @@ class Upload {
 
   Outcome<void> send(const CsvChunks& chunks, const CsvChunk& chunk) {
     state_.pending = chunk.end;
-    if (const auto kept = journal_.append(state_); !kept) return kept.error();
+    TRY(journal_.append(state_));
     const auto answer = send_until_answered(
         context_.client,
         {.method = "POST",
@@ -184,9 +180,8 @@ class Upload {
         [this](const Failure& failure, std::chrono::milliseconds wait) { notice(failure, wait); });
     if (!answer) return interrupted(answer.error());
     if (!answer->ok()) return refused(chunks, chunk, *answer);
-    const auto document = read_document(*answer, context_.client.url());
-    if (!document) return document.error();
-    const VerdictCounts counts = counts_of(*document);
+    const auto document = TRY(read_document(*answer, context_.client.url()));
+    const VerdictCounts counts = counts_of(document);
     state_.counts += counts;
     state_.stored = chunk.end;
     state_.pending.reset();
@@ -213,7 +208,7 @@ class Upload {
     const auto problem = problem_of(answer);
     if (!problem || !rows_are_refused(answer)) return interrupted(failure);
     state_.pending.reset();
-    if (const auto kept = journal_.append(state_); !kept) return kept.error();
+    TRY(journal_.append(state_));
     line_.clear();
     fmt::print(stderr, "{}", explain_rows(*problem, name_, [&](std::uint64_t body_line) {
                  return line_in_file(chunks.input_line(chunk, body_line));
@@ -244,7 +239,7 @@ class Upload {
 
   Outcome<ExitCode> finish() {
     state_.complete = true;
-    if (const auto kept = journal_.append(state_); !kept) return kept.error();
+    TRY(journal_.append(state_));
     line_.clear();
     if (state_.counts.sum() == 0) {
       return Failure{
@@ -288,9 +283,8 @@ class Upload {
 Outcome<MeasureJournal> open_journal(const Context& context, const MeasureOptions& options) {
   if (!options.state_file.empty()) return MeasureJournal::open(options.state_file);
   if (options.input == "-") return MeasureJournal::in_memory();
-  const auto path = journal_path(options.input, context.client.url());
-  if (!path) return path.error();
-  return MeasureJournal::open(*path);
+  const auto path = TRY(journal_path(options.input, context.client.url()));
+  return MeasureJournal::open(path);
 }
 
 }  // namespace
@@ -319,9 +313,8 @@ ExitCode worst_verdict(const VerdictCounts& counts) {
 }
 
 Outcome<ExitCode> run_measure(const Context& context, const MeasureOptions& options) {
-  auto journal = open_journal(context, options);
-  if (!journal) return journal.error();
-  return Upload(context, options, std::move(*journal)).run();
+  auto journal = TRY(open_journal(context, options));
+  return Upload(context, options, std::move(journal)).run();
 }
 
 }  // namespace fitgauge::cli

@@ -131,7 +131,7 @@ Outcome<MeasureJournal> MeasureJournal::open(const std::string& path) {
     return Failure{ExitCode::LocalFile,
                    path + ": another fitgauge is sending this input: wait until it is done"};
   }
-  if (const auto read = journal.read_last_line(); !read) return read.error();
+  TRY(journal.read_last_line());
   return journal;
 }
 
@@ -145,16 +145,14 @@ MeasureJournal::~MeasureJournal() {
 }
 
 Outcome<void> MeasureJournal::read_last_line() {
-  const auto text = read_file(path_);
-  if (!text) return text.error();
-  const std::size_t end = text->rfind('\n') + 1;  // 0 when there is no whole line
-  if (end < text->size() && ftruncate(descriptor_, static_cast<off_t>(end)) != 0) {
+  const auto text = TRY(read_file(path_));
+  const std::size_t end = text.rfind('\n') + 1;  // 0 when there is no whole line
+  if (end < text.size() && ftruncate(descriptor_, static_cast<off_t>(end)) != 0)
     return state_failure(path_, "repair the state");
-  }
   if (end == 0) return {};
-  const std::size_t before = end >= 2 ? text->rfind('\n', end - 2) : std::string::npos;
+  const std::size_t before = end >= 2 ? text.rfind('\n', end - 2) : std::string::npos;
   const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-  state_ = parse_state(std::string_view(*text).substr(begin, end - 1 - begin));
+  state_ = parse_state(std::string_view(text).substr(begin, end - 1 - begin));
   if (state_) return {};
   return Failure{ExitCode::LocalFile,
                  path_ + ": is not a state of fitgauge: give another file with --state"};

@@ -81,17 +81,16 @@ Outcome<ExitCode> run_nc_put(const Context& context, const std::vector<std::stri
                    fmt::format("several files need a folder: write {}/", destination)};
   }
   for (const std::string& file : files) {
-    const auto bytes = read_file(file);
-    if (!bytes) return bytes.error();
+    const auto bytes = TRY(read_file(file));
     const std::string path =
         names_folder(destination) ? destination + std::string(base_name(file)) : destination;
     const auto answer = expect_ok(context.persist({.method = "PUT",
                                                    .target = file_target(path),
                                                    .content_type = "application/octet-stream",
-                                                   .body = *bytes}),
+                                                   .body = bytes}),
                                   context.client.url());
     if (!answer) return answer.error();
-    if (!context.json) context.print("{}  {} bytes\n", control_path(path), bytes->size());
+    if (!context.json) context.print("{}  {} bytes\n", control_path(path), bytes.size());
   }
   return ExitCode::Good;
 }
@@ -99,10 +98,9 @@ Outcome<ExitCode> run_nc_put(const Context& context, const std::vector<std::stri
 Outcome<ExitCode> run_nc_get(const Context& context, const GetOptions& options) {
   const std::string file =
       options.file.empty() ? std::string(base_name(options.path)) : options.file;
-  const auto answer = send(context, {.target = file_target(options.path)});
-  if (!answer) return answer.error();
-  if (const auto allowed = may_replace(file, options.force); !allowed) return allowed.error();
-  const auto written = write_file(file, answer->body);
+  const auto answer = TRY(send(context, {.target = file_target(options.path)}));
+  TRY(may_replace(file, options.force));
+  const auto written = write_file(file, answer.body);
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }
 
@@ -115,16 +113,14 @@ Outcome<std::string> run_order(const RunOptions& options) {
                      fmt::format("--set must be a parameter such as Q1=25; got '{}'", parameter)};
     }
     const std::string name = parameter.substr(0, equals);
-    const auto value = parameter_json(name, std::string_view(parameter).substr(equals + 1));
-    if (!value) return value.error();
-    parameters.add_raw(name, *value);
+    const auto value = TRY(parameter_json(name, std::string_view(parameter).substr(equals + 1)));
+    parameters.add_raw(name, value);
   }
   JsonObject order;
   order.add("program", control_path(options.program));
   if (!options.setup.empty() || !options.setup_file.empty()) {
-    const auto setup = setup_json(options);
-    if (!setup) return setup.error();
-    order.add_raw("setup", *setup);
+    const auto setup = TRY(setup_json(options));
+    order.add_raw("setup", setup);
   }
   if (!options.parameters.empty()) order.add_raw("parameters", parameters.text());
   order.add_given("on_stop", options.on_stop)
@@ -141,12 +137,10 @@ namespace {
 Outcome<std::string> run_there(const Context& context, const RunOptions& options) {
   if (!options.files_to.empty())
     return Failure{ExitCode::Usage, "--files-to is for local runs: use fitgauge runs get ID NAME"};
-  const auto order = run_order(options);
-  if (!order) return order.error();
-  auto answer = context.post_once("/v1/runs", *order);
-  if (!answer) return answer.error();
-  if (!answer->ok()) return refused_run(context, *answer);
-  return std::move(answer->body);
+  const auto order = TRY(run_order(options));
+  auto answer = TRY(context.post_once("/v1/runs", order));
+  if (!answer.ok()) return refused_run(context, answer);
+  return std::move(answer.body);
 }
 
 /// The usual cause of a probing move without contact (error 1014), if the run has no setup.
@@ -159,14 +153,14 @@ std::string_view missing_part(const JsonValue& run, const RunOptions& options) {
 }
 
 Outcome<ExitCode> run_one(const Context& context, const RunOptions& options) {
-  const auto body = options.from_control ? run_there(context, options) : run_here(context, options);
-  if (!body) return body.error();
-  const auto run = parse_document(*body);
+  const auto body =
+      TRY(options.from_control ? run_there(context, options) : run_here(context, options));
+  const auto run = parse_document(body);
   if (!run)
     return Failure{ExitCode::NoAnswer,
                    context.client.url() + " did not return a run: check that fitgauged runs there"};
   if (context.json) {
-    context.print_document(*body);
+    context.print_document(body);
   } else {
     for (const JsonValue& line : run->member("screen").items) context.print("{}\n", line.text);
     print_messages(*run);
@@ -191,9 +185,8 @@ Outcome<ExitCode> run_nc_run(const Context& context, const RunOptions& options) 
     one.program = program;
     if (!options.files_to.empty() && options.programs.size() > 1)
       one.files_to += fmt::format("/{}", base_name(program));
-    const auto code = run_one(context, one);
-    if (!code) return code;
-    worst = std::max(worst, *code);
+    const auto code = TRY(run_one(context, one));
+    worst = std::max(worst, code);
   }
   return worst;
 }

@@ -286,10 +286,9 @@ Result<Changes> OpenPrograms::rename(const OpenProgram& program, const WrittenPa
                  fmt::format("{} {}", interpreter::name(parameter), reason)};
   };
   const QRef old = from.parameter;
-  const auto name = interpreter::parse_parameter_name(to);
-  if (!name) return name.error();
-  if (name->space != old.space) return refuse(old, "must keep its kind: Q, QL, QR or QS");
-  for (const QRef each : {old, *name}) {
+  const auto name = TRY(interpreter::parse_parameter_name(to));
+  if (name.space != old.space) return refuse(old, "must keep its kind: Q, QL, QR or QS");
+  for (const QRef each : {old, name}) {
     if (each.space == klartext::QSpace::Q && each.number >= 100 && each.number < 200)
       return refuse(each, "is set by the control: Q100 to Q199 keep their names");
   }
@@ -303,8 +302,8 @@ Result<Changes> OpenPrograms::rename(const OpenProgram& program, const WrittenPa
     const EditedText text(here != nullptr ? *file->bytes : klartext::decode_source(*file->bytes));
     for (std::size_t line = 0; line < text.lines(); ++line) {
       for (const WrittenParameter& written : parameters_of(text, line)) {
-        const std::string reason = obstacle(old, *name, text.line(line), written);
-        if (!reason.empty() && old != *name)
+        const std::string reason = obstacle(old, name, text.line(line), written);
+        if (!reason.empty() && old != name)
           return refuse(written.parameter,
                         fmt::format("{}: {}, line {}", reason, path.file_name(), line + 1));
         if (written.parameter == old)

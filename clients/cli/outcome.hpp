@@ -1,9 +1,10 @@
 #pragma once
 
-#include <boost/system/result.hpp>
 #include <cstdint>
 #include <string>
 #include <utility>
+
+#include "base/result.hpp"
 
 namespace fitgauge::cli {
 

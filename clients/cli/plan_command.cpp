@@ -43,11 +43,8 @@ Outcome<ExitCode> store(const Context& context, const step::Drawing& drawing,
   constexpr long kNotThere = 404;
   std::optional<JsonValue> before;
   if (stored->status != kNotThere) {
-    const auto found = expect_ok(stored, context.client.url());
-    if (!found) return found.error();
-    auto read = read_document(*found, context.client.url());
-    if (!read) return read.error();
-    before = *std::move(read);
+    const auto found = TRY(expect_ok(stored, context.client.url()));
+    before = TRY(read_document(found, context.client.url()));
   }
   const auto plan = step::plan_of(drawing, options.part, before ? &*before : nullptr);
   if (!plan) return local(options.file, plan.error().message);

@@ -44,24 +44,20 @@ std::string record_target(std::string path, const RecordQuery& query,
 }
 
 Outcome<JsonValue> get_document(const Context& context, const std::string& target) {
-  const auto answer = expect_ok(context.client.send({.target = target}), context.client.url());
-  if (!answer) return answer.error();
-  if (context.json) context.print_document(answer->body);
-  return read_document(*answer, context.client.url());
+  const auto answer = TRY(expect_ok(context.client.send({.target = target}), context.client.url()));
+  if (context.json) context.print_document(answer.body);
+  return read_document(answer, context.client.url());
 }
 
 Outcome<ExitCode> run_list(const Context& context, const RecordQuery& query) {
-  const auto page = get_document(
+  const auto page = TRY(get_document(
       context, record_target("/v1/measurements", query,
-                             {{"limit", std::to_string(query.limit)}, {"after", query.after}}));
-  if (!page) return page.error();
+                             {{"limit", std::to_string(query.limit)}, {"after", query.after}})));
   if (context.json) return ExitCode::Good;
-  for (const JsonValue& record : page->member("measurements").items) {
+  for (const JsonValue& record : page.member("measurements").items)
     context.print("{}", record_line(record, context.out));
-  }
-  if (const std::string_view next = page->text_of("next"); !next.empty()) {
+  if (const std::string_view next = page.text_of("next"); !next.empty())
     context.note(fmt::format("more: --after {}", next));
-  }
   return ExitCode::Good;
 }
 
@@ -73,19 +69,17 @@ Outcome<ExitCode> run_export(const Context& context, const RecordQuery& query) {
       {.target = record_target("/v1/measurements", query,
                                {{"format", format}, {"time_zone", query.time_zone}})},
       [&output](std::string_view piece) { return output.write(piece); });
-  const auto good = expect_ok(answer, context.client.url());
-  if (!good) return good.error();
-  if (const auto written = output.finish(); !written) return written.error();
+  TRY(expect_ok(answer, context.client.url()));
+  TRY(output.finish());
   return ExitCode::Good;
 }
 
 Outcome<ExitCode> run_summary(const Context& context, const RecordQuery& query) {
   const std::string group_by = query.group_by.empty() ? "characteristic" : query.group_by;
-  const auto summary = get_document(
-      context, record_target("/v1/measurements/summary", query, {{"group_by", group_by}}));
-  if (!summary) return summary.error();
+  const auto summary = TRY(get_document(
+      context, record_target("/v1/measurements/summary", query, {{"group_by", group_by}})));
   if (context.json) return ExitCode::Good;
-  for (const JsonValue& group : summary->member("groups").items) {
+  for (const JsonValue& group : summary.member("groups").items) {
     const JsonValue& verdicts = group.member("verdicts");
     const std::string_view value = group.text_of(group_by);
     const std::string_view scatter = group.text_of("standard_deviation_mm");
@@ -101,10 +95,9 @@ Outcome<ExitCode> run_summary(const Context& context, const RecordQuery& query) 
 }
 
 Outcome<ExitCode> run_correct(const Context& context, const CorrectOptions& options) {
-  const auto measured = measured_text(options.measured);
-  if (!measured) return measured.error();
+  const auto measured = TRY(measured_text(options.measured));
   const std::string body =
-      JsonObject().add("measured_mm", *measured).add("reason", options.reason).text();
+      JsonObject().add("measured_mm", measured).add("reason", options.reason).text();
   const auto answer =
       post_once(context, "/v1/measurements/" + percent_encoded(options.id) + "/corrections", body);
   return answer ? show_verdict(context, *answer) : answer.error();
@@ -113,12 +106,10 @@ Outcome<ExitCode> run_correct(const Context& context, const CorrectOptions& opti
 Outcome<ExitCode> run_note(const Context& context, const NoteOptions& options) {
   const std::string target = "/v1/measurements/" + percent_encoded(options.id) + "/notes";
   if (options.cause.empty() && options.measure.empty() && options.text.empty()) {
-    const auto notes = get_document(context, target);
-    if (!notes) return notes.error();
+    const auto notes = TRY(get_document(context, target));
     if (context.json) return ExitCode::Good;
-    for (const JsonValue& note : notes->member("notes").items) {
+    for (const JsonValue& note : notes.member("notes").items)
       context.print("{}\n", note_line(note));
-    }
     return ExitCode::Good;
   }
   const std::string body = JsonObject()
@@ -127,9 +118,8 @@ Outcome<ExitCode> run_note(const Context& context, const NoteOptions& options) {
                                .add_given("text", options.text)
                                .add_given("operator", options.operator_name)
                                .text();
-  const auto answer = post_once(context, target, body);
-  if (!answer) return answer.error();
-  if (context.json) context.print_document(answer->body);
+  const auto answer = TRY(post_once(context, target, body));
+  if (context.json) context.print_document(answer.body);
   return ExitCode::Good;
 }
 

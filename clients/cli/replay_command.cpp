@@ -27,9 +27,8 @@ void sort_in(std::vector<MeasuringLog> logs, ByCycle& into) {
 }
 
 Outcome<ByCycle> read_log(const std::string& file) {
-  const auto bytes = read_file(file);
-  if (!bytes) return bytes.error();
-  log_reader::Reading reading = log_reader::read_logs(*bytes);
+  const auto bytes = TRY(read_file(file));
+  log_reader::Reading reading = log_reader::read_logs(bytes);
   if (!reading.unread.empty()) {
     const auto& [line, why] = reading.unread.front();
     return Failure{ExitCode::LocalFile, fmt::format("{}:{}: {}", file, line, why)};
@@ -49,9 +48,9 @@ Outcome<ByCycle> written_logs(const Context& context, const JsonValue& run) {
     const std::string target =
         fmt::format("/v1/runs/{}/files/{}", percent_encoded(run.text_of("id")),
                     percent_encoded(file.text_of("path")));
-    const auto answer = expect_ok(context.client.send({.target = target}), context.client.url());
-    if (!answer) return answer.error();
-    sort_in(log_reader::read_logs(answer->body).logs, logs);
+    const auto answer =
+        TRY(expect_ok(context.client.send({.target = target}), context.client.url()));
+    sort_in(log_reader::read_logs(answer.body).logs, logs);
   }
   return logs;
 }
@@ -147,42 +146,35 @@ void Comparison::compare(const MeasuringLog& logged, const MeasuringLog* replaye
 }
 
 Outcome<JsonValue> run_on_contacts(const Context& context, const ReplayOptions& options) {
-  const auto order = run_order(options.run);
-  if (!order) return order.error();
-  const auto contacts = read_file(options.contacts);
-  if (!contacts) return contacts.error();
-  if (!parse_document(*contacts)) {
+  const auto order = TRY(run_order(options.run));
+  const auto contacts = TRY(read_file(options.contacts));
+  if (!parse_document(contacts))
     return Failure{ExitCode::LocalFile, options.contacts + ": is not JSON: [[X, Y, Z], null, …]"};
-  }
   const std::string body =
-      fmt::format("{},\"contacts_mm\":{}}}", order->substr(0, order->size() - 1), *contacts);
-  const auto answer = expect_ok(context.post_once("/v1/runs", body), context.client.url());
-  if (!answer) return answer.error();
-  return read_document(*answer, context.client.url());
+      fmt::format("{},\"contacts_mm\":{}}}", order.substr(0, order.size() - 1), contacts);
+  const auto answer = TRY(expect_ok(context.post_once("/v1/runs", body), context.client.url()));
+  return read_document(answer, context.client.url());
 }
 
 }  // namespace
 
 Outcome<ExitCode> run_replay(const Context& context, const ReplayOptions& options) {
-  const auto logged = read_log(options.log);
-  if (!logged) return logged.error();
-  const auto run = run_on_contacts(context, options);
-  if (!run) return run.error();
-  print_messages(*run);
-  const auto replayed = written_logs(context, *run);
-  if (!replayed) return replayed.error();
+  const auto logged = TRY(read_log(options.log));
+  const auto run = TRY(run_on_contacts(context, options));
+  print_messages(run);
+  const auto replayed = TRY(written_logs(context, run));
   Comparison comparison(context);
-  comparison.compare(*logged, *replayed);
+  comparison.compare(logged, replayed);
   if (context.json) {
     context.print_document(comparison.json());
   } else {
     context.print("{} results, {} of them differ\n", comparison.results(), comparison.differing());
   }
   // An exceeded tolerance stops a program, as it did on the machine.
-  const std::string_view status = run->text_of("status");
+  const std::string_view status = run.text_of("status");
   if (status != "completed" && status != "stopped") {
     return Failure{ExitCode::ProgramFailed,
-                   fmt::format("run {} ended with status {}", run->text_of("id"), status)};
+                   fmt::format("run {} ended with status {}", run.text_of("id"), status)};
   }
   return comparison.differing() == 0 ? ExitCode::Good : ExitCode::ProgramFailed;
 }

@@ -110,34 +110,31 @@ bool RowInput::keeps_lines(const MeasureOptions& options) {
 }
 
 Outcome<RowInput> RowInput::open(const Context& context, const MeasureOptions& options) {
-  auto table = table_options(options);
-  if (!table) return table.error();
-  if (qif::is_qif(options.input)) return open_qif(context, options, *table);
-  if (is_dfq(options.input)) return open_dfq(context, options, *std::move(table));
+  auto table = TRY(table_options(options));
+  if (qif::is_qif(options.input)) return open_qif(context, options, table);
+  if (is_dfq(options.input)) return open_dfq(context, options, std::move(table));
   if (sheet::is_ndjson(options.input)) return open_ndjson(options);
-  return open_table(options, *std::move(table));
+  return open_table(options, std::move(table));
 }
 
 Outcome<RowInput> RowInput::open_dfq(const Context& context, const MeasureOptions& options,
                                      sheet::ShopCsvOptions table) {
-  const auto file = shared(InputFile::open(options.input));
-  if (!file) return file.error();
+  const auto file = TRY(shared(InputFile::open(options.input)));
   return RowInput(std::make_shared<State>(
       options.input,
-      aqdef::MeasurementCsv(reading(*file), {.encoding = table.encoding,
-                                             .columns = std::move(table.columns),
-                                             .constants = std::move(table.constants),
-                                             .zone = std::move(table.zone),
-                                             .length_unit = aqdef::length_unit(options.length_unit),
-                                             .leaves_out_others = table.leaves_out_others,
-                                             .limits_of = limits_by(context)})));
+      aqdef::MeasurementCsv(reading(file), {.encoding = table.encoding,
+                                            .columns = std::move(table.columns),
+                                            .constants = std::move(table.constants),
+                                            .zone = std::move(table.zone),
+                                            .length_unit = aqdef::length_unit(options.length_unit),
+                                            .leaves_out_others = table.leaves_out_others,
+                                            .limits_of = limits_by(context)})));
 }
 
 Outcome<RowInput> RowInput::open_qif(const Context& context, const MeasureOptions& options,
                                      sheet::ShopCsvOptions table) {
-  const auto file = shared(open_to_read_again(options.input));
-  if (!file) return file.error();
-  auto rows = qif::QifRows::open(reading(*file), reading_again(*file),
+  const auto file = TRY(shared(open_to_read_again(options.input)));
+  auto rows = qif::QifRows::open(reading(file), reading_again(file),
                                  {.constants = std::move(table.constants),
                                   .zone = std::move(table.zone),
                                   .length_unit = aqdef::length_unit(options.length_unit),
@@ -149,9 +146,8 @@ Outcome<RowInput> RowInput::open_qif(const Context& context, const MeasureOption
 }
 
 Outcome<RowInput> RowInput::open_ndjson(const MeasureOptions& options) {
-  const auto file = shared(InputFile::open(options.input));
-  if (!file) return file.error();
-  auto rows = sheet::NdjsonRows::open({}, reading(*file), sheet::Encoding::Utf8);
+  const auto file = TRY(shared(InputFile::open(options.input)));
+  auto rows = sheet::NdjsonRows::open({}, reading(file), sheet::Encoding::Utf8);
   if (!rows) return cannot_read(options.input, rows.error());
   return RowInput(std::make_shared<State>(options.input, *std::move(rows)));
 }
@@ -160,10 +156,9 @@ Outcome<RowInput> RowInput::open_table(const MeasureOptions& options, sheet::Sho
   const std::string name = options.input == "-" ? "standard input" : options.input;
   const bool is_known = table.encoding != sheet::Encoding::Detected;
   const auto file =
-      shared(is_known ? InputFile::open(options.input) : open_to_read_again(options.input));
-  if (!file) return file.error();
-  auto rows = sheet::ShopRows::open(
-      reading(*file), is_known ? reading(*file) : reading_again(*file), std::move(table));
+      TRY(shared(is_known ? InputFile::open(options.input) : open_to_read_again(options.input)));
+  auto rows = sheet::ShopRows::open(reading(file), is_known ? reading(file) : reading_again(file),
+                                    std::move(table));
   if (!rows) return cannot_read(name, rows.error());
   return RowInput(std::make_shared<State>(name, *std::move(rows)));
 }
@@ -190,9 +185,8 @@ Outcome<bool> RowInput::fill() {
 Outcome<std::size_t> RowInput::read(std::span<char> into) {
   State& state = *state_;
   while (state.taken == state.rows.size()) {
-    const auto more = fill();
-    if (!more) return more.error();
-    if (!*more) return std::size_t{0};
+    const auto more = TRY(fill());
+    if (!more) return std::size_t{0};
   }
   const std::size_t count = state.rows.copy(into.data(), into.size(), state.taken);
   state.taken += count;
@@ -223,12 +217,8 @@ bool is_converted(const MeasureOptions& options) {
 
 Outcome<sheet::ShopCsvOptions> table_options(const MeasureOptions& options) {
   sheet::ShopCsvOptions table{.leaves_out_others = options.leave_out_others};
-  auto columns = read_words("--map", options.columns);
-  if (!columns) return columns.error();
-  table.columns = *std::move(columns);
-  auto constants = read_words("--set", options.constants);
-  if (!constants) return constants.error();
-  table.constants = *std::move(constants);
+  table.columns = TRY(read_words("--map", options.columns));
+  table.constants = TRY(read_words("--set", options.constants));
   if (!options.encoding.empty()) {
     const auto encoding = sheet::encoding_from_word(options.encoding);
     if (!encoding) {

@@ -66,23 +66,21 @@ Outcome<std::string> arrays_of(std::string_view text, bool& flat) {
 }
 
 Outcome<std::string> body_of(const StatisticsOptions& options) {
-  auto text = read_file(options.file);
-  if (!text) return text.error();
-  if (trim(*text).starts_with('{')) return *text;
+  auto text = TRY(read_file(options.file));
+  if (trim(text).starts_with('{')) return text;
   if (options.figure == "grr" || options.figure == "pairing" || options.figure == "uncertainty") {
     return Failure{ExitCode::Usage,
                    fmt::format("{} needs a JSON file: see its members in docs/reference/api.md",
                                options.figure)};
   }
   bool flat = true;
-  const auto arrays = arrays_of(*text, flat);
-  if (!arrays) return arrays.error();
+  const auto arrays = TRY(arrays_of(text, flat));
   const std::string_view name = options.figure == "anova" ? "groups"
                                 : flat                    ? "values"
                                                           : "subgroups";
   const std::string_view chart = options.figure != "chart" ? "" : flat ? "i_mr" : "xbar_r";
   return JsonObject()
-      .add_raw(name, *arrays)
+      .add_raw(name, arrays)
       .add_given("kind", std::string(chart))
       .add_given("lower", options.lower)
       .add_given("upper", options.upper)
@@ -150,67 +148,62 @@ void print_violations(const Context& context, const JsonValue& document) {
 }  // namespace
 
 Outcome<ExitCode> run_statistics(const Context& context, const StatisticsOptions& options) {
-  const auto body = body_of(options);
-  if (!body) return body.error();
+  const auto body = TRY(body_of(options));
   const std::string target = options.figure == "uncertainty" ? std::string("/v1/uncertainty")
                                                              : "/v1/statistics/" + options.figure;
   const auto answer = expect_ok(
       context.client.send(
-          {.method = "POST", .target = target, .content_type = "application/json", .body = *body}),
+          {.method = "POST", .target = target, .content_type = "application/json", .body = body}),
       context.client.url());
   return show(context, answer,
               [&](const JsonValue& document) { print_members(context, "", document); });
 }
 
 Outcome<ExitCode> run_capability(const Context& context, const CapabilityQuery& query) {
-  const auto found = get_document(context, record_target("/v1/measurements/capability", query,
-                                                         {{"target_mm", query.target_mm},
-                                                          {"confidence", query.confidence},
-                                                          {"subgroups", query.subgroups}}));
-  if (!found) return found.error();
+  const auto found = TRY(get_document(context, record_target("/v1/measurements/capability", query,
+                                                             {{"target_mm", query.target_mm},
+                                                              {"confidence", query.confidence},
+                                                              {"subgroups", query.subgroups}})));
   if (context.json) return ExitCode::Good;
-  print_selection(context, *found);
-  context.print("mean {} mm, s {} mm within, {} mm overall\n", rounded(*found, "mean", 6),
-                rounded(*found, "standard_deviation_within", 6),
-                rounded(*found, "standard_deviation_overall", 6));
+  print_selection(context, found);
+  context.print("mean {} mm, s {} mm within, {} mm overall\n", rounded(found, "mean", 6),
+                rounded(found, "standard_deviation_within", 6),
+                rounded(found, "standard_deviation_overall", 6));
   for (const std::string_view name : {"cp", "cpk", "pp", "ppk", "cpm"}) {
-    const JsonValue& index = found->member(name);
+    const JsonValue& index = found.member(name);
     context.print("{:<3} {} ({} to {})\n", name, rounded(index, "value", 3),
                   rounded(index, "lower", 3), rounded(index, "upper", 3));
   }
-  if (const JsonValue& fit = found->member("distribution"); fit.kind == JsonValue::Kind::Object) {
+  if (const JsonValue& fit = found.member("distribution"); fit.kind == JsonValue::Kind::Object) {
     const bool is_tested = fit.member("p").kind == JsonValue::Kind::Number;
     context.print("distribution {}{}\n", fit.text_of("name"),
                   is_tested ? ", p " + rounded(fit, "p", 3) : "");
   }
-  if (const JsonValue& reason = found->member("reason"); reason.kind == JsonValue::Kind::String) {
+  if (const JsonValue& reason = found.member("reason"); reason.kind == JsonValue::Kind::String)
     context.print("no figure (-) because {}\n", reason.text);
-  }
-  const bool stable = found->text_of("stable") == "true";
+  const bool stable = found.text_of("stable") == "true";
   context.print("{}\n", stable ? "stable: no rule is broken"
                                : "NOT STABLE: these figures do not predict the next parts");
-  print_violations(context, *found);
+  print_violations(context, found);
   return ExitCode::Good;
 }
 
 Outcome<ExitCode> run_chart(const Context& context, const ChartQuery& query) {
-  const auto found = get_document(
-      context, record_target(
-                   "/v1/measurements/chart", query,
-                   {{"kind", query.kind}, {"rules", query.rules}, {"subgroups", query.subgroups}}));
-  if (!found) return found.error();
+  const auto found = TRY(get_document(context, record_target("/v1/measurements/chart", query,
+                                                             {{"kind", query.kind},
+                                                              {"rules", query.rules},
+                                                              {"subgroups", query.subgroups}})));
   if (context.json) return ExitCode::Good;
-  print_selection(context, *found);
-  for (const JsonValue& chart : found->member("charts").items) {
+  print_selection(context, found);
+  for (const JsonValue& chart : found.member("charts").items) {
     context.print("{:<5} centre {} mm, limits {} to {} mm\n", chart.text_of("name"),
                   rounded(chart, "centre", 6), rounded(chart, "lower_limit", 6),
                   rounded(chart, "upper_limit", 6));
   }
-  print_violations(context, *found);
-  if (found->member("violations").items.empty()) context.print("no rule is broken\n");
-  if (const std::string length = rounded(*found, "average_run_length", 1); length != "-") {
+  print_violations(context, found);
+  if (found.member("violations").items.empty()) context.print("no rule is broken\n");
+  if (const std::string length = rounded(found, "average_run_length", 1); length != "-")
     context.print("a false alarm every {} points on average\n", length);
-  }
   return ExitCode::Good;
 }
 

@@ -34,9 +34,8 @@ Outcome<ExitCode> list(const Context& context, const std::string& target, std::s
 /// Writes the response of a GET to a file, or to standard output.
 Outcome<ExitCode> fetch(const Context& context, const std::string& target,
                         const std::string& file) {
-  const auto answer = send_again(context, {.target = target});
-  if (!answer) return answer.error();
-  const auto written = write_file(file.empty() ? "-" : file, answer->body);
+  const auto answer = TRY(send_again(context, {.target = target}));
+  const auto written = write_file(file.empty() ? "-" : file, answer.body);
   return written ? Outcome<ExitCode>(ExitCode::Good) : written.error();
 }
 
@@ -56,12 +55,11 @@ Outcome<ExitCode> run_stored_ls(const Context& context, const StoredKind& kind) 
 
 Outcome<ExitCode> run_stored_put(const Context& context, const StoredKind& kind,
                                  const std::string& name, const std::string& file) {
-  const auto text = read_file(file);
-  if (!text) return text.error();
+  const auto text = TRY(read_file(file));
   return done(send_again(context, {.method = "PUT",
                                    .target = document_target(kind, name),
                                    .content_type = "application/json",
-                                   .body = *text}));
+                                   .body = text}));
 }
 
 Outcome<ExitCode> run_stored_get(const Context& context, const StoredKind& kind,

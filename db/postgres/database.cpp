@@ -25,9 +25,8 @@ bool has_schema(Connection& connection) {
 
 /// @pre there is the schema
 Result<std::size_t> taken_steps(Connection& connection) {
-  const auto steps = sql::check_steps(connection, migrations());
-  if (!steps) return steps.error();
-  if (*steps > 0) return static_cast<std::size_t>(*steps);
+  const auto steps = TRY(sql::check_steps(connection, migrations()));
+  if (steps > 0) return static_cast<std::size_t>(steps);
   return Error{ErrorCode::DatabaseForeign,
                "the schema fitgauge of the database has no list of migrations"};
 }
@@ -44,11 +43,7 @@ Result<void> prepare_schema(const std::string& address, bool may_change, std::in
   connection.send("SELECT pg_advisory_xact_lock(7379538914411767653)");
   connection.wait();
   std::size_t taken = 0;
-  if (has_schema(connection)) {
-    const auto steps = taken_steps(connection);
-    if (!steps) return steps.error();
-    taken = *steps;
-  }
+  if (has_schema(connection)) taken = TRY(taken_steps(connection));
   const auto missing = migrations().subspan(taken);
   if (!missing.empty() && !may_change) {
     return Error{ErrorCode::StorageUnavailable,
@@ -215,8 +210,7 @@ Result<void> check_server(const std::string& address) {
 Result<std::unique_ptr<Database>> open_database(const OpenOptions& options, const Clock& clock) {
   try {
     const bool serves = options.access == Access::Serve;
-    const auto prepared = prepare_schema(options.address, serves, clock.now().nanoseconds);
-    if (!prepared) return prepared.error();
+    TRY(prepare_schema(options.address, serves, clock.now().nanoseconds));
     std::int64_t daemon = 0;
     if (serves) {
       Connection connection(options.address);

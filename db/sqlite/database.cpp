@@ -107,7 +107,7 @@ class FileDatabase final : public Database {
   std::size_t reader_queue() const override { return reader_engine_.queued(); }
 
   Result<void> backup(const std::filesystem::path& file) const override {
-    if (const auto own = check_files(); !own) return own;
+    TRY(check_files());
     return copy_database(file_, file);
   }
 
@@ -129,7 +129,7 @@ class FileDatabase final : public Database {
 
   /// Checks that lock and database are still the opened files.
   Result<void> check_files() const {
-    if (const auto own = lock_ ? lock_->check() : Result<void>(); !own) return own;
+    TRY(lock_ ? lock_->check() : Result<void>());
     return identity_.check();
   }
   void require_own_files() const {

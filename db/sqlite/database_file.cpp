@@ -158,9 +158,7 @@ Result<int> checked_version(const OpenOptions& options, const fs::path& file,
       if (const Result<void> sound = check_file(file); !sound) return sound.error();
     }
     if (foreign) return *foreign;
-    if (options.access == Access::Serve) {
-      if (auto whole = has_whole_log(connection, file); !whole) return whole.error();
-    }
+    if (options.access == Access::Serve) TRY(has_whole_log(connection, file));
     return version;
   } catch (const StorageFailure& failure) {
     if (failure.error().code != ErrorCode::StorageCorrupt) throw;

@@ -80,7 +80,7 @@ Result<CsvReader> CsvReader::open(std::string_view text) {
     return Error{ErrorCode::TextEncoding, fmt::format("byte {} is not UTF-8", at)};
   }
   CsvReader reader(text, separator_of(text.substr(0, text.find_first_of("\r\n"))));
-  if (const auto read = reader.read_record(); !read) return read.error();
+  TRY(reader.read_record());
   for (const CsvCell& cell : reader.cells_) reader.header_.emplace_back(trim(cell.text));
   if (reader.header_.size() == 1 && reader.header_.front().empty()) {
     return Error{ErrorCode::CsvMalformed, "the header line with the field names is missing"};
@@ -92,7 +92,7 @@ Result<const std::vector<CsvCell>*> CsvReader::next() {
   while (take_line_end()) {
   }
   if (rest_.empty()) return static_cast<const std::vector<CsvCell>*>(nullptr);
-  if (const auto read = read_record(); !read) return read.error();
+  TRY(read_record());
   if (cells_.size() != header_.size()) {
     return malformed(
         fmt::format("has {} cells, and the header has {}", cells_.size(), header_.size()));
@@ -108,7 +108,7 @@ Result<void> CsvReader::read_record() {
       return malformed(fmt::format("has more than {} cells", kMostCells));
     }
     if (rest_.starts_with('"')) {
-      if (const auto read = read_quoted(); !read) return read.error();
+      TRY(read_quoted());
     } else {
       read_plain();
     }

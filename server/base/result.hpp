@@ -62,3 +62,12 @@ template <class T>
 using Result = boost::system::result<T, Error>;
 
 }  // namespace fitgauge
+
+/// The value of a result; an error is returned from the function at once. A statement, or all that
+/// stands right of a `=`: `const auto limits = TRY(read_limits(text));`.
+#define TRY(...)                                   \
+  __extension__({                                  \
+    auto tried_ = (__VA_ARGS__);                   \
+    if (!tried_) return std::move(tried_).error(); \
+    *std::move(tried_);                            \
+  })

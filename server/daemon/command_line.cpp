@@ -42,9 +42,8 @@ Result<int> run_forward_all(const Config& config) {
   const SystemClock clock;
   app::ApplicationOptions options = application_options(config);
   options.log_told = print;
-  const auto opened = app::Application::open(options, clock);
-  if (!opened) return opened.error();
-  app::Application& app = **opened;
+  const auto opened = TRY(app::Application::open(options, clock));
+  app::Application& app = *opened;
   const auto forwarder = start_forwarder(config, app, print);
 
   auto told = Steady::now();
@@ -139,17 +138,15 @@ void add_options(CLI::App& app, Arguments& arguments) {
 /// Defaults < file < environment < flags.
 Result<Config> configuration(const Arguments& arguments) {
   Config config;
-  if (!arguments.config_file.empty()) {
-    if (const auto read = read_toml(arguments.config_file, config); !read) return read.error();
-  }
-  if (const auto read = read_environment(environment(), config); !read) return read.error();
+  if (!arguments.config_file.empty()) TRY(read_toml(arguments.config_file, config));
+  TRY(read_environment(environment(), config));
   for (const Setting& setting : settings()) {
     const auto& values = arguments.settings.at(setting.name);
     if (values.empty()) continue;
     const std::string text = fmt::format("{}", fmt::join(values, ","));
-    if (const auto assigned = assign(setting, text, config); !assigned) return assigned.error();
+    TRY(assign(setting, text, config));
   }
-  if (const auto checked = check(config); !checked) return checked.error();
+  TRY(check(config));
   return config;
 }
 

@@ -52,9 +52,8 @@ using SslContext = std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)>;
 /// checks.
 Result<std::string> address_of(const Config& config) {
   if (config.tls_client_ca.empty()) {
-    const auto listen = http::parse_listen_address(config.listen.front());
-    if (!listen) return listen.error();
-    return listen->own_address();
+    const auto listen = TRY(http::parse_listen_address(config.listen.front()));
+    return listen.own_address();
   }
   std::ifstream file(health_port_file(config));
   std::string port;
@@ -84,9 +83,8 @@ int uninterrupted(BIO* connection, const Call& call) {
 }  // namespace
 
 Result<int> run_backup(const Config& config, const std::string& file) {
-  const auto app = attach(config);
-  if (!app) return app.error();
-  if (const auto written = (*app)->backup(file); !written) return written.error();
+  const auto app = TRY(attach(config));
+  TRY(app->backup(file));
   std::cout << "backup written to " << file << '\n';
   return 0;
 }
@@ -100,42 +98,36 @@ Result<int> run_verify(const Config& config, const std::vector<std::string>& che
       return Error{ErrorCode::ConfigInvalid, "cannot read the checkpoint " + file};
     }
   }
-  const auto app = attach(config);
-  if (!app) return app.error();
-  const auto verification = (*app)->verify(notes);
-  if (!verification) return verification.error();
-  for (const std::string& finding : verification->findings) std::cout << finding << '\n';
-  std::cout << fmt::format("{} measurements checked, {} findings\n", verification->measurements,
-                           verification->findings.size());
-  if (!verification->head.empty()) std::cout << verification->head << '\n';
+  const auto app = TRY(attach(config));
+  const auto verification = TRY(app->verify(notes));
+  for (const std::string& finding : verification.findings) std::cout << finding << '\n';
+  std::cout << fmt::format("{} measurements checked, {} findings\n", verification.measurements,
+                           verification.findings.size());
+  if (!verification.head.empty()) std::cout << verification.head << '\n';
   if (checkpoints.empty()) {
     std::cout
         << "give --checkpoint FILE, a checkpoint from a safe place, to detect a replaced log\n";
   }
-  return verification->findings.empty() ? 0 : 1;
+  return verification.findings.empty() ? 0 : 1;
 }
 
 Result<int> run_qualify(const Config& config, const std::string& folder, bool signs) try {
   std::vector<tlog::SigningKey> keys;
   if (signs) {
-    auto read = app::read_log_keys(config.data);
-    if (!read) return read.error();
-    if (read->empty()) {
+    auto read = TRY(app::read_log_keys(config.data));
+    if (read.empty()) {
       return Error{
           ErrorCode::ConfigInvalid,
           config.data +
               " has no log key: start the service with this folder once, or remove --data"};
     }
-    keys = *std::move(read);
+    keys = std::move(read);
   }
   std::filesystem::create_directories(folder);
-  const auto out = Folder::open(folder);
-  if (!out) return out.error();
+  const auto out = TRY(Folder::open(folder));
   const auto made = app::qualification::qualify(std::string(api::kVersion), kClock.now());
   const auto files = files_of(made, signs ? &keys.front() : nullptr);
-  for (const auto& [name, text] : files) {
-    if (const auto written = out->write(name, text); !written) return written.error();
-  }
+  for (const auto& [name, text] : files) TRY(out.write(name, text));
   std::size_t failed = 0;
   for (const app::qualification::Check& check : made.checks) {
     if (check.passed) continue;
@@ -151,9 +143,8 @@ Result<int> run_qualify(const Config& config, const std::string& folder, bool si
 }
 
 Result<int> run_log_key(const Config& config) {
-  const auto key = app::renew_log_key(config.data);
-  if (!key) return key.error();
-  std::cout << *key << '\n';
+  const auto key = TRY(app::renew_log_key(config.data));
+  std::cout << key << '\n';
   return 0;
 }
 
@@ -176,27 +167,23 @@ Result<int> run_key_create(const Config& config, const std::string& name, const 
     end = *time;
   }
   // A key may be made before the first start, and then also makes the database.
-  const auto app = open_application(config, !is_new(config.data));
-  if (!app) return app.error();
-  const auto token = (*app)->keys().create(name, *known, {}, end);
-  if (!token) return token.error();
-  std::cout << *token << '\n';
+  const auto app = TRY(open_application(config, !is_new(config.data)));
+  const auto token = TRY(app->keys().create(name, *known, {}, end));
+  std::cout << token << '\n';
   return 0;
 }
 
 Result<int> run_key_revoke(const Config& config, const std::string& name) {
-  const auto app = attach(config);
-  if (!app) return app.error();
-  if (const auto revoked = (*app)->keys().revoke(name); !revoked) return revoked.error();
+  const auto app = TRY(attach(config));
+  TRY(app->keys().revoke(name));
   return 0;
 }
 
 Result<int> run_key_list(const Config& config) {
   const auto app = attach(config);
   if (!app) return app.error();
-  const auto entries = (*app)->keys().list();
-  if (!entries) return entries.error();
-  for (const app::KeyEntry& entry : *entries) {
+  const auto entries = TRY((*app)->keys().list());
+  for (const app::KeyEntry& entry : entries) {
     std::cout << fmt::format(
         "{}\t{}\tcreated {}{}{}\n", entry.name, app::word(entry.role),
         format_rfc3339(entry.created_at),
@@ -212,9 +199,8 @@ std::filesystem::path health_port_file(const Config& config) {
 
 Result<void> healthcheck(const Config& config) {
   const auto failed = [](std::string what) { return Error{ErrorCode::NotReady, std::move(what)}; };
-  const auto asked = address_of(config);
-  if (!asked) return asked.error();
-  const std::string& address = *asked;
+  const auto asked = TRY(address_of(config));
+  const std::string& address = asked;
 
   const SslContext context(SSL_CTX_new(TLS_client_method()), &SSL_CTX_free);
   const bool tls = !config.tls_cert.empty() && config.tls_client_ca.empty();

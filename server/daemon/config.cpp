@@ -335,12 +335,8 @@ Result<void> check(const Config& config) {
   if (!config.tls_client_ca.empty() && config.tls_cert.empty()) {
     return invalid("tls-client-ca needs tls-cert and tls-key");
   }
-  if (const auto database = check_database(config); !database) return database;
-  if (const auto head =
-          certificate::read_letterhead(config.certificate_address, config.certificate_logo);
-      !head) {
-    return head.error();
-  }
+  TRY(check_database(config));
+  TRY(certificate::read_letterhead(config.certificate_address, config.certificate_logo));
   return check_forwarding(config);
 }
 

@@ -124,7 +124,7 @@ Result<Definition> ConnectionReader::read() const {
   }
   std::string named = name->text;
   std::erase_if(body.members, [](const auto& member) { return member.first == "name"; });
-  if (const auto loaded = load_patterns(body); !loaded) return loaded.error();
+  TRY(load_patterns(body));
   auto definition = connections::read_definition(std::move(named), body, {.all = true});
   if (!definition) return errors(definition.error());
   return definition;
@@ -189,13 +189,12 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
     for (const toml::node& item : *list) {
       const toml::table* const table = item.as_table();
       if (table == nullptr) return invalid(item.source().begin.line, "write [[connection]]");
-      auto definition = ConnectionReader(path, *table).read();
-      if (!definition) return definition.error();
-      if (!names.insert(ascii_lower(definition->name)).second) {
+      auto definition = TRY(ConnectionReader(path, *table).read());
+      if (!names.insert(ascii_lower(definition.name)).second) {
         return invalid(item.source().begin.line,
-                       fmt::format("the connection '{}' occurs twice", definition->name));
+                       fmt::format("the connection '{}' occurs twice", definition.name));
       }
-      definitions.push_back(*std::move(definition));
+      definitions.push_back(std::move(definition));
     }
   }
   if (definitions.size() > connections::kMostConnections) {
@@ -207,10 +206,9 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
 Result<std::unique_ptr<connections::Connections>> start_connections(
     const Config& config, app::Application& app, const Clock& clock,
     const api::GaugesInUse& gauges) {
-  auto configured = read_connections(config.connections);
-  if (!configured) return configured.error();
+  auto configured = TRY(read_connections(config.connections));
   return connections::Connections::start(
-      *std::move(configured),
+      std::move(configured),
       {.measurements = app.measurements(),
        .events = app.events(),
        .documents = app.documents(),

@@ -63,9 +63,7 @@ Result<void> write_port_file(const std::string& path, std::uint16_t port) {
   {
     std::ofstream file(aside);
     file << port << '\n';
-    if (!file.flush()) {
-      return Error{ErrorCode::ConfigInvalid, "cannot write the port file " + path};
-    }
+    if (!file.flush()) return Error{ErrorCode::ConfigInvalid, "cannot write the port file " + path};
   }
   if (std::rename(aside.c_str(), path.c_str()) != 0) {
     return Error{ErrorCode::ConfigInvalid, "cannot write the port file " + path};
@@ -84,15 +82,11 @@ Result<std::unique_ptr<app::Application>> open_or_wait(const app::ApplicationOpt
   Opened opened = app::Application::open(options, clock);
   if (!is_away(opened)) return opened;
   log_warning("database_awaited", opened.error().message);
-  const auto waiting = start_waiting_server(server, opened.error().message);
-  if (!waiting) return waiting.error();
+  const auto waiting = TRY(start_waiting_server(server, opened.error().message));
   for (std::size_t i = 0; i < server.listen.size(); ++i) {
-    server.listen[i].port = (*waiting)->ports().at(i);
+    server.listen[i].port = waiting->ports().at(i);
   }
-  if (!port_file.empty()) {
-    const auto written = write_port_file(port_file, server.listen.front().port);
-    if (!written) return written.error();
-  }
+  if (!port_file.empty()) TRY(write_port_file(port_file, server.listen.front().port));
   do {
     if (is_to_end_after_a_second()) return std::unique_ptr<app::Application>();
     opened = app::Application::open(options, clock);
@@ -104,11 +98,10 @@ Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
     const Config& config, const api::Services& services) {
   using Control = std::unique_ptr<virtual_control::VirtualControl>;
   if (config.control_listen.empty()) return Control();
-  const auto address = http::parse_listen_address(config.control_listen);
-  if (!address) return address.error();
+  const auto address = TRY(http::parse_listen_address(config.control_listen));
   virtual_control::VirtualControlOptions options;
-  options.link.host = address->host;
-  options.link.port = address->port;
+  options.link.host = address.host;
+  options.link.port = address.port;
   options.model = config.control_model;
   options.is_writable = config.control_write;
   options.setup = machine_of(config, services);
@@ -119,23 +112,21 @@ Result<std::unique_ptr<virtual_control::VirtualControl>> start_control(
   options.sent_away = [](std::string_view peer, std::string_view why) {
     log_warning("control_client_sent_away", fmt::format("{}: {}", peer, why));
   };
-  auto control =
-      virtual_control::VirtualControl::start(std::move(options), services.files, services.runs);
-  if (!control) return control.error();
+  auto control = TRY(
+      virtual_control::VirtualControl::start(std::move(options), services.files, services.runs));
   log_info("control_listening",
-           fmt::format("{} on port {}, {}", config.control_model, (*control)->port(),
+           fmt::format("{} on port {}, {}", config.control_model, control->port(),
                        config.control_write ? "writable" : "read-only"));
-  return *std::move(control);
+  return control;
 }
 
 Result<std::unique_ptr<mtconnect::ShdrAdapter>> start_shdr(const Config& config,
                                                            const api::Services& services) {
   using Adapter = std::unique_ptr<mtconnect::ShdrAdapter>;
   if (config.shdr_listen.empty()) return Adapter();
-  const auto address = http::parse_listen_address(config.shdr_listen);
-  if (!address) return address.error();
+  const auto address = TRY(http::parse_listen_address(config.shdr_listen));
   auto adapter = mtconnect::ShdrAdapter::start(
-      {.listen = *address,
+      {.listen = address,
        .sent_away =
            [](std::string_view peer, std::string_view why) {
              log_warning("shdr_agent_sent_away", fmt::format("{}: {}", peer, why));

@@ -72,14 +72,13 @@ bool is_valid(const app::KeyEntry& key) { return !key.revoked_at; }
 
 Result<void> take_key_of_file(const std::string& file, const std::vector<app::KeyEntry>& known,
                               app::KeyService& keys) {
-  const auto token = read_admin_key(file);
-  if (!token) return token.error();
-  if (keys.find(*token)) return {};
+  const auto token = TRY(read_admin_key(file));
+  if (keys.find(token)) return {};
   const bool replaces = std::any_of(known.begin(), known.end(), [](const app::KeyEntry& key) {
     return is_valid(key) && key.name == kName;
   });
   const auto taken =
-      replaces ? keys.replace(kName, *token) : keys.create(kName, app::Role::Admin, *token);
+      replaces ? keys.replace(kName, token) : keys.create(kName, app::Role::Admin, token);
   if (!taken && taken.error().where == "token") {
     log_warning("admin_key_refused",
                 fmt::format("the key in {} was revoked: put a new key into the file", file));
@@ -140,9 +139,8 @@ std::int64_t allow_connections(std::int64_t connections) {
 Result<std::vector<http::ListenAddress>> listen_addresses(const Config& config) {
   std::vector<http::ListenAddress> addresses;
   for (const std::string& text : config.listen) {
-    auto address = http::parse_listen_address(text);
-    if (!address) return address.error();
-    addresses.push_back(*std::move(address));
+    auto address = TRY(http::parse_listen_address(text));
+    addresses.push_back(std::move(address));
   }
   return addresses;
 }
@@ -156,32 +154,19 @@ std::optional<http::TlsOptions> tls_options(const Config& config) {
 }
 
 Result<void> preflight(const Config& config, const std::string& port_file) {
-  const auto addresses = listen_addresses(config);
-  if (!addresses) return addresses.error();
-  for (const http::ListenAddress& address : *addresses) {
-    if (const auto free = http::check_listen(address); !free) return free.error();
-  }
+  const auto addresses = TRY(listen_addresses(config));
+  for (const http::ListenAddress& address : addresses) TRY(http::check_listen(address));
   for (const std::string& text : {config.control_listen, config.shdr_listen}) {
     if (text.empty()) continue;
-    const auto address = http::parse_listen_address(text);
-    if (!address) return address.error();
-    if (const auto free = http::check_listen(*address); !free) return free.error();
+    const auto address = TRY(http::parse_listen_address(text));
+    TRY(http::check_listen(address));
   }
-  if (const auto connections = read_connections(config.connections); !connections) {
-    return connections.error();
-  }
-  if (const auto tls = tls_options(config)) {
-    if (const auto usable = http::check_tls(*tls); !usable) return usable.error();
-  }
-  if (!config.admin_key_file.empty()) {
-    if (const auto key = read_admin_key(config.admin_key_file); !key) return key.error();
-  }
-  if (!config.database.empty()) {
-    if (const auto usable = app::check_database(config.database); !usable) return usable.error();
-  }
-  if (const auto data = check_folder("data", nearest_existing(config.data)); !data)
-    return data.error();
-  if (const auto out = check_file("admin-key-out", config.admin_key_out); !out) return out;
+  TRY(read_connections(config.connections));
+  if (const auto tls = tls_options(config)) TRY(http::check_tls(*tls));
+  if (!config.admin_key_file.empty()) TRY(read_admin_key(config.admin_key_file));
+  if (!config.database.empty()) TRY(app::check_database(config.database));
+  TRY(check_folder("data", nearest_existing(config.data)));
+  TRY(check_file("admin-key-out", config.admin_key_out));
   return check_file("port-file", port_file);
 }
 
@@ -206,16 +191,15 @@ Result<std::string> read_admin_key(const std::string& file) {
 }
 
 Result<void> provide_admin_key(const Config& config, bool needs_one, app::KeyService& keys) {
-  const auto known = keys.list();
-  if (!known) return known.error();
-  if (!config.admin_key_file.empty()) return take_key_of_file(config.admin_key_file, *known, keys);
-  const bool has_one = std::any_of(known->begin(), known->end(), [](const app::KeyEntry& key) {
+  const auto known = TRY(keys.list());
+  if (!config.admin_key_file.empty()) return take_key_of_file(config.admin_key_file, known, keys);
+  const bool has_one = std::any_of(known.begin(), known.end(), [](const app::KeyEntry& key) {
     return is_valid(key) && (key.role == app::Role::Admin || key.name == kName);
   });
   if (has_one || !needs_one) return {};
   const std::string token = app::KeyService::new_token();
   const std::string file = admin_key_out(config);
-  if (const auto written = write_key(file, token); !written) return written.error();
+  TRY(write_key(file, token));
   if (const auto created = keys.create(kName, app::Role::Admin, token); !created) {
     ::unlink(file.c_str());
     return created.error();

@@ -140,8 +140,7 @@ void answer_together(const std::function<void()>& answer) {
 }
 
 Result<void> serve_once(const Config& config, const std::string& port_file) {
-  const auto addresses = listen_addresses(config);
-  if (!addresses) return addresses.error();
+  const auto addresses = TRY(listen_addresses(config));
   prepare_signals();
   give_large_blocks_back();
   report_bugs_to([](std::string_view place, std::string_view what) {
@@ -162,12 +161,11 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   if (!config.forward_to.empty()) {
     options.ask_centre = [&config](std::string_view digits) { return ask_centre(config, digits); };
   }
-  http::ServerOptions listening = server_options(config, *addresses);
+  http::ServerOptions listening = server_options(config, addresses);
   const auto most_clients = static_cast<std::int64_t>(listening.max_connections);
-  auto opened = open_or_wait(options, clock, listening, port_file);
-  if (!opened) return opened.error();
-  if (!*opened) return {};
-  app::Application& app = **opened;
+  auto opened = TRY(open_or_wait(options, clock, listening, port_file));
+  if (!opened) return {};
+  app::Application& app = *opened;
   // A page that cannot be read shows in the readiness, and is no reason not to start.
   const auto newest = app.newest_measurement();
   if (newest && *newest) clock.begin_after(**newest);
@@ -178,19 +176,17 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   const auto fails = [](const Result<void>& done) {
     return !done && done.error().code != ErrorCode::StorageCorrupt;
   };
-  const api::AuthMode mode = auth_mode(config, *addresses);
+  const api::AuthMode mode = auth_mode(config, addresses);
   const auto provided = provide_admin_key(config, mode != api::AuthMode::Open, app.keys());
   if (fails(provided)) return provided.error();
 
   if (const auto opened_runs = app.runs().open(api::run_format()); fails(opened_runs)) {
     return opened_runs.error();
   }
-
   api::GaugesInUse gauges(app.documents());
   if (const auto loaded = gauges.load(); fails(loaded)) return loaded.error();
-  auto connecting = start_connections(config, app, clock, gauges);
-  if (!connecting) return connecting.error();
-  connections::Connections& outside = **connecting;
+  auto connecting = TRY(start_connections(config, app, clock, gauges));
+  connections::Connections& outside = *connecting;
   auto forwarding = start_forwarder(config, app, tell_log);
 
   api::Metrics metrics;
@@ -207,8 +203,7 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
     write_outbox_metrics(forwarding.get(), clock, out);
   });
   auto letterhead =
-      certificate::read_letterhead(config.certificate_address, config.certificate_logo);
-  if (!letterhead) return letterhead.error();
+      TRY(certificate::read_letterhead(config.certificate_address, config.certificate_logo));
   const api::Services services{.tables = app.tables(),
                                .log = app.log(),
                                .intake = app.intake(),
@@ -224,7 +219,7 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
                                .verdicts = verdicts,
                                .clock = clock,
                                .readiness = [&app] { return app.readiness(); },
-                               .letterhead = *std::move(letterhead)};
+                               .letterhead = std::move(letterhead)};
   api::Routes of_plant(services);
   connections::add_connections_routes(of_plant, outside);
   api::add_mtconnect_routes(of_plant);
@@ -241,20 +236,13 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
           metrics));
   if (!started) return started.error();
   http::Server& server = **started;
-  auto control = start_control(config, services);
-  if (!control) return control.error();
-  auto adapter = start_shdr(config, services);
-  if (!adapter) return adapter.error();
+  auto control = TRY(start_control(config, services));
+  auto adapter = TRY(start_shdr(config, services));
   metrics.add([&server](api::Exposition& out) { write_server_metrics(server, out); });
   if (!config.tls_client_ca.empty()) {
-    const auto written = write_port_file(health_port_file(config), server.ports().back());
-    if (!written) return written.error();
+    TRY(write_port_file(health_port_file(config), server.ports().back()));
   }
-  if (!port_file.empty()) {
-    if (const auto written = write_port_file(port_file, server.ports().front()); !written) {
-      return written.error();
-    }
-  }
+  if (!port_file.empty()) TRY(write_port_file(port_file, server.ports().front()));
   if (most_clients < config.max_connections) {
     log_warning("connections_limited", fmt::format("{} of {}: raise the hard limit of open files",
                                                    most_clients, config.max_connections));
@@ -269,13 +257,13 @@ Result<void> serve_once(const Config& config, const std::string& port_file) {
   // Cancels runs first, so that their waiting clients get an answer.
   app.jobs().call_off();
   app.runs().stop();
-  control->reset();
-  adapter->reset();
+  control.reset();
+  adapter.reset();
   server.stop();
-  connecting->reset();
+  connecting.reset();
   forwarding.reset();
   // The application drains its queues first: the answers of its last jobs find no connection.
-  opened->reset();
+  opened.reset();
   started->reset();
   log_info("stopped", "");
   return {};

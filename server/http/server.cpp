@@ -83,11 +83,7 @@ class Server::Impl {
 Server::Impl::~Impl() { stop(); }
 
 Result<void> Server::Impl::open() {
-  if (shared_.options.tls) {
-    auto context = load_tls(*shared_.options.tls);
-    if (!context) return std::move(context).error();
-    tls_ = std::move(*context);
-  }
+  if (shared_.options.tls) tls_ = TRY(load_tls(*shared_.options.tls));
   std::random_device random;
   std::vector<IoThread*> threads;
   for (unsigned i = 0; i < std::max(1U, shared_.options.io_threads); ++i) {
@@ -163,10 +159,9 @@ void Server::Impl::turn_away(Socket socket, const Peer& peer) {
 
 Result<void> Server::Impl::reload_tls() {
   if (!shared_.options.tls) return {};
-  auto context = load_tls(*shared_.options.tls);
-  if (!context) return std::move(context).error();
+  auto context = TRY(load_tls(*shared_.options.tls));
   const std::lock_guard lock(tls_mutex_);
-  tls_ = std::move(*context);
+  tls_ = std::move(context);
   return {};
 }
 
@@ -196,8 +191,7 @@ void Server::Impl::stop() {
 }
 
 Result<void> check_tls(const TlsOptions& options) {
-  const auto context = load_tls(options);
-  if (!context) return context.error();
+  TRY(load_tls(options));
   return {};
 }
 

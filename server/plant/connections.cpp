@@ -94,7 +94,7 @@ void keep_secrets(JsonValue& body, const Definition& before) {
 
 Result<Definition> read_definition(std::string name, const JsonValue& body,
                                    const FolderPermissions& allowed) {
-  if (const auto checked = check_name(name); !checked) return checked.error();
+  TRY(check_name(name));
   api::FieldErrors errors;
   Definition definition{.name = std::move(name)};
   if (const Kind* const kind = named_kind(body, errors)) {
@@ -204,7 +204,7 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
                  "this service shares its database and has no connections: add them at a station "
                  "with a data folder, which forwards to this service"};
   }
-  if (const auto checked = check_name(name); !checked) return checked.error();
+  TRY(check_name(name));
   const auto before = find(name);
   if (before && before->is_read_only) return read_only(before->definition.name);
   if (before && before->definition.name != name) {
@@ -217,27 +217,21 @@ Result<bool> Connections::put(const std::string& name, std::string_view body,
                  fmt::format("the service has {} connections, the largest number: delete one",
                              kMostConnections)};
   }
-  auto json = parse_json(body);
-  if (!json) return json.error();
-  if (before) keep_secrets(*json, before->definition);
-  auto definition = read_definition(name, *json, {.roots = plant_.folders});
-  if (!definition) return definition.error();
-  if (const FollowerOptions* const follower = definition->settings->follower()) {
+  auto json = TRY(parse_json(body));
+  if (before) keep_secrets(json, before->definition);
+  auto definition = TRY(read_definition(name, json, {.roots = plant_.folders}));
+  if (const FollowerOptions* const follower = definition.settings->follower()) {
     // Stores its start before it exists, so that it misses nothing after the response.
-    if (!before) {
-      const auto forgotten = forget_progress(plant_.documents, name);
-      if (!forgotten) return forgotten.error();
-    }
-    if (const auto begun = begin_progress(*follower, plant_); !begun) return begun.error();
+    if (!before) TRY(forget_progress(plant_.documents, name));
+    TRY(begin_progress(*follower, plant_));
   }
-  const auto is_new = plant_.documents.write_and_wait({.kind = app::DocumentKind::Connection,
-                                                       .name = name,
-                                                       .text = definition->text,
-                                                       .caller = caller});
-  if (!is_new) return is_new.error();
+  const auto is_new = TRY(plant_.documents.write_and_wait({.kind = app::DocumentKind::Connection,
+                                                           .name = name,
+                                                           .text = definition.text,
+                                                           .caller = caller}));
   end(ascii_lower(name));
-  begin(*std::move(definition), false);
-  return *is_new;
+  begin(std::move(definition), false);
+  return is_new;
 }
 
 Result<void> Connections::remove(const std::string& name,
@@ -245,9 +239,7 @@ Result<void> Connections::remove(const std::string& name,
   const auto found = find(name);
   if (found && found->definition.name == name && found->is_read_only) return read_only(name);
   // Removes a connection even if it was stored and not started.
-  const auto removed =
-      plant_.documents.remove_and_wait(app::DocumentKind::Connection, name, caller);
-  if (!removed) return removed.error();
+  TRY(plant_.documents.remove_and_wait(app::DocumentKind::Connection, name, caller));
   if (found && found->definition.name == name) end(ascii_lower(name));
   return forget_progress(plant_.documents, name);
 }
@@ -255,10 +247,8 @@ Result<void> Connections::remove(const std::string& name,
 Result<void> Connections::replay(const std::string& name, std::string_view body) {
   const auto found = find(name);
   if (!found || found->definition.name != name) return unknown(name);
-  const auto json = parse_json(body);
-  if (!json) return json.error();
-  const auto order = api::read_whole<ReplayOrder>(*json);
-  if (!order) return order.error();
+  const auto json = TRY(parse_json(body));
+  const auto order = TRY(api::read_whole<ReplayOrder>(json));
   const FollowerOptions* const follower = found->definition.settings->follower();
   if (follower == nullptr) {
     return Error{
@@ -267,10 +257,9 @@ Result<void> Connections::replay(const std::string& name, std::string_view body)
   }
   end(ascii_lower(name));  // which keeps how far it came
   const auto saved = [&]() -> Result<void> {
-    auto progress = begin_progress(*follower, plant_);
-    if (!progress) return progress.error();
-    if (const auto moved = move_back(*progress, *order, plant_); !moved) return moved;
-    return save_progress(plant_.documents, name, *progress);
+    auto progress = TRY(begin_progress(*follower, plant_));
+    TRY(move_back(progress, order, plant_));
+    return save_progress(plant_.documents, name, progress);
   }();
   begin(found->definition, found->is_read_only);
   return saved;

@@ -22,9 +22,8 @@ std::optional<std::string> text_of(const std::optional<Timestamp>& time) {
 
 /// The members of its settings, next to those of its state.
 Result<void> write_settings(JsonWriter& json, const ConnectionState& connection) {
-  const auto settings = parse_stored_json(connection.settings, "a connection");
-  if (!settings) return settings.error();
-  for (const auto& [name, value] : settings->members) {
+  const auto settings = TRY(parse_stored_json(connection.settings, "a connection"));
+  for (const auto& [name, value] : settings.members) {
     if (name == "kind") continue;
     json.key(name);
     write_json(json, value);
@@ -51,7 +50,7 @@ Result<void> write_connection(JsonWriter& json, const ConnectionState& connectio
       .member("kind", connection.kind)
       .member("direction", connection.is_outgoing ? "out" : "in")
       .member("read_only", connection.is_read_only);
-  if (auto written = write_settings(json, connection); !written) return written;
+  TRY(write_settings(json, connection));
   json.member("state", state_word(connection));
   json.member("last_attempt_at", text_of(connection.last_attempt_at));
   json.member("last_success_at", text_of(connection.last_success_at));
@@ -81,10 +80,8 @@ Result<http::Response> list(const Connections& all) {
   std::string body;
   JsonWriter json(body);
   json.begin_object().key("connections").begin_array();
-  for (const ConnectionState& connection : all.states()) {
-    const auto written = write_connection(json, connection, all.now());
-    if (!written) return written.error();
-  }
+  for (const ConnectionState& connection : all.states())
+    TRY(write_connection(json, connection, all.now()));
   json.end_array().end_object();
   return answer_of(200, std::move(body));
 }
@@ -100,8 +97,7 @@ Result<http::Response> one(const Connections& all, const std::string& name, int 
   if (!state) return unknown(name);
   std::string body;
   JsonWriter json(body);
-  const auto written = write_connection(json, *state, all.now());
-  if (!written) return written.error();
+  TRY(write_connection(json, *state, all.now()));
   return answer_of(status, std::move(body));
 }
 
@@ -120,32 +116,28 @@ http::AsyncHandler by(Connections& all, Change change) {
 }
 
 Result<http::Response> put(Connections& all, const http::Request& request) {
-  const auto is_new = all.put(name_of(request), request.body(), api::caller_text(request));
-  if (!is_new) return is_new.error();
-  return one(all, name_of(request), *is_new ? 201 : 200);
+  const auto is_new = TRY(all.put(name_of(request), request.body(), api::caller_text(request)));
+  return one(all, name_of(request), is_new ? 201 : 200);
 }
 
 Result<http::Response> remove(Connections& all, const http::Request& request) {
-  const auto removed = all.remove(name_of(request), api::caller_text(request));
-  if (!removed) return removed.error();
+  TRY(all.remove(name_of(request), api::caller_text(request)));
   return http::Response(204);
 }
 
 Result<http::Response> test(Connections& all, const http::Request& request) {
-  const auto found = all.test(name_of(request));
-  if (!found) return found.error();
+  const auto found = TRY(all.test(name_of(request)));
   std::string body;
   JsonWriter(body)
       .begin_object()
-      .member("ok", found->ok)
-      .member("detail", found->detail)
+      .member("ok", found.ok)
+      .member("detail", found.detail)
       .end_object();
   return answer_of(200, std::move(body));
 }
 
 Result<http::Response> replay(Connections& all, const http::Request& request) {
-  const auto moved = all.replay(name_of(request), request.body());
-  if (!moved) return moved.error();
+  TRY(all.replay(name_of(request), request.body()));
   return one(all, name_of(request), 200);
 }
 

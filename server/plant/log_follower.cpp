@@ -31,10 +31,8 @@ Result<Page> read_page(app::MeasurementService& service, const LogFilter& filter
     if (filter.takes(measurement))
       page.measurements.push_back(std::make_unique<app::KeptMeasurement>(measurement));
   };
-  auto end = wait_for_result<app::ListPage>(
-      [&](auto done) { service.list(filter.query, after, limit, add, done); });
-  if (!end) return end.error();
-  page.end = *end;
+  page.end = TRY(wait_for_result<app::ListPage>(
+      [&](auto done) { service.list(filter.query, after, limit, add, done); }));
   return page;
 }
 
@@ -46,9 +44,8 @@ Result<app::EventService::StoredPage> read_event_page(app::EventService& service
 
 /// Returns the number of measurements in the log.
 Result<std::int64_t> end_of_log(app::MeasurementService& service) {
-  const auto page = read_page(service, {}, 0, 1, [](const auto&) {});
-  if (!page) return page.error();
-  return page->end.as_of;
+  const auto page = TRY(read_page(service, {}, 0, 1, [](const auto&) {}));
+  return page.end.as_of;
 }
 
 }  // namespace
@@ -59,26 +56,19 @@ std::string event_text(const OutgoingEvent& event) {
 }
 
 Result<Progress> begin_progress(const FollowerOptions& options, const Plant& plant) {
-  auto loaded = load_progress(plant.documents, options.name);
-  if (!loaded) return loaded.error();
-  const bool is_new = !*loaded;
-  Progress progress = is_new ? Progress() : **std::move(loaded);
+  auto loaded = TRY(load_progress(plant.documents, options.name));
+  const bool is_new = !loaded;
+  Progress progress = is_new ? Progress() : *std::move(loaded);
   const bool begins_events = !options.events.empty() && !progress.event;
   // A connection without events begins anew when it requests some again.
   if (options.events.empty()) progress.event.reset();
   if (!is_new && !begins_events) return progress;
-  if (is_new && !options.from_beginning) {
-    const auto end = end_of_log(plant.measurements);
-    if (!end) return end.error();
-    progress.position = *end;
-  }
+  if (is_new && !options.from_beginning) progress.position = TRY(end_of_log(plant.measurements));
   if (begins_events) {
-    const auto events = read_event_page(plant.events, 0, 0);
-    if (!events) return events.error();
-    progress.event = is_new && options.from_beginning ? 0 : events->newest;
+    const auto events = TRY(read_event_page(plant.events, 0, 0));
+    progress.event = is_new && options.from_beginning ? 0 : events.newest;
   }
-  const auto saved = save_progress(plant.documents, options.name, progress);
-  if (!saved) return saved.error();
+  TRY(save_progress(plant.documents, options.name, progress));
   return progress;
 }
 
@@ -172,19 +162,18 @@ bool LogFollower::begin() {
 
 Result<void> LogFollower::read_events() {
   if (options_.events.empty() || !pending_events_.empty()) return {};
-  auto page = read_event_page(plant_.events, *progress_.event, kPage);
-  if (!page) return page.error();
-  if (page->gap) {
+  auto page = TRY(read_event_page(plant_.events, *progress_.event, kPage));
+  if (page.gap) {
     plant_.tell("connection_events_lost",
                 fmt::format("{}: the other side was absent for too long: raise event_retention",
                             options_.name));
   }
-  if (page->events.empty()) return {};
-  const std::int64_t last = page->events.back().id;
-  std::erase_if(page->events, [this](const app::EventService::Stored& event) {
+  if (page.events.empty()) return {};
+  const std::int64_t last = page.events.back().id;
+  std::erase_if(page.events, [this](const app::EventService::Stored& event) {
     return options_.events.find(event.type) == options_.events.end();
   });
-  for (auto& event : page->events) pending_events_.push_back({std::move(event)});
+  for (auto& event : page.events) pending_events_.push_back({std::move(event)});
   // Events that nobody wants are done.
   if (pending_events_.empty()) {
     progress_.event = last;
@@ -196,9 +185,8 @@ Result<void> LogFollower::read_events() {
 Result<void> LogFollower::read() {
   app::MeasurementService& log = plant_.measurements;
   if (pending_.size() >= kPage) {
-    const auto end = end_of_log(log);
-    if (!end) return end.error();
-    take_log_end(*end);
+    const auto end = TRY(end_of_log(log));
+    take_log_end(end);
     return {};
   }
   const bool finds_offsets =

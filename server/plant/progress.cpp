@@ -101,14 +101,13 @@ Result<std::optional<std::int64_t>> first_row_from(Timestamp time, const Plant& 
 Result<std::int64_t> last_event_before(Timestamp time, const Plant& plant) {
   std::int64_t last = 0;
   for (;;) {
-    const auto page = wait_for_result<app::EventService::StoredPage>(
-        [&](auto done) { plant.events.read_stored(last, kEventsAtATime, std::move(done)); });
-    if (!page) return page.error();
-    for (const auto& event : page->events) {
+    const auto page = TRY(wait_for_result<app::EventService::StoredPage>(
+        [&](auto done) { plant.events.read_stored(last, kEventsAtATime, std::move(done)); }));
+    for (const auto& event : page.events) {
       if (event.at >= time) return last;
       last = event.id;
     }
-    if (page->events.size() < kEventsAtATime) return last;
+    if (page.events.size() < kEventsAtATime) return last;
   }
 }
 
@@ -127,16 +126,13 @@ Result<std::optional<Progress>> load_progress(app::DocumentService& documents,
     if (document.error().code == ErrorCode::ConnectionUnknown) return std::optional<Progress>();
     return document.error();
   }
-  const auto stored = parse_stored_json(document->text, "the progress of a connection");
-  if (!stored) return stored.error();
-  return std::optional(progress_of(*stored));
+  const auto stored = TRY(parse_stored_json(document->text, "the progress of a connection"));
+  return std::optional(progress_of(stored));
 }
 
 Result<void> save_progress(app::DocumentService& documents, const std::string& name,
                            const Progress& progress) {
-  const auto written =
-      documents.write_and_wait({.kind = kKind, .name = name, .text = json_of(progress)});
-  if (!written) return written.error();
+  TRY(documents.write_and_wait({.kind = kKind, .name = name, .text = json_of(progress)}));
   return {};
 }
 
@@ -145,15 +141,12 @@ Result<std::uint8_t> next_session(app::DocumentService& documents, const std::st
   if (!document && document.error().code != ErrorCode::ConnectionUnknown) return document.error();
   std::uint8_t session = 0;
   if (document) {
-    const auto stored = parse_stored_json(document->text, "the session of a connection");
-    if (!stored) return stored.error();
-    session = static_cast<std::uint8_t>(whole_number(*stored, "session") + 1);
+    const auto stored = TRY(parse_stored_json(document->text, "the session of a connection"));
+    session = static_cast<std::uint8_t>(whole_number(stored, "session") + 1);
   }
   std::string text;
   api::JsonWriter(text).begin_object().member("session", std::int64_t{session}).end_object();
-  const auto written =
-      documents.write_and_wait({.kind = kKind, .name = session_name(name), .text = text});
-  if (!written) return written.error();
+  TRY(documents.write_and_wait({.kind = kKind, .name = session_name(name), .text = text}));
   return session;
 }
 
@@ -169,13 +162,11 @@ Result<void> move_back(Progress& progress, const ReplayOrder& order, const Plant
   std::optional<std::int64_t> position;
   std::optional<std::int64_t> event;
   if (const auto time = parse_rfc3339(order.from)) {
-    const auto first = first_row_from(*time, plant);
-    if (!first) return first.error();
-    if (*first) position = std::min(**first - 1, progress.position);
+    const auto first = TRY(first_row_from(*time, plant));
+    if (first) position = std::min(*first - 1, progress.position);
     if (progress.event) {
-      const auto last = last_event_before(*time, plant);
-      if (!last) return last.error();
-      event = std::min(*last, *progress.event);
+      const auto last = TRY(last_event_before(*time, plant));
+      event = std::min(last, *progress.event);
     }
   } else if (const auto number = event_number(order.from, plant.origin)) {
     if (!progress.event) return invalid_from("the connection sends no events beside measurements");

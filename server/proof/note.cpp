@@ -91,24 +91,21 @@ Result<Note> open_note(std::string_view note, std::span<const VerifierKey> keys)
   for (std::size_t lines = 0; !rest.empty(); ++lines) {
     if (lines == kMostSignatures) return bad_note("it has more than 100 signatures");
     const std::size_t end = rest.find('\n');
-    const auto line = read_signature(rest.substr(0, end));
-    if (!line) return line.error();
+    const auto line = TRY(read_signature(rest.substr(0, end)));
     rest.remove_prefix(end + 1);
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const VerifierKey& known) {
-      return known.name() == line->name && known.id() == line->id;
+      return known.name() == line.name && known.id() == line.id;
     });
     if (key == keys.end() || std::count(read.signers.begin(), read.signers.end(), &*key) != 0) {
       continue;
     }
-    if (!is_signed(read.text, *line, *key)) {
+    if (!is_signed(read.text, line, *key)) {
       return Error{ErrorCode::NoteUnverified,
                    fmt::format("the signature of {} does not belong to the note", key->name())};
     }
     read.signers.push_back(&*key);
   }
-  if (read.signers.empty()) {
-    return Error{ErrorCode::NoteUnverified, "no known key signed the note"};
-  }
+  if (read.signers.empty()) return Error{ErrorCode::NoteUnverified, "no known key signed the note"};
   return read;
 }
 
@@ -134,12 +131,11 @@ Result<Checkpoint> parse_checkpoint(std::string_view text) {
 }
 
 Result<Checkpoint> open_checkpoint(std::string_view note, std::span<const VerifierKey> keys) {
-  auto opened = open_note(note, keys);
-  if (!opened) return opened.error();
-  auto checkpoint = parse_checkpoint(opened->text);
+  auto opened = TRY(open_note(note, keys));
+  auto checkpoint = parse_checkpoint(opened.text);
   if (!checkpoint) return checkpoint;
   const bool own =
-      std::any_of(opened->signers.begin(), opened->signers.end(),
+      std::any_of(opened.signers.begin(), opened.signers.end(),
                   [&](const VerifierKey* key) { return key->name() == checkpoint->origin; });
   if (!own) {
     return Error{ErrorCode::NoteUnverified,

@@ -130,10 +130,9 @@ Result<void> check_header(std::vector<std::string> header) {
 
 Result<void> decode_csv(std::string_view body, const BatchContext& context,
                         MeasurementBatch& batch) {
-  auto opened = CsvReader::open(body);
-  if (!opened) return opened.error();
-  const auto csv = std::make_shared<CsvReader>(*std::move(opened));
-  if (const auto checked = check_header(csv->header()); !checked) return checked.error();
+  auto opened = TRY(CsvReader::open(body));
+  const auto csv = std::make_shared<CsvReader>(std::move(opened));
+  TRY(check_header(csv->header()));
   FieldErrors errors;
   MeasurementRowReader reader(context, errors);
   batch.texts = csv;

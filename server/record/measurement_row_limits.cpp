@@ -109,11 +109,10 @@ void MeasurementRowReader::take_limits(Result<standards::DesignatedLimits> limit
 
 Result<iso286::ClassId> MeasurementRowReader::find_class(std::string_view name) {
   if (last_class_id_ && name == last_class_) return *last_class_id_;
-  const auto found = tables_.find_class(name);
-  if (!found) return found.error();
+  const auto found = TRY(tables_.find_class(name));
   last_class_ = name;
-  last_class_id_ = *found;
-  return *found;
+  last_class_id_ = found;
+  return found;
 }
 
 void MeasurementRowReader::take_limits(const Result<iso286::LimitsOfSize>& limits,

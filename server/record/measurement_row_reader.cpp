@@ -304,9 +304,7 @@ void MeasurementRowReader::apply_rule() {
   }
   const auto checked =
       check_acceptance(*rule, {.upper = m.upper_limit(), .lower = m.lower_limit()});
-  if (!checked) {
-    return report(RowField::Uncertainty, checked.error());
-  }
+  if (!checked) return report(RowField::Uncertainty, checked.error());
   m.rule = *rule;
   if (rule->kind() == gauging::DecisionRule::Kind::GuardBand) {
     m.coverage_factor = rule->coverage_factor();

@@ -87,27 +87,25 @@ void warn_of_no_acceptance(const gauging::DecisionRule& rule, Length tolerance,
 }
 
 Result<std::optional<ThermalCorrection>> make_correction(const app::MeasurementFields& fields) {
-  auto part = read_body({.name = "part",
-                         .expansion = fields.part_expansion,
-                         .material = fields.part_material,
-                         .temperature_uncertainty = fields.temperature_uncertainty,
-                         .expansion_uncertainty = fields.part_expansion_uncertainty});
-  if (!part) return part.error();
-  auto scale = read_body({.name = "scale",
-                          .expansion = fields.scale_expansion,
-                          .material = fields.scale_material,
-                          .temperature_uncertainty = fields.scale_temperature_uncertainty,
-                          .expansion_uncertainty = fields.scale_expansion_uncertainty});
-  if (!scale) return scale.error();
-  if (!*part && !*scale) return std::optional<ThermalCorrection>();
-  if (*part && !fields.temperature) {
+  auto part = TRY(read_body({.name = "part",
+                             .expansion = fields.part_expansion,
+                             .material = fields.part_material,
+                             .temperature_uncertainty = fields.temperature_uncertainty,
+                             .expansion_uncertainty = fields.part_expansion_uncertainty}));
+  auto scale = TRY(read_body({.name = "scale",
+                              .expansion = fields.scale_expansion,
+                              .material = fields.scale_material,
+                              .temperature_uncertainty = fields.scale_temperature_uncertainty,
+                              .expansion_uncertainty = fields.scale_expansion_uncertainty}));
+  if (!part && !scale) return std::optional<ThermalCorrection>();
+  if (part && !fields.temperature) {
     return Error{ErrorCode::FieldMissing,
                  "temperature_c of the part is required with its expansion", "temperature_c"};
   }
   ThermalCorrection correction;
-  correction.part = part->value_or(gauging::ThermalBody());
+  correction.part = part.value_or(gauging::ThermalBody());
   correction.part.temperature = fields.temperature.value_or(correction.part.temperature);
-  correction.scale = scale->value_or(gauging::ThermalBody());
+  correction.scale = scale.value_or(gauging::ThermalBody());
   correction.scale.temperature = fields.scale_temperature.value_or(correction.scale.temperature);
   correction.has_uncertainties =
       fields.temperature_uncertainty || fields.part_expansion_uncertainty ||
@@ -163,17 +161,11 @@ Result<gauging::DecisionRule> make_rule(const RuleWords& words) {
   if (!millionths && words.kind == Kind::GuardBand && words.degrees_of_freedom) {
     millionths = gauging::coverage_millionths(known.degrees_of_freedom);
   }
-  if (millionths) {
-    const auto given = gauging::CoverageFactor::from_millionths(*millionths);
-    if (!given) return given.error();
-    factor = *given;
-  }
+  if (millionths) factor = TRY(gauging::CoverageFactor::from_millionths(*millionths));
   gauging::ConformanceProbability probability;
   if (words.probability_millionths) {
-    const auto given =
-        gauging::ConformanceProbability::from_millionths(*words.probability_millionths);
-    if (!given) return given.error();
-    probability = *given;
+    probability =
+        TRY(gauging::ConformanceProbability::from_millionths(*words.probability_millionths));
   }
   std::optional<Error> unused;
   refuse_not_applicable(

@@ -190,29 +190,21 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
     return app->stage_ == Stage::Open && app->take_names(stores);
   };
   if (!options.address.empty() && !options.attach) {
-    auto held = store::DirectoryLock::acquire(options.directory);
-    if (!held) return held.error();
-    app->folder_ = std::make_unique<store::DirectoryLock>(*std::move(held));
+    auto held = TRY(store::DirectoryLock::acquire(options.directory));
+    app->folder_ = std::make_unique<store::DirectoryLock>(std::move(held));
   }
-  auto database = options.address.empty() ? store::sqlite::open_database(open_options, clock)
-                                          : store::postgres::open_database(open_options, clock);
-  if (!database) return database.error();
-  app->database_ = *std::move(database);
-  auto tables = TableCatalog::open(*app->database_, clock, options.has_centre);
-  if (!tables) return tables.error();
-  app->tables_ = *std::move(tables);
-  if (!options.attach) {
-    if (const auto numbered = app->tables_->number_standards(); !numbered) return numbered.error();
-  }
-  auto log = LogService::open(*app->database_, *app->tables_, clock,
-                              {.directory = options.directory,
-                               .name = options.origin_name,
-                               .shares = !options.address.empty(),
-                               .attach = options.attach,
-                               .ask_centre = options.ask_centre,
-                               .tell = options.log_told});
-  if (!log) return log.error();
-  app->log_ = *std::move(log);
+  app->database_ =
+      TRY(options.address.empty() ? store::sqlite::open_database(open_options, clock)
+                                  : store::postgres::open_database(open_options, clock));
+  app->tables_ = TRY(TableCatalog::open(*app->database_, clock, options.has_centre));
+  if (!options.attach) TRY(app->tables_->number_standards());
+  app->log_ = TRY(LogService::open(*app->database_, *app->tables_, clock,
+                                   {.directory = options.directory,
+                                    .name = options.origin_name,
+                                    .shares = !options.address.empty(),
+                                    .attach = options.attach,
+                                    .ask_centre = options.ask_centre,
+                                    .tell = options.log_told}));
   const Origins& origins = app->log_->origins();
   app->intake_ = std::make_unique<LogIntake>(
       *app->database_, *app->tables_, app->log_->origins(), clock,
@@ -221,9 +213,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
       });
   app->clock_ = &clock;
   app->revisions_ = std::make_unique<RevisionFeed>(*app->database_, *app->tables_, origins);
-  auto keys = KeyService::open(*app->database_, clock, options.log_told);
-  if (!keys) return keys.error();
-  app->keys_ = *std::move(keys);
+  app->keys_ = TRY(KeyService::open(*app->database_, clock, options.log_told));
   app->measurements_ = std::make_unique<MeasurementService>(
       *app->database_, *app->tables_, origins,
       MeasurementServiceOptions{.most_waiting = options.write_queue,
@@ -240,9 +230,7 @@ Result<std::unique_ptr<Application>> Application::open(const ApplicationOptions&
   }
   app->events_ = std::make_unique<EventService>(*app->database_, *app->tables_, origins,
                                                 app->committed_, options.event_retention);
-  if (!options.attach) {
-    app->log_->start();
-  }
+  if (!options.attach) app->log_->start();
   app->stage_ = Stage::Open;
   return app;
 }
@@ -314,7 +302,7 @@ Result<void> Application::backup(const std::filesystem::path& file) const {
     std::this_thread::sleep_for(kBetweenGlances);
     checkpoint = read_small_file(directory_ / kCheckpointFile);
   }
-  if (const auto copied = database_->backup(file); !copied) return copied;
+  TRY(database_->backup(file));
   if (!checkpoint || !*checkpoint) return {};
   auto beside = file;
   return replace_file(beside += ".checkpoint", **checkpoint, true);
@@ -358,9 +346,7 @@ Result<Application::Verification> Application::verify(
     LogCheck& check = checks.try_emplace(origin, facts, names, nodes).first->second;
     if (!facts.checkpoint.empty()) check.expect("its newest checkpoint", facts.checkpoint);
   }
-  for (const auto& [place, note] : notes) {
-    checks.at(origin_of(note, *logs)).expect(place, note);
-  }
+  for (const auto& [place, note] : notes) checks.at(origin_of(note, *logs)).expect(place, note);
   auto report = database_->verify([&](const store::MeasurementRow& row) {
     const auto check = checks.find(row.origin.value_or(0));
     std::optional<std::string> altered;

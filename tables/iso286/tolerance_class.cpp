@@ -124,21 +124,20 @@ Result<FitDesignation> parse_fit_designation(std::string_view text) {
 }
 
 Result<FitDesignation> parse_fit_designation(std::string_view hole, std::string_view shaft_class) {
-  auto designation = parse_designation(hole);
-  if (!designation) return designation.error();
-  const bool has_envelope = take_envelope(shaft_class) && designation->has_envelope;
+  auto designation = TRY(parse_designation(hole));
+  const bool has_envelope = take_envelope(shaft_class) && designation.has_envelope;
   if (!is_class_name(shaft_class)) {
     return malformed(ErrorCode::FitMalformed, shaft_class,
                      "is not the tolerance class of a shaft such as g6");
   }
-  if (feature_of_name(designation->class_name) != Feature::Hole ||
+  if (feature_of_name(designation.class_name) != Feature::Hole ||
       feature_of_name(shaft_class) != Feature::Shaft) {
-    return Error{ErrorCode::FitMalformed, "'" + designation->class_name + "/" +
+    return Error{ErrorCode::FitMalformed, "'" + designation.class_name + "/" +
                                               std::string(shaft_class) +
                                               "' is not the class of a hole, then of a shaft: "
                                               "write a fit as 25 H7/g6"};
   }
-  return FitDesignation{designation->nominal_size, std::move(designation->class_name),
+  return FitDesignation{designation.nominal_size, std::move(designation.class_name),
                         std::string(shaft_class), has_envelope};
 }
 

@@ -144,9 +144,8 @@ Result<LimitsOfSize> ToleranceTables::limits_of_size(NominalSize size, ClassId i
 
 Result<LimitsOfSize> ToleranceTables::limits_of_size(NominalSize size,
                                                      std::string_view class_name) const {
-  const auto id = find_class(class_name);
-  if (!id) return id.error();
-  return limits_of_size(size, *id);
+  const auto id = TRY(find_class(class_name));
+  return limits_of_size(size, id);
 }
 
 Result<Fit> ToleranceTables::fit(NominalSize size, ClassId hole, ClassId shaft) const {
@@ -154,11 +153,9 @@ Result<Fit> ToleranceTables::fit(NominalSize size, ClassId hole, ClassId shaft) 
     return Error{ErrorCode::FitMalformed,
                  "a fit must be the class of a hole, then of a shaft, such as H7/g6"};
   }
-  const auto hole_limits = limits_of_size(size, hole);
-  if (!hole_limits) return hole_limits.error();
-  const auto shaft_limits = limits_of_size(size, shaft);
-  if (!shaft_limits) return shaft_limits.error();
-  return Fit{*hole_limits, *shaft_limits};
+  const auto hole_limits = TRY(limits_of_size(size, hole));
+  const auto shaft_limits = TRY(limits_of_size(size, shaft));
+  return Fit{hole_limits, shaft_limits};
 }
 
 std::optional<ClassId> ToleranceTables::nearest_defined(NominalSize size, ClassId id) const {

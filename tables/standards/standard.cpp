@@ -55,9 +55,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 }
 
 std::optional<std::int64_t> number(std::string_view cell, Unit unit) {
-  if (unit == Unit::ArcMinute) {
-    return read_number<std::int64_t>(cell);
-  }
+  if (unit == Unit::ArcMinute) return read_number<std::int64_t>(cell);
   const auto length = unit == Unit::Millimetre ? parse_length_mm(cell) : parse_length_um(cell);
   return length ? std::optional(length->count()) : std::nullopt;
 }

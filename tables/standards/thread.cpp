@@ -86,15 +86,10 @@ Result<std::optional<Length>> coarse_pitch(Length diameter) {
 Result<Thread> parse(std::string_view designation) {
   std::string_view rest = designation;
   if (!take(rest, "M") && !take(rest, "m")) return not_a_thread(designation);
-  const auto diameter = take_size(rest, designation);
-  if (!diameter) return diameter.error();
-  Thread thread{.diameter = *diameter, .pitch = {}, .coarse = {}};
+  const auto diameter = TRY(take_size(rest, designation));
+  Thread thread{.diameter = diameter, .pitch = {}, .coarse = {}};
   const bool has_pitch = take(rest, "x") || take(rest, "X") || take(rest, "\xC3\x97");
-  if (has_pitch) {
-    const auto pitch = take_size(rest, designation);
-    if (!pitch) return pitch.error();
-    thread.pitch = *pitch;
-  }
+  if (has_pitch) thread.pitch = TRY(take_size(rest, designation));
   const bool hyphen = take(rest, "-");
   const auto first = class_of(rest);
   const auto second = class_of(rest.size() > 2 ? rest.substr(2) : "");
@@ -104,13 +99,12 @@ Result<Thread> parse(std::string_view designation) {
   }
   thread.pitch_class = *first;
   thread.classes = rest;
-  const auto coarse = coarse_pitch(*diameter);
-  if (!coarse) return coarse.error();
-  thread.coarse = *coarse;
+  const auto coarse = TRY(coarse_pitch(diameter));
+  thread.coarse = coarse;
   if (!has_pitch && !thread.coarse) {
     return Error{ErrorCode::ClassUndefinedForSize,
                  fmt::format("M{0} has no coarse pitch: name its pitch, as in M{0}x1-6H",
-                             format_mm(*diameter))};
+                             format_mm(diameter))};
   }
   if (!has_pitch) thread.pitch = *thread.coarse;
   return thread;
@@ -185,24 +179,20 @@ std::string_view kept(std::string designation) {
 }  // namespace
 
 Result<DesignatedLimits> thread_limits(std::string_view designation) {
-  const auto thread = parse(designation);
-  if (!thread) return thread.error();
-  const auto away = deviation_of(*thread);
-  if (!away) return away.error();
-  const auto tolerance = tolerance_of(*thread);
-  if (!tolerance) return tolerance.error();
-  const bool internal = thread->pitch_class.is_internal();
+  const auto thread = TRY(parse(designation));
+  const auto away = TRY(deviation_of(thread));
+  const auto tolerance = TRY(tolerance_of(thread));
+  const bool internal = thread.pitch_class.is_internal();
   const std::string pitch =
-      thread->pitch == thread->coarse ? std::string() : "x" + format_mm(thread->pitch);
-  return DesignatedLimits{
-      .standard = &standard(),
-      .tolerance_class =
-          kept(fmt::format("M{}{}-{}", format_mm(thread->diameter), pitch, thread->classes)),
-      .feature = internal ? iso286::Feature::Hole : iso286::Feature::Shaft,
-      .nominal = pitch_diameter_of(*thread),
-      .deviations = internal ? iso286::LimitDeviations{*away + *tolerance, *away}
-                             : iso286::LimitDeviations{*away, *away - *tolerance},
-      .size_range = {}};
+      thread.pitch == thread.coarse ? std::string() : "x" + format_mm(thread.pitch);
+  return DesignatedLimits{.standard = &standard(),
+                          .tolerance_class = kept(fmt::format(
+                              "M{}{}-{}", format_mm(thread.diameter), pitch, thread.classes)),
+                          .feature = internal ? iso286::Feature::Hole : iso286::Feature::Shaft,
+                          .nominal = pitch_diameter_of(thread),
+                          .deviations = internal ? iso286::LimitDeviations{away + tolerance, away}
+                                                 : iso286::LimitDeviations{away, away - tolerance},
+                          .size_range = {}};
 }
 
 }  // namespace fitgauge::standards

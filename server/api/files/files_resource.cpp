@@ -120,13 +120,11 @@ void list_files(const Services& services, const http::Request& request, http::Re
 Result<http::Response> act_on(app::RunService& runs, const ControlPath& path, bool formats,
                               std::optional<std::string> draft) {
   if (formats) {
-    auto text = runs.format(path);
-    if (!text) return text.error();
-    return http::Response(200, "text/plain; charset=utf-8", *std::move(text));
+    auto text = TRY(runs.format(path));
+    return http::Response(200, "text/plain; charset=utf-8", std::move(text));
   }
-  auto found = runs.check(path, std::move(draft));
-  if (!found) return found.error();
-  return http::Response(200, "application/json", diagnostics_json(*found));
+  auto found = TRY(runs.check(path, std::move(draft)));
+  return http::Response(200, "application/json", diagnostics_json(found));
 }
 
 /// `action=check` and `action=format`.

@@ -72,25 +72,22 @@ Result<app::MeasurementQuery> side_query(const Services& services, const http::R
 Result<MeasuredSide> read_side(const Services& services, const app::MeasurementQuery& query,
                                const iso286::LimitsOfSize& limits, bool ignores_subgroups) {
   ValueSelection selection;
-  auto as_of = selection.read(services.measurements, query);
-  if (!as_of) return as_of.error();
-  auto selected = std::move(selection).selected(ignores_subgroups);
-  if (!selected) return selected.error();
-  if (selected->lower_limit != limits.lower_limit() ||
-      selected->upper_limit != limits.upper_limit()) {
+  auto as_of = TRY(selection.read(services.measurements, query));
+  auto selected = TRY(std::move(selection).selected(ignores_subgroups));
+  if (selected.lower_limit != limits.lower_limit() ||
+      selected.upper_limit != limits.upper_limit()) {
     const auto mm = [](const std::optional<Length>& limit) {
       return limit ? format_mm(*limit) : std::string("none");
     };
     return Error{ErrorCode::LimitsMixed,
                  fmt::format("they have the limits {} and {} mm, the fit has {} and {} mm",
-                             mm(selected->lower_limit), mm(selected->upper_limit),
+                             mm(selected.lower_limit), mm(selected.upper_limit),
                              format_mm(limits.lower_limit()), format_mm(limits.upper_limit()))};
   }
   constexpr long double kConfidence = 0.95L;
-  auto capability = metrology::assess_capability(selected->data, selected->limits, kConfidence);
-  if (!capability) return capability.error();
-  selected->data = {};
-  return MeasuredSide{*std::move(selected), *std::move(as_of), *std::move(capability)};
+  auto capability = TRY(metrology::assess_capability(selected.data, selected.limits, kConfidence));
+  selected.data = {};
+  return MeasuredSide{std::move(selected), std::move(as_of), std::move(capability)};
 }
 
 }  // namespace

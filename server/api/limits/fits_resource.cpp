@@ -64,19 +64,16 @@ void write_fit_members(JsonWriter& json, const iso286::Fit& fit,
 Result<iso286::LimitsOfSize> find_side(iso286::NominalSize size, std::string_view class_name,
                                        iso286::Feature feature, const ToleranceTables& tables) {
   if (!standards::is_bearing_class(class_name)) return tables.limits_of_size(size, class_name);
-  const auto limits = standards::bearing_limits(size.length(), class_name, feature);
-  if (!limits) return limits.error();
-  return iso286::LimitsOfSize{size, {}, feature, {}, limits->deviations, *limits->size_range};
+  const auto limits = TRY(standards::bearing_limits(size.length(), class_name, feature));
+  return iso286::LimitsOfSize{size, {}, feature, {}, limits.deviations, *limits.size_range};
 }
 
 Result<iso286::Fit> find_fit(const iso286::FitDesignation& designation,
                              const ToleranceTables& tables) {
   const auto& [size, hole_class, shaft_class, has_envelope] = designation;
-  const auto hole = find_side(size, hole_class, iso286::Feature::Hole, tables);
-  if (!hole) return hole.error();
-  const auto shaft = find_side(size, shaft_class, iso286::Feature::Shaft, tables);
-  if (!shaft) return shaft.error();
-  return iso286::Fit{*hole, *shaft};
+  const auto hole = TRY(find_side(size, hole_class, iso286::Feature::Hole, tables));
+  const auto shaft = TRY(find_side(size, shaft_class, iso286::Feature::Shaft, tables));
+  return iso286::Fit{hole, shaft};
 }
 
 /// Reads `25 H7/g6`, and with a bearing `25 ISO 492-P6/k6` (its bore) or `52 H7/ISO 492-P6` (its
@@ -132,11 +129,9 @@ http::AsyncHandler answer_fit(const Routes& add, Designation designation_of) {
       add.cache,
       [designation_of](const http::Request& request,
                        const ToleranceTables& tables) -> Result<http::Response> {
-        const auto designation = designation_of(request);
-        if (!designation) return designation.error();
-        const auto fit = find_fit(*designation, tables);
-        if (!fit) return fit.error();
-        return tagged_json(fit_json(*designation, *fit, tables), etag_of(tables));
+        const auto designation = TRY(designation_of(request));
+        const auto fit = TRY(find_fit(designation, tables));
+        return tagged_json(fit_json(designation, fit, tables), etag_of(tables));
       });
   return [&services = add.services, designation_of, from_tables = std::move(from_tables)](
              const http::Request& request, http::Responder responder) {
@@ -174,12 +169,11 @@ std::vector<http::Parameter> with_filters(std::vector<http::Parameter> parameter
 /// Writes the fit as its own path returns it, with the names of its classes.
 Result<void> write_found(JsonWriter& json, const metrology::FoundFit& found,
                          iso286::NominalSize size, const ToleranceTables& tables) {
-  const auto fit = tables.fit(size, found.hole, found.shaft);
-  if (!fit) return fit.error();
+  const auto fit = TRY(tables.fit(size, found.hole, found.shaft));
   const std::string hole(tables.class_name(found.hole));
   const std::string shaft(tables.class_name(found.shaft));
   json.begin_object();
-  write_fit_members(json, *fit, {size, hole, shaft}, tables);
+  write_fit_members(json, fit, {size, hole, shaft}, tables);
   json.member("hole_class", hole)
       .member("shaft_class", shaft)
       .member("preferred", found.preferred)
@@ -188,8 +182,7 @@ Result<void> write_found(JsonWriter& json, const metrology::FoundFit& found,
 }
 
 Result<http::Response> search_fits(const http::Request& request, const ToleranceTables& tables) {
-  const auto size = iso286::NominalSize::make(*request.length("nominal_mm"));
-  if (!size) return size.error();
+  const auto size = TRY(iso286::NominalSize::make(*request.length("nominal_mm")));
   const metrology::ClearanceBounds bounds{.least = *request.length("min_clearance_um"),
                                           .most = *request.length("max_clearance_um")};
   if (bounds.least > bounds.most) {
@@ -197,15 +190,12 @@ Result<http::Response> search_fits(const http::Request& request, const Tolerance
   }
   constexpr std::int64_t kUsual = 100;
   const auto limit = static_cast<std::size_t>(request.integer("limit").value_or(kUsual));
-  const auto found = metrology::find_fits(tables, *size, bounds);
+  const auto found = metrology::find_fits(tables, size, bounds);
   std::string body;
   JsonWriter json(body);
   json.begin_object().key("fits").begin_array();
-  for (std::size_t i = 0; i < std::min(limit, found.size()); ++i) {
-    if (const auto written = write_found(json, found[i], *size, tables); !written) {
-      return written.error();
-    }
-  }
+  for (std::size_t i = 0; i < std::min(limit, found.size()); ++i)
+    TRY(write_found(json, found[i], size, tables));
   json.end_array().member("total", std::uint64_t{found.size()}).end_object();
   return tagged_json(std::move(body), etag_of(tables));
 }

@@ -11,14 +11,12 @@ namespace fitgauge::api {
 
 Result<store::DesignationFilter> parse_designation(std::string_view text) {
   if (standards::is_designation(text)) {
-    const auto limits = standards::limits_of(text);
-    if (!limits) return limits.error();
-    return store::DesignationFilter{limits->nominal.count(), std::string(limits->tolerance_class)};
+    const auto limits = TRY(standards::limits_of(text));
+    return store::DesignationFilter{limits.nominal.count(), std::string(limits.tolerance_class)};
   }
-  auto designation = iso286::parse_designation(text);
-  if (!designation) return designation.error();
-  return store::DesignationFilter{designation->nominal_size.length().count(),
-                                  std::move(designation->class_name), designation->has_envelope};
+  auto designation = TRY(iso286::parse_designation(text));
+  return store::DesignationFilter{designation.nominal_size.length().count(),
+                                  std::move(designation.class_name), designation.has_envelope};
 }
 
 void write_limits_members(JsonWriter& json, const iso286::LimitsOfSize& limits,

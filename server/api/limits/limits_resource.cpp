@@ -14,10 +14,9 @@ using iso286::ToleranceTables;
 
 Result<http::Response> limits_response(iso286::NominalSize size, std::string_view class_name,
                                        const ToleranceTables& tables) {
-  const auto limits = tables.limits_of_size(size, class_name);
-  if (!limits) return limits.error();
+  const auto limits = TRY(tables.limits_of_size(size, class_name));
   return tagged_json(
-      json_object([&](JsonWriter& json) { write_limits_members(json, *limits, tables); }),
+      json_object([&](JsonWriter& json) { write_limits_members(json, limits, tables); }),
       etag_of(tables));
 }
 
@@ -31,9 +30,8 @@ Result<http::Response> limits_of_designation(const http::Request& request,
                                              const ToleranceTables& tables) {
   const std::string_view text = *request.text("designation");
   if (standards::is_designation(text)) return limits_response(standards::limits_of(text));
-  const auto designation = iso286::parse_designation(*request.text("designation"));
-  if (!designation) return designation.error();
-  return limits_response(designation->nominal_size, designation->class_name, tables);
+  const auto designation = TRY(iso286::parse_designation(*request.text("designation")));
+  return limits_response(designation.nominal_size, designation.class_name, tables);
 }
 
 Result<http::Response> limits_of_query(const http::Request& request,
@@ -41,9 +39,8 @@ Result<http::Response> limits_of_query(const http::Request& request,
   if (const auto name = *request.text("tolerance_class"); standards::is_class(name)) {
     return limits_response(standards::limits_of(*request.length("nominal_mm"), name));
   }
-  const auto size = iso286::NominalSize::make(*request.length("nominal_mm"));
-  if (!size) return size.error();
-  return limits_response(*size, *request.text("tolerance_class"), tables);
+  const auto size = TRY(iso286::NominalSize::make(*request.length("nominal_mm")));
+  return limits_response(size, *request.text("tolerance_class"), tables);
 }
 
 struct NewSizes {
@@ -88,19 +85,16 @@ void members(auto& v, const LimitGaugeAnswer& answer) {
 }
 
 Result<http::Response> gauge(const http::Request& request, const iso286::ToleranceTables& tables) {
-  const auto designation = iso286::parse_designation(*request.text("designation"));
-  if (!designation) return designation.error();
-  const auto limits = tables.limits_of_size(designation->nominal_size, designation->class_name);
-  if (!limits) return limits.error();
-  const auto made = metrology::limit_gauge(*limits, designation->class_name);
-  if (!made) return made.error();
+  const auto designation = TRY(iso286::parse_designation(*request.text("designation")));
+  const auto limits = TRY(tables.limits_of_size(designation.nominal_size, designation.class_name));
+  const auto made = TRY(metrology::limit_gauge(limits, designation.class_name));
   const LimitGaugeAnswer answer{
-      .designation = designation_text(designation->nominal_size.length(), designation->class_name),
-      .feature = limits->feature,
-      .upper_limit = limits->upper_limit(),
-      .lower_limit = limits->lower_limit(),
-      .go = {{made->go.upper, made->go.lower}, made->go_wear_limit},
-      .no_go = {made->no_go.upper, made->no_go.lower}};
+      .designation = designation_text(designation.nominal_size.length(), designation.class_name),
+      .feature = limits.feature,
+      .upper_limit = limits.upper_limit(),
+      .lower_limit = limits.lower_limit(),
+      .go = {{made.go.upper, made.go.lower}, made.go_wear_limit},
+      .no_go = {made.no_go.upper, made.no_go.lower}};
   return tagged_json(body_json(answer), etag_of(tables));
 }
 
@@ -183,14 +177,13 @@ void members(auto& v, const PressFitAnswer& answer) {
 }
 
 Result<std::string> press_fit(const JsonValue& body) {
-  auto order = read_whole<PressFitOrder>(body);
-  if (!order) return order.error();
-  order->fit.hub = order->hub.part;
-  order->fit.shaft = order->shaft.part;
-  const auto least = metrology::press(order->fit, order->least);
-  const auto most = metrology::press(order->fit, order->most);
+  auto order = TRY(read_whole<PressFitOrder>(body));
+  order.fit.hub = order.hub.part;
+  order.fit.shaft = order.shaft.part;
+  const auto least = metrology::press(order.fit, order.least);
+  const auto most = metrology::press(order.fit, order.most);
   if (!least || !most) return at_member("hub", least ? most.error() : least.error());
-  return body_json(PressFitAnswer{{order->least, *least}, {order->most, *most}});
+  return body_json(PressFitAnswer{{order.least, *least}, {order.most, *most}});
 }
 
 }  // namespace

@@ -94,9 +94,7 @@ void write_row(JsonWriter& json, std::string_view table, const Row& row,
     write_cell(json, cell);
   }
   if (!item.empty()) json.end_object();
-  if (table == "keyways") {
-    write_widths(json, *row.length("width", Member::Nominal), tables);
-  }
+  if (table == "keyways") write_widths(json, *row.length("width", Member::Nominal), tables);
   json.end_object().end_object();
 }
 

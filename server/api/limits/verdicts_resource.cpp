@@ -65,9 +65,7 @@ Result<std::optional<ThermalCorrection>> correction_of(const http::Request& requ
     }
   }
   auto made = make_correction(fields);
-  if (!made) {
-    return Error{ErrorCode::QueryInvalid, made.error().message, made.error().where};
-  }
+  if (!made) return Error{ErrorCode::QueryInvalid, made.error().message, made.error().where};
   return made;
 }
 
@@ -102,14 +100,13 @@ Result<Limits> limits_of(const http::Request& request, const iso286::ToleranceTa
           write_limits_members(json, limits);
         }};
   }
-  const auto designation = iso286::parse_designation(text);
-  if (!designation) return designation.error();
-  const auto limits = tables.limits_of_size(designation->nominal_size, designation->class_name);
+  const auto designation = TRY(iso286::parse_designation(text));
+  const auto limits = tables.limits_of_size(designation.nominal_size, designation.class_name);
   if (!limits) return limits.error();
   return Limits{.feature = limits->feature,
                 .nominal = limits->nominal_size.length(),
                 .of = {limits->upper_limit(), limits->lower_limit()},
-                .has_envelope = designation->has_envelope,
+                .has_envelope = designation.has_envelope,
                 .etag = etag_of(tables),
                 .write_members = [limits = *limits, &tables](JsonWriter& json) {
                   write_limits_members(json, limits, tables);
@@ -118,28 +115,24 @@ Result<Limits> limits_of(const http::Request& request, const iso286::ToleranceTa
 
 Result<http::Response> verdict(const http::Request& request,
                                const iso286::ToleranceTables& tables) {
-  const auto limits = limits_of(request, tables);
-  if (!limits) return limits.error();
-  if (const auto feature = request.text("feature"); feature && *feature != word(limits->feature)) {
+  const auto limits = TRY(limits_of(request, tables));
+  if (const auto feature = request.text("feature"); feature && *feature != word(limits.feature)) {
     return Error{ErrorCode::QueryInvalid,
                  fmt::format("{} belongs to a {}: remove feature", *request.text("designation"),
-                             word(limits->feature)),
+                             word(limits.feature)),
                  "feature"};
   }
   MeasuredSize measured{.reading = *request.length("measured_mm")};
-  if (const auto checked = check_measured(measured.reading); !checked) return checked.error();
+  TRY(check_measured(measured.reading));
   const auto kind = *gauging::rule_from_word(request.text("rule").value_or("simple"));
   const std::vector<Unused> unused = unused_of(request, kind);
-  const auto correction = correction_of(request, unused);
-  if (!correction) return correction.error();
-  if (*correction) {
-    measured.corrected = (**correction)(measured.reading);
-    measured.added_uncertainty = (*correction)->added_uncertainty(*measured.corrected);
+  const auto correction = TRY(correction_of(request, unused));
+  if (correction) {
+    measured.corrected = (*correction)(measured.reading);
+    measured.added_uncertainty = correction->added_uncertainty(*measured.corrected);
   }
   const std::optional<Length> given = request.length("uncertainty_um");
-  if (given) {
-    if (const auto checked = check_uncertainty(*given); !checked) return checked.error();
-  }
+  if (given) TRY(check_uncertainty(*given));
   if (given && kind == Kind::Simple) {
     return Error{ErrorCode::QueryUnused,
                  "rule simple does not use uncertainty_um: give rule=guard_band or "
@@ -155,28 +148,26 @@ Result<http::Response> verdict(const http::Request& request,
                         .probability_millionths = used("probability"),
                         .degrees_of_freedom = request.integer("degrees_of_freedom"),
                         .added_uncertainty = measured.added_uncertainty};
-  const auto rule = make_rule(words);
-  if (!rule) return rule.error();
-  if (const auto checked = check_acceptance(*rule, limits->of); !checked) return checked.error();
+  const auto rule = TRY(make_rule(words));
+  TRY(check_acceptance(rule, limits.of));
 
-  const auto result = gauging::gauge({limits->quantity, limits->feature}, limits->of.upper,
-                                     limits->of.lower, measured.decisive(), *rule);
+  const auto result = gauging::gauge({limits.quantity, limits.feature}, limits.of.upper,
+                                     limits.of.lower, measured.decisive(), rule);
   std::vector<Warning> warnings;
   for (const auto& [name, reason] : unused) {
     warnings.push_back({"query.unused", fmt::format("{} changes nothing {}", name, reason)});
   }
-  warn_of_no_acceptance(*rule, limits->of.upper - limits->of.lower, warnings);
+  warn_of_no_acceptance(rule, limits.of.upper - limits.of.lower, warnings);
   return tagged_json(
       json_object([&](JsonWriter& json) {
-        limits->write_members(json);
-        write_verdict_members(json, limits->nominal, measured, result);
-        write_rule_members(json, *rule, words, limits->of, measured.decisive());
-        if (limits->has_envelope) {
+        limits.write_members(json);
+        write_verdict_members(json, limits.nominal, measured, result);
+        write_rule_members(json, rule, words, limits.of, measured.decisive());
+        if (limits.has_envelope)
           json.member("envelope", app::kEnvelopeRequired).member("envelope_result", "not_verified");
-        }
         write_warnings(json, warnings);
       }),
-      limits->etag);
+      limits.etag);
 }
 
 http::Parameter parameter_of(const app::MeasurementField& field) {

@@ -57,15 +57,14 @@ void put_batch(const Services& services, const http::Request& request, http::Res
   services.jobs.intake.run(
       [&services, &request]() -> Result<http::Response> {
         const auto batch =
-            read_batch(*request.text("origin"), *request.integer("from"), request.body());
-        if (!batch) return batch.error();
-        const auto answer = services.intake.take((*batch)->batch);
+            TRY(read_batch(*request.text("origin"), *request.integer("from"), request.body()));
+        const auto answer = services.intake.take(batch->batch);
         // At the station, an error with this name is 503; here it is a conflict.
         if (!answer && answer.error().code == ErrorCode::LogForked) {
           return problem(answer.error(), kConflict, request);
         }
         if (!answer) return answer.error();
-        return response_of(request, *answer, (*batch)->batch.origin);
+        return response_of(request, *answer, batch->batch.origin);
       },
       answer_by(share(std::move(responder))));
 }

@@ -100,24 +100,20 @@ Result<std::size_t> count(const Download& download) {
 /// @errors QueryInvalid: too many match for a file.
 Result<void> check_count(const Download& download) {
   if (download.limit || download.query.last) return {};
-  const auto rows = count(download);
-  if (!rows) return rows.error();
-  if (*rows <= MeasurementFile::kMostRows) return {};
-  return too_many(fmt::format("{} measurements", *rows),
-                  std::to_string(MeasurementFile::kMostRows));
+  const auto rows = TRY(count(download));
+  if (rows <= MeasurementFile::kMostRows) return {};
+  return too_many(fmt::format("{} measurements", rows), std::to_string(MeasurementFile::kMostRows));
 }
 
 Result<std::string> make_bytes(Download& download) {
-  if (const auto checked = check_count(download); !checked) return checked.error();
-  auto file = make_file(download);
-  if (!file) return file.error();
+  TRY(check_count(download));
+  auto file = TRY(make_file(download));
   for (;;) {
-    const auto page = add_page(download, **file, download.limit.value_or(kRowsAtOnce));
-    if (!page) return page.error();
-    if (download.limit || !page->next) return (*file)->finish();
-    download.query.as_of_id = page->as_of;
+    const auto page = TRY(add_page(download, *file, download.limit.value_or(kRowsAtOnce)));
+    if (download.limit || !page.next) return file->finish();
+    download.query.as_of_id = page.as_of;
     download.query.after.reset();
-    download.after = *page->next;
+    download.after = *page.next;
   }
 }
 
@@ -146,12 +142,11 @@ void send_file(const Services& services, const http::Request& request, http::Res
                .limit = limit ? std::optional(static_cast<std::size_t>(*limit)) : std::nullopt});
   services.jobs.bulk.run(
       [download]() -> Result<http::Response> {
-        auto bytes = make_bytes(*download);
-        if (!bytes) return bytes.error();
+        auto bytes = TRY(make_bytes(*download));
         const std::string_view ending = download->media_type == kDfqType   ? "dfq"
                                         : download->media_type == kQifType ? "qif"
                                                                            : "xlsx";
-        return http::Response(200, std::string(download->media_type), *std::move(bytes))
+        return http::Response(200, std::string(download->media_type), std::move(bytes))
             .with("Vary", "Accept")
             .with("Content-Disposition",
                   fmt::format("attachment; filename=\"measurements.{}\"", ending));

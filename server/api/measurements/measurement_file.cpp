@@ -181,10 +181,9 @@ Result<std::unique_ptr<MeasurementFile>> make_xlsx_file(std::optional<sheet::Tim
   std::vector<std::string> columns;
   app::for_each_column(
       [&](const auto& column, std::size_t /*index*/) { columns.emplace_back(column.name); });
-  auto book = workbook::Workbook::make("measurements", columns);
-  if (!book) return book.error();
+  auto book = TRY(workbook::Workbook::make("measurements", columns));
   return std::unique_ptr<MeasurementFile>(
-      std::make_unique<XlsxFile>(*std::move(book), std::move(zone)));
+      std::make_unique<XlsxFile>(std::move(book), std::move(zone)));
 }
 
 Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {

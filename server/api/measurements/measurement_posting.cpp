@@ -31,9 +31,8 @@ struct Basis {
 };
 
 Result<Basis> basis_of(const Services& services) {
-  const auto tables = services.tables.tables();
-  if (!tables) return tables.error();
-  return Basis{.tables = *tables, .gauges = services.gauges.book()};
+  const auto tables = TRY(services.tables.tables());
+  return Basis{.tables = tables, .gauges = services.gauges.book()};
 }
 
 BatchContext context_of(const Posting& posting, const Basis& basis) {
@@ -59,15 +58,14 @@ void judge_and_record(const SharedPosting& posting) {
 
 /// Judges on a thread that may block: the first rows are stored while the last are being read.
 Result<void> judge_while_recording(const SharedPosting& posting) {
-  const auto basis = basis_of(posting->services);
-  if (!basis) return basis.error();
+  const auto basis = TRY(basis_of(posting->services));
   const http::Request& request = posting->request;
   const Preference wanted = preference_of(request);
   MeasurementAnswer rendering(wanted);
   rendering.expect(request.body().size());
   MeasurementBatch batch;
   const auto read = [&](const app::MeasurementService::Take& take) -> Result<void> {
-    BatchContext context = context_of(*posting, *basis);
+    BatchContext context = context_of(*posting, basis);
     context.take = take;
     auto decoded = decode_measurements(request.body(), request.media_type(), context, batch);
     rendering.set_single(batch.single);
@@ -79,12 +77,11 @@ Result<void> judge_while_recording(const SharedPosting& posting) {
   // The exact reader runs outside the job, so that the writer is free for other requests.
   if (batch.wants_whole) {
     // Usually finds an error without holding the rows, which need more memory than the body.
-    BatchContext context = context_of(*posting, *basis);
+    BatchContext context = context_of(*posting, basis);
     context.is_exact = true;
     context.take = [](const std::vector<app::Measurement>&) {};
     batch = {};
-    const auto judged = decode_measurements(request.body(), request.media_type(), context, batch);
-    if (!judged) return judged.error();
+    TRY(decode_measurements(request.body(), request.media_type(), context, batch));
     batch = {};
     judge_and_record(posting);
     return {};

@@ -31,11 +31,10 @@ void members(auto& v, const NotesAnswer& answer) {
 }
 
 Result<app::Note> read_note(std::string_view text) {
-  const auto body = parse_json(text);
-  if (!body) return body.error();
+  const auto body = TRY(parse_json(text));
   FieldErrors errors;
   NoteOrder order;
-  read_body(*body, "", errors, order);
+  read_body(body, "", errors, order);
   if (errors.empty() && !order.note.says_something()) {
     errors.add(ErrorCode::FieldMissing, "/cause", "a note must have a cause, a measure or a text");
   }
@@ -111,9 +110,8 @@ void members(auto& v, Catalogue& catalogue) {
 
 Result<CheckedDocument> check_catalogue(const Services&, const std::string&,
                                         std::string_view text) {
-  const auto body = parse_json(text);
-  if (!body) return body.error();
-  if (const auto catalogue = read_whole<Catalogue>(*body); !catalogue) return catalogue.error();
+  const auto body = TRY(parse_json(text));
+  TRY(read_whole<Catalogue>(body));
   return CheckedDocument{.text = std::string(text)};
 }
 

@@ -182,10 +182,9 @@ std::optional<SizeLimits> planned_size(const JsonValue& characteristic,
 }
 
 Result<PlanHead> read_plan_head(std::string_view text) {
-  const auto plan = parse_stored_json(text, "plan");
-  if (!plan) return plan.error();
-  return PlanHead{.name = std::string(plan->text_of("name")),
-                  .characteristics = plan->member("characteristics").items.size()};
+  const auto plan = TRY(parse_stored_json(text, "plan"));
+  return PlanHead{.name = std::string(plan.text_of("name")),
+                  .characteristics = plan.member("characteristics").items.size()};
 }
 
 void add_plan_schemas(Schemas& schemas) {

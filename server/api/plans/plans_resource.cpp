@@ -23,22 +23,18 @@ Result<CheckedDocument> check_plan(const Services& services, const std::string& 
     return Error{ErrorCode::BodyTooLarge,
                  "a plan in JSON must have at most 1048576 bytes; send a drawing as model/step"};
   }
-  const auto body = parse_json(text);
-  if (!body) return body.error();
-  const auto tables = services.tables.tables();
-  if (!tables) return tables.error();
+  const auto body = TRY(parse_json(text));
+  const auto tables = TRY(services.tables.tables());
   const auto gauges = services.gauges.book();
-  auto plan =
-      read_plan(*body, part,
-                {.tables = **tables, .received_at = services.clock.now(), .gauges = gauges.get()});
-  if (!plan) return plan.error();
-  return CheckedDocument{.text = *std::move(plan)};
+  auto plan = TRY(
+      read_plan(body, part,
+                {.tables = *tables, .received_at = services.clock.now(), .gauges = gauges.get()}));
+  return CheckedDocument{.text = std::move(plan)};
 }
 
 Result<step::Drawing> drawing_of(const Services& services, const FileText& text) {
-  const auto tables = services.tables.tables();
-  if (!tables) return tables.error();
-  return step::read_drawing(text, **tables, kMostInstances);
+  const auto tables = TRY(services.tables.tables());
+  return step::read_drawing(text, *tables, kMostInstances);
 }
 
 /// Makes the plan of a drawing, with the members that people added to the characteristics of the
@@ -57,28 +53,24 @@ Result<step::DrawnPlan> drawn_plan(const Services& services, const step::Drawing
 
 Result<CheckedDocument> check_drawn(const Services& services, const std::string& part,
                                     const FileText& text) {
-  const auto drawing = drawing_of(services, text);
-  if (!drawing) return drawing.error();
+  const auto drawing = TRY(drawing_of(services, text));
   std::string stored;
-  const auto plan = drawn_plan(services, *drawing, part, stored);
-  if (!plan) return plan.error();
-  auto checked = check_plan(services, part, plan->text);
+  const auto plan = TRY(drawn_plan(services, drawing, part, stored));
+  auto checked = check_plan(services, part, plan.text);
   if (!checked) return checked.error();
-  checked->answer = body_json(*plan);
+  checked->answer = body_json(plan);
   checked->before = std::move(stored);
   return checked;
 }
 
 Result<http::Response> drawing_answer(const Services& services, const http::Request& request) {
-  auto drawing = drawing_of(services, request.file_body());
-  if (!drawing) return drawing.error();
-  if (const auto part = request.text("part"); part && !drawing->sizes.empty()) {
+  auto drawing = TRY(drawing_of(services, request.file_body()));
+  if (const auto part = request.text("part"); part && !drawing.sizes.empty()) {
     std::string stored;
-    auto plan = drawn_plan(services, *drawing, std::string(*part), stored);
-    if (!plan) return plan.error();
-    if (!stored.empty()) drawing->compared = std::move(plan->compared);
+    auto plan = TRY(drawn_plan(services, drawing, std::string(*part), stored));
+    if (!stored.empty()) drawing.compared = std::move(plan.compared);
   }
-  return json_response(body_json(*drawing));
+  return json_response(body_json(drawing));
 }
 
 void read_drawing(const Services& services, const http::Request& request,
@@ -88,11 +80,10 @@ void read_drawing(const Services& services, const http::Request& request,
 }
 
 Result<void> describe_plan(JsonWriter& json, const app::NamedDocument& plan) {
-  const auto head = read_plan_head(plan.text);
-  if (!head) return head.error();
+  const auto head = TRY(read_plan_head(plan.text));
   json.member("part", plan.name);
-  if (!head->name.empty()) json.member("name", head->name);
-  json.member("characteristics", static_cast<std::uint64_t>(head->characteristics));
+  if (!head.name.empty()) json.member("name", head.name);
+  json.member("characteristics", static_cast<std::uint64_t>(head.characteristics));
   return {};
 }
 

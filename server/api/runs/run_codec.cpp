@@ -263,10 +263,9 @@ void members(auto& v, const DiagnosticsAnswer& answer) {
 
 /// It contains its setup, so no setup is requested by name.
 Result<app::RunOrder> stored_order(const std::string& request, const app::ControlTables& tables) {
-  auto body = parse_stored_json(request, "order of a run");
-  if (!body) return body.error();
+  auto body = TRY(parse_stored_json(request, "order of a run"));
   return decode_run_order(
-      *std::move(body),
+      std::move(body),
       [](const std::string& name) -> Result<app::NamedDocument> {
         return Error{ErrorCode::SetupUnknown, "setup not found: " + name};
       },

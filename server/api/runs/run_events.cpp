@@ -33,11 +33,10 @@ std::size_t lines_had(std::optional<std::string_view> last) {
 
 /// The lines of a report's screen that the reader has not received. @errors StorageCorrupt.
 Result<void> append_screen(std::string& out, const std::string& report, std::size_t had) {
-  const auto screen = stored_member(report, "screen", "report of a run");
-  if (!screen) return screen.error();
-  if (screen->empty()) return {};
+  const auto screen = TRY(stored_member(report, "screen", "report of a run"));
+  if (screen.empty()) return {};
   std::size_t number = 0;
-  const auto read = parse_stored_json(*screen, "report of a run", [&](const JsonValue& line) {
+  const auto read = parse_stored_json(screen, "report of a run", [&](const JsonValue& line) {
     if (++number > had) append_line(out, line.text, number);
     return true;
   });
@@ -109,7 +108,7 @@ Result<http::Response> finished_run_events(const std::string& report,
                                            std::optional<std::string_view> last) {
   if (last == kEnd) return http::Response(204);
   std::string body;
-  if (auto told = append_screen(body, report, lines_had(last)); !told) return told.error();
+  TRY(append_screen(body, report, lines_had(last)));
   append_event(body, kEnd, kEnd, report);
   return event_response(std::move(body));
 }

@@ -237,9 +237,7 @@ Result<void> put_setup_in_place(JsonValue& body, const FindSetup& find_setup, Fi
   if (member == body.members.end() || !member->second.is(Kind::String)) return {};
   const auto found = find_setup(member->second.text);
   if (found) {
-    auto setup = parse_stored_json(found->text, "setup " + found->name);
-    if (!setup) return setup.error();
-    member->second = *std::move(setup);
+    member->second = TRY(parse_stored_json(found->text, "setup " + found->name));
     return {};
   }
   if (found.error().code != ErrorCode::SetupUnknown) return found.error();
@@ -256,9 +254,7 @@ Result<app::RunOrder> decode_run_order(JsonValue body, const FindSetup& find_set
                                        const app::ControlTables& tables) {
   FieldErrors errors;
   std::string setup_name(body.text_of("setup"));
-  if (const auto placed = put_setup_in_place(body, find_setup, errors); !placed) {
-    return placed.error();
-  }
+  TRY(put_setup_in_place(body, find_setup, errors));
   RunOrderBody order;
   read_body(body, "", errors, order);
   const JsonValue nothing{.kind = Kind::Object};

@@ -34,27 +34,23 @@ JsonValue body_of(const std::string& program, const std::string& setup) {
 
 Result<app::RunOrder> read_order(const Services& services, const std::string& program,
                                  const std::string& setup) {
-  const auto tables = services.runs.control_tables();
-  if (!tables) return tables.error();
+  const auto tables = TRY(services.runs.control_tables());
   return decode_run_order(
       body_of(program, setup),
       [&services](const std::string& name) {
         return services.documents.wait_for(app::DocumentKind::Setup, name);
       },
-      **tables);
+      *tables);
 }
 
 Result<std::shared_ptr<app::ActiveRun>> start(const Services& services,
                                               const interpreter::ControlPath& program,
                                               const std::string& setup) {
-  auto order = read_order(services, program.text(), setup);
-  if (!order) return order.error();
-  const auto diagnostics = services.runs.check_program(order->program);
-  if (!diagnostics) return diagnostics.error();
-  if (interpreter::has_errors(*diagnostics, order->options.keeps_unreadable)) {
+  auto order = TRY(read_order(services, program.text(), setup));
+  const auto diagnostics = TRY(services.runs.check_program(order.program));
+  if (interpreter::has_errors(diagnostics, order.options.keeps_unreadable))
     return Error{ErrorCode::ProgramInvalid, program.text() + " or a program it calls has errors"};
-  }
-  return services.runs.start(*std::move(order), std::nullopt,
+  return services.runs.start(std::move(order), std::nullopt,
                              [](const app::ActiveRun&) { return app::Answer{}; });
 }
 
@@ -135,22 +131,16 @@ http::Response invalid_program(const http::Request& request, const std::string& 
 
 /// Returns the order of a body whose program may run, or the refusal.
 Result<app::RunOrder> read_order(const SharedPosting& posting) {
-  auto body = parse_json(posting->request.body());
-  if (!body) return body.error();
-  const auto tables = posting->services.runs.control_tables();
-  if (!tables) return tables.error();
+  auto body = TRY(parse_json(posting->request.body()));
+  const auto tables = TRY(posting->services.runs.control_tables());
   auto order = decode_run_order(
-      *std::move(body),
+      std::move(body),
       [&posting](const std::string& name) {
         return posting->services.documents.wait_for(app::DocumentKind::Setup, name);
       },
-      **tables);
+      *tables);
   if (!order) return order;
-  if (auto loaded =
-          posting->services.runs.load_meshes(order->setup, "/setup", app::MissingFiles::Refused);
-      !loaded) {
-    return loaded.error();
-  }
+  TRY(posting->services.runs.load_meshes(order->setup, "/setup", app::MissingFiles::Refused));
   order->caller = caller_text(posting->request);
   return order;
 }
@@ -159,16 +149,14 @@ Result<app::RunOrder> read_order(const SharedPosting& posting) {
 Result<void> start(const SharedPosting& posting) {
   app::RunService& runs = posting->services.runs;
   if (posting->scope) {
-    auto kept = runs.kept_answer(*posting->scope);
-    if (!kept) return kept.error();
-    if (*kept) {
-      replay(posting, **std::move(kept));
+    auto kept = TRY(runs.kept_answer(*posting->scope));
+    if (kept) {
+      replay(posting, *std::move(kept));
       return {};
     }
   }
-  auto order = read_order(posting);
-  if (!order) return order.error();
-  const auto diagnostics = runs.check_program(order->program);
+  auto order = TRY(read_order(posting));
+  const auto diagnostics = runs.check_program(order.program);
   if (!diagnostics) {
     Error error = diagnostics.error();
     if (error.code == ErrorCode::ProgramUnknown) {
@@ -176,14 +164,14 @@ Result<void> start(const SharedPosting& posting) {
     }
     return error;
   }
-  if (interpreter::has_errors(*diagnostics, order->options.keeps_unreadable)) {
+  if (interpreter::has_errors(*diagnostics, order.options.keeps_unreadable)) {
     posting->responder.answer(
-        invalid_program(posting->request, order->program.text(), *diagnostics));
+        invalid_program(posting->request, order.program.text(), *diagnostics));
     return {};
   }
-  if (auto known = runs.check_start(*order); !known) return known;
+  TRY(runs.check_start(order));
   const bool at_once = prefers_async(posting->request);
-  const auto run = runs.start(*std::move(order), posting->scope,
+  const auto run = runs.start(std::move(order), posting->scope,
                               [at_once](const app::ActiveRun& r) { return accepted(r, at_once); });
   if (!run) return run.error();
   app::Answer answer = accepted(**run, at_once);
@@ -200,13 +188,9 @@ Result<void> start(const SharedPosting& posting) {
 
 Result<machine::Setup> machine_of_setup(const Services& services, const std::string& name) {
   return ordered(services, [&]() -> Result<machine::Setup> {
-    if (!name.empty()) {
-      if (const auto found = services.documents.wait_for(app::DocumentKind::Setup, name); !found)
-        return found.error();
-    }
-    auto order = read_order(services, "TNC:\\none.h", name);
-    if (!order) return order.error();
-    return std::move(order->setup);
+    if (!name.empty()) TRY(services.documents.wait_for(app::DocumentKind::Setup, name));
+    auto order = TRY(read_order(services, "TNC:\\none.h", name));
+    return std::move(order.setup);
   });
 }
 

@@ -49,9 +49,8 @@ void get_parameters(const Services& services, const http::Request& request,
                     http::Responder responder) {
   with_run_json(services, request, std::move(responder),
                 [](const std::string& report) -> Result<http::Response> {
-                  auto parameters = stored_member(report, "parameters", "report of a run");
-                  if (!parameters) return parameters.error();
-                  return json_response(parameters->empty() ? "{}" : *std::move(parameters));
+                  auto parameters = TRY(stored_member(report, "parameters", "report of a run"));
+                  return json_response(parameters.empty() ? "{}" : std::move(parameters));
                 });
 }
 

@@ -12,17 +12,14 @@ namespace {
 
 Result<CheckedDocument> check_setup(const Services& services, const std::string&,
                                     std::string_view text) {
-  const auto body = parse_json(text);
-  if (!body) return body.error();
-  const auto tables = services.runs.control_tables();
-  if (!tables) return tables.error();
+  const auto body = TRY(parse_json(text));
+  const auto tables = TRY(services.runs.control_tables());
   FieldErrors errors;
-  machine::Setup setup = decode_setup(*body, "", **tables, errors);
+  machine::Setup setup = decode_setup(body, "", *tables, errors);
   interpreter::RunOptions options;
-  decode_builder(*body, "", options, errors);
+  decode_builder(body, "", options, errors);
   if (auto error = errors.take()) return *std::move(error);
-  const auto loaded = services.runs.load_meshes(setup, "", app::MissingFiles::Allowed);
-  if (!loaded) return loaded.error();
+  TRY(services.runs.load_meshes(setup, "", app::MissingFiles::Allowed));
   return CheckedDocument{.text = std::string(text)};
 }
 

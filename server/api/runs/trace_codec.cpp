@@ -172,9 +172,7 @@ Result<std::string> TraceCsv::rows(std::string_view piece) {
     piece.remove_prefix(end + 1);
     std::string_view line = rest_;
     if (line.ends_with(',')) line.remove_suffix(1);
-    if (line.starts_with('{') && !line.ends_with('[')) {
-      if (const auto appended = append_line(out, line); !appended) return appended.error();
-    }
+    if (line.starts_with('{') && !line.ends_with('[')) TRY(append_line(out, line));
     rest_.clear();
   }
   return out;

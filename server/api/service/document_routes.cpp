@@ -152,7 +152,7 @@ Result<std::string> list_of(const KindOfDocument& kind,
   json.begin_object().key(kind.member).begin_array();
   for (const app::NamedDocument& document : documents) {
     json.begin_object();
-    if (auto described = kind.describe(json, document); !described) return described.error();
+    TRY(kind.describe(json, document));
     json.member("modified_at", format_rfc3339(document.modified_at)).end_object();
   }
   json.end_array().end_object();

@@ -93,14 +93,13 @@ void members(auto& v, const metrology::AttributeStudy& study) {
 }
 
 Result<std::string> attribute_study(const JsonValue& body) {
-  auto order = read_whole<RatingsOrder>(body);
-  if (!order) return order.error();
-  metrology::Ratings& ratings = order->ratings;
-  for (const auto& [part, category] : order->references) ratings.reference.push_back(category);
-  if (order->good) ratings.good = order->categories.number(*order->good);
-  ratings.parts = order->parts.size();
-  ratings.names = order->operators.names();
-  ratings.categories = order->categories.size();
+  auto order = TRY(read_whole<RatingsOrder>(body));
+  metrology::Ratings& ratings = order.ratings;
+  for (const auto& [part, category] : order.references) ratings.reference.push_back(category);
+  if (order.good) ratings.good = order.categories.number(*order.good);
+  ratings.parts = order.parts.size();
+  ratings.names = order.operators.names();
+  ratings.categories = order.categories.size();
   const auto study = metrology::study_attributes(ratings);
   if (!study) return at_member("measurements", study.error());
   return body_json(*study);

@@ -25,9 +25,7 @@ void report_type(const JsonValue& value, std::string pointer, FieldErrors& error
 
 void read_items(const JsonValue& array, const std::string& pointer, Decimals& to,
                 FieldErrors& errors) {
-  if (array.items.empty()) {
-    errors.add(ErrorCode::StatisticsTooFew, pointer, "there is no value");
-  }
+  if (array.items.empty()) errors.add(ErrorCode::StatisticsTooFew, pointer, "there is no value");
   for (std::size_t i = 0; i < array.items.size(); ++i) {
     add_exact(array.items[i], pointer_to(pointer, i), to, errors);
   }

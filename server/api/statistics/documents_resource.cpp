@@ -18,11 +18,9 @@ namespace fitgauge::api {
 namespace {
 
 Result<CheckedDocument> check_budget(const Services&, const std::string&, std::string_view text) {
-  const auto body = parse_json(text);
-  if (!body) return body.error();
-  auto computed = compute_uncertainty(*body);
-  if (!computed) return computed.error();
-  return CheckedDocument{.text = std::string(text), .answer = *std::move(computed)};
+  const auto body = TRY(parse_json(text));
+  auto computed = TRY(compute_uncertainty(body));
+  return CheckedDocument{.text = std::string(text), .answer = std::move(computed)};
 }
 
 /// The stored document judges measurements from its response on.
@@ -63,11 +61,9 @@ void members(auto& v, GaugeOrder& gauge) { gauge_members(v, gauge); }
 void members(auto& v, const GaugeOrder& gauge) { gauge_members(v, gauge); }
 
 Result<CheckedDocument> check_gauge(const Services&, const std::string&, std::string_view text) {
-  const auto body = parse_json(text);
-  if (!body) return body.error();
-  auto gauge = read_whole<GaugeOrder>(*body);
-  if (!gauge) return gauge.error();
-  return CheckedDocument{.text = body_json(*gauge), .uncertainty = std::move(gauge->uncertainty)};
+  const auto body = TRY(parse_json(text));
+  auto gauge = TRY(read_whole<GaugeOrder>(body));
+  return CheckedDocument{.text = body_json(gauge), .uncertainty = std::move(gauge.uncertainty)};
 }
 
 enum class Status : std::uint8_t { InUse, Blocked };
@@ -231,26 +227,23 @@ void members(auto& v, const StudyAnswer& study) {
 }
 
 Result<CheckedDocument> check_study(const Services&, const std::string&, std::string_view text) {
-  const auto body = parse_json(text);
-  if (!body) return body.error();
-  auto order = read_whole<StudyOrder>(*body);
-  if (!order) return order.error();
+  const auto body = TRY(parse_json(text));
+  auto order = TRY(read_whole<StudyOrder>(body));
   auto result =
-      order->kind == StudyKind::OnMaster ? master_study(order->input) : gauge_study(order->input);
+      order.kind == StudyKind::OnMaster ? master_study(order.input) : gauge_study(order.input);
   if (!result) {
     Error error = result.error();
     for (Error& each : error.details) each.where.insert(0, "/input");
     return error;
   }
-  const std::string stored = body_json(StudyAnswer{*order, *std::move(result)});
-  return CheckedDocument{.text = stored, .answer = stored, .gauge = std::move(order->gauge)};
+  const std::string stored = body_json(StudyAnswer{order, *std::move(result)});
+  return CheckedDocument{.text = stored, .answer = stored, .gauge = std::move(order.gauge)};
 }
 
 Result<void> describe_study(JsonWriter& json, const app::NamedDocument& study) {
-  const auto body = parse_stored_json(study.text, "study");
-  if (!body) return body.error();
+  const auto body = TRY(parse_stored_json(study.text, "study"));
   json.member("name", study.name);
-  for (const char* name : {"gauge", "at", "kind"}) json.member(name, body->text_of(name));
+  for (const char* name : {"gauge", "at", "kind"}) json.member(name, body.text_of(name));
   return {};
 }
 

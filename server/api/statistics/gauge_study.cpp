@@ -49,9 +49,7 @@ void choice_members(auto& v, StudyChoices& choices, std::string_view method, boo
   v.check([&choices, method](FieldReader& fields) {
     static constexpr std::array<Applicable, 1> kMembers = {
         {{"model", "anova", "interaction and pooled"}}};
-    if (choices.model != StudyModel::Auto) {
-      fields.refuse_not_applicable(kMembers, "method", method);
-    }
+    if (choices.model != StudyModel::Auto) fields.refuse_not_applicable(kMembers, "method", method);
   });
   v.optional("tolerance", choices.tolerance, kTolerance,
              has_models ? "Tolerance, for the percentages of it" : kUnused);
@@ -282,21 +280,20 @@ void number_within_operators(metrology::Readings& readings) {
 }
 
 Result<std::string> components(const JsonValue& body) {
-  auto order = read_whole<VariationOrder>(body);
-  if (!order) return order.error();
-  metrology::Readings& readings = order->readings;
-  readings.parts = order->parts.size();
-  readings.operator_count = order->operators.size();
-  if (order->method == StudyMethod::Nested) number_within_operators(readings);
+  auto order = TRY(read_whole<VariationOrder>(body));
+  metrology::Readings& readings = order.readings;
+  readings.parts = order.parts.size();
+  readings.operator_count = order.operators.size();
+  if (order.method == StudyMethod::Nested) number_within_operators(readings);
   auto study =
-      metrology::study_gauge(readings, order->method, order->choices.model, order->confidence);
+      metrology::study_gauge(readings, order.method, order.choices.model, order.confidence);
   if (!study) return at_member("measurements", study.error());
-  VariationAnswer answer{order->method, *std::move(study), order->choices.tolerance};
-  if (order->process) {
+  VariationAnswer answer{order.method, *std::move(study), order.choices.tolerance};
+  if (order.process) {
     using metrology::Component;
     const double tolerance = answer.tolerance ? metrology::nearest_double(*answer.tolerance)
                                               : std::numeric_limits<double>::quiet_NaN();
-    auto& found = answer.process.emplace(*order->process, tolerance).found;
+    auto& found = answer.process.emplace(*order.process, tolerance).found;
     const auto put = [&](Component to, long double sigma) {
       if (!std::isnan(sigma)) found[to] = static_cast<double>(sigma);
     };
@@ -308,21 +305,18 @@ Result<std::string> components(const JsonValue& body) {
 }
 
 Result<std::string> linearity(const JsonValue& body) {
-  const auto order = read_whole<LinearityOrder>(body);
-  if (!order) return order.error();
-  const auto study = metrology::study_linearity(order->values, order->references);
+  const auto order = TRY(read_whole<LinearityOrder>(body));
+  const auto study = metrology::study_linearity(order.values, order.references);
   if (!study) return at_member("measurements", study.error());
   return body_json(*study);
 }
 
 Result<std::string> stability(const JsonValue& body) {
-  const auto order = read_whole<StabilityOrder>(body);
-  if (!order) return order.error();
-  const metrology::Decimals& values = order->values;
-  std::vector<std::vector<metrology::Wide>> groups(order->times.size());
-  for (std::size_t i = 0; i < order->time.size(); ++i) {
-    groups[order->time[i]].push_back(values.counts()[i]);
-  }
+  const auto order = TRY(read_whole<StabilityOrder>(body));
+  const metrology::Decimals& values = order.values;
+  std::vector<std::vector<metrology::Wide>> groups(order.times.size());
+  for (std::size_t i = 0; i < order.time.size(); ++i)
+    groups[order.time[i]].push_back(values.counts()[i]);
   std::vector<metrology::Wide> counts;
   for (const auto& group : groups) {
     if (group.size() != groups.front().size()) {

@@ -235,15 +235,13 @@ void members(auto& v, const Pairing& pairing) {
 namespace {
 
 Result<std::string> summary(const JsonValue& body) {
-  const auto order = read_whole<SummaryOrder>(body);
-  if (!order) return order.error();
-  return body_json(metrology::summarise(order->values));
+  const auto order = TRY(read_whole<SummaryOrder>(body));
+  return body_json(metrology::summarise(order.values));
 }
 
 Result<std::string> anova(const JsonValue& body) {
-  const auto order = read_whole<GroupsOrder>(body);
-  if (!order) return order.error();
-  const auto made = metrology::analyse_variance(order->groups.counts());
+  const auto order = TRY(read_whole<GroupsOrder>(body));
+  const auto made = metrology::analyse_variance(order.groups.counts());
   if (!made) return at_member("groups", made.error());
   return body_json(*made);
 }
@@ -253,27 +251,25 @@ std::string_view data_member(const JsonValue& body) {
 }
 
 Result<std::string> capability(const JsonValue& body) {
-  const auto order = read_whole<CapabilityOrder>(body);
-  if (!order) return order.error();
-  auto made = metrology::assess_capability(order->data, order->limits, order->confidence);
+  const auto order = TRY(read_whole<CapabilityOrder>(body));
+  auto made = metrology::assess_capability(order.data, order.limits, order.confidence);
   if (!made) {
     const Error error = made.error();
     const bool of_limits = error.code == ErrorCode::LimitsInvalid;
     const std::string_view member = of_limits ? "upper" : data_member(body);
     return at_member(error.where.empty() ? member : error.where, error);
   }
-  return body_json(CapabilityAnswer{*std::move(made), order->limits, order->confidence});
+  return body_json(CapabilityAnswer{*std::move(made), order.limits, order.confidence});
 }
 
 Result<std::string> chart(const JsonValue& body) {
-  const auto order = read_whole<ChartOrder>(body);
-  if (!order) return order.error();
-  auto made = metrology::make_charts(order->data, order->plan);
+  const auto order = TRY(read_whole<ChartOrder>(body));
+  auto made = metrology::make_charts(order.data, order.plan);
   if (!made) {
     const std::string& where = made.error().where;
     return at_member(where.empty() ? data_member(body) : where, made.error());
   }
-  return body_json(ChartAnswer{order->plan.kind, *std::move(made)});
+  return body_json(ChartAnswer{order.plan.kind, *std::move(made)});
 }
 
 Result<std::string> pairing(const JsonValue& body) {
@@ -294,15 +290,13 @@ Result<std::string> pairing(const JsonValue& body) {
 }  // namespace
 
 Result<std::string> master_study(const JsonValue& body) {
-  const auto order = read_whole<Type1Order>(body);
-  if (!order) return order.error();
+  const auto order = TRY(read_whole<Type1Order>(body));
   const auto made =
-      metrology::study_type1(order->values, order->reference, order->tolerance, order->rule);
+      metrology::study_type1(order.values, order.reference, order.tolerance, order.rule);
   if (!made) return at_member("values", made.error());
   Type1Answer answer{*made};
-  if (order->system) {
-    auto& system =
-        answer.system.emplace(*order->system, metrology::nearest_double(order->tolerance));
+  if (order.system) {
+    auto& system = answer.system.emplace(*order.system, metrology::nearest_double(order.tolerance));
     system.found[metrology::Component::Bi] =
         static_cast<double>(std::abs(made->bias) / std::sqrt(3.0L));
     system.found[metrology::Component::Evr] = static_cast<double>(made->standard_deviation);

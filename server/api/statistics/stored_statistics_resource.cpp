@@ -30,9 +30,8 @@ void answer_with(const Services& services, const http::Request& request, http::R
       [&services, query = *std::move(query),
        figure = std::move(figure)]() -> Result<http::Response> {
         ValueSelection selection;
-        const auto read = selection.read(services.measurements, query);
-        if (!read) return read.error();
-        return json_response(figure(std::move(selection), *read));
+        const auto read = TRY(selection.read(services.measurements, query));
+        return json_response(figure(std::move(selection), read));
       },
       answer_by(share(std::move(responder))));
 }
@@ -58,15 +57,13 @@ void find_capability(const Services& services, const http::Request& request,
   answer_with(services, request, std::move(responder),
               [target, confidence, ignore = ignores_subgroups(request)](
                   ValueSelection&& selection, const std::string& as_of) -> Result<std::string> {
-                auto selected = std::move(selection).selected(ignore);
-                if (!selected) return selected.error();
-                if (target) selected->limits.target = exact_mm(*target);
+                auto selected = TRY(std::move(selection).selected(ignore));
+                if (target) selected.limits.target = exact_mm(*target);
                 auto made =
-                    metrology::assess_capability(selected->data, selected->limits, confidence);
-                if (!made) return made.error();
+                    TRY(metrology::assess_capability(selected.data, selected.limits, confidence));
                 return body_json(Stored<CapabilityAnswer>{
-                    selection_of(*selected, as_of),
-                    {*std::move(made), selected->limits, confidence, name_in(*selected)}});
+                    selection_of(selected, as_of),
+                    {std::move(made), selected.limits, confidence, name_in(selected)}});
               });
 }
 
@@ -109,9 +106,7 @@ Result<StoredChartPlan> chart_plan(const http::Request& request) {
   }
   stored.ignores_subgroups =
       ignores_subgroups(request) || (stored.has_kind && plan.kind == ChartKind::IMr);
-  const auto rules = parse_rules(request.text("rules").value_or(""));
-  if (!rules) return rules.error();
-  plan.rules = *rules;
+  plan.rules = TRY(parse_rules(request.text("rules").value_or("")));
   plan.lambda = scaled(request, "lambda", plan.lambda);
   plan.reference_value = scaled(request, "reference_value", plan.reference_value);
   plan.decision_interval = scaled(request, "decision_interval", plan.decision_interval);
@@ -126,9 +121,7 @@ Result<StoredChartPlan> chart_plan(const http::Request& request) {
         unused = invalid(member, std::move(message));
       });
   if (unused) return *std::move(unused);
-  if (to) {
-    plan.phase1 = {static_cast<std::size_t>(from.value_or(0)), static_cast<std::size_t>(*to)};
-  }
+  if (to) plan.phase1 = {static_cast<std::size_t>(from.value_or(0)), static_cast<std::size_t>(*to)};
   return stored;
 }
 
@@ -139,19 +132,17 @@ void find_chart(const Services& services, const http::Request& request, http::Re
               [stored = *std::move(stored)](ValueSelection&& selection,
                                             const std::string& as_of) -> Result<std::string> {
                 metrology::ChartPlan plan = stored.plan;
-                auto selected = std::move(selection).selected(stored.ignores_subgroups);
-                if (!selected) return selected.error();
-                if (!stored.has_kind && selected->data.size > 1) plan.kind = ChartKind::XbarR;
-                auto made = metrology::make_charts(selected->data, plan);
-                if (!made) return made.error();
-                selected->data = {};
+                auto selected = TRY(std::move(selection).selected(stored.ignores_subgroups));
+                if (!stored.has_kind && selected.data.size > 1) plan.kind = ChartKind::XbarR;
+                auto made = TRY(metrology::make_charts(selected.data, plan));
+                selected.data = {};
                 std::string out;
                 constexpr std::size_t kOfAPoint = 12;  // unused room needs no memory
-                out.reserve(2 * kOfAPoint * selected->count);
+                out.reserve(2 * kOfAPoint * selected.count);
                 JsonWriter json(out);
                 write_body(json,
-                           Stored<ChartAnswer>{selection_of(*selected, as_of),
-                                               {plan.kind, *std::move(made), name_in(*selected)}});
+                           Stored<ChartAnswer>{selection_of(selected, as_of),
+                                               {plan.kind, std::move(made), name_in(selected)}});
                 return out;
               });
 }

@@ -86,21 +86,18 @@ void members(auto& v, const UncertaintyAnswer& answer) {
 }
 
 Result<std::string> compute_uncertainty(const JsonValue& body) {
-  const auto read = read_uncertainty_budget(body);
-  if (!read) return read.error();
-  const metrology::Budget& budget = read->budget;
-  UncertaintyAnswer answer{read->combined, budget.probability, read->value};
+  const auto read = TRY(read_uncertainty_budget(body));
+  const metrology::Budget& budget = read.budget;
+  UncertaintyAnswer answer{read.combined, budget.probability, read.value};
   if (budget.model) {
     std::vector<SensitivityAnswer>& to = answer.sensitivities.emplace();
-    for (std::size_t i = 0; i < read->names.size(); ++i) {
+    for (std::size_t i = 0; i < read.names.size(); ++i) {
       const metrology::Contribution& c = budget.contributions[i];
-      to.push_back({read->names[i], c.sensitivity, c.sensitivity * c.standard_uncertainty});
+      to.push_back({read.names[i], c.sensitivity, c.sensitivity * c.standard_uncertainty});
     }
-    const auto second = metrology::second_order_uncertainty(budget);
-    if (!second) return second.error();
-    answer.second_order = *second;
+    answer.second_order = TRY(metrology::second_order_uncertainty(budget));
   }
-  if (const auto& simulation = read->simulation) {
+  if (const auto& simulation = read.simulation) {
     const auto made = metrology::simulate(budget, *simulation);
     if (!made && made.error().code == ErrorCode::FiguresLimit) return made.error();
     if (!made) {

@@ -196,9 +196,7 @@ Result<SelectedValues> ValueSelection::one_by_one() && {
 Result<SelectedValues> ValueSelection::by_subgroup() && {
   auto made = described();
   if (!made) return made;
-  if (ungrouped_) {
-    return unbalanced(fmt::format("measurement {} names no subgroup", *ungrouped_));
-  }
+  if (ungrouped_) return unbalanced(fmt::format("measurement {} names no subgroup", *ungrouped_));
   std::vector<std::size_t> sizes(names_.size());
   for (const std::uint32_t group : groups_) ++sizes[group];
   const std::size_t size = sizes.front();

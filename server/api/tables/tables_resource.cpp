@@ -124,13 +124,12 @@ std::string form_etag(const ToleranceTables& tables, std::string_view form) {
 
 Result<http::Response> table_response(const http::Request& request, Feature feature,
                                       const ToleranceTables& tables) {
-  const auto classes = chosen_classes(request.text("classes").value_or(""), feature, tables);
-  if (!classes) return classes.error();
+  const auto classes = TRY(chosen_classes(request.text("classes").value_or(""), feature, tables));
   const bool csv = wants_csv(request);
   http::Response response =
       csv ? http::Response(200, "text/csv; charset=utf-8; header=present",
-                           table_csv(*classes, tables))
-          : http::Response(200, "application/json", table_json(feature, *classes, tables));
+                           table_csv(classes, tables))
+          : http::Response(200, "application/json", table_json(feature, classes, tables));
   response.etag = form_etag(tables, csv ? "csv" : "json");
   response.with("Vary", "Accept");
   return response;
@@ -307,9 +306,7 @@ void add_tables_routes(Routes& add) {
   add("GET /v1/tables listTables open", ResponseCache::cached(add.cache, index_response),
       {.summary = "The tables in use and their classes",
        .outcomes = {{.meaning = "The tables", .schema = "TableIndex"}}});
-  for (const Feature feature : {Feature::Hole, Feature::Shaft}) {
-    add_feature_routes(add, feature);
-  }
+  for (const Feature feature : {Feature::Hole, Feature::Shaft}) add_feature_routes(add, feature);
 }
 
 }  // namespace fitgauge::api

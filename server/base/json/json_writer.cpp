@@ -174,9 +174,7 @@ void write_json(JsonWriter& json, const JsonValue& value) {
       break;
     case JsonValue::Kind::Object:
       json.begin_object();
-      for (const auto& [name, member] : value.members) {
-        write_json(json.key(name), member);
-      }
+      for (const auto& [name, member] : value.members) write_json(json.key(name), member);
       json.end_object();
       break;
   }

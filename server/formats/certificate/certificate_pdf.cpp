@@ -259,9 +259,7 @@ Result<Letterhead> read_letterhead(std::string_view address, const std::string& 
     address.remove_prefix(std::min(end + 1, address.size()));
   }
   if (logo.empty()) return letterhead;
-  auto picture = read_picture(logo);
-  if (!picture) return picture.error();
-  letterhead.logo = *std::move(picture);
+  letterhead.logo = TRY(read_picture(logo));
   return letterhead;
 }
 

@@ -69,21 +69,20 @@ Result<void> MeasurementCsv::prepare_size(const Characteristic& characteristic,
                                           Prepared& made) const {
   const Description& description = reader_.description();
   const auto read =
-      read_tolerance(description, characteristic, options_.length_unit, options_.limits_of);
-  if (!read) return read.error();
-  made.unit = read->unit;
-  made.fields[kNominal] = format_mm(read->nominal);
+      TRY(read_tolerance(description, characteristic, options_.length_unit, options_.limits_of));
+  made.unit = read.unit;
+  made.fields[kNominal] = format_mm(read.nominal);
   for (const std::string_view name : kUserFields) {
     const std::string_view said = user_text(description, characteristic, name);
     if (!said.empty()) made.fields[place_of(name)] = said;
   }
-  if (!read->class_name.empty()) made.fields[kClass] = read->class_name;
+  if (!read.class_name.empty()) made.fields[kClass] = read.class_name;
   if (!made.fields[kClass].empty()) {
     made.fields[kFeature].clear();
     return {};
   }
-  if (read->limits.upper) made.fields[kUpper] = format_um(*read->limits.upper - read->nominal);
-  if (read->limits.lower) made.fields[kLower] = format_um(*read->limits.lower - read->nominal);
+  if (read.limits.upper) made.fields[kUpper] = format_um(*read.limits.upper - read.nominal);
+  if (read.limits.lower) made.fields[kLower] = format_um(*read.limits.lower - read.nominal);
   const auto quantity = gauging::quantity_from_word(made.fields[kQuantity]);
   if (made.fields[kFeature].empty() && (!quantity || gauging::has_feature(*quantity))) {
     return at_line(characteristic.line,
@@ -112,7 +111,7 @@ Result<MeasurementCsv::Prepared> MeasurementCsv::prepare(
     const std::size_t place = place_of(field);
     if (place < kNames.size()) made.fields[place] = value;
   }
-  if (const auto sized = prepare_size(characteristic, made); !sized) return sized.error();
+  TRY(prepare_size(characteristic, made));
   const auto take = [&made](std::size_t place, std::string_view text) {
     if (!text.empty()) made.fields[place] = text;
   };
@@ -139,17 +138,16 @@ Result<MeasurementCsv::Prepared> MeasurementCsv::prepare(
 Result<const MeasurementCsv::Prepared*> MeasurementCsv::prepared(std::uint32_t index) {
   if (prepared_.size() <= index) prepared_.resize(index + 1);
   if (!prepared_[index]) {
-    auto made = prepare(*reader_.description().characteristic(index));
-    if (!made) return made.error();
-    for (const std::string& text : made->fields) prepared_bytes_ += text.size();
-    for (const CarriedField& field : made->carried) prepared_bytes_ += field.text.size();
+    auto made = TRY(prepare(*reader_.description().characteristic(index)));
+    for (const std::string& text : made.fields) prepared_bytes_ += text.size();
+    for (const CarriedField& field : made.carried) prepared_bytes_ += field.text.size();
     if (prepared_bytes_ > kMostBytes) {
       return Error{kMalformed,
                    fmt::format("The texts of its characteristics, with those of their parts, have "
                                "more than {} MiB: shorten them, or cut the file into several",
                                kMostBytes >> 20)};
     }
-    prepared_[index] = *std::move(made);
+    prepared_[index] = std::move(made);
   }
   return &*prepared_[index];
 }

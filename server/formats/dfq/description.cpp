@@ -67,16 +67,15 @@ Result<void> Description::add(const FieldLine& field, std::uint32_t line) {
   if (!stated_count_) {
     return wrong("comes before K0100, the number of characteristics, which begins a DFQ");
   }
-  auto text = decoded(field.text);
-  if (!text) return text.error();
+  auto text = TRY(decoded(field.text));
   switch (level_of(field.number)) {
     case Level::Part: {
-      if (field.index == 0) return all_parts_.add(field, line, *std::move(text));
+      if (field.index == 0) return all_parts_.add(field, line, std::move(text));
       part_ = field.index;
-      return parts_[field.index].add(field, line, *std::move(text));
+      return parts_[field.index].add(field, line, std::move(text));
     }
-    case Level::Characteristic: return add_to_characteristics(field, line, *std::move(text));
-    case Level::Catalogue: catalogues_[{field.number, field.index}] = *std::move(text); return {};
+    case Level::Characteristic: return add_to_characteristics(field, line, std::move(text));
+    case Level::Catalogue: catalogues_[{field.number, field.index}] = std::move(text); return {};
     default: return {};
   }
 }
@@ -103,9 +102,7 @@ Result<void> Description::add_to_characteristics(const FieldLine& field, std::ui
 }
 
 Result<void> Description::check() const {
-  if (!stated_count_) {
-    return wrong("The file has no K0100, which begins a DFQ");
-  }
+  if (!stated_count_) return wrong("The file has no K0100, which begins a DFQ");
   if (count_ != *stated_count_) {
     return wrong(
         fmt::format("K0100 gives {} characteristics, but the file describes {}: send the whole "

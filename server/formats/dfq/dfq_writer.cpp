@@ -32,9 +32,7 @@ std::string_view cut(std::string_view text, std::size_t characters) {
 
 template <class Fields>
 Result<void> check_all(const Fields& fields) {
-  for (const auto& [number, text] : fields) {
-    if (const auto checked = check_text(number, text); !checked) return checked;
-  }
+  for (const auto& [number, text] : fields) TRY(check_text(number, text));
   return {};
 }
 
@@ -246,7 +244,7 @@ Result<void> DfqWriter::add(const OutgoingValue& value) {
                           {k::kBatch, std::string(value.subgroup)}};
   for (const Fields* fields :
        std::array<const Fields*, 4>{&part, &characteristic, &written.fields, &entries}) {
-    if (const auto checked = check_all(*fields); !checked) return checked;
+    TRY(check_all(*fields));
   }
   const std::string_view cavity = carried(comment, k::kCavity);
   written.cells = {format_mm(value.measured),

@@ -95,11 +95,10 @@ Result<std::optional<Length>> ToleranceReader::limit(int limit_number, int allow
   }
   auto limit = length(limit_number);
   if (!limit) return limit;
-  const auto allowance = length(allowance_number);
-  if (!allowance) return allowance;
+  const auto allowance = TRY(length(allowance_number));
   if (type != nullptr && type->text != "1") return std::optional<Length>();
-  if (!*allowance) return limit;
-  const Length by_allowance = read_.nominal + **allowance;
+  if (!allowance) return limit;
+  const Length by_allowance = read_.nominal + *allowance;
   if (*limit && **limit != by_allowance) {
     return wrong(
         find(limit_number),
@@ -126,9 +125,7 @@ Result<void> ToleranceReader::check_class(const LimitsOfClass& limits_of) const 
                              format_mm(*said), number, read_.class_name, format_mm(read_.nominal),
                              by_class ? format_mm(*by_class) : "none"));
   };
-  if (const auto lower = agree(read_.limits.lower, limits->lower, k::kLowerLimit); !lower) {
-    return lower;
-  }
+  TRY(agree(read_.limits.lower, limits->lower, k::kLowerLimit));
   return agree(read_.limits.upper, limits->upper, k::kUpperLimit);
 }
 
@@ -146,22 +143,18 @@ Result<Toleranced> ToleranceReader::read(std::optional<LengthUnit> fallback,
                                    first_characters(unit->text, 40)));
   }
   read_.unit = *known;
-  const auto nominal = length(k::kNominal);
-  if (!nominal) return nominal.error();
-  if (!*nominal) {
+  const auto nominal = TRY(length(k::kNominal));
+  if (!nominal) {
     return wrong(nullptr, fmt::format("describes characteristic {}, which has no nominal value: "
                                       "write K2101",
                                       characteristic_.index));
   }
-  read_.nominal = **nominal;
-  const auto lower = limit(k::kLowerLimit, k::kLowerAllowance, k::kLowerLimitType);
-  if (!lower) return lower.error();
-  const auto upper = limit(k::kUpperLimit, k::kUpperAllowance, k::kUpperLimitType);
-  if (!upper) return upper.error();
-  read_.limits = {.upper = *upper, .lower = *lower};
-  if (*lower && *upper && **upper < **lower) {
+  read_.nominal = *nominal;
+  const auto lower = TRY(limit(k::kLowerLimit, k::kLowerAllowance, k::kLowerLimitType));
+  const auto upper = TRY(limit(k::kUpperLimit, k::kUpperAllowance, k::kUpperLimitType));
+  read_.limits = {.upper = upper, .lower = lower};
+  if (lower && upper && *upper < *lower)
     return wrong(find(k::kUpperLimit), "has an upper limit that is below the lower one");
-  }
   const Described* const letter = find(k::kToleranceClass);
   const Described* const grade = find(k::kToleranceGrade);
   if ((letter == nullptr) != (grade == nullptr)) {
@@ -172,7 +165,7 @@ Result<Toleranced> ToleranceReader::read(std::optional<LengthUnit> fallback,
                          ? std::string(user_text(description_, characteristic_, "class"))
                          : letter->text + grade->text;
   if (read_.class_name.empty()) return read_;
-  if (const auto checked = check_class(limits_of); !checked) return checked.error();
+  TRY(check_class(limits_of));
   return read_;
 }
 

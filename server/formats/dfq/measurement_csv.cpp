@@ -53,9 +53,8 @@ std::optional<std::size_t> MeasurementCsv::mapped_place(int number) const {
 
 Result<std::string_view> MeasurementCsv::utf8(std::string_view text) {
   if (is_ascii(text)) return text;
-  auto decoded = reader_.description().decoded(text);
-  if (!decoded) return decoded.error();
-  return std::string_view(texts_.emplace_back(*std::move(decoded)));
+  auto decoded = TRY(reader_.description().decoded(text));
+  return std::string_view(texts_.emplace_back(std::move(decoded)));
 }
 
 std::string_view MeasurementCsv::entry(int first_field, int second_field,
@@ -111,15 +110,13 @@ Result<bool> MeasurementCsv::is_measured(const ValueSet& set, const Value& value
 Result<void> MeasurementCsv::take_value_fields(const ValueSet& set_of, const Value& value) {
   const auto take = [&](std::size_t place, std::string_view text) -> Result<void> {
     if (trim(text).empty()) return {};
-    const auto decoded = utf8(trim(text));
-    if (!decoded) return decoded.error();
-    set(place, *decoded);
+    const auto decoded = TRY(utf8(trim(text)));
+    set(place, decoded);
     return {};
   };
   if (const auto time = trim(set_of.cell(value, kTimeCell)); !time.empty()) {
-    const auto instant = time_of(time);
-    if (!instant) return instant.error();
-    set(kMeasuredAt, *instant);
+    const auto instant = TRY(time_of(time));
+    set(kMeasuredAt, instant);
   }
   std::string_view batch = trim(set_of.cell(value, kBatchCell));
   if (batch.starts_with('#')) batch.remove_prefix(1);
@@ -137,7 +134,7 @@ Result<void> MeasurementCsv::take_value_fields(const ValueSet& set_of, const Val
         std::pair(kOperator, name), std::pair(kPartId, set_of.field(value, k::kPartIdent)),
         std::pair(kOrder, set_of.field(value, k::kOrder)),
         std::pair(kComment, set_of.field(value, k::kText))}) {
-    if (const auto taken = take(place, text); !taken) return taken;
+    TRY(take(place, text));
   }
   for (const auto& [number, place] : mapped_) {
     if (level_of(number) != Level::Value || place >= kNames.size()) continue;
@@ -146,7 +143,7 @@ Result<void> MeasurementCsv::take_value_fields(const ValueSet& set_of, const Val
     if (cell != kCells.end()) {
       text = set_of.cell(value, static_cast<std::size_t>(cell - kCells.begin()));
     }
-    if (const auto taken = take(place, text); !taken) return taken;
+    TRY(take(place, text));
   }
   return {};
 }
@@ -209,18 +206,14 @@ Result<bool> MeasurementCsv::append(std::string& rows, std::vector<std::uint32_t
   const std::size_t before = rows.size();
   while (next_value_ < set_.values.size() && rows.size() - before < kMostAppended) {
     const Value& value = set_.values[next_value_++];
-    const auto made = prepared(value.characteristic);
-    if (!made) return made.error();
-    if ((*made)->is_left_out) {
+    const auto made = TRY(prepared(value.characteristic));
+    if (made->is_left_out) {
       has_left_out_ = true;
       continue;
     }
-    const auto measured = is_measured(set_, value);
-    if (!measured) return measured.error();
-    if (!*measured) continue;
-    if (const auto appended = append_value(set_, value, **made, rows); !appended) {
-      return appended.error();
-    }
+    const auto measured = TRY(is_measured(set_, value));
+    if (!measured) continue;
+    TRY(append_value(set_, value, *made, rows));
     lines.push_back(value.line);
     has_values_ = true;
   }
@@ -228,7 +221,7 @@ Result<bool> MeasurementCsv::append(std::string& rows, std::vector<std::uint32_t
 }
 
 Result<void> MeasurementCsv::check() const {
-  if (const auto checked = reader_.check(); !checked) return checked;
+  TRY(reader_.check());
   if (!has_values_ && has_left_out_) {
     return Error{
         kMalformed,

@@ -61,21 +61,20 @@ Result<bool> Reader::next(ValueSet& set) {
     const auto field = parse_field_line(line.text);
     if (!field) return at_line(line.number, field.error().message);
     if (level_of(field->number) == Level::Value) break;
-    if (const auto ended = check_end(line, &*field); !ended) return ended.error();
+    TRY(check_end(line, &*field));
     if (const auto added = description_.add(*field, line.number); !added) {
       return at_line(line.number, added.error().message);
     }
   }
   for (;;) {
     const std::size_t moves = lines_.moves();
-    auto read = read_set(line, set);
-    if (!read) return read;
+    TRY(read_set(line, set));
     if (moves == lines_.moves()) break;
     // The buffer has moved, so the views are of the old place of the lines.
     lines_.rewind();
     lines_.next(line);
   }
-  if (const auto counted = count_values(set); !counted) return counted.error();
+  TRY(count_values(set));
   return true;
 }
 
@@ -87,7 +86,7 @@ Result<bool> Reader::read_set(const Lines::Line& first, ValueSet& set) {
   Lines::Line line = first;
   const bool is_of_fields = is_field_line(first.text);
   if (!is_of_fields) {
-    if (const auto added = add_values(first, set); !added) return added.error();
+    TRY(add_values(first, set));
   } else {
     const auto field = parse_field_line(first.text);
     if (!field) return at_line(first.number, field.error().message);
@@ -96,8 +95,7 @@ Result<bool> Reader::read_set(const Lines::Line& first, ValueSet& set) {
           first.number,
           fmt::format("has K{:04} before any value: write it after its value", field->number));
     }
-    const auto added = add_field(*field, first, set);
-    if (!added) return added;
+    TRY(add_field(*field, first, set));
   }
   while (lines_.next(line)) {
     if (!is_field_line(line.text)) {
@@ -110,9 +108,8 @@ Result<bool> Reader::read_set(const Lines::Line& first, ValueSet& set) {
       lines_.unread();
       return true;
     }
-    const auto added = add_field(*field, line, set);
-    if (!added) return added;
-    if (!*added) {
+    const auto added = TRY(add_field(*field, line, set));
+    if (!added) {
       lines_.unread();
       return true;
     }
@@ -129,7 +126,7 @@ Result<void> Reader::check_end(const Lines::Line& line, const FieldLine* field) 
 }
 
 Result<void> Reader::add_values(const Lines::Line& line, ValueSet& set) {
-  if (const auto ended = check_end(line, nullptr); !ended) return ended;
+  TRY(check_end(line, nullptr));
   std::string_view rest = line.text;
   if (!begins_value(rest[0])) {
     return at_line(line.number, fmt::format("begins with '{}', and is neither a field nor a value",
@@ -167,7 +164,7 @@ Result<void> Reader::add_values(const Lines::Line& line, ValueSet& set) {
 }
 
 Result<bool> Reader::add_field(const FieldLine& field, const Lines::Line& line, ValueSet& set) {
-  if (const auto ended = check_end(line, &field); !ended) return ended.error();
+  TRY(check_end(line, &field));
   const bool is_value = field.number == k::kValue || field.number == k::kSubgroupSize;
   const auto* const of_field =
       std::find_if(set.values.begin(), set.values.end(),

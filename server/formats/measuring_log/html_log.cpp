@@ -74,9 +74,7 @@ std::vector<Element> elements_of(std::string_view page) {
       close();
     }
     at = end + 1;
-    if (name == "style" || name == "script") {
-      at = std::min(page.find("</" + name, at), page.size());
-    }
+    if (name == "style" || name == "script") at = std::min(page.find("</" + name, at), page.size());
   }
   close();
   return elements;

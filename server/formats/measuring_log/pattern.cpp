@@ -48,7 +48,7 @@ Result<void> Pattern::take_constant(std::string_view line, std::size_t number) {
     return invalid(number, "a line above --- must be: field = value");
   }
   const std::string name(trim(line.substr(0, equals)));
-  if (auto known = check_field(name, number); !known) return known;
+  TRY(check_field(name, number));
   constants_.emplace(name, trim(line.substr(equals + 1)));
   return {};
 }
@@ -70,9 +70,7 @@ Result<void> Pattern::take_line(std::string_view text, std::size_t number) {
     if (close == std::string_view::npos) return invalid(number, "a { has no }");
     if (after_field) return invalid(number, "two fields need a text between them");
     Field field{std::string(trim(rest.substr(1, close - 1)))};
-    if (!field.name.empty()) {
-      if (auto known = check_field(field.name, number); !known) return known;
-    }
+    if (!field.name.empty()) TRY(check_field(field.name, number));
     lines_.back().emplace_back(std::move(field));
     after_field = true;
     rest.remove_prefix(close + 1);
@@ -90,9 +88,7 @@ Result<Pattern> Pattern::parse(std::string_view text) {
       below = true;
       continue;
     }
-    const auto taken =
-        below ? pattern.take_line(line, number) : pattern.take_constant(line, number);
-    if (!taken) return taken.error();
+    TRY(below ? pattern.take_line(line, number) : pattern.take_constant(line, number));
   }
   if (pattern.lines_.empty()) return invalid(1, "lines of a result must follow ---");
   const auto measured = pattern.check_field("measured_mm", 1);

@@ -87,9 +87,8 @@ Result<std::optional<Length>> QifRows::Converter::limit(const std::string& text,
                                                         std::string_view what,
                                                         std::uint32_t line) const {
   if (text.empty()) return std::optional<Length>();
-  const auto read = length(what, text, line);
-  if (!read) return read.error();
-  return std::optional(from + *read);
+  const auto read = TRY(length(what, text, line));
+  return std::optional(from + read);
 }
 
 Result<void> QifRows::Converter::read_tolerance(const Definitions::Item& item, std::uint32_t line) {
@@ -98,32 +97,29 @@ Result<void> QifRows::Converter::read_tolerance(const Definitions::Item& item, s
   fill(aqdef::kName, item.name);
   fill(aqdef::kName, nominal->name);
   fill(aqdef::kName, definition->name);
-  const auto target = length("TargetValue", nominal->target, line);
-  if (!target) return target.error();
-  fields_[aqdef::kNominal] = format_mm(*target);
-  const Length from = definition->is_limit ? Length() : *target;
-  const auto upper = limit(definition->upper, from, "MaxValue", line);
-  if (!upper) return upper.error();
-  const auto lower = limit(definition->lower, from, "MinValue", line);
-  if (!lower) return lower.error();
+  const auto target = TRY(length("TargetValue", nominal->target, line));
+  fields_[aqdef::kNominal] = format_mm(target);
+  const Length from = definition->is_limit ? Length() : target;
+  const auto upper = TRY(limit(definition->upper, from, "MaxValue", line));
+  const auto lower = TRY(limit(definition->lower, from, "MinValue", line));
   if (!definition->class_name.empty()) {
     fields_[aqdef::kClass] = definition->class_name;
     if (!options_.limits_of) return {};
-    const auto limits = options_.limits_of(*target, definition->class_name);
+    const auto limits = options_.limits_of(target, definition->class_name);
     if (!limits) return aqdef::at_line(line, "has a tolerance class: " + limits.error().message);
-    for (const auto& [said, of_class, what] : {std::tuple(*upper, limits->upper, "MaxValue"),
-                                               std::tuple(*lower, limits->lower, "MinValue")}) {
+    for (const auto& [said, of_class, what] : {std::tuple(upper, limits->upper, "MaxValue"),
+                                               std::tuple(lower, limits->lower, "MinValue")}) {
       if (!said || !of_class || *said == *of_class) continue;
       return aqdef::at_line(
-          line, fmt::format("has {} {}, whose {} is {} mm, but the document has {} mm",
-                            format_mm(*target), definition->class_name, what, format_mm(*of_class),
-                            format_mm(*said)));
+          line,
+          fmt::format("has {} {}, whose {} is {} mm, but the document has {} mm", format_mm(target),
+                      definition->class_name, what, format_mm(*of_class), format_mm(*said)));
     }
     return {};
   }
   fill(aqdef::kQuantity, definition->quantity);
-  if (*upper) fields_[aqdef::kUpper] = format_um(**upper - *target);
-  if (*lower) fields_[aqdef::kLower] = format_um(**lower - *target);
+  if (upper) fields_[aqdef::kUpper] = format_um(*upper - target);
+  if (lower) fields_[aqdef::kLower] = format_um(*lower - target);
   fill(aqdef::kFeature, definition->feature);
   fill(aqdef::kFeature, definitions_.feature(item, *nominal));
   return {};
@@ -137,13 +133,11 @@ Result<void> QifRows::Converter::read_value(const Element& element, std::uint32_
                           fmt::format("has a value in '{}', but the unit of the document is '{}'",
                                       first_characters(unit, 40), definitions_.unit_name()));
   }
-  const auto measured = length("value", values.front().own_text(), line);
-  if (!measured) return measured.error();
-  fill(aqdef::kMeasured, format_mm(*measured));
+  const auto measured = TRY(length("value", values.front().own_text(), line));
+  fill(aqdef::kMeasured, format_mm(measured));
   if (const std::string said = values.front().attribute("combinedUncertainty"); !said.empty()) {
-    const auto uncertainty = length("combinedUncertainty", said, line);
-    if (!uncertainty) return uncertainty.error();
-    fill(kUncertainty, format_um(*uncertainty));
+    const auto uncertainty = TRY(length("combinedUncertainty", said, line));
+    fill(kUncertainty, format_um(uncertainty));
   }
   return {};
 }
@@ -186,7 +180,7 @@ Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t 
   fields_ = {};
   for (const auto& [name, text] : item->attributes) set_field(fields_, name, text);
   for (const auto& [name, text] : element.named_attributes()) set_field(fields_, name, text);
-  if (const auto read = read_tolerance(*item, line); !read) return read.error();
+  TRY(read_tolerance(*item, line));
   if (fields_[aqdef::kClass].empty()) {
     std::string_view kind = element.name();
     kind.remove_suffix(kEnding.size());
@@ -199,8 +193,8 @@ Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t 
     fill(kSizeOperator, definition->size_operator);
     fill(kEnvelope, definition->envelope);
   }
-  if (const auto read = read_value(element, line); !read) return read.error();
-  if (const auto read = read_time(element, line); !read) return read.error();
+  TRY(read_value(element, line));
+  TRY(read_time(element, line));
   fill(aqdef::kPartId, definitions_.part(element.text("ActualComponentId")));
   fill(aqdef::kComment, element.text("Description"));
   fill(aqdef::kOrder, definitions_.order());
@@ -216,16 +210,13 @@ Result<bool> QifRows::Converter::read_row(const Element& element, std::uint32_t 
 
 Result<bool> QifRows::Converter::append(std::string& out, std::vector<std::uint32_t>& lines) {
   for (;;) {
-    const auto more = reader_.next();
-    if (!more) return more.error();
-    if (!*more) return false;
+    const auto more = TRY(reader_.next());
+    if (!more) return false;
     if (reader_.parent() != "CharacteristicMeasurements") continue;
     const std::uint32_t line = reader_.line();
-    const auto element = reader_.take();
-    if (!element) return element.error();
-    const auto read = read_row(*element, line);
-    if (!read) return read.error();
-    if (!*read) continue;
+    const auto element = TRY(reader_.take());
+    const auto read = TRY(read_row(element, line));
+    if (!read) continue;
     if (++rows_ > options_.most_rows) {
       return aqdef::at_line(line, fmt::format("comes after {} measured values: split the document",
                                               options_.most_rows));
@@ -245,10 +236,9 @@ QifRows& QifRows::operator=(QifRows&&) noexcept = default;
 QifRows::~QifRows() = default;
 
 Result<QifRows> QifRows::open(Read first, Read again, QifOptions options) {
-  auto definitions = Definitions::read(std::move(first), options.length_unit);
-  if (!definitions) return definitions.error();
+  auto definitions = TRY(Definitions::read(std::move(first), options.length_unit));
   return QifRows(
-      std::make_unique<Converter>(*std::move(definitions), std::move(again), std::move(options)));
+      std::make_unique<Converter>(std::move(definitions), std::move(again), std::move(options)));
 }
 
 std::string QifRows::header() const {

@@ -116,9 +116,8 @@ Result<Definitions> Definitions::read(Read document, std::optional<aqdef::Length
   read.unit_ = fallback;
   std::size_t bytes = 0;
   for (std::size_t count = 0;;) {
-    const auto more = reader.next();
-    if (!more) return more.error();
-    if (!*more) return read;
+    const auto more = TRY(reader.next());
+    if (!more) return read;
     if (reader.depth() == 0 &&
         (reader.name() != "QIFDocument" || reader.name_space() != kNamespace)) {
       return aqdef::at_line(reader.line(),
@@ -133,15 +132,14 @@ Result<Definitions> Definitions::read(Read document, std::optional<aqdef::Length
           reader.line(),
           fmt::format("comes after {} definitions: split the document", kMostDefinitions));
     }
-    const auto element = reader.take();
-    if (!element) return element.error();
-    bytes += element->own_text().size();
+    const auto element = TRY(reader.take());
+    bytes += element.own_text().size();
     if (bytes > kMostBytes) {
       return aqdef::at_line(
           reader.line(),
           fmt::format("comes after {} MiB of definitions: split the document", kMostBytes >> 20));
     }
-    read.take(*list, *element);
+    read.take(*list, element);
   }
 }
 

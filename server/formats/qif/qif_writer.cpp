@@ -119,14 +119,12 @@ std::uint32_t QifWriter::item_of(const OutgoingValue& value) {
 Result<void> QifWriter::add(const OutgoingValue& value) {
   Texts fields = {{"id", fmt::format("m{}-{}", value.number, value.origin)}};
   for (const auto& field : value.fields) fields.push_back(field);
-  for (const auto& [name, text] : fields) {
-    if (const auto checked = check(name, text); !checked) return checked;
-  }
+  for (const auto& [name, text] : fields) TRY(check(name, text));
   for (const auto& [name, text] : {std::pair("part_id", value.part_id.value_or("")),
                                    std::pair("characteristic", value.characteristic.value_or("")),
                                    std::pair("tolerance_class", value.class_name),
                                    std::pair("size_operator", value.size_operator)}) {
-    if (const auto checked = check(name, text); !checked) return checked;
+    TRY(check(name, text));
   }
   if (is_empty()) qpid_ = aqdef::guid_of(value.origin, value.number);
   const std::uint32_t item = item_of(value);

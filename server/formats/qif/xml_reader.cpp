@@ -247,9 +247,8 @@ XmlReader::~XmlReader() = default;
 
 Result<bool> XmlReader::next() {
   for (;;) {
-    const auto event = state_->event();
-    if (!event) return event.error();
-    if (*event == nullptr) return false;
+    const auto event = TRY(state_->event());
+    if (event == nullptr) return false;
     State::Event& taken = state_->take_event();
     if (taken.kind == State::Kind::End) {
       names_.pop_back();
@@ -283,9 +282,8 @@ Result<Element> XmlReader::take() {
   add(state_->begun);
   for (;;) {
     // The parser refuses a document that ends inside an element.
-    const auto next = state_->event();
-    if (!next) return next.error();
-    State::Event& event = **next;
+    const auto next = TRY(state_->event());
+    State::Event& event = *next;
     if (event.at - begin > kLargestElement) {
       return aqdef::at_line(
           event.line, fmt::format("has an element of more than {} MiB", kLargestElement >> 20));

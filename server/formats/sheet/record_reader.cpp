@@ -50,7 +50,7 @@ Result<std::string_view> RecordReader::peek_line() {
     const std::size_t end = std::min(ahead.find_first_of("\r\n"), ahead.size());
     // An LF may follow a CR.
     if (is_at_end_ || end + 1 < ahead.size()) return ahead.substr(0, end);
-    if (const auto filled = fill(); !filled) return filled.error();
+    TRY(fill());
   }
 }
 
@@ -75,7 +75,7 @@ Result<bool> RecordReader::next(Record& record) {
       line_ += record.lines;
       return true;
     }
-    if (const auto filled = fill(); !filled) return filled.error();
+    TRY(fill());
   }
 }
 
@@ -89,9 +89,8 @@ Result<void> RecordReader::fill() {
         fmt::format("{} more than {} KiB: is {}?", is_table ? "begins a row of" : "has",
                     kLongestRecord >> 10, is_table ? "a quote open" : "it NDJSON"));
   }
-  const auto more = input_.append(room_);
-  if (!more) return more.error();
-  is_at_end_ = !*more;
+  const auto more = TRY(input_.append(room_));
+  is_at_end_ = !more;
   return {};
 }
 
@@ -101,7 +100,7 @@ Result<void> RecordReader::read_record(Record& record) {
       return at_table_line(ErrorCode::CsvMalformed, line_,
                            fmt::format("has more than {} cells", kMostCells));
     }
-    if (auto read = read_cell(record.cells.emplace_back(), record); !read) return read.error();
+    TRY(read_cell(record.cells.emplace_back(), record));
     if (rest_.empty() || rest_.front() != separator_) break;
     rest_.remove_prefix(1);
   }
@@ -180,19 +179,17 @@ bool is_ndjson(std::string_view file_name) {
 }
 
 Result<NdjsonRows> NdjsonRows::open(const Read& first, Read again, Encoding encoding) {
-  auto input = Utf8Input::open(first, std::move(again), encoding);
-  if (!input) return input.error();
-  return NdjsonRows(*std::move(input));
+  auto input = TRY(Utf8Input::open(first, std::move(again), encoding));
+  return NdjsonRows(std::move(input));
 }
 
 Result<bool> NdjsonRows::append(std::string& rows) {
-  const auto line = lines_.peek_line();
-  if (!line) return line.error();
+  const auto line = TRY(lines_.peek_line());
   if (lines_.is_at_end()) return false;
   const std::size_t number = lines_.line();
-  if (const auto given = append_as_given(rows, *line); !given)
+  if (const auto given = append_as_given(rows, line); !given)
     return at_table_line(given.error().code, number, given.error().message);
-  lines_.pass_line(*line);
+  lines_.pass_line(line);
   if (lines_.line() > number) rows += '\n';
   return true;
 }

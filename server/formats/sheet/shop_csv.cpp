@@ -139,7 +139,7 @@ Result<void> ShopRows::Converter::convert_row(const Record& record, std::string&
         ErrorCode::CsvMalformed, record.line,
         fmt::format("has {} cells, and the header has {}", record.cells.size(), header_.size()));
   }
-  if (const auto checked = check_export(record); !checked) return checked.error();
+  TRY(check_export(record));
   bool is_first = true;
   std::size_t inside = 0;  // line ends in cells that are kept
   const auto append = [&](std::string_view value) {
@@ -159,16 +159,14 @@ Result<void> ShopRows::Converter::convert_row(const Record& record, std::string&
       append(value);
       continue;
     }
-    const auto at = measured_at(record, value);
-    if (!at) return at.error();
-    append(*at);
+    const auto at = TRY(measured_at(record, value));
+    append(at);
   }
   if (has_clock_) {
     const std::string* const time = cell(record, kTime);
-    const auto at = measured_at(
-        record, fmt::format("{} {}", bare(*cell(record, kDate)), time ? bare(*time) : "00:00"));
-    if (!at) return at.error();
-    append(*at);
+    const auto at = TRY(measured_at(
+        record, fmt::format("{} {}", bare(*cell(record, kDate)), time ? bare(*time) : "00:00")));
+    append(at);
   }
   for (const auto& [field, value] : options_.constants) {
     if (std::find(header_.begin(), header_.end(), field) == header_.end()) append(value);
@@ -183,9 +181,7 @@ Result<std::string> ShopRows::Converter::read_header() {
   std::string_view first;
   // Lines before the header: empty lines, and the description of a spreadsheet's cells.
   for (;; ++before) {
-    const auto line = records_.peek_line();
-    if (!line) return line.error();
-    first = *line;
+    first = TRY(records_.peek_line());
     const auto said = separator_line(trim(first));
     if (records_.is_at_end() || (!said && !bare(first).empty())) break;
     if (said) separator = said;
@@ -195,7 +191,7 @@ Result<std::string> ShopRows::Converter::read_header() {
     return at_table_line(ErrorCode::CsvMalformed, records_.line(), "must have the column names");
   }
   records_.set_separator(separator.value_or(separator_of(first)));
-  if (const auto read = records_.next(record_); !read) return read.error();
+  TRY(records_.next(record_));
   // After the header, so that the next lines keep their numbers.
   return header_of(record_) + std::string(before, '\n');
 }
@@ -203,7 +199,7 @@ Result<std::string> ShopRows::Converter::read_header() {
 Result<bool> ShopRows::Converter::append(std::string& rows) {
   const auto more = records_.next(record_);
   if (!more || !*more) return more;
-  if (const auto converted = convert_row(record_, rows); !converted) return converted.error();
+  TRY(convert_row(record_, rows));
   return true;
 }
 
@@ -214,12 +210,10 @@ ShopRows& ShopRows::operator=(ShopRows&&) noexcept = default;
 ShopRows::~ShopRows() = default;
 
 Result<ShopRows> ShopRows::open(const Read& first, Read again, ShopCsvOptions options) {
-  auto input = Utf8Input::open(first, std::move(again), options.encoding);
-  if (!input) return input.error();
-  auto converter = std::make_unique<Converter>(*std::move(input), std::move(options));
-  auto header = converter->read_header();
-  if (!header) return header.error();
-  return ShopRows(std::move(converter), *std::move(header));
+  auto input = TRY(Utf8Input::open(first, std::move(again), options.encoding));
+  auto converter = std::make_unique<Converter>(std::move(input), std::move(options));
+  auto header = TRY(converter->read_header());
+  return ShopRows(std::move(converter), std::move(header));
 }
 
 Result<bool> ShopRows::append(std::string& rows) { return converter_->append(rows); }

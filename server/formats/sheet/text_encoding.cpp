@@ -154,9 +154,8 @@ Result<Encoding> detected_encoding(const Read& read) {
   std::string bytes;
   bool is_begun = false;
   for (;;) {
-    const auto count = read_on(read, bytes);
-    if (!count) return count.error();
-    const bool is_at_end = *count == 0;
+    const auto count = TRY(read_on(read, bytes));
+    const bool is_at_end = count == 0;
     if (!is_begun && !is_at_end && bytes.size() < kLooked) continue;
     if (!std::exchange(is_begun, true) && (has_utf16_mark(bytes) || looks_like_utf16(bytes))) {
       return Encoding::Utf16;
@@ -170,19 +169,14 @@ Result<Encoding> detected_encoding(const Read& read) {
 }
 
 Result<Utf8Input> Utf8Input::open(const Read& first, Read again, Encoding encoding) {
-  if (encoding == Encoding::Detected) {
-    const auto detected = detected_encoding(first);
-    if (!detected) return detected.error();
-    encoding = *detected;
-  }
+  if (encoding == Encoding::Detected) encoding = TRY(detected_encoding(first));
   return Utf8Input(std::move(again), encoding);
 }
 
 Result<void> Utf8Input::fill() {
   do {
-    const auto count = read_on(read_, bytes_);
-    if (!count) return count.error();
-    is_at_end_ = *count == 0;
+    const auto count = TRY(read_on(read_, bytes_));
+    is_at_end_ = count == 0;
   } while (!is_begun_ && !is_at_end_ && bytes_.size() < kLooked);
   if (std::exchange(is_begun_, true)) return {};
   is_big_ = is_big_endian(bytes_);
@@ -195,12 +189,10 @@ Result<void> Utf8Input::fill() {
 
 Result<bool> Utf8Input::append(std::string& out) {
   if (is_at_end_) return false;
-  if (const auto filled = fill(); !filled) return filled.error();
+  TRY(fill());
   std::size_t done = bytes_.size();
   if (encoding_ == Encoding::Utf16) {
-    const auto decoded = append_utf16(out, bytes_, is_big_, at_);
-    if (!decoded) return decoded.error();
-    done = *decoded;
+    done = TRY(append_utf16(out, bytes_, is_big_, at_));
     if (is_at_end_ && done < bytes_.size()) return no_utf16(at_ + done);
   } else if (encoding_ == Encoding::Windows1252) {
     out += utf8_from_windows1252(bytes_);

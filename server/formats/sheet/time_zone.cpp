@@ -56,9 +56,7 @@ class Bytes {
       return 0;
     }
     std::uint64_t value = static_cast<std::uint8_t>(rest_.front()) >= 0x80 ? ~std::uint64_t{0} : 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      value = value << 8 | static_cast<std::uint8_t>(rest_[i]);
-    }
+    for (std::size_t i = 0; i < size; ++i) value = value << 8 | static_cast<std::uint8_t>(rest_[i]);
     rest_.remove_prefix(size);
     return static_cast<std::int64_t>(value);
   }
@@ -300,9 +298,7 @@ Result<Timestamp> TimeZone::instant(const WallTime& time) const {
   const std::int64_t after = offset_at(time.seconds + kDay);
   for (const std::int64_t offset : {before, after}) {
     const std::int64_t utc = time.seconds - offset;
-    if (offset_at(utc) == offset) {
-      return Timestamp{utc * kNanosecondsPerSecond + time.nanoseconds};
-    }
+    if (offset_at(utc) == offset) return Timestamp{utc * kNanosecondsPerSecond + time.nanoseconds};
   }
   return Error{ErrorCode::TimeMalformed,
                "this time does not exist in the time zone, because its clock went forward"};

@@ -467,11 +467,10 @@ class Walker {
 
 Result<Drawing> read_drawing(const FileText& text, const iso286::ToleranceTables& tables,
                              std::size_t most_instances) {
-  const auto file = Part21::read(text, kNames, most_instances);
-  if (!file) return file.error();
+  const auto file = TRY(Part21::read(text, kNames, most_instances));
   Drawing drawing;
-  Walker(*file, tables, drawing).walk();
-  if (file->error()) return *file->error();
+  Walker(file, tables, drawing).walk();
+  if (file.error()) return *file.error();
   Sha256 digest;
   text.each_stretch(text.text.size(), [&](std::string_view part) { digest.update(part); });
   drawing.digest = to_hex(digest.finish());

@@ -111,9 +111,8 @@ Result<DrawnPlan> plan_of(const Drawing& drawing, std::string_view part, const J
       write_json(json, one);
   }
   json.end_array().end_object();
-  const auto made = parse_json(plan.text);
-  if (!made) return made.error();
-  const auto& all = made->member("characteristics").items;
+  const auto made = TRY(parse_json(plan.text));
+  const auto& all = made.member("characteristics").items;
   plan.characteristics = all.size();
   for (const JsonValue& one : all) {
     const std::string name(one.text_of("name"));

@@ -179,11 +179,9 @@ std::optional<Error> Exchange::take_arguments(const PathSegments& path,
                                               const RouteTree::Plan& plan) {
   request_.arguments_.resize(request_.route_->parameters.size());
   for (const RouteTree::Plan::Capture& capture : plan.captures) {
-    auto value = parse_argument(
+    request_.arguments_[capture.parameter] = TRY(parse_argument(
         request_.route_->parameters[capture.parameter],
-        capture.takes_rest ? path.rest(capture.segment) : path.segment(capture.segment));
-    if (!value) return std::move(value).error();
-    request_.arguments_[capture.parameter] = *value;
+        capture.takes_rest ? path.rest(capture.segment) : path.segment(capture.segment)));
   }
   if (plan.has_query) {
     if (auto error = take_query()) return error;
@@ -226,9 +224,7 @@ std::optional<Error> Exchange::take_query() {
       return Error{ErrorCode::QueryRepeated, fmt::format("parameter {} must be given once", *name),
                    std::string(*name)};
     }
-    auto parsed = parse_argument(*found, *value);
-    if (!parsed) return std::move(parsed).error();
-    slot = *parsed;
+    slot = TRY(parse_argument(*found, *value));
   }
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (parameters[i].place == ParameterPlace::Query && parameters[i].required &&
@@ -251,9 +247,7 @@ std::optional<Error> Exchange::take_headers() {
       return Error{ErrorCode::RequestMalformed,
                    fmt::format("header field {} is required", parameter.name), parameter.name};
     }
-    auto parsed = parse_argument(parameter, *value);
-    if (!parsed) return std::move(parsed).error();
-    request_.arguments_[i] = *parsed;
+    request_.arguments_[i] = TRY(parse_argument(parameter, *value));
   }
   return std::nullopt;
 }
@@ -319,9 +313,7 @@ std::optional<Refusal> Exchange::check_body() {
   if (!gzip_ && !ascii_iequals(coding, "identity")) {
     return Refusal{415, ErrorCode::EncodingUnsupported, "Content-Encoding must be gzip"};
   }
-  if (head_->content_length.value_or(0) > rules.limit) {
-    return body_too_large();
-  }
+  if (head_->content_length.value_or(0) > rules.limit) return body_too_large();
   return std::nullopt;
 }
 

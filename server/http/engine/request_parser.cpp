@@ -250,9 +250,7 @@ bool RequestParser::check_head() {
   }
   if (has_transfer_encoding_) {
     if (head_.http_1_0) return fail("Transfer-Encoding needs HTTP/1.1");
-    if (has_content_length_) {
-      return fail("Transfer-Encoding and Content-Length exclude each other");
-    }
+    if (has_content_length_) return fail("Transfer-Encoding and Content-Length exclude each other");
     if (!head_.chunked) return fail("Transfer-Encoding must be chunked");
   }
   if (!has_host_ && !head_.http_1_0) return fail("the Host field is required");

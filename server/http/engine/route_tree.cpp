@@ -213,9 +213,7 @@ void RouteTree::add(Route& route, std::int16_t index) {
     } else {
       auto found = std::find_if(node->literals.begin(), node->literals.end(),
                                 [&](const auto& literal) { return literal.first == segment; });
-      if (found == node->literals.end()) {
-        found = node->literals.emplace(found, segment, nullptr);
-      }
+      if (found == node->literals.end()) found = node->literals.emplace(found, segment, nullptr);
       next = &found->second;
     }
     if (!*next) *next = std::make_unique<Node>();

@@ -231,9 +231,7 @@ Result<std::unique_ptr<Listener>> Listener::open(const ListenAddress& address,
   error_code error = bind(acceptor, address);
   if (!error) acceptor.listen(Acceptor::max_listen_connections, error);
   if (!error) listener->port_ = acceptor.local_endpoint(error).port();
-  if (error) {
-    return cannot_listen(address, error);
-  }
+  if (error) return cannot_listen(address, error);
   return listener;
 }
 

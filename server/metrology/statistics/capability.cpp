@@ -186,11 +186,10 @@ std::optional<std::string_view> Capability::reason() const {
 
 Result<Capability> assess_capability(const Subgroups& data, const SpecificationLimits& limits,
                                      long double confidence) {
-  if (const auto checked = check(limits); !checked) return checked.error();
-  auto charts = make_charts(
-      data, {.kind = data.size > 1 ? ChartKind::XbarR : ChartKind::IMr, .rules = ZoneRules::all()});
-  if (!charts) return charts.error();
-  charts->charts = {};  // their points are not wanted
+  TRY(check(limits));
+  auto charts = TRY(make_charts(data, {.kind = data.size > 1 ? ChartKind::XbarR : ChartKind::IMr,
+                                       .rules = ZoneRules::all()}));
+  charts.charts = {};  // their points are not wanted
   const Moments all = moments(data.values);
   if (all.squares == 0) {
     return Error{ErrorCode::StatisticsZeroSpread,
@@ -199,9 +198,9 @@ Result<Capability> assess_capability(const Subgroups& data, const SpecificationL
   Capability capability;
   capability.count = all.count;
   capability.mean = nearest(all.mean);
-  capability.within = charts->standard_deviation;
+  capability.within = charts.standard_deviation;
   capability.overall = all.standard_deviation();
-  capability.violations = std::move(charts->violations);
+  capability.violations = std::move(charts.violations);
   capability.stable = capability.violations.empty();
   const Intervals intervals(all.count, confidence);
   set_indices(capability, distances_of(limits, all.mean), intervals);

@@ -287,10 +287,9 @@ Result<ControlCharts> make_charts(const Subgroups& data, const ChartPlan& plan) 
   if (plan.kind == ChartKind::IMr && data.size > 1) {
     return Error{ErrorCode::FieldInvalid, "i_mr needs single values instead of subgroups"};
   }
-  const auto phase = phase_of(data, plan);
-  if (!phase) return phase.error();
+  const auto phase = TRY(phase_of(data, plan));
 
-  const Source source(data, *phase);
+  const Source source(data, phase);
   Spread spread = spread_of(source, plan.kind);
   const long double sigma =
       plan.standard_deviation ? nearest(*plan.standard_deviation) : spread.mean / spread.per_mean;

@@ -134,10 +134,9 @@ Result<Decimal> parse_exact(std::string_view text) {
 }
 
 Result<void> Decimals::add(std::string_view text) {
-  const auto parsed = parse_exact(text);
-  if (!parsed) return parsed.error();
-  const int finer = parsed->scale - scale_;
-  const Wide own = magnitude(parsed->digits);
+  const auto parsed = TRY(parse_exact(text));
+  const int finer = parsed.scale - scale_;
+  const Wide own = magnitude(parsed.digits);
   const Wide widened = std::max(finer > 0 ? largest_ : own, Wide{1});
   if (const int by = std::abs(finer);
       widened > wide_power_of_ten(kWidest) / wide_power_of_ten(by)) {
@@ -146,12 +145,12 @@ Result<void> Decimals::add(std::string_view text) {
                              "largest value to the last digit of the finest value",
                              text.substr(0, 40), kWidest)};
   }
-  Wide count = parsed->digits;
+  Wide count = parsed.digits;
   if (finer > 0) {
     const Wide factor = wide_power_of_ten(finer);
     for (Wide& other : counts_) other *= factor;
     largest_ *= factor;
-    scale_ = parsed->scale;
+    scale_ = parsed.scale;
   } else {
     count *= wide_power_of_ten(-finer);
   }

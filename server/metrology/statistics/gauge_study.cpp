@@ -35,7 +35,7 @@ class Cells {
   static Result<Cells> make(const Readings& readings) {
     if (readings.parts < 2) return too_few("a gauge study needs at least two parts");
     Cells cells(readings);
-    if (const auto filled = cells.fill(); !filled) return filled.error();
+    TRY(cells.fill());
     if (moments(readings.values).squares == 0) {
       return Error{ErrorCode::StatisticsZeroSpread,
                    "all readings are equal: the gauge does not resolve the parts"};
@@ -385,20 +385,18 @@ Result<GaugeStudy> study_gauge(const Readings& readings, StudyMethod method, Stu
   if (method != StudyMethod::Type3 && readings.operator_count < 2) {
     return too_few("a gauge study needs at least two operators; method \"type3\" needs none");
   }
-  const auto cells = Cells::make(readings);
-  if (!cells) return cells.error();
-  if (method != StudyMethod::Anova && cells->error().degrees_of_freedom == 0) {
+  const auto cells = TRY(Cells::make(readings));
+  if (method != StudyMethod::Anova && cells.error().degrees_of_freedom == 0)
     return too_few("a gauge study needs at least two trials of every part");
-  }
   const StudyBounds intervals(confidence);
   switch (method) {
-    case StudyMethod::Anova: return crossed(*cells, model, intervals);
-    case StudyMethod::Type3: return without_operators(*cells, intervals);
-    case StudyMethod::Nested: return nested(*cells, intervals);
+    case StudyMethod::Anova: return crossed(cells, model, intervals);
+    case StudyMethod::Type3: return without_operators(cells, intervals);
+    case StudyMethod::Nested: return nested(cells, intervals);
     case StudyMethod::AverageRange: break;
   }
-  const auto trials = cells->equal_trials();
-  if (trials) return average_and_range(*cells, *trials);
+  const auto trials = cells.equal_trials();
+  if (trials) return average_and_range(cells, *trials);
   return Error{ErrorCode::StatisticsUnbalanced,
                "average_range needs the same number of readings of every part by every operator; "
                "method \"anova\" accepts different numbers"};

@@ -211,9 +211,7 @@ Result<Model> read_model(const std::string& text, const std::vector<std::string>
     for (std::size_t i = 0; i < std::size(kFunctions); ++i) {
       parser.DefineFun(kFunctionNames[i], kFunctions[i]);
     }
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      parser.DefineVar(names[i], &model->arguments[i]);
-    }
+    for (std::size_t i = 0; i < names.size(); ++i) parser.DefineVar(names[i], &model->arguments[i]);
     parser.SetExpr(text);
     parser.Eval();
     const auto& used = parser.GetUsedVar();

@@ -23,9 +23,7 @@ void write_value(BlockWriter& out, const CycleParameter& parameter) {
 
 void write_cycle(BlockWriter& out, const Cycle& cycle, std::string_view first_comment) {
   write_head(out, cycle.family, cycle.number);
-  if (!cycle.dialog.empty()) {
-    out.write(" ").write(cycle.dialog);
-  }
+  if (!cycle.dialog.empty()) out.write(" ").write(cycle.dialog);
   const auto write_comment = [&](std::string_view comment) {
     if (comment.empty()) return;
     out.write(" ;");

@@ -68,9 +68,7 @@ void Lexer::open(std::size_t begin, std::size_t end) {
 }
 
 void Lexer::fail(DiagnosticCode code, Slice<char> place, std::string message) {
-  if (!failure_) {
-    failure_ = Failure{Failure::Kind::Faulty, code, place, std::move(message)};
-  }
+  if (!failure_) failure_ = Failure{Failure::Kind::Faulty, code, place, std::move(message)};
   at_ = end_;
 }
 

@@ -66,9 +66,7 @@ BlankForm parse_file_blank(BlockReader& in) {
   BlankForm form{.kind = BlankKind::File};
   form.file = parse_string(in);
   const std::uint32_t first = in.word_count();
-  if (in.accept_word("TARGET")) {
-    in.add_word({.value = parse_string(in), .letter = Letter::Target});
-  }
+  if (in.accept_word("TARGET")) in.add_word({.value = parse_string(in), .letter = Letter::Target});
   form.words = in.words_since(first);
   return form;
 }

@@ -185,9 +185,7 @@ Statement parse_tcpm(BlockReader& in) {
 
 Statement parse_trans(BlockReader& in) {
   if (in.accept_word("DATUM")) return parse_trans_datum(in);
-  if (in.accept_word("MIRROR")) {
-    return parse_trans_words(in, Transformation::Mirror, kAxes, kAxes);
-  }
+  if (in.accept_word("MIRROR")) return parse_trans_words(in, Transformation::Mirror, kAxes, kAxes);
   if (in.accept_word("ROTATION")) {
     return parse_trans_words(in, Transformation::Rotation, LetterSet(Letter::Rot));
   }

@@ -48,23 +48,15 @@ void write_block(BlockWriter& out, const Unsupported& unsupported) { out.write(u
 void write_block(BlockWriter& out, const BlankForm& form) {
   constexpr std::string_view kNames[] = {"0.1", "0.2", "CYLINDER", "ROTATION", "FILE"};
   out.write("BLK FORM ").write(kNames[static_cast<std::size_t>(form.kind)]);
-  if (form.tool_axis) {
-    out.write(" ").write(name_of(*form.tool_axis));
-  }
-  if (!is_absent(form.file)) {
-    out.write(" ").value(form.file);
-  }
+  if (form.tool_axis) out.write(" ").write(name_of(*form.tool_axis));
+  if (!is_absent(form.file)) out.write(" ").value(form.file);
   out.words(form.words);
 }
 
 void write_block(BlockWriter& out, const ToolCall& call) {
   out.write("TOOL CALL");
-  if (!is_absent(call.tool)) {
-    out.write(" ").value(call.tool);
-  }
-  if (call.axis) {
-    out.write(" ").write(name_of(*call.axis));
-  }
+  if (!is_absent(call.tool)) out.write(" ").value(call.tool);
+  if (call.axis) out.write(" ").write(name_of(*call.axis));
   out.words(call.words);
 }
 
@@ -98,9 +90,7 @@ void write_block(BlockWriter& out, const Trans& trans) {
   } else if (axes) {
     out.write(" AXIS");
   }
-  if (!is_absent(trans.table)) {
-    out.write(" ").value(trans.table);
-  }
+  if (!is_absent(trans.table)) out.write(" ").value(trans.table);
   out.words(trans.words);
 }
 

@@ -150,7 +150,7 @@ MachineResult<void> Control::dwell(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0) {
     return make_fault(FaultKind::ValueInvalid, fmt::format("a dwell of {} s", seconds));
   }
-  if (auto waited = axes_->dwell(seconds, allowance_); !waited) return waited;
+  TRY(axes_->dwell(seconds, allowance_));
   spend(seconds);
   return {};
 }

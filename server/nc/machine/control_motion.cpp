@@ -24,22 +24,20 @@ MachineResult<void> check_finite(const AxisWords& words) {
 }  // namespace
 
 MachineResult<void> Control::move(const LinearMove& move) {
-  if (auto checked = check_feed(move.feed); !checked) return checked;
-  if (auto checked = check_finite(move.target); !checked) return checked;
-  const auto rotary = target_rotary(move);
-  if (!rotary) return rotary.error();
-  const bool turns = *rotary != state_.nose.rotary;
+  TRY(check_feed(move.feed));
+  TRY(check_finite(move.target));
+  const auto rotary = TRY(target_rotary(move));
+  const bool turns = rotary != state_.nose.rotary;
   std::optional<Frames> turned;
   if (turns && is_following()) {
     turned = state_.frames;
-    turned->set_table(table_at(*rotary));
+    turned->set_table(table_at(rotary));
   }
-  const auto nose = target_nose(move, turned ? *turned : state_.frames, *rotary);
-  if (!nose) return nose.error();
-  if (auto checked = check_range(*nose); !checked) return checked;
-  if (!turns || !state_.modes.tcpm) return travel(straight_path(state_.nose, *nose), move.feed);
-  const Path path = following_path(*nose);
-  if (auto checked = check_way(path, path.turn); !checked) return checked;
+  const auto nose = TRY(target_nose(move, turned ? *turned : state_.frames, rotary));
+  TRY(check_range(nose));
+  if (!turns || !state_.modes.tcpm) return travel(straight_path(state_.nose, nose), move.feed);
+  const Path path = following_path(nose);
+  TRY(check_way(path, path.turn));
   return travel(path, move.feed);
 }
 
@@ -120,7 +118,7 @@ Path Control::following_path(const Position& end) const {
 }
 
 MachineResult<void> Control::move_arc(const ArcMove& arc) {
-  if (auto checked = check_feed(arc.feed); !checked) return checked;
+  TRY(check_feed(arc.feed));
   constexpr double kLongestSweepDeg = 1e6;
   if (!is_finite(arc.end) || !is_finite(arc.centre) || is_rotary(arc.normal) ||
       !(std::abs(arc.sweep_deg) <= kLongestSweepDeg)) {
@@ -159,14 +157,14 @@ MachineResult<void> Control::move_arc(const ArcMove& arc) {
   path.length = stretch * std::hypot(radians(sweep) * (norm(from) + norm(to)) / 2, rise);
   path.nose_speed =
       stretch * (radians(sweep) * (radius + norm(difference)) + norm(difference) + std::abs(rise));
-  if (auto checked = check_way(path, sweep); !checked) return checked;
+  TRY(check_way(path, sweep));
   return travel(path, arc.feed);
 }
 
 /// Checks a way that is not straight: first its end, then every 0.1 degrees, unless all places as
 /// near to the start are in range.
 MachineResult<void> Control::check_way(const Path& path, double turn_deg) {
-  if (auto checked = check_range(path.end); !checked) return checked;
+  TRY(check_range(path.end));
   bool is_clear = true;
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
     const auto& range = state_.ranges[index(axis)];
@@ -182,9 +180,7 @@ MachineResult<void> Control::check_way(const Path& path, double turn_deg) {
     if (step % kBetweenLooks == 0 && allowance_.is_spent()) {
       return make_fault(FaultKind::Interrupted);
     }
-    if (auto checked = check_range(path.nose(static_cast<double>(step) / steps)); !checked) {
-      return checked;
-    }
+    TRY(check_range(path.nose(static_cast<double>(step) / steps)));
   }
   return {};
 }

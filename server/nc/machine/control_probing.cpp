@@ -8,8 +8,8 @@ namespace fitgauge::machine {
 MachineResult<ContactPoint> Control::probe(const ProbeMove& move) {
   if (!state_.tool.axis) return make_fault(FaultKind::ToolAxisMissing);
   if (state_.active_tool() == nullptr) return make_fault(FaultKind::NoTool);
-  if (auto checked = check_feed(Feed::at(move.feed)); !checked) return checked.error();
-  if (auto checked = check_feed(move.retract_feed); !checked) return checked.error();
+  TRY(check_feed(Feed::at(move.feed)));
+  TRY(check_feed(move.retract_feed));
   const Vec3 along = state_.frames.direction_to_machine(move.direction, move.system);
   const double retract = move.retract.value_or(0);
   if (!is_finite(along) || norm(along) == 0 || !std::isfinite(move.distance) ||
@@ -39,7 +39,7 @@ MachineResult<ContactPoint> Control::probe(const ProbeMove& move) {
 
   ContactPoint point = contact_point(direction);
   point.seconds = seconds;
-  if (auto returned = go_back(start, direction, move); !returned) return returned.error();
+  TRY(go_back(start, direction, move));
   return point;
 }
 

@@ -85,7 +85,7 @@ class TextReader {
         continue;
       }
       if (!Words::is(word, "facet")) return expected("facet", word);
-      if (auto read = facet(); !read) return read.error();
+      TRY(facet());
     }
     return std::move(triangles_);
   }
@@ -115,19 +115,17 @@ class TextReader {
   }
 
   Result<void> facet() {
-    if (auto read = word("normal"); !read) return read;
-    if (auto read = numbers(); !read) return read.error();
-    if (auto read = word("outer"); !read) return read;
-    if (auto read = word("loop"); !read) return read;
+    TRY(word("normal"));
+    TRY(numbers());
+    TRY(word("outer"));
+    TRY(word("loop"));
     Triangle& triangle = triangles_.emplace_back();
     for (Vec3& corner : triangle) {
-      if (auto read = word("vertex"); !read) return read;
-      const auto read = numbers();
-      if (!read) return read.error();
-      corner = *read;
+      TRY(word("vertex"));
+      corner = TRY(numbers());
       if (!is_near(corner)) return refused(fmt::format("line {}: too far away", words_.line()));
     }
-    if (auto read = word("endloop"); !read) return read;
+    TRY(word("endloop"));
     return word("endfacet");
   }
 
@@ -225,9 +223,7 @@ Result<void> check_closed(const std::vector<Triangle>& triangles) {
 double volume(const std::vector<Triangle>& triangles) {
   double six = 0;
   const Vec3 origin = triangles.empty() ? Vec3{} : triangles.front()[0];
-  for (const auto& [a, b, c] : triangles) {
-    six += dot(a - origin, cross(b - origin, c - origin));
-  }
+  for (const auto& [a, b, c] : triangles) six += dot(a - origin, cross(b - origin, c - origin));
   return six / 6;
 }
 

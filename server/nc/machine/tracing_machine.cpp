@@ -42,12 +42,8 @@ std::string text_of(const Feed& feed) {
 std::string text_of(const Frames& frames) {
   std::string text = "FRAMES " + text_of(frames.datum_shift().linear);
   const Vec3& basic = frames.preset().basic_rotation_deg;
-  if (basic != Vec3{}) {
-    text += " " + angles("SP", basic);
-  }
-  if (frames.is_tilted()) {
-    text += " PLANE " + angles("", frames.plane()->spatial_deg);
-  }
+  if (basic != Vec3{}) text += " " + angles("SP", basic);
+  if (frames.is_tilted()) text += " PLANE " + angles("", frames.plane()->spatial_deg);
   if (frames.is_mirrored()) {
     text += " MIRROR ";
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/result.hpp"
+
 namespace fitgauge::probing {
 namespace {
 
@@ -53,7 +55,7 @@ CycleResult<void> Arguments::complete() {
     if (std::holds_alternative<std::monostate>(value) && parameter.default_value) {
       value = *parameter.default_value;
     }
-    if (auto checked = check(parameter, value); !checked) return checked;
+    TRY(check(parameter, value));
   }
   return {};
 }

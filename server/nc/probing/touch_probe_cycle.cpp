@@ -8,10 +8,8 @@ namespace fitgauge::probing {
 
 CycleResult<void> run_cycle(const TouchProbeCycle& cycle, Arguments arguments,
                             machine::Machine& machine, CycleHost& host) {
-  if (auto completed = arguments.complete(); !completed) return completed;
-  if (cycle.check != nullptr) {
-    if (auto checked = cycle.check(arguments); !checked) return checked;
-  }
+  TRY(arguments.complete());
+  if (cycle.check != nullptr) TRY(cycle.check(arguments));
   auto done = cycle.execute({arguments, machine, host});
   assert(done || done.error().number == 0 ||
          errors_of(cycle.descriptor).contains(done.error().number));

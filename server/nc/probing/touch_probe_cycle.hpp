@@ -48,9 +48,8 @@ CycleResult<void> with(const CycleContext& context) {
 /// Runs a function after `begin` has made its object.
 template <auto begin, auto function, auto... arguments>
 CycleResult<void> after(const CycleContext& context) {
-  auto begun = begin(context);
-  if (!begun) return begun.error();
-  return function(context, *begun, arguments...);
+  auto begun = TRY(begin(context));
+  return function(context, begun, arguments...);
 }
 
 /// Completes and checks the arguments, then runs the cycle: motion, results, status, log, in that

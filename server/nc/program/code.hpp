@@ -24,12 +24,8 @@ constexpr std::uint32_t cell_of(klartext::QRef parameter) {
 
 /// The parameter of a cell. @pre cell < kFirstConstant
 constexpr klartext::QRef parameter_of(std::uint32_t cell) {
-  if (cell >= kFirstQl) {
-    return {klartext::QSpace::Ql, static_cast<std::uint16_t>(cell - kFirstQl)};
-  }
-  if (cell >= kFirstQr) {
-    return {klartext::QSpace::Qr, static_cast<std::uint16_t>(cell - kFirstQr)};
-  }
+  if (cell >= kFirstQl) return {klartext::QSpace::Ql, static_cast<std::uint16_t>(cell - kFirstQl)};
+  if (cell >= kFirstQr) return {klartext::QSpace::Qr, static_cast<std::uint16_t>(cell - kFirstQr)};
   return {klartext::QSpace::Q, static_cast<std::uint16_t>(cell)};
 }
 

@@ -127,9 +127,7 @@ bool is_dotted_cycle(int number) {
 }
 
 bool is_available(klartext::CycleFamily family, int number, bool dotted) {
-  if (const auto* cycle = probing_cycle(family, number)) {
-    return cycle->descriptor.dotted == dotted;
-  }
+  if (const auto* cycle = probing_cycle(family, number)) return cycle->descriptor.dotted == dotted;
   if (family == klartext::CycleFamily::TchProbe) return false;
   if (const auto* cycle = machining_cycle(number)) return cycle->descriptor.dotted == dotted;
   return dotted && is_dotted_cycle(number);

@@ -51,9 +51,8 @@ NcResult<ControlPath> Channel::resolve_printed(std::string_view written) const {
 }
 
 NcResult<ControlPath> Channel::resolve_program(std::string_view written) const {
-  auto path = resolve(written);
-  if (!path) return path;
-  return path->with_default_extension(program_extension(linked().path()));
+  auto path = TRY(resolve(written));
+  return path.with_default_extension(program_extension(linked().path()));
 }
 
 NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const ControlPath& path) {
@@ -68,7 +67,7 @@ NcResult<std::shared_ptr<const LinkedProgram>> Channel::load_program(const Contr
   const auto linked = allowance.uncounted([&] { return environment.programs.get(files, path); });
   if (linked == nullptr) return missing();
   allowance.share(linked->memory_bytes);
-  if (auto checked = budget.check(); !checked) return checked.error();
+  TRY(budget.check());
   const auto& program = linked->runnable(options.keeps_unreadable);
   if (program == nullptr) {
     const auto first =

@@ -39,9 +39,7 @@ void turn_into_plane(Element& line, const WorkingPlane& plane) {
 
 /// The direction of travel at the end of an element, if it moves.
 std::optional<Vec3> end_direction(const Element& element) {
-  if (element.curve.is_arc()) {
-    return element.plane.with({}, *element.curve.end_direction());
-  }
+  if (element.curve.is_arc()) return element.plane.with({}, *element.curve.end_direction());
   const Vec3 travel = end_of(element) - element.from;
   if (!element.moves_in_plane() && norm(travel) < tolerance::kSamePoint) return std::nullopt;
   return travel;
@@ -93,7 +91,7 @@ NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
     if (const auto& value = element.target[axis]) programmed[axis] = *value;
   }
   programmed.linear = element.plane.with(programmed.linear, element.curve.end);
-  if (auto done = cutter_.add(machine, element); !done) return done;
+  TRY(cutter_.add(machine, element));
   beside_ = Beside{programmed, machine.position()};
   return {};
 }
@@ -107,7 +105,7 @@ NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element)
   for (std::size_t axis = 0; axis < 3; ++axis) {
     element.target.values[axis] = programmed.linear[axis] + element.shift[axis];
   }
-  if (auto done = CutterPath::move(machine, element); !done) return done;
+  TRY(CutterPath::move(machine, element));
   beside_ = Beside{programmed, machine.position()};
   is_shifted_ = element.shift != Vec3{};
   return {};
@@ -116,7 +114,7 @@ NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element)
 NcResult<void> Contour::add(machine::Machine& machine, Element element, bool corner_follows) {
   if (element.system != machine::CoordinateSystem::Input) {
     if (drawing_) return nc_error("M91 and M92 are not allowed in the contour of an SL cycle");
-    if (auto done = finish(machine); !done) return done;
+    TRY(finish(machine));
     return CutterPath::move(machine, element);
   }
   if (element.side != 0 && !(element.plane == working_plane(machine))) {
@@ -124,9 +122,9 @@ NcResult<void> Contour::add(machine::Machine& machine, Element element, bool cor
         "RL and RR work only in the working plane: write R0 for a circle in another plane");
   }
   if (approach_) {
-    if (auto done = approach(machine, element); !done) return done;
+    TRY(approach(machine, element));
   } else if (kept_) {
-    if (auto done = turn_corner(machine, element); !done) return done;
+    TRY(turn_corner(machine, element));
   }
   if (const auto end = end_direction(element)) direction = end;
   if (corner_follows) {
@@ -171,13 +169,13 @@ NcResult<void> Contour::turn_corner(machine::Machine& machine, Element& next) {
   set_sweep(next.curve);
   next.from = next.plane.with(next.from, between->end);
   const machine::Feed feed = corner->feed.value_or(before.feed);
-  if (auto done = cut(machine, before); !done) return done;
+  TRY(cut(machine, before));
   return cut(machine, along(*between, before, feed));
 }
 
 NcResult<void> Contour::add(machine::Machine& machine, Approach approach) {
   if (drawing_) return no_approach();
-  if (auto done = finish(machine); !done) return done;
+  TRY(finish(machine));
   cutter_.leave();
   approach_ = approach;
   return {};
@@ -218,21 +216,20 @@ NcResult<void> Contour::approach(machine::Machine& machine, const Element& next)
   Element to_auxiliary = approach.to_start;
   to_auxiliary.feed = approach.before;
   set_plane_target(to_auxiliary, auxiliary);
-  if (auto done = CutterPath::move(machine, to_auxiliary); !done) return done;
+  TRY(CutterPath::move(machine, to_auxiliary));
   Curve to_first{auxiliary, first, std::nullopt, 0};
   if (is_arc) {
     to_first.centre = centre;
     to_first.sweep_deg = sweep(auxiliary, first, centre, turn > 0);
   }
-  auto done = CutterPath::move(machine, along(to_first, approach.to_start, approach.to_start.feed));
-  if (!done) return done;
+  TRY(CutterPath::move(machine, along(to_first, approach.to_start, approach.to_start.feed)));
   if (side != 0) cutter_.begin(first, side);
   return {};
 }
 
 NcResult<Vec2> Contour::depart(machine::Machine& machine, const WorkingPlane& plane) {
   if (drawing_) return no_approach();
-  if (auto done = finish(machine); !done) return done.error();
+  TRY(finish(machine));
   cutter_.leave();
   beside_.reset();
   return plane.project(machine.position().linear);
@@ -248,10 +245,10 @@ NcResult<void> Contour::finish(machine::Machine& machine) {
     if (std::exchange(corner_, std::nullopt)) {
       return nc_error(1022, "RND or CHF must be followed by a contour element");
     }
-    if (auto done = cut(machine, last); !done) return done;
+    TRY(cut(machine, last));
   }
   if (!cutter_.is_pending()) return {};
-  if (auto done = cutter_.finish(machine); !done) return done;
+  TRY(cutter_.finish(machine));
   if (beside_) beside_->tool = machine.position();
   return {};
 }

@@ -46,17 +46,12 @@ class ContourCycle {
   NcResult<void> run() {
     if (depths_.is_empty()) return nc_error(1042, "Q1 leaves no depth");
     for (const klartext::Label& label : channel_.active_cycle.contours) {
-      auto contour = read_contour(channel_, label);
-      if (!contour) return contour.error();
-      contours_.push_back(*std::move(contour));
+      auto contour = TRY(read_contour(channel_, label));
+      contours_.push_back(std::move(contour));
     }
     if (number_ == 21) return drill_starts();
-    if (number_ != 24) {
-      if (auto done = clear(); !done) return done;
-    }
-    for (const SlContour& contour : contours_) {
-      if (auto done = mill_along(contour); !done) return done;
-    }
+    if (number_ != 24) TRY(clear());
+    for (const SlContour& contour : contours_) TRY(mill_along(contour));
     return {};
   }
 
@@ -73,8 +68,8 @@ class ContourCycle {
   }
 
   NcResult<void> go_over(Vec2 point) {
-    if (auto done = motion_.to_height(depths_.safe, Feed::rapid()); !done) return done;
-    if (auto done = motion_.to_point(point, Feed::rapid()); !done) return done;
+    TRY(motion_.to_height(depths_.safe, Feed::rapid()));
+    TRY(motion_.to_point(point, Feed::rapid()));
     return motion_.to_height(depths_.clearance, Feed::rapid());
   }
 
@@ -87,16 +82,16 @@ class ContourCycle {
       const double next = is_last ? depths_.bottom : depth + depths_.down * depths_.infeed;
       if (next == depth) return nc_error(1011, "the plunging depth Q10 is too small");
       depth = next;
-      if (auto done = cut(depth); !done) return done;
+      TRY(cut(depth));
     }
     return {};
   }
 
   NcResult<void> mill_along(const SlContour& contour) {
     const SlPath path = path_along(contour, reach(), is_climb());
-    if (auto done = go_over(path.start); !done) return done;
+    TRY(go_over(path.start));
     auto done = at_each_depth([&](double depth) -> NcResult<void> {
-      if (auto plunged = motion_.to_height(depth, cycle_.feed(11)); !plunged) return plunged;
+      TRY(motion_.to_height(depth, cycle_.feed(11)));
       return follow(path);
     });
     if (!done) return done;
@@ -108,11 +103,11 @@ class ContourCycle {
     CutterPath cutter(allowance());
     cutter.begin(path.start, path.side);
     for (const Curve& curve : path.curves) {
-      if (auto allowed = channel_.budget.check(); !allowed) return allowed;
+      TRY(channel_.budget.check());
       Element element{motion_.plane(), curve, machine.position().linear, {}, cycle_.feed(12)};
       element.side = path.side;
       set_plane_target(element, curve.end);
-      if (auto done = cutter.add(machine, element); !done) return done;
+      TRY(cutter.add(machine, element));
     }
     return cutter.finish(machine);
   }
@@ -121,15 +116,14 @@ class ContourCycle {
   NcResult<void> clear() {
     const double spacing = data_.value(2) * motion_.tool_radius();
     if (spacing <= 0) return {};
-    const auto lanes = clearing_lanes(contours_, reach(), spacing, channel_.budget);
-    if (!lanes) return lanes.error();
+    const auto lanes = TRY(clearing_lanes(contours_, reach(), spacing, channel_.budget));
     return at_each_depth([&](double depth) -> NcResult<void> {
-      for (const Lane& lane : *lanes) {
-        if (auto done = go_over(lane.from); !done) return done;
-        if (auto done = motion_.to_height(depth, cycle_.feed(11)); !done) return done;
-        if (auto done = motion_.to_point(lane.to, cycle_.feed(12)); !done) return done;
+      for (const Lane& lane : lanes) {
+        TRY(go_over(lane.from));
+        TRY(motion_.to_height(depth, cycle_.feed(11)));
+        TRY(motion_.to_point(lane.to, cycle_.feed(12)));
       }
-      return lanes->empty() ? NcResult<void>() : motion_.to_height(depths_.safe, retraction());
+      return lanes.empty() ? NcResult<void>() : motion_.to_height(depths_.safe, retraction());
     });
   }
 
@@ -139,9 +133,9 @@ class ContourCycle {
     if (tool == nullptr) return nc_error(1003, "Q13 is not the number of a tool");
     for (const SlContour& contour : contours_) {
       const double reach = radius_in_plane(motion_.state(), tool->r + tool->dr) + data_.value(3);
-      if (auto done = go_over(path_along(contour, reach, is_climb()).start); !done) return done;
-      if (auto done = peck(); !done) return done;
-      if (auto done = motion_.to_height(depths_.safe, Feed::rapid()); !done) return done;
+      TRY(go_over(path_along(contour, reach, is_climb()).start));
+      TRY(peck());
+      TRY(motion_.to_height(depths_.safe, Feed::rapid()));
     }
     return {};
   }
@@ -149,9 +143,9 @@ class ContourCycle {
   NcResult<void> peck() {
     const double above = advanced_stop(depths_.bottom - depths_.surface);
     return at_each_depth([&](double depth) -> NcResult<void> {
-      if (auto done = motion_.to_height(depth, cycle_.feed(11)); !done) return done;
+      TRY(motion_.to_height(depth, cycle_.feed(11)));
       if (depth == depths_.bottom) return {};
-      if (auto done = motion_.to_height(depths_.clearance, Feed::rapid()); !done) return done;
+      TRY(motion_.to_height(depths_.clearance, Feed::rapid()));
       return motion_.to_height(depth - depths_.down * above, Feed::rapid());
     });
   }

@@ -55,7 +55,7 @@ class VectorPath {
   bool has_plane() const { return norm(axis_) > tolerance::kSameDirection; }
 
   NcResult<void> split(const VectorStop& begin, const VectorStop& end, int halvings) {
-    if (auto allowed = budget_.check(); !allowed) return allowed;
+    TRY(budget_.check());
     VectorStop middle{(begin.part + end.part) / 2, (begin.rotary + end.rotary) * 0.5};
     const Vec3 tool =
         machine::Matrix3::rotation(machine::unit(axis_), angle_deg_ * middle.part) * first_;
@@ -70,7 +70,7 @@ class VectorPath {
       return nc_error(1013, "PATHCTRL VECTOR: an axis does not reach a direction between the ends");
     }
     middle.rotary = *rotary;
-    if (auto done = split(begin, middle, halvings + 1); !done) return done;
+    TRY(split(begin, middle, halvings + 1));
     return split(middle, end, halvings + 1);
   }
 
@@ -128,14 +128,14 @@ NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
       aside_.push_back(beside);
       return {};
     }
-    if (auto done = finish(machine); !done) return done;
+    TRY(finish(machine));
     return move(machine, beside);
   }
   if (next.side != side_) {
     if (next.side != 0 && side_ != 0) {
       return nc_error(1021, "a block between RL and RR moves in the plane with R0: write RL or RR");
     }
-    if (auto done = finish(machine); !done) return done;
+    TRY(finish(machine));
     side_ = next.side;
     if (side_ != 0) return enter(machine, next);
     Element leaving = next;
@@ -167,9 +167,9 @@ NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) 
     // After a block of another kind the tool is square to the previous element.
     Element across{next.plane, {corner, begin, std::nullopt, 0}, next.from, {}, next.feed};
     set_plane_target(across, begin);
-    if (auto done = move(machine, across); !done) return done;
+    TRY(move(machine, across));
   } else if (is_entry_) {
-    if (auto done = move_to(machine, begin); !done) return done;
+    TRY(move_to(machine, begin));
   } else {
     const Vec2 arriving = *last_->curve.end_direction();
     const double turn = cross(arriving, *leaving);
@@ -181,17 +181,17 @@ NcResult<void> CutterPath::join(machine::Machine& machine, const Element& next) 
         return too_large(reach(machine), corner, "corner");
       }
       begin = *met;
-      if (auto done = move_to(machine, begin); !done) return done;
+      TRY(move_to(machine, begin));
     } else {
       const Vec2 end = corner + left_of(arriving) * distance;
-      if (auto done = move_to(machine, end); !done) return done;
+      TRY(move_to(machine, end));
       if (!is_straight && norm(begin - end) > tolerance::kSamePoint) {
         Element around{next.plane,
                        {end, begin, corner, sweep(end, begin, corner, distance < 0)},
                        next.from,
                        {},
                        next.feed};
-        if (auto done = move(machine, around); !done) return done;
+        TRY(move(machine, around));
       }
     }
   }
@@ -220,10 +220,8 @@ NcResult<void> CutterPath::move_to(machine::Machine& machine, Vec2 end) {
   }
   set_plane_target(element, end);
   if (element.curve.is_arc() && element.curve.sweep_deg == 0) element.curve.centre.reset();
-  if (auto done = move(machine, element); !done) return done;
-  for (const Element& beside : std::exchange(aside_, {})) {
-    if (auto done = move(machine, beside); !done) return done;
-  }
+  TRY(move(machine, element));
+  for (const Element& beside : std::exchange(aside_, {})) TRY(move(machine, beside));
   return {};
 }
 
@@ -238,7 +236,7 @@ NcResult<std::vector<VectorStop>> vector_stops(const machine::MachineState& stat
                                                const Vec3& to, RunBudget& budget) {
   VectorPath path(state, from, to, budget);
   if (!path.has_plane()) return std::vector<VectorStop>{{1, to}};
-  if (auto done = path.split({0, from}, {1, to}, 0); !done) return done.error();
+  TRY(path.split({0, from}, {1, to}, 0));
   return std::move(path.stops);
 }
 

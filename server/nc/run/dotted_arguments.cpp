@@ -23,9 +23,7 @@ class DottedReader {
 
   NcResult<void> read(const klartext::CyclePart& part) {
     values_ = 0;
-    for (const Word& word : channel_.program().view(part.words)) {
-      if (auto done = read(word, part.part); !done) return done;
-    }
+    for (const Word& word : channel_.program().view(part.words)) TRY(read(word, part.part));
     return {};
   }
 
@@ -38,10 +36,9 @@ class DottedReader {
   }
 
   NcResult<void> set(const probing::CycleParameter& parameter, const Word& word, double added = 0) {
-    const auto value = number(channel_, word.value);
-    if (!value) return value.error();
+    const auto value = TRY(number(channel_, word.value));
     const double scale = scale_of(parameter.unit, channel_.linked().is_inch());
-    arguments_.set(parameter.id, *value * scale + added);
+    arguments_.set(parameter.id, value * scale + added);
     return {};
   }
 
@@ -119,7 +116,7 @@ NcResult<probing::Arguments> dotted_arguments(Channel& channel,
   for (std::uint32_t i = first; i <= last; ++i) {
     const auto* part = std::get_if<klartext::CyclePart>(&channel.program().blocks()[i].statement);
     if (part == nullptr) continue;
-    if (auto done = reader.read(*part); !done) return done.error();
+    TRY(reader.read(*part));
   }
   return reader.take();
 }

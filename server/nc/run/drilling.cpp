@@ -40,19 +40,19 @@ class Drilling {
         begin_(heights_.surface + down_ * cycle.value(379)) {}
 
   NcResult<void> run() {
-    if (auto done = cycle_.start(); !done) return done;
+    TRY(cycle_.start());
     const machine::Modes before = motion_.state().modes;
-    if (auto done = set_spindle(before, false); !done) return done;
+    TRY(set_spindle(before, false));
     if (cycle_.value(379) != 0) {
       const double above = begin_ - down_ * cycle_.value(200);
-      if (auto done = motion_.to_height(above, cycle_.feed(253)); !done) return done;
+      TRY(motion_.to_height(above, cycle_.feed(253)));
     }
-    if (auto done = set_spindle(before, true); !done) return done;
-    if (auto done = cut(); !done) return done;
-    if (auto done = motion_.dwell(cycle_.value(211)); !done) return done;
-    if (auto done = set_spindle(before, false); !done) return done;
-    if (auto done = motion_.to_height(heights_.clearance, cycle_.retraction()); !done) return done;
-    if (auto done = motion_.set_modes(before); !done) return done;
+    TRY(set_spindle(before, true));
+    TRY(cut());
+    TRY(motion_.dwell(cycle_.value(211)));
+    TRY(set_spindle(before, false));
+    TRY(motion_.to_height(heights_.clearance, cycle_.retraction()));
+    TRY(motion_.set_modes(before));
     return cycle_.leave();
   }
 
@@ -96,20 +96,20 @@ class Drilling {
       const double left = std::abs(heights_.bottom - reached);
       const double next = size <= 0 || left <= size ? heights_.bottom : reached + down_ * size;
       if (next == reached) return nc_error(1011, "the plunging depth Q202 is too small");
-      if (auto done = plunge(reached, next); !done) return done;
+      TRY(plunge(reached, next));
       reached = next;
       if (reached == heights_.bottom) break;
       if (is_single_lip()) {
-        if (auto done = motion_.dwell(cycle_.value(211)); !done) return done;
+        TRY(motion_.dwell(cycle_.value(211)));
         continue;
       }
       if (number_ == 203 && breaks_left > 0) {
         breaks_left -= 1;
-        if (auto done = break_chip(reached); !done) return done;
+        TRY(break_chip(reached));
         continue;
       }
       breaks_left = cycle_.value(213);
-      if (auto done = clear_chips(reached); !done) return done;
+      TRY(clear_chips(reached));
     }
     return {};
   }
@@ -120,8 +120,8 @@ class Drilling {
       const double next = at + down_ * chip;
       if (next == at) return nc_error(1011, "the depth for chip breaking Q257 is too small");
       at = next;
-      if (auto done = motion_.to_height(at, cycle_.feed(206)); !done) return done;
-      if (auto done = break_chip(at); !done) return done;
+      TRY(motion_.to_height(at, cycle_.feed(206)));
+      TRY(break_chip(at));
     }
     if (!is_single_lip() || cycle_.value(435) == 0) return motion_.to_height(to, cycle_.feed(206));
     // Beyond the dwell depth at Q401 percent of the feed.
@@ -141,12 +141,9 @@ class Drilling {
 
   /// Out to the clearance, and back to the stop above the reached depth.
   NcResult<void> clear_chips(double reached) {
-    if (auto done = motion_.to_height(heights_.clearance,
-                                      number_ == 203 ? cycle_.retraction() : Feed::rapid());
-        !done) {
-      return done;
-    }
-    if (auto done = motion_.dwell(cycle_.value(210)); !done) return done;
+    TRY(motion_.to_height(heights_.clearance,
+                          number_ == 203 ? cycle_.retraction() : Feed::rapid()));
+    TRY(motion_.dwell(cycle_.value(210)));
     const double above = reached - down_ * stop_above(reached);
     const bool is_below = (above - heights_.clearance) * down_ > 0;
     return is_below ? motion_.to_height(above, Feed::rapid()) : NcResult<void>();
@@ -187,24 +184,22 @@ NcResult<void> drill(Machining& cycle) { return Drilling(cycle).run(); }
 NcResult<void> tap(Machining& cycle) {
   const Heights& heights = cycle.heights;
   ToolMotion& motion = cycle.motion;
-  if (auto done = cycle.start(); !done) return done;
+  TRY(cycle.start());
   const double down = heights.bottom < heights.surface ? -1 : 1;
   const double chip = cycle.value(257);
   for (double at = heights.surface; chip > 0 && std::abs(heights.bottom - at) > chip;) {
     const double next = at + down * chip;
     if (next == at) return nc_error(1011, "the depth for chip breaking Q257 is too small");
     at = next;
-    if (auto done = motion.to_height(at, thread_feed(cycle)); !done) return done;
+    TRY(motion.to_height(at, thread_feed(cycle)));
     // Q256 = 0: out of the hole.
     const double back = cycle.value(256) > 0 ? at - down * cycle.value(256) : heights.clearance;
-    if (auto done = motion.to_height(back, thread_feed(cycle)); !done) return done;
+    TRY(motion.to_height(back, thread_feed(cycle)));
   }
-  if (auto done = motion.to_height(heights.bottom, thread_feed(cycle)); !done) return done;
-  if (auto done = motion.dwell(cycle.value(211)); !done) return done;
+  TRY(motion.to_height(heights.bottom, thread_feed(cycle)));
+  TRY(motion.dwell(cycle.value(211)));
   const double faster = cycle.definition.gives(403) ? cycle.value(403) : 1;
-  if (auto done = motion.to_height(heights.clearance, thread_feed(cycle, faster)); !done) {
-    return done;
-  }
+  TRY(motion.to_height(heights.clearance, thread_feed(cycle, faster)));
   return cycle.leave();
 }
 
@@ -212,16 +207,14 @@ NcResult<void> bore(Machining& cycle) {
   constexpr double kWithdrawal = 0.2;  // mm, the control's own
   const Heights& heights = cycle.heights;
   ToolMotion& motion = cycle.motion;
-  if (auto done = cycle.start(); !done) return done;
-  if (auto done = motion.to_height(heights.bottom, cycle.feed(206)); !done) return done;
-  if (auto done = motion.dwell(cycle.value(211)); !done) return done;
+  TRY(cycle.start());
+  TRY(motion.to_height(heights.bottom, cycle.feed(206)));
+  TRY(motion.dwell(cycle.value(211)));
   const Vec2 centre = motion.point();
   const Vec2 away = withdrawal(cycle, kWithdrawal);
   const bool withdraws = norm(away) > 0;
-  if (withdraws) {
-    if (auto done = motion.to_point(centre + away, cycle.feed(206)); !done) return done;
-  }
-  if (auto done = motion.to_height(heights.clearance, cycle.retraction()); !done) return done;
+  if (withdraws) TRY(motion.to_point(centre + away, cycle.feed(206)));
+  TRY(motion.to_height(heights.clearance, cycle.retraction()));
   if (auto done = cycle.leave(); !done || !withdraws) return done;
   return motion.to_point(centre, Feed::rapid());
 }
@@ -236,18 +229,16 @@ NcResult<void> bore_back(Machining& cycle) {
   const Vec2 beside = centre + withdrawal(cycle, cycle.value(251));
   // The cutting edge enters the hole off its centre and returns on the other side.
   const auto through = [&](double height) -> NcResult<void> {
-    if (auto done = motion.to_point(beside, Feed::rapid()); !done) return done;
-    if (auto done = motion.to_height(height, cycle.feed(253)); !done) return done;
+    TRY(motion.to_point(beside, Feed::rapid()));
+    TRY(motion.to_height(height, cycle.feed(253)));
     return motion.to_point(centre, Feed::rapid());
   };
-  if (auto done = motion.to_height(heights.clearance, Feed::rapid()); !done) return done;
-  if (auto done = through(below); !done) return done;
-  if (auto done = motion.to_height(lower_edge + cycle.value(249), cycle.feed(254)); !done) {
-    return done;
-  }
-  if (auto done = motion.dwell(cycle.value(255)); !done) return done;
-  if (auto done = motion.to_height(below, cycle.feed(253)); !done) return done;
-  if (auto done = through(heights.clearance); !done) return done;
+  TRY(motion.to_height(heights.clearance, Feed::rapid()));
+  TRY(through(below));
+  TRY(motion.to_height(lower_edge + cycle.value(249), cycle.feed(254)));
+  TRY(motion.dwell(cycle.value(255)));
+  TRY(motion.to_height(below, cycle.feed(253)));
+  TRY(through(heights.clearance));
   return cycle.leave();
 }
 

@@ -45,7 +45,7 @@ NcResult<void> note_short_travel(Channel& channel, const probing::Arguments& arg
 NcResult<void> run_probing(Channel& channel, const probing::TouchProbeCycle& cycle,
                            probing::Arguments arguments) {
   if (auto completed = arguments.complete(); !completed) return from_cycle(completed.error());
-  if (auto noted = note_short_travel(channel, arguments); !noted) return noted;
+  TRY(note_short_travel(channel, arguments));
   channel.active_cycle.last_probing = cycle.descriptor.number;
   const MovedByCycle moved(channel, cycle.descriptor.number);
   ChannelCycleHost host(channel);
@@ -60,28 +60,25 @@ NcResult<probing::Arguments> arguments_of(Channel& channel, const klartext::Cycl
   probing::Arguments arguments(*bound.descriptor());
   const auto parameters = channel.program().view(cycle.parameters);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    auto value = cycle_argument(channel, parameters[i], *bound.parameters[i]);
-    if (!value) return value.error();
-    arguments.set(bound.parameters[i]->id, *std::move(value));
+    auto value = TRY(cycle_argument(channel, parameters[i], *bound.parameters[i]));
+    arguments.set(bound.parameters[i]->id, std::move(value));
   }
   return arguments;
 }
 
 NcResult<void> run_probing(Channel& channel, const klartext::Cycle& cycle,
                            const BoundCycle& bound) {
-  auto arguments = arguments_of(channel, cycle, bound);
-  if (!arguments) return arguments.error();
-  return run_probing(channel, *bound.probing, *std::move(arguments));
+  auto arguments = TRY(arguments_of(channel, cycle, bound));
+  return run_probing(channel, *bound.probing, std::move(arguments));
 }
 
 /// GLOBAL DEF: its values apply until the next one of its number, or the end of the run.
 NcResult<void> define_globally(Channel& channel, const klartext::Cycle& cycle,
                                const BoundCycle& bound) {
-  auto arguments = arguments_of(channel, cycle, bound);
-  if (!arguments) return arguments.error();
-  if (auto completed = arguments->complete(); !completed) return from_cycle(completed.error());
+  auto arguments = TRY(arguments_of(channel, cycle, bound));
+  if (auto completed = arguments.complete(); !completed) return from_cycle(completed.error());
   for (const probing::CycleParameter& parameter : bound.global->parameters) {
-    channel.predefined[static_cast<int>(parameter.id)] = arguments->number(parameter.id);
+    channel.predefined[static_cast<int>(parameter.id)] = arguments.number(parameter.id);
   }
   return {};
 }
@@ -109,9 +106,7 @@ NcResult<Next> run_builders(Channel& channel, klartext::CycleFamily family, int 
     return nc_error(fmt::format("cycle GLOBAL DEF {} is not available", number));
   }
   const BuilderAction* action = channel.options.builder.cycle(number);
-  if (action == nullptr) {
-    return unknown_cycle(family == klartext::CycleFamily::TchProbe, number);
-  }
+  if (action == nullptr) return unknown_cycle(family == klartext::CycleFamily::TchProbe, number);
   if (action->program) return call_program(channel, *action->program);
   channel.active_cycle.definition = IgnoredCycle{};
   return Next{};
@@ -121,9 +116,8 @@ NcResult<Next> run_builders(Channel& channel, klartext::CycleFamily family, int 
 NcResult<void> set_parameters(Channel& channel, const klartext::Cycle& cycle) {
   for (const auto& written : channel.program().view(cycle.parameters)) {
     if (written.kind != CycleValue::Expression || written.parameter.is_string()) continue;
-    const auto value = number(channel, written.value);
-    if (!value) return value.error();
-    if (auto set = channel.parameters.set(written.parameter, *value); !set) return set;
+    const auto value = TRY(number(channel, written.value));
+    TRY(channel.parameters.set(written.parameter, value));
   }
   return {};
 }
@@ -140,9 +134,7 @@ NcResult<Next> execute(Channel& channel, const klartext::Cycle& cycle, const Bou
   } else if (bound.global != nullptr) {
     done = define_globally(channel, cycle, bound);
   } else {
-    if (channel.options.builder.cycle(cycle.number) != nullptr) {
-      if (auto set = set_parameters(channel, cycle); !set) return set.error();
-    }
+    if (channel.options.builder.cycle(cycle.number) != nullptr) TRY(set_parameters(channel, cycle));
     return run_builders(channel, cycle.family, cycle.number);
   }
   if (!done) return done.error();
@@ -160,9 +152,7 @@ NcResult<Next> execute_parts(Channel& channel, std::uint32_t first, std::uint32_
     auto arguments = dotted_arguments(channel, *probing, first, last);
     done = arguments ? run_probing(channel, *probing, *std::move(arguments)) : arguments.error();
   } else if (opening.number == 14) {
-    auto labels = contour_labels(channel, first, last);
-    if (!labels) return labels.error();
-    channel.active_cycle.contours = *std::move(labels);
+    channel.active_cycle.contours = TRY(contour_labels(channel, first, last));
   } else if (const auto* machining = machining_cycle(opening.number)) {
     auto definition = machining_arguments(channel, *machining, first, last);
     done = definition ? define(channel, *std::move(definition)) : definition.error();
@@ -186,7 +176,7 @@ namespace {
 /// cycle like a datum. Old cycles, which begin at the present height, and programs also move along
 /// the tool axis.
 NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
-  if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
+  TRY(channel.contour.finish(channel.machine()));
   machine::AxisWords target;
   for (const machine::Axis axis : machine::kAllAxes) {
     const auto& word = words.axes[machine::index(axis)];
@@ -203,10 +193,8 @@ NcResult<Next> call_at_position(Channel& channel, const MotionWords& words) {
     height.reset();
     ToolMotion motion(channel.machine(), channel.budget);
     const double clearance = machining->value(203) + machining->value(200);
-    if (motion.height() < machining->value(203)) {
-      auto risen = motion.to_height(clearance, machine::Feed::rapid());
-      if (!risen) return risen.error();
-    }
+    if (motion.height() < machining->value(203))
+      TRY(motion.to_height(clearance, machine::Feed::rapid()));
   }
   const auto feed = words.feed.value_or(machine::Feed::rapid());
   auto moved = checked(channel.machine().move({target, feed}));
@@ -225,27 +213,26 @@ NcResult<Next> call_active_cycle(Channel& channel) {
   if (std::holds_alternative<IgnoredCycle>(definition)) return Next{};
   const auto* machining = std::get_if<MachiningDefinition>(&definition);
   if (machining == nullptr) return nc_error(1027);
-  if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
+  TRY(channel.contour.finish(channel.machine()));
   const MovedByCycle moved(channel, channel.active_cycle.number);
-  if (auto done = machine_here(channel, *machining); !done) return done.error();
+  TRY(machine_here(channel, *machining));
   return Next{};
 }
 
 NcResult<Next> execute(Channel& channel, const klartext::CycleCall& call) {
-  const auto words = read_words(channel, call.words);
-  if (!words) return words.error();
-  if (auto done = start_m_functions(channel, words->m); !done) return done.error();
+  const auto words = TRY(read_words(channel, call.words));
+  TRY(start_m_functions(channel, words.m));
   if (call.kind == klartext::CycleCallKind::Pattern) {
     {
       const MovedByCycle moved(channel, channel.active_cycle.number);
-      if (auto done = run_points(channel); !done) return done.error();
+      TRY(run_points(channel));
     }
-    return end_m_functions(channel, *words);
+    return end_m_functions(channel, words);
   }
   const bool is_at_position = call.kind == klartext::CycleCallKind::Position;
-  auto next = is_at_position ? call_at_position(channel, *words) : call_active_cycle(channel);
+  auto next = is_at_position ? call_at_position(channel, words) : call_active_cycle(channel);
   if (!next || next->kind != Next::Kind::Block) return next;
-  return end_m_functions(channel, *words);
+  return end_m_functions(channel, words);
 }
 
 }  // namespace fitgauge::interpreter

@@ -18,17 +18,13 @@ NcResult<std::uint32_t> find_label(Channel& channel, const Label& label) {
   std::string shown;
   std::optional<std::uint32_t> found;
   if (parameter.is_string()) {
-    const auto named = text(channel, parameter);
-    if (!named) return named.error();
-    shown = fmt::format("\"{}\"", *named);
-    found = channel.linked().label(std::string_view(*named));
+    const auto named = TRY(text(channel, parameter));
+    shown = fmt::format("\"{}\"", named);
+    found = channel.linked().label(std::string_view(named));
   } else {
-    const auto numbered = whole(channel, parameter);
-    if (!numbered) return numbered.error();
-    shown = std::to_string(*numbered);
-    if (*numbered > 0) {
-      found = channel.linked().label(static_cast<std::uint32_t>(*numbered));
-    }
+    const auto numbered = TRY(whole(channel, parameter));
+    shown = std::to_string(numbered);
+    if (numbered > 0) found = channel.linked().label(static_cast<std::uint32_t>(numbered));
   }
   if (found) return *found;
   return nc_error(
@@ -38,53 +34,43 @@ NcResult<std::uint32_t> find_label(Channel& channel, const Label& label) {
 }  // namespace
 
 NcResult<Next> execute(Channel& channel, const klartext::ConditionalJump& jump) {
-  const auto holds = condition(channel, std::get<klartext::NodeIndex>(jump.condition));
-  if (!holds) return holds.error();
-  if (!*holds) return Next{};
-  const auto target = find_label(channel, jump.target);
-  if (!target) return target.error();
-  return Next{Next::Kind::Jump, *target};
+  const auto holds = TRY(condition(channel, std::get<klartext::NodeIndex>(jump.condition)));
+  if (!holds) return Next{};
+  const auto target = TRY(find_label(channel, jump.target));
+  return Next{Next::Kind::Jump, target};
 }
 
 NcResult<Next> execute(Channel& channel, const klartext::LabelCall& call, std::uint32_t counter) {
-  const auto target = find_label(channel, call.label);
-  if (!target) return target.error();
-  if (is_absent(call.repeat)) return Next{Next::Kind::CallLabel, *target};
+  const auto target = TRY(find_label(channel, call.label));
+  if (is_absent(call.repeat)) return Next{Next::Kind::CallLabel, target};
   double& left = channel.parameters.cells()[counter];
   if (!is_defined(left)) {
-    const auto count = number(channel, call.repeat);
-    if (!count) return count.error();
-    left = std::round(*count);
+    const auto count = TRY(number(channel, call.repeat));
+    left = std::round(count);
   }
   if (left < 1) {
     left = kUndefined;
     return Next{};
   }
   left -= 1;
-  return Next{Next::Kind::Jump, *target};
+  return Next{Next::Kind::Jump, target};
 }
 
 NcResult<Next> call_program(Channel& channel, const ControlPath& path) {
-  auto program = channel.load_program(path);
-  if (!program) return program.error();
-  return Next{Next::Kind::CallProgram, 0, *std::move(program)};
+  auto program = TRY(channel.load_program(path));
+  return Next{Next::Kind::CallProgram, 0, std::move(program)};
 }
 
 NcResult<Next> execute(Channel& channel, const klartext::CallProgram& call) {
-  const auto written = text(channel, call.path);
-  if (!written) return written.error();
-  const auto path = channel.resolve_program(*written);
-  if (!path) return path.error();
-  return call_program(channel, *path);
+  const auto written = TRY(text(channel, call.path));
+  const auto path = TRY(channel.resolve_program(written));
+  return call_program(channel, path);
 }
 
 /// Whether the program exists shows when it is called.
 NcResult<void> execute(Channel& channel, const klartext::SelectProgram& select) {
-  const auto written = text(channel, select.path);
-  if (!written) return written.error();
-  auto path = channel.resolve_program(*written);
-  if (!path) return path.error();
-  channel.selected_program = *std::move(path);
+  const auto written = TRY(text(channel, select.path));
+  channel.selected_program = TRY(channel.resolve_program(written));
   return {};
 }
 

@@ -28,9 +28,7 @@ NcResult<PlaneWords> read_plane_words(Channel& channel, klartext::Slice<klartext
       words[word.letter] = 1;
       continue;
     }
-    const auto value = number(channel, word.value);
-    if (!value) return value.error();
-    words[word.letter] = *value;
+    words[word.letter] = TRY(number(channel, word.value));
   }
   return words;
 }
@@ -90,9 +88,7 @@ NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Plan
       return Matrix3::spatial(get(words, Letter::Spa, Letter::Spb, Letter::Spc));
     case PlaneKind::Relativ:
       for (const Letter axis : {Letter::Spa, Letter::Spb, Letter::Spc}) {
-        if (words.contains(axis)) {
-          return current_rotation(channel) * around(axis, get(words, axis));
-        }
+        if (words.contains(axis)) return current_rotation(channel) * around(axis, get(words, axis));
       }
       return nc_error(1018, "PLANE RELATIV needs SPA, SPB or SPC");
     case PlaneKind::Euler:
@@ -107,9 +103,8 @@ NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Plan
       const auto [minor_sine, minor_cosine] = machine::sine_cosine(get(words, Letter::ProMin));
       const Vec3 along_x{main_cosine, 0, main_sine};
       const Vec3 along_y{0, minor_cosine, minor_sine};
-      auto plane = plane_of(cross(along_x, along_y), along_x);
-      if (!plane) return plane;
-      return *plane * around(Letter::Spc, get(words, Letter::Rot));
+      auto plane = TRY(plane_of(cross(along_x, along_y), along_x));
+      return plane * around(Letter::Spc, get(words, Letter::Rot));
     }
     case PlaneKind::Points: {
       const Vec3 first = get(words, Letter::P1x, Letter::P1y, Letter::P1z);
@@ -130,9 +125,7 @@ NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane,
                    .turns_table = words.contains(Letter::TableRot)};
   for (const klartext::Word& word : channel.program().view(plane.words)) {
     if (!klartext::kFeeds.contains(word.letter)) continue;
-    const auto feed = read_feed(channel, word);
-    if (!feed) return feed.error();
-    moves.feed = *feed;
+    moves.feed = TRY(read_feed(channel, word));
   }
   if (words.contains(Letter::MbMax) || words.contains(Letter::Mb)) {
     moves.retraction = MCall{.number = 140,
@@ -158,11 +151,9 @@ std::array<bool, 3> named_linear_axes(const Channel& channel,
 NcResult<void> execute_datum_table(Channel& channel, const klartext::Trans& trans,
                                    const PlaneWords& words) {
   if (!is_absent(trans.table)) {
-    const auto written = text(channel, trans.table);
-    if (!written) return written.error();
-    const auto path = channel.resolve(*written);
-    if (!path) return path.error();
-    if (auto done = channel.tables.select_datum_table(*path); !done) return done;
+    const auto written = TRY(text(channel, trans.table));
+    const auto path = TRY(channel.resolve(written));
+    TRY(channel.tables.select_datum_table(path));
   }
   return shift_datum_to_row(channel, static_cast<std::int64_t>(get(words, Letter::Row)));
 }
@@ -182,34 +173,30 @@ NcResult<void> execute(Channel& channel, const klartext::Trans& trans) {
     return mirror(channel,
                   trans.reset ? std::array<bool, 3>{} : named_linear_axes(channel, trans.words));
   }
-  const auto words = read_plane_words(channel, trans.words);
-  if (!words) return words.error();
+  const auto words = TRY(read_plane_words(channel, trans.words));
   switch (trans.kind) {
-    case Transformation::DatumTable: return execute_datum_table(channel, trans, *words);
+    case Transformation::DatumTable: return execute_datum_table(channel, trans, words);
     case Transformation::Rotation: {
       bool incremental = false;
       for (const klartext::Word& word : channel.program().view(trans.words)) {
         incremental = incremental || word.incremental;
       }
       return rotate(channel,
-                    trans.reset ? Coordinate{} : Coordinate{get(*words, Letter::Rot), incremental});
+                    trans.reset ? Coordinate{} : Coordinate{get(words, Letter::Rot), incremental});
     }
     default: {
-      const double factor = trans.reset ? 1 : get(*words, Letter::Scl);
+      const double factor = trans.reset ? 1 : get(words, Letter::Scl);
       return scale(channel, {{factor, factor, factor}, {}});
     }
   }
 }
 
 NcResult<void> execute(Channel& channel, const klartext::Plane& plane) {
-  const auto words = read_plane_words(channel, plane.words);
-  if (!words) return words.error();
-  const auto moves = moves_of(channel, plane, *words);
-  if (!moves) return moves.error();
-  if (plane.kind == PlaneKind::Reset) return reset_tilt(channel, *moves);
-  const auto rotation = rotation_of(channel, plane.kind, *words);
-  if (!rotation) return rotation.error();
-  return tilt(channel, *rotation, *moves);
+  const auto words = TRY(read_plane_words(channel, plane.words));
+  const auto moves = TRY(moves_of(channel, plane, words));
+  if (plane.kind == PlaneKind::Reset) return reset_tilt(channel, moves);
+  const auto rotation = TRY(rotation_of(channel, plane.kind, words));
+  return tilt(channel, rotation, moves);
 }
 
 /// MILL, in which a run always is; the parser refuses the others.
@@ -224,14 +211,10 @@ NcResult<void> execute(Channel& channel, const klartext::FunctionTcpm& tcpm) {
     return nc_error(
         "REFPNT is the tip here, and R2 of the tool is not 0: program the tip with REFPNT TIP-TIP");
   }
-  if (says("F CONT")) {
-    if (auto noted = channel.note("F CONT: F counts at the tip, as with F TCP"); !noted)
-      return noted;
-  }
+  if (says("F CONT")) TRY(channel.note("F CONT: F counts at the tip, as with F TCP"));
   if (says("FMAX") || options.find_first_of("0123456789") != options.npos) {
-    auto noted = channel.note(
-        "FUNCTION TCPM F: the compensating moves of the linear axes take no feed of their own");
-    if (!noted) return noted;
+    TRY(channel.note(
+        "FUNCTION TCPM F: the compensating moves of the linear axes take no feed of their own"));
   }
   channel.spatial_angles.reset();
   if (says("AXIS SPAT")) channel.spatial_angles.emplace();

@@ -23,19 +23,16 @@ NcResult<int> tool_number(Channel& channel, const Expr& tool) {
   const auto* parameter = std::get_if<QRef>(&tool);
   if (std::holds_alternative<klartext::Text>(tool) ||
       (parameter != nullptr && parameter->is_string())) {
-    const auto name = text(channel, tool);
-    if (!name) return name.error();
-    const machine::Tool* found = channel.machine().state().tools.find(*name);
-    if (found == nullptr) return nc_error(1092, fmt::format("tool \"{}\"", *name));
+    const auto name = TRY(text(channel, tool));
+    const machine::Tool* found = channel.machine().state().tools.find(name);
+    if (found == nullptr) return nc_error(1092, fmt::format("tool \"{}\"", name));
     return found->number;
   }
-  const auto value = number(channel, tool);
-  if (!value) return value.error();
-  if (*value != std::floor(*value)) {
-    return nc_error(1092, fmt::format("tool {}: the tool table has no indexed rows here", *value));
-  }
-  if (*value < 0 || *value > 32767) return nc_error(1093, fmt::format("tool {}", *value));
-  return static_cast<int>(*value);
+  const auto value = TRY(number(channel, tool));
+  if (value != std::floor(value))
+    return nc_error(1092, fmt::format("tool {}: the tool table has no indexed rows here", value));
+  if (value < 0 || value > 32767) return nc_error(1093, fmt::format("tool {}", value));
+  return static_cast<int>(value);
 }
 
 /// Applies the values that FN 27 wrote to tool.t since the last TOOL CALL.
@@ -48,7 +45,7 @@ NcResult<void> read_written_tools(Channel& channel) {
       return nc_error(1093, fmt::format("tool {}: tool.t holds {} in a column of whole numbers",
                                         number, value));
     }
-    if (auto done = checked(channel.machine().write_tool(tool)); !done) return done;
+    TRY(checked(channel.machine().write_tool(tool)));
   }
   return {};
 }
@@ -76,13 +73,11 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
   if (call.axis && *call.axis > klartext::Axis::Z) {
     return nc_error(1079, "the tool axis is X, Y or Z");
   }
-  if (auto done = read_written_tools(channel); !done) return done;
+  TRY(read_written_tools(channel));
   machine::ToolCall command;
   command.axis = tool_axis(call.axis);
   if (!is_absent(call.tool)) {
-    const auto number = tool_number(channel, call.tool);
-    if (!number) return number.error();
-    command.number = *number;
+    command.number = TRY(tool_number(channel, call.tool));
     channel.prepared_tool = 0;
   } else {
     const machine::ActiveTool& active = channel.machine().state().tool;
@@ -93,22 +88,20 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
   const double unit = channel.length_unit();
   for (const klartext::Word& word : channel.program().view(call.words)) {
     if (is_absent(word.value)) continue;
-    const auto value = number(channel, word.value);
-    if (!value) return value.error();
+    const auto value = TRY(number(channel, word.value));
     switch (word.letter) {
-      case Letter::S: command.spindle_rpm = *value; break;
-      case Letter::Dl: command.dl = *value * unit; break;
-      case Letter::Dr: command.dr = *value * unit; break;
-      case Letter::Dr2: command.dr2 = *value * unit; break;
+      case Letter::S: command.spindle_rpm = value; break;
+      case Letter::Dl: command.dl = value * unit; break;
+      case Letter::Dr: command.dr = value * unit; break;
+      case Letter::Dr2: command.dr2 = value * unit; break;
       default: break;
     }
   }
-  if (auto done = checked(channel.machine().call_tool(command)); !done) return done;
-  const auto words = read_words(channel, call.words);
-  if (!words) return words.error();
-  if (words->feed && !words->feed->is_rapid) {
-    channel.contour.tool_feed = words->feed->rate;
-    if (const auto used = use_feed(channel, words->feed); !used) return used.error();
+  TRY(checked(channel.machine().call_tool(command)));
+  const auto words = TRY(read_words(channel, call.words));
+  if (words.feed && !words.feed->is_rapid) {
+    channel.contour.tool_feed = words.feed->rate;
+    TRY(use_feed(channel, words.feed));
   }
   update_preassigned(channel);
   return {};
@@ -117,53 +110,48 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
 /// The old form with L and R defines the tool; otherwise it is only prepared, which takes no time.
 NcResult<void> execute(Channel& channel, const klartext::ToolDefinition& definition) {
   if (is_absent(definition.tool)) return {};
-  const auto number = tool_number(channel, definition.tool);
-  if (!number) return number.error();
+  const auto number = TRY(tool_number(channel, definition.tool));
   if (channel.program().view(definition.words).empty()) {
-    channel.prepared_tool = *number;
+    channel.prepared_tool = number;
     return {};
   }
-  const machine::Tool* found = channel.machine().state().tools.find(*number);
+  const machine::Tool* found = channel.machine().state().tools.find(number);
   machine::Tool tool = found != nullptr ? *found : machine::Tool{};
-  tool.number = *number;
+  tool.number = number;
   for (const klartext::Word& word : channel.program().view(definition.words)) {
-    const auto value = interpreter::number(channel, word.value);
-    if (!value) return value.error();
-    (word.letter == Letter::L ? tool.l : tool.r) = *value * channel.length_unit();
+    const auto value = TRY(interpreter::number(channel, word.value));
+    (word.letter == Letter::L ? tool.l : tool.r) = value * channel.length_unit();
   }
   return checked(channel.machine().write_tool(tool));
 }
 
 NcResult<Next> execute(Channel& channel, const Motion& motion) {
-  auto words = read_words(channel, motion.words);
-  if (!words) return words.error();
+  auto words = TRY(read_words(channel, motion.words));
   channel.contour.compensate(motion.compensation);
   if (channel.contour.drawing() != nullptr) {
-    if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
+    TRY(Positioning(channel, motion, words).run());
     return Next{};
   }
-  if (auto done = start_m_functions(channel, words->m); !done) return done.error();
-  if (auto done = orient_tool(channel, motion, *words); !done) return done.error();
-  if (auto done = Positioning(channel, motion, *words).run(); !done) return done.error();
-  if (auto noted = note_entry(channel); !noted) return noted.error();
-  return end_m_functions(channel, *words);
+  TRY(start_m_functions(channel, words.m));
+  TRY(orient_tool(channel, motion, words));
+  TRY(Positioning(channel, motion, words).run());
+  TRY(note_entry(channel));
+  return end_m_functions(channel, words);
 }
 
 NcResult<Next> execute(Channel& channel, const klartext::MFunctions& functions) {
-  const auto words = read_words(channel, functions.words);
-  if (!words) return words.error();
+  const auto words = TRY(read_words(channel, functions.words));
   if (channel.contour.drawing() != nullptr) return Next{};
-  if (auto done = start_m_functions(channel, words->m); !done) return done.error();
-  return end_m_functions(channel, *words);
+  TRY(start_m_functions(channel, words.m));
+  return end_m_functions(channel, words);
 }
 
 NcResult<Next> execute(Channel& channel, const klartext::Stop& stop) {
-  const auto words = read_words(channel, stop.words);
-  if (!words) return words.error();
-  if (auto done = start_m_functions(channel, words->m); !done) return done.error();
-  auto next = end_m_functions(channel, *words);
+  const auto words = TRY(read_words(channel, stop.words));
+  TRY(start_m_functions(channel, words.m));
+  auto next = end_m_functions(channel, words);
   if (!next || next->kind != Next::Kind::Block) return next;
-  if (auto done = channel.programmed_stop("programmed stop"); !done) return done.error();
+  TRY(channel.programmed_stop("programmed stop"));
   return next;
 }
 

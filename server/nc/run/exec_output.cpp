@@ -26,11 +26,10 @@ NcResult<std::string> printed(Channel& channel, const klartext::Expr& item) {
       (parameter != nullptr && parameter->is_string())) {
     return text(channel, item);
   }
-  const auto value = number(channel, item);
-  if (!value) return value.error();
+  const auto value = TRY(number(channel, item));
   // Four decimals without trailing zeros, as controls print them.
   constexpr int kDecimals = 4;
-  std::string text = to_char(*value, kDecimals);
+  std::string text = to_char(value, kDecimals);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   if (channel.options.decimal_comma) std::replace(text.begin(), text.end(), '.', ',');
@@ -67,7 +66,7 @@ NcResult<PrintedMask> run_mask(Channel& channel, const klartext::MaskFile& mask)
   bool is_spoken = true;
   std::size_t bytes = 0;
   for (const klartext::MaskLine& line : mask.lines) {
-    if (auto checked = channel.budget.check(); !checked) return checked.error();
+    TRY(channel.budget.check());
     if (const auto* control = std::get_if<MaskControl>(&line.content)) {
       apply(*control, printed, empty);
     } else if (const auto* language = std::get_if<MaskLanguage>(&line.content)) {
@@ -97,50 +96,37 @@ bool is_device(std::string_view target) {
 }  // namespace
 
 NcResult<void> execute(Channel& channel, const klartext::ErrorStop& stop) {
-  const auto code = whole(channel, stop.number);
-  if (!code) return code.error();
-  if (*code >= 1000 && *code < 1200 && !probing::error_text(*code).empty()) {
-    return nc_error(*code);
-  }
-  return NcError{NcErrorKind::Error, *code, fmt::format("FN 14: Error code {}", *code)};
+  const auto code = TRY(whole(channel, stop.number));
+  if (code >= 1000 && code < 1200 && !probing::error_text(code).empty()) return nc_error(code);
+  return NcError{NcErrorKind::Error, code, fmt::format("FN 14: Error code {}", code)};
 }
 
 NcResult<void> execute(Channel& channel, const klartext::Print& print) {
   std::string line;
   for (const klartext::Expr& item : channel.program().view(print.items)) {
-    const auto part = printed(channel, item);
-    if (!part) return part.error();
+    const auto part = TRY(printed(channel, item));
     if (!line.empty()) line += "  ";
-    line += *part;
+    line += part;
   }
   line += '\n';
   return channel.files.append(channel.linked().path().beside(kPrintFile), line);
 }
 
 NcResult<void> execute(Channel& channel, const klartext::FormattedPrint& print) {
-  const auto name = text(channel, print.mask);
-  if (!name) return name.error();
-  const auto target = text(channel, print.target);
-  if (!target) return target.error();
-  const auto path = channel.resolve(*name);
-  if (!path) return path.error();
-  if (ascii_iequals(trim(*target), "SCLR:")) return {};  // closes the window; its lines stay
-  const auto mask = channel.printer.mask(*path);
-  if (!mask) return mask.error();
-  const auto printed = run_mask(channel, **mask);
-  if (!printed) return printed.error();
-  if (ascii_iequals(trim(*target), "SCREEN:")) {
-    for (const std::string& line : printed->lines) {
-      if (auto done = channel.log.print(line); !done) return done;
-    }
+  const auto name = TRY(text(channel, print.mask));
+  const auto target = TRY(text(channel, print.target));
+  const auto path = TRY(channel.resolve(name));
+  if (ascii_iequals(trim(target), "SCLR:")) return {};  // closes the window; its lines stay
+  const auto mask = TRY(channel.printer.mask(path));
+  const auto printed = TRY(run_mask(channel, *mask));
+  if (ascii_iequals(trim(target), "SCREEN:")) {
+    for (const std::string& line : printed.lines) TRY(channel.log.print(line));
     return {};
   }
-  if (is_device(*target)) {
-    return channel.note(fmt::format("FN 16: nothing is connected to {}", *target));
-  }
-  const auto file = channel.resolve_printed(*target);
-  if (!file) return file.error();
-  return channel.printer.print(*printed, *file);
+  if (is_device(target))
+    return channel.note(fmt::format("FN 16: nothing is connected to {}", target));
+  const auto file = TRY(channel.resolve_printed(target));
+  return channel.printer.print(printed, file);
 }
 
 NcResult<void> execute(Channel& channel, const klartext::ExternalFunction& function) {

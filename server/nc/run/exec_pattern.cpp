@@ -52,8 +52,7 @@ NcResult<std::vector<PatternPart>> read_elements(Channel& channel, klartext::Sli
       ++i;  // its number
       continue;
     }
-    const auto value = number(channel, words[i].value);
-    if (!value) return value.error();
+    const auto value = TRY(number(channel, words[i].value));
     const double unit = is_length(words[i].letter) ? channel.length_unit() : 1;
     double from = 0;
     if (words[i].incremental) {
@@ -61,7 +60,7 @@ NcResult<std::vector<PatternPart>> read_elements(Channel& channel, klartext::Sli
         return nc_error("PATTERN DEF: the first element has none before it; write it without I");
       from = elements[elements.size() - 2].get(words[i].letter);
     }
-    elements.back().values[words[i].letter] = from + *value * unit;
+    elements.back().values[words[i].letter] = from + value * unit;
   }
   return elements;
 }
@@ -115,10 +114,9 @@ std::vector<Vec2> points_of(const PatternPart& element) {
 }  // namespace
 
 NcResult<void> execute(Channel& channel, const klartext::PatternDefinition& pattern) {
-  const auto elements = read_elements(channel, pattern.words);
-  if (!elements) return elements.error();
+  const auto elements = TRY(read_elements(channel, pattern.words));
   std::vector<machine::Vec3> all;
-  for (const PatternPart& element : *elements) {
+  for (const PatternPart& element : elements) {
     const Vec2 start{element.get(Letter::X), element.get(Letter::Y)};
     for (const Vec2 point : points_of(element)) {
       if (all.size() == kMostPatternPoints) {
@@ -132,13 +130,12 @@ NcResult<void> execute(Channel& channel, const klartext::PatternDefinition& patt
 }
 
 NcResult<void> execute(Channel& channel, const klartext::Dwell& dwell) {
-  const auto value = number(channel, dwell.value);
-  if (!value) return value.error();
-  double seconds = *value;
+  const auto value = TRY(number(channel, dwell.value));
+  double seconds = value;
   if (dwell.revolutions) {
     const double rpm = channel.machine().state().modes.spindle_rpm;
     if (rpm <= 0) return nc_error(1020, "FUNCTION DWELL REV needs a speed of the spindle");
-    seconds = *value * 60 / rpm;
+    seconds = value * 60 / rpm;
   }
   return checked(channel.machine().dwell(seconds));
 }

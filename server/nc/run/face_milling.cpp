@@ -51,9 +51,8 @@ NcResult<void> mill_face(Machining& cycle) {
   const Lanes lanes = lanes_of(cycle, radius);
   const bool line_by_line = cycle.value(389) == 2;
   const auto to_next = cycle.feed(cycle.value(389) == 1 ? 207 : 253);
-  if (motion.height() < heights.second) {
-    if (auto done = motion.to_height(heights.second, machine::Feed::rapid()); !done) return done;
-  }
+  if (motion.height() < heights.second)
+    TRY(motion.to_height(heights.second, machine::Feed::rapid()));
   auto done = motion.to_point(lanes.first, machine::Feed::rapid());
   const double rough = std::min(heights.surface, heights.bottom + cycle.value(369));
   const double least = cycle.value(202) > 0 ? cycle.value(202) : heights.surface - rough;

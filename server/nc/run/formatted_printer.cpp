@@ -129,13 +129,11 @@ NcResult<std::optional<Value>> value_of(Channel& channel, const MaskPlaceholder&
     return std::optional<Value>(std::string());
   }
   if (parameter.is_string()) {
-    auto string = text(channel, parameter);
-    if (!string) return string.error();
-    return std::optional<Value>(*std::move(string));
+    auto string = TRY(text(channel, parameter));
+    return std::optional<Value>(std::move(string));
   }
-  const auto value = number(channel, parameter);
-  if (!value) return value.error();
-  return std::optional<Value>(*value);
+  const auto value = TRY(number(channel, parameter));
+  return std::optional<Value>(value);
 }
 
 }  // namespace
@@ -161,13 +159,13 @@ NcResult<std::shared_ptr<const klartext::MaskFile>> FormattedPrinter::mask(
 }
 
 NcResult<void> FormattedPrinter::print(const PrintedMask& printed, const ControlPath& path) {
-  if (auto reserved = files_.reserve(path); !reserved) return reserved;
+  TRY(files_.reserve(path));
   Output& output = outputs_.try_emplace(path.key(), Output{path, {}, false, {}}).first->second;
   if (printed.truncate) output = {path, {}, false, {}};
   output.append = output.append || printed.append;
   if (printed.most_bytes) output.most_bytes = printed.most_bytes;
   std::string text = joined(printed.lines);
-  if (auto charged = budget_.charge(text.size()); !charged) return charged;
+  TRY(budget_.charge(text.size()));
   output.text += text;
   if (!printed.close) return {};
   const Output closed = std::move(output);
@@ -189,9 +187,7 @@ NcResult<void> FormattedPrinter::write(const Output& output) {
 
 NcResult<void> FormattedPrinter::close() {
   auto outputs = std::exchange(outputs_, {});
-  for (const auto& [key, output] : outputs) {
-    if (auto done = write(output); !done) return done;
-  }
+  for (const auto& [key, output] : outputs) TRY(write(output));
   return {};
 }
 
@@ -205,12 +201,10 @@ NcResult<std::optional<std::string>> format_line(Channel& channel,
       continue;
     }
     const auto& placeholder = std::get<MaskPlaceholder>(piece);
-    const auto value = value_of(channel, placeholder, empty);
-    if (!value) return value.error();
-    if (!*value) return std::optional<std::string>();
-    const auto text = formatted(**value, placeholder);
-    if (!text) return text.error();
-    line += *text;
+    const auto value = TRY(value_of(channel, placeholder, empty));
+    if (!value) return std::optional<std::string>();
+    const auto text = TRY(formatted(*value, placeholder));
+    line += text;
   }
   return std::optional(std::move(line));
 }

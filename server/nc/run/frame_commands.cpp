@@ -100,13 +100,11 @@ Vec3 tool_at(const machine::MachineState& state, const Vec3& rotary) {
 /// MOVE keeps the tip in place on the workpiece, TURN does not move the linear axes.
 NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& moves) {
   machine::Machine& machine = channel.machine();
-  if (moves.retraction) {
-    if (auto done = retract(channel, *moves.retraction); !done) return done;
-  }
+  if (moves.retraction) TRY(retract(channel, *moves.retraction));
   const machine::Modes before = machine.state().modes;
   machine::Modes during = before;
   during.tcpm = moves.positioning == PlanePositioning::Move;
-  if (auto set = checked(machine.set_modes(during)); !set) return set;
+  TRY(checked(machine.set_modes(during)));
   const Vec3 shown =
       machine.state().frames.rotary_from_machine(rotary, machine::CoordinateSystem::Input);
   machine::AxisWords target;
@@ -120,13 +118,13 @@ NcResult<void> turn(Channel& channel, const Vec3& rotary, const PlaneMoves& move
     for (std::size_t axis = 0; axis < 3; ++axis) target.values[axis] = tip[axis];
   }
   auto moved = checked(machine.move({target, moves.feed}));
-  if (auto set = checked(machine.set_modes(before)); !set) return set;
+  TRY(checked(machine.set_modes(before)));
   return moved;
 }
 
 NcResult<void> apply(Channel& channel, const Frames& frames, const std::optional<Vec3>& rotary,
                      const PlaneMoves& moves) {
-  if (auto set = checked(channel.machine().set_frames(frames)); !set) return set;
+  TRY(checked(channel.machine().set_frames(frames)));
   if (!rotary) return {};
   set_plane_angles(channel, *rotary);
   const bool turns =
@@ -155,11 +153,10 @@ NcResult<void> shift_datum(Channel& channel, const AxisCoordinates& axes) {
 }
 
 NcResult<void> shift_datum_to_row(Channel& channel, std::int64_t row) {
-  const auto values = channel.tables.datum(row);
-  if (!values) return values.error();
+  const auto values = TRY(channel.tables.datum(row));
   AxisCoordinates axes;
   for (const Axis axis : machine::kAllAxes) {
-    if ((*values)[axis]) axes[machine::index(axis)] = Coordinate{*(*values)[axis], false};
+    if (values[axis]) axes[machine::index(axis)] = Coordinate{*values[axis], false};
   }
   return shift_datum(channel, axes);
 }
@@ -195,9 +192,8 @@ NcResult<void> tilt(Channel& channel, const machine::Matrix3& rotation, const Pl
   frames.set_plane(machine::TiltedPlane{machine::spatial_angles(rotation), shift.linear});
   shift.linear = {};
   frames.set_datum_shift(shift);
-  const auto rotary = rotary_positions(channel, frames, moves);
-  if (!rotary) return rotary.error();
-  return apply(channel, frames, *rotary, moves);
+  const auto rotary = TRY(rotary_positions(channel, frames, moves));
+  return apply(channel, frames, rotary, moves);
 }
 
 NcResult<void> reset_tilt(Channel& channel, const PlaneMoves& moves) {

@@ -11,10 +11,8 @@ namespace {
 NcResult<void> preset(QParameters& parameters, const std::vector<ParameterValue>& values) {
   for (const auto& [parameter, value] : values) {
     const auto* number = std::get_if<double>(&value);
-    auto set = number != nullptr
-                   ? parameters.set(parameter, *number)
-                   : parameters.set_string(parameter.number, std::get<std::string>(value));
-    if (!set) return set;
+    TRY(number != nullptr ? parameters.set(parameter, *number)
+                          : parameters.set_string(parameter.number, std::get<std::string>(value)));
   }
   return {};
 }

@@ -18,7 +18,7 @@ using machine::SpindleState;
 /// Sets the modes of the machine that the block changes.
 NcResult<void> set_modes(Channel& channel, const machine::Modes& modes) {
   if (modes == channel.machine().state().modes) return {};
-  if (auto set = checked(channel.machine().set_modes(modes)); !set) return set;
+  TRY(checked(channel.machine().set_modes(modes)));
   update_preassigned(channel);
   return {};
 }
@@ -76,7 +76,7 @@ NcResult<void> start_m_functions(Channel& channel, const std::vector<MCall>& cal
       case 144: modes.kinematics_in_display = true; break;
       case 145: modes.kinematics_in_display = false; break;
       case 143:
-        if (auto done = channel.contour.finish(channel.machine()); !done) return done;
+        TRY(channel.contour.finish(channel.machine()));
         if (auto done = probing::reset_basic_rotation(channel.machine()); !done)
           return from_cycle(done.error());
         break;
@@ -94,9 +94,7 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
   const bool stands = std::any_of(words.m.begin(), words.m.end(), [](const MCall& call) {
     return call.number <= 2 || call.number == 30 || call.number == 140;
   });
-  if (stands) {
-    if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
-  }
+  if (stands) TRY(channel.contour.finish(channel.machine()));
   for (const MCall& call : words.m) {
     switch (call.number) {
       case 0:
@@ -114,9 +112,7 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
         calls_cycle = true;
         channel.active_cycle.after_every_block = false;
         break;
-      case 140:
-        if (auto done = retract(channel, call); !done) return done.error();
-        break;
+      case 140: TRY(retract(channel, call)); break;
       default: break;
     }
   }
@@ -124,10 +120,10 @@ NcResult<Next> end_m_functions(Channel& channel, const MotionWords& words) {
     auto next = call_active_cycle(channel);
     if (!next || next->kind != Next::Kind::Block) return next;
   }
-  if (auto set = set_modes(channel, modes); !set) return set.error();
+  TRY(set_modes(channel, modes));
   if (stops) {
     const char* reason = words.has_m(0) ? "programmed stop M0" : "optional stop M1";
-    if (auto done = channel.programmed_stop(reason); !done) return done.error();
+    TRY(channel.programmed_stop(reason));
   }
   for (const MCall& call : words.m) {
     if (call.program == nullptr) continue;

@@ -55,7 +55,7 @@ ToolMotion::ToolMotion(machine::Machine& machine, RunBudget& budget)
       plane_(WorkingPlane::across(machine.state().tool_axis())) {}
 
 NcResult<void> ToolMotion::to_height(double height, const machine::Feed& feed) {
-  if (auto allowed = budget_.check(); !allowed) return allowed;
+  TRY(budget_.check());
   if (std::abs(height - this->height()) < tolerance::kSamePoint) return {};
   machine::AxisWords target;
   target[plane_.normal] = height;
@@ -63,7 +63,7 @@ NcResult<void> ToolMotion::to_height(double height, const machine::Feed& feed) {
 }
 
 NcResult<void> ToolMotion::to_point(Vec2 point, const machine::Feed& feed) {
-  if (auto allowed = budget_.check(); !allowed) return allowed;
+  TRY(budget_.check());
   if (norm(point - this->point()) < tolerance::kSamePoint) return {};
   machine::AxisWords target;
   target.values[plane_.first] = point.x;
@@ -73,7 +73,7 @@ NcResult<void> ToolMotion::to_point(Vec2 point, const machine::Feed& feed) {
 
 NcResult<void> ToolMotion::arc(Vec2 centre, Vec2 end, double sweep_deg, double height,
                                const machine::Feed& feed) {
-  if (auto allowed = budget_.check(); !allowed) return allowed;
+  TRY(budget_.check());
   machine::Vec3 target = plane_.with(machine_.position().linear, end);
   target[machine::index(plane_.normal)] = height;
   return checked(
@@ -81,7 +81,7 @@ NcResult<void> ToolMotion::arc(Vec2 centre, Vec2 end, double sweep_deg, double h
 }
 
 NcResult<void> ToolMotion::dwell(double seconds) {
-  if (auto allowed = budget_.check(); !allowed) return allowed;
+  TRY(budget_.check());
   return seconds > 0 ? checked(machine_.dwell(seconds)) : NcResult<void>();
 }
 

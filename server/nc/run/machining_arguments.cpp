@@ -115,15 +115,13 @@ NcResult<probing::ArgumentValue> cycle_argument(Channel& channel,
   }
   if (auto value = literal(channel.program(), written, parameter)) return *std::move(value);
   if (written.kind == CycleValue::Expression && is_text(written.value)) {
-    auto value = text(channel, written.value);
-    if (!value) return value.error();
-    return probing::ArgumentValue(*std::move(value));
+    auto value = TRY(text(channel, written.value));
+    return probing::ArgumentValue(std::move(value));
   }
-  const auto value = number_value(channel, written);
-  if (!value) return value.error();
+  const auto value = TRY(number_value(channel, written));
   const bool is_converted = written.kind != CycleValue::Expression;
   const double scale = is_converted ? 1 : scale_of(parameter.unit, channel.linked().is_inch());
-  return probing::ArgumentValue(*value * scale);
+  return probing::ArgumentValue(value * scale);
 }
 
 NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klartext::Cycle& cycle,
@@ -134,12 +132,10 @@ NcResult<MachiningDefinition> machining_arguments(Channel& channel, const klarte
   const auto parameters = channel.program().view(cycle.parameters);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const probing::CycleParameter& parameter = *bound.parameters[i];
-    auto value = cycle_argument(channel, parameters[i], parameter);
-    if (!value) return value.error();
-    if (!std::holds_alternative<std::monostate>(*value)) {
+    auto value = TRY(cycle_argument(channel, parameters[i], parameter));
+    if (!std::holds_alternative<std::monostate>(value))
       definition.given.insert(static_cast<int>(parameter.id));
-    }
-    arguments.set(parameter.id, *std::move(value));
+    arguments.set(parameter.id, std::move(value));
   }
   if (auto completed = arguments.complete(); !completed) return from_cycle(completed.error());
   for (const probing::CycleParameter& parameter : descriptor.parameters) {
@@ -162,9 +158,8 @@ NcResult<MachiningDefinition> machining_arguments(Channel& channel, const Machin
         if (part.part == 0) return {};
         const OldWord* row = find_old(number_of_cycle, part.part, word.letter);
         if (row == nullptr || is_absent(word.value)) return {};
-        const auto value = number(channel, word.value);
-        if (!value) return value.error();
-        double result = *value * row->scale * unit_of(channel, row->parameter);
+        const auto value = TRY(number(channel, word.value));
+        double result = value * row->scale * unit_of(channel, row->parameter);
         // Depth, pitch and rotation have a direction, the others are sizes.
         const bool has_direction =
             row->parameter == 201 || row->parameter == 239 || row->parameter == 351;
@@ -187,9 +182,8 @@ NcResult<std::vector<klartext::Label>> contour_labels(Channel& channel, std::uin
       channel, first, last,
       [&](const klartext::CyclePart& part, const Word& word) -> NcResult<void> {
         if (part.part == 0 || word.letter != Letter::Value) return {};
-        const auto label = whole(channel, word.value);
-        if (!label) return label.error();
-        labels.emplace_back(static_cast<std::uint32_t>(std::max<std::int64_t>(0, *label)));
+        const auto label = TRY(whole(channel, word.value));
+        labels.emplace_back(static_cast<std::uint32_t>(std::max<std::int64_t>(0, label)));
         return {};
       });
   if (!read) return read.error();

@@ -35,17 +35,17 @@ NcResult<void> at_each_depth(Machining& cycle, Vec2 where, const Mill& mill) {
   ToolMotion& motion = cycle.motion;
   const double bottom = bottom_of(cycle);
   const double infeed = cycle.value(202) > 0 ? cycle.value(202) : std::abs(cycle.value(201));
-  if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
-  if (auto done = cycle.start(); !done) return done;
+  TRY(check_depth(cycle));
+  TRY(cycle.start());
   for (double depth = cycle.heights.surface; depth > bottom;) {
     const double next = depth - bottom <= infeed ? bottom : depth - infeed;
     if (next == depth) return nc_error(1011, "the plunging depth Q202 is too small");
     depth = next;
-    if (auto done = motion.to_point(where, cycle.feed(207)); !done) return done;
-    if (auto done = motion.to_height(depth, cycle.feed(206)); !done) return done;
-    if (auto done = mill(depth); !done) return done;
+    TRY(motion.to_point(where, cycle.feed(207)));
+    TRY(motion.to_height(depth, cycle.feed(206)));
+    TRY(mill(depth));
   }
-  if (auto done = motion.to_height(cycle.heights.clearance, Feed::rapid()); !done) return done;
+  TRY(motion.to_height(cycle.heights.clearance, Feed::rapid()));
   return cycle.leave();
 }
 
@@ -62,7 +62,7 @@ NcResult<void> go_around(Machining& cycle, const Outline& outline, double a, dou
                          double corner, double height, double turn) {
   ToolMotion& motion = cycle.motion;
   const Feed feed = cycle.feed(207);
-  if (auto done = motion.to_point(outline.at({a, 0}), feed); !done) return done;
+  TRY(motion.to_point(outline.at({a, 0}), feed));
   // The corners in the order of a counter-clockwise turn; clockwise is its image in the main axis.
   constexpr std::array<Vec2, 4> kCorners{Vec2{1, 1}, Vec2{-1, 1}, Vec2{-1, -1}, Vec2{1, -1}};
   for (std::size_t i = 0; i < kCorners.size(); ++i) {
@@ -73,11 +73,9 @@ NcResult<void> go_around(Machining& cycle, const Outline& outline, double a, dou
     const Vec2 first = arrives_along_y ? Vec2{point.x, centre.y} : Vec2{centre.x, point.y};
     const Vec2 last = arrives_along_y ? Vec2{centre.x, point.y} : Vec2{point.x, centre.y};
     const auto placed = [&](Vec2 p) { return outline.at({p.x, p.y * turn}); };
-    if (auto done = motion.to_point(placed(first), feed); !done) return done;
+    TRY(motion.to_point(placed(first), feed));
     if (corner <= tolerance::kSamePoint) continue;
-    if (auto done = motion.arc(placed(centre), placed(last), turn * 90, height, feed); !done) {
-      return done;
-    }
+    TRY(motion.arc(placed(centre), placed(last), turn * 90, height, feed));
   }
   return motion.to_point(outline.at({a, 0}), feed);
 }
@@ -94,9 +92,8 @@ NcResult<void> mill_inside(Machining& cycle, const Outline& outline, double a, d
 NcResult<void> full_circle(Machining& cycle, Vec2 centre, double radius, double height) {
   ToolMotion& motion = cycle.motion;
   const Vec2 start = centre + Vec2{radius, 0};
-  if (auto done = motion.to_point(start, cycle.feed(207)); !done) return done;
-  auto done = motion.arc(centre, start, turn_inside(cycle) * 360, height, cycle.feed(207));
-  if (!done) return done;
+  TRY(motion.to_point(start, cycle.feed(207)));
+  TRY(motion.arc(centre, start, turn_inside(cycle) * 360, height, cycle.feed(207)));
   return motion.to_point(centre, cycle.feed(207));
 }
 
@@ -141,12 +138,12 @@ NcResult<void> mill_outside(Machining& cycle, double excess, const Point& point,
   constexpr double kBeside = 2;  // mm beside the blank; the control's value
   const double step = cycle.value(370) * cycle.motion.tool_radius();
   if (step <= 0) return does_not_fit(1002, cycle.motion.tool_radius());
-  if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
+  TRY(check_depth(cycle));
   const double turn = turn_inside(cycle);
   const double rounds = std::max(1.0, std::ceil(excess / step - tolerance::kSamePoint));
   const Feed feed = cycle.feed(207);
   const Vec2 start = point(1, kBeside);
-  if (auto done = cycle.motion.to_point(start, Feed::rapid()); !done) return done;
+  TRY(cycle.motion.to_point(start, Feed::rapid()));
   return at_each_depth(cycle, start, [&](double depth) -> NcResult<void> {
     auto done = onto_circle(cycle, start, point((rounds - 1) / rounds, 0), turn, depth, feed);
     for (double left = rounds - 1; done && left >= 0; --left) {
@@ -169,13 +166,12 @@ NcResult<void> thread_path(Machining& cycle, Vec2 centre, double radius, double 
   const Vec2 end = centre + turned(start - centre, sweep);
   if (outside) {
     const Vec2 beside = centre + Vec2{radius + cycle.value(200), 0};
-    if (auto done = motion.to_point(beside, cycle.feed(253)); !done) return done;
+    TRY(motion.to_point(beside, cycle.feed(253)));
   }
-  if (auto done = motion.to_height(from, cycle.feed(253)); !done) return done;
-  auto entered = outside ? motion.to_point(start, cycle.feed(207))
-                         : onto_circle(cycle, centre, start, sweep, from, cycle.feed(207));
-  if (!entered) return entered;
-  if (auto done = motion.arc(centre, end, sweep, to, cycle.feed(207)); !done) return done;
+  TRY(motion.to_height(from, cycle.feed(253)));
+  TRY(outside ? motion.to_point(start, cycle.feed(207))
+              : onto_circle(cycle, centre, start, sweep, from, cycle.feed(207)));
+  TRY(motion.arc(centre, end, sweep, to, cycle.feed(207)));
   if (!outside) return off_circle(cycle, centre, sweep, to, cycle.feed(207));
   const Vec2 beside = centre + (end - centre) * ((radius + cycle.value(200)) / radius);
   return motion.to_point(beside, cycle.feed(207));
@@ -198,10 +194,8 @@ NcResult<void> countersink(Machining& cycle) {
     if (cycle.value(parameter) == 0 || (parameter == 356 && is_core)) continue;
     const double height = cycle.heights.surface + cycle.value(parameter);
     const int feed = cycle.value(254) > 0 ? 254 : 207;
-    if (auto done = cycle.motion.to_height(height, cycle.feed(feed)); !done) return done;
-    if (auto done = cycle.motion.to_height(cycle.heights.clearance, Feed::rapid()); !done) {
-      return done;
-    }
+    TRY(cycle.motion.to_height(height, cycle.feed(feed)));
+    TRY(cycle.motion.to_height(cycle.heights.clearance, Feed::rapid()));
   }
   return {};
 }
@@ -214,11 +208,11 @@ NcResult<void> mill_bore(Machining& cycle) {
   const double radius = cycle.value(335) / 2 - motion.tool_radius();
   if (radius < 0) return does_not_fit(1003, motion.tool_radius());
   if (cycle.value(334) <= 0) return nc_error(1011, "Q334 is 0");
-  if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
-  if (auto done = cycle.start(); !done) return done;
+  TRY(check_depth(cycle));
+  TRY(cycle.start());
   const Feed feed = cycle.feed(206);
   if (radius < tolerance::kSamePoint) {  // a hole with the diameter of the tool is drilled
-    if (auto done = motion.to_height(heights.bottom, feed); !done) return done;
+    TRY(motion.to_height(heights.bottom, feed));
   } else {
     const Vec2 centre = motion.point();
     const Vec2 start = centre + Vec2{radius, 0};
@@ -231,7 +225,7 @@ NcResult<void> mill_bore(Machining& cycle) {
     if (done) done = off_circle(cycle, centre, sweep, heights.bottom, feed);
     if (!done) return done;
   }
-  if (auto done = motion.to_height(heights.clearance, Feed::rapid()); !done) return done;
+  TRY(motion.to_height(heights.clearance, Feed::rapid()));
   return cycle.leave();
 }
 
@@ -328,12 +322,10 @@ NcResult<void> mill_thread(Machining& cycle) {
   const double radius =
       number == 267 ? nominal + motion.tool_radius() : nominal - motion.tool_radius();
   if (radius <= 0) return does_not_fit(1003, motion.tool_radius());
-  if (auto goes_down = check_depth(cycle); !goes_down) return goes_down;
-  if (number == 264) {
-    if (auto done = drill_core(cycle); !done) return done;
-  }
-  if (auto done = cycle.start(); !done) return done;
-  if (auto done = countersink(cycle); !done) return done;
+  TRY(check_depth(cycle));
+  if (number == 264) TRY(drill_core(cycle));
+  TRY(cycle.start());
+  TRY(countersink(cycle));
   const Vec2 centre = motion.point();
   // Climb milling turns counter-clockwise inside and clockwise outside: a right-hand thread goes up
   // in a hole and down on a bolt. 265 drills the thread on its way down.
@@ -348,16 +340,11 @@ NcResult<void> mill_thread(Machining& cycle) {
   for (double bottom = heights.bottom; bottom < heights.surface - tolerance::kSamePoint;
        bottom += step) {
     const double top = bottom + stretch;
-    if (auto done = thread_path(cycle, centre, radius, up ? bottom : top, up ? top : bottom);
-        !done) {
-      return done;
-    }
+    TRY(thread_path(cycle, centre, radius, up ? bottom : top, up ? top : bottom));
     if (bottom + step == bottom) break;
   }
-  if (auto done = motion.to_height(heights.clearance, Feed::rapid()); !done) return done;
-  if (number == 267) {
-    if (auto done = motion.to_point(centre, Feed::rapid()); !done) return done;
-  }
+  TRY(motion.to_height(heights.clearance, Feed::rapid()));
+  if (number == 267) TRY(motion.to_point(centre, Feed::rapid()));
   return cycle.leave();
 }
 
@@ -403,11 +390,9 @@ NcResult<void> mill_circular_stud(Machining& cycle) {
 }
 
 NcResult<void> engrave(Machining& cycle) {
-  if (auto done = cycle.start(); !done) return done;
-  if (auto done = cycle.motion.to_height(cycle.heights.bottom, cycle.feed(206)); !done) return done;
-  if (auto done = cycle.motion.to_height(cycle.heights.clearance, Feed::rapid()); !done) {
-    return done;
-  }
+  TRY(cycle.start());
+  TRY(cycle.motion.to_height(cycle.heights.bottom, cycle.feed(206)));
+  TRY(cycle.motion.to_height(cycle.heights.clearance, Feed::rapid()));
   return cycle.leave();
 }
 

@@ -33,20 +33,19 @@ NcResult<machine::Feed> read_feed(Channel& channel, const Word& word) {
   }
   if (word.letter == Letter::FMax) return machine::Feed::rapid();
   if (word.letter == Letter::FAuto) return machine::Feed::at(channel.contour.tool_feed);
-  const auto value = number(channel, word.value);
-  if (!value) return value.error();
+  const auto value = TRY(number(channel, word.value));
   const double unit = channel.length_unit();
   if (word.letter == Letter::Fu) {
-    return machine::Feed::at(feed_of_revolutions(channel, *value * unit));
+    return machine::Feed::at(feed_of_revolutions(channel, value * unit));
   }
   if (word.letter == Letter::Fz) {
-    return machine::Feed::at(feed_of_revolutions(channel, *value * unit * teeth(channel)));
+    return machine::Feed::at(feed_of_revolutions(channel, value * unit * teeth(channel)));
   }
   if (channel.contour.feed_per_revolution) {
-    return machine::Feed::at(feed_of_revolutions(channel, *value * unit));
+    return machine::Feed::at(feed_of_revolutions(channel, value * unit));
   }
   // In INCH programs F counts tenths of an inch a minute.
-  return machine::Feed::at(channel.linked().is_inch() ? *value * unit / 10 : *value);
+  return machine::Feed::at(channel.linked().is_inch() ? value * unit / 10 : value);
 }
 
 namespace {
@@ -54,30 +53,24 @@ namespace {
 NcResult<void> read_coordinate(Channel& channel, const Word& word, double unit,
                                std::optional<Coordinate>& target) {
   if (is_absent(word.value)) return {};
-  const auto value = coordinate(channel, word.value);
-  if (!value) return value.error();
-  if (*value) target = Coordinate{**value * unit, word.incremental};
+  const auto value = TRY(coordinate(channel, word.value));
+  if (value) target = Coordinate{*value * unit, word.incremental};
   return {};
 }
 
 NcResult<void> read_number(Channel& channel, const Word& word, double unit,
                            std::optional<double>& target) {
-  const auto value = number(channel, word.value);
-  if (!value) return value.error();
-  target = *value * unit;
+  const auto value = TRY(number(channel, word.value));
+  target = value * unit;
   return {};
 }
 
 NcResult<void> read_m(Channel& channel, const Word& word, std::vector<MCall>& calls) {
-  const auto value = whole(channel, word.value);
-  if (!value) return value.error();
-  const int called = *value;
+  const auto value = TRY(whole(channel, word.value));
+  const int called = value;
   if (const MFunction* known = m_function(called)) {
     if (known->role == MRole::Refuses) return unknown_m_function(called);
-    if (known->role == MRole::Notes) {
-      if (auto noted = channel.note(fmt::format("M{}: {}", called, known->text)); !noted)
-        return noted;
-    }
+    if (known->role == MRole::Notes) TRY(channel.note(fmt::format("M{}: {}", called, known->text)));
     calls.push_back({.number = called});
     return {};
   }
@@ -102,9 +95,7 @@ NcResult<void> read_argument(Channel& channel, const Word& word, std::vector<MCa
   if (word.letter == Letter::Mb) {
     return read_number(channel, word, channel.length_unit(), retraction.length);
   }
-  const auto feed = read_feed(channel, word);
-  if (!feed) return feed.error();
-  retraction.feed = *feed;
+  retraction.feed = TRY(read_feed(channel, word));
   return {};
 }
 
@@ -112,10 +103,9 @@ NcResult<void> read_word(Channel& channel, const Word& word, MotionWords& out) {
   const double unit = channel.length_unit();
   if (word.argument) return read_argument(channel, word, out.m);
   if (is_axis(word.letter)) {
-    const auto axis = machine_axis(word.letter);
-    if (!axis) return axis.error();
-    return read_coordinate(channel, word, machine::is_rotary(*axis) ? 1 : unit,
-                           out.axes[machine::index(*axis)]);
+    const auto axis = TRY(machine_axis(word.letter));
+    return read_coordinate(channel, word, machine::is_rotary(axis) ? 1 : unit,
+                           out.axes[machine::index(axis)]);
   }
   switch (word.letter) {
     case Letter::Pr: return read_coordinate(channel, word, unit, out.pr);
@@ -132,9 +122,7 @@ NcResult<void> read_word(Channel& channel, const Word& word, MotionWords& out) {
     case Letter::Fz:
     case Letter::Ft:
     case Letter::FMaxT: {
-      const auto feed = read_feed(channel, word);
-      if (!feed) return feed.error();
-      out.feed = *feed;
+      out.feed = TRY(read_feed(channel, word));
       return {};
     }
     default: return {};  // normal vectors of LN
@@ -163,7 +151,7 @@ NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<Word> words) 
   MotionWords out;
   const Word* feed = nullptr;
   for (const Word& word : channel.program().view(words)) {
-    if (auto read = read_word(channel, word, out); !read) return read.error();
+    TRY(read_word(channel, word, out));
     if (word.letter == Letter::F && !word.argument) feed = &word;
   }
   // M136 and M137 apply to the F of their block.
@@ -172,9 +160,8 @@ NcResult<MotionWords> read_words(Channel& channel, klartext::Slice<Word> words) 
     if (call.number == 136 || call.number == 137)
       channel.contour.feed_per_revolution = call.number == 136;
   }
-  if (feed != nullptr && channel.contour.feed_per_revolution != per_revolution) {
-    if (auto read = read_word(channel, *feed, out); !read) return read.error();
-  }
+  if (feed != nullptr && channel.contour.feed_per_revolution != per_revolution)
+    TRY(read_word(channel, *feed, out));
   return out;
 }
 
@@ -183,7 +170,7 @@ NcResult<machine::Feed> use_feed(Channel& channel, const std::optional<machine::
   if (!written) return machine::Feed::at(modes.feed_mm_min);
   if (!written->is_rapid && written->rate != modes.feed_mm_min) {
     modes.feed_mm_min = written->rate;
-    if (auto set = checked(channel.machine().set_modes(modes)); !set) return set.error();
+    TRY(checked(channel.machine().set_modes(modes)));
   }
   return *written;
 }

@@ -124,9 +124,8 @@ NcResult<Vec2> Positioning::end_point() {
 }
 
 NcResult<Element> Positioning::element(const Curve& curve) {
-  const auto feed = block_feed();
-  if (!feed) return feed.error();
-  Element element{plane_, curve, position_.linear, target(position_), *feed};
+  const auto feed = TRY(block_feed());
+  Element element{plane_, curve, position_.linear, target(position_), feed};
   element.side = contour().side();
   if (is_polar()) set_plane_target(element, curve.end);
   return element;
@@ -137,15 +136,14 @@ NcResult<void> Positioning::move_along(Element element) {
 }
 
 NcResult<void> Positioning::add(const Curve& curve) {
-  auto made = element(curve);
-  if (!made) return made.error();
-  return move_along(*std::move(made));
+  auto made = TRY(element(curve));
+  return move_along(made);
 }
 
 NcResult<void> Positioning::set_pole() {
   for (const klartext::Word& word : channel_.program().view(motion_.words)) {
     if (!is_axis(word.letter) || is_absent(word.value)) continue;
-    if (const auto value = number(channel_, word.value); !value) return value.error();
+    TRY(number(channel_, word.value));
   }
   std::array<bool, 3> named{};
   for (std::size_t axis = 0; axis < 3; ++axis) named[axis] = words_.axes[axis].has_value();
@@ -180,11 +178,10 @@ NcResult<void> Positioning::set_pole() {
 }
 
 NcResult<void> Positioning::line_in(CoordinateSystem system) {
-  if (auto done = contour().finish(channel_.machine()); !done) return done;
-  const auto feed = block_feed();
-  if (!feed) return feed.error();
+  TRY(contour().finish(channel_.machine()));
+  const auto feed = TRY(block_feed());
   const auto from = channel_.machine().position(system);
-  return move_along({plane_, {}, from.linear, target(from), *feed, system});
+  return move_along({plane_, {}, from.linear, target(from), feed, system});
 }
 
 NcResult<void> Positioning::line() {
@@ -193,26 +190,21 @@ NcResult<void> Positioning::line() {
     const auto feed = block_feed();
     return feed ? NcResult<void>() : feed.error();
   }
-  const auto end = end_point();
-  if (!end) return end.error();
-  if (contour().lengthening() != 0 && motion_.path != Path::Ln) return lengthened_line(*end);
-  auto made = element({start_, *end, std::nullopt, 0});
-  if (!made) return made.error();
-  const auto shift = shift_of_surface();
-  if (!shift) return shift.error();
-  made->shift = *shift;
+  const auto end = TRY(end_point());
+  if (contour().lengthening() != 0 && motion_.path != Path::Ln) return lengthened_line(end);
+  auto made = TRY(element({start_, end, std::nullopt, 0}));
+  made.shift = TRY(shift_of_surface());
   const bool is_pieced = channel_.turns_along_vector && channel_.machine().state().modes.tcpm;
-  return is_pieced ? add_along_vector(*made) : move_along(*std::move(made));
+  return is_pieced ? add_along_vector(made) : move_along(made);
 }
 
 NcResult<machine::Vec3> Positioning::shift_of_surface() {
-  const auto normal = vector_of(channel_, motion_, klartext::Letter::Nx);
-  if (!normal) return normal.error();
-  if (!*normal || contour().side() != 0) return machine::Vec3{};
+  const auto normal = TRY(vector_of(channel_, motion_, klartext::Letter::Nx));
+  if (!normal || contour().side() != 0) return machine::Vec3{};
   const machine::MachineState& state = channel_.machine().state();
   const machine::Tool* tool = state.active_tool();
   const double oversize = state.tool.dr + (tool == nullptr ? 0 : tool->dr);
-  return machine::unit(**normal) * radius_in_plane(state, oversize);
+  return machine::unit(*normal) * radius_in_plane(state, oversize);
 }
 
 NcResult<void> Positioning::add_along_vector(const Element& line) {
@@ -224,15 +216,14 @@ NcResult<void> Positioning::add_along_vector(const Element& line) {
   const auto to_machine = [&](const machine::Vec3& rotary) {
     return state.frames.rotary_to_machine(rotary, CoordinateSystem::Input);
   };
-  const auto stops =
-      vector_stops(state, to_machine(position_.rotary), to_machine(end.rotary), channel_.budget);
-  if (!stops) return stops.error();
-  if (stops->size() == 1) return move_along(line);
+  const auto stops = TRY(
+      vector_stops(state, to_machine(position_.rotary), to_machine(end.rotary), channel_.budget));
+  if (stops.size() == 1) return move_along(line);
   const machine::Vec3 shifted = contour().side() == 0
                                     ? channel_.machine().position().linear - position_.linear
                                     : machine::Vec3{};
   Element piece = line;
-  for (const VectorStop& stop : *stops) {
+  for (const VectorStop& stop : stops) {
     const bool is_last = stop.part == 1;
     const machine::Vec3 point =
         is_last ? end.linear : position_.linear + (end.linear - position_.linear) * stop.part;
@@ -245,7 +236,7 @@ NcResult<void> Positioning::add_along_vector(const Element& line) {
     piece.curve.end = plane_.project(point);
     piece.shift = shifted + (line.shift - shifted) * stop.part;
     if (is_last) break;
-    if (auto done = contour().add(channel_.machine(), piece, false); !done) return done;
+    TRY(contour().add(channel_.machine(), piece, false));
     piece.curve.start = piece.curve.end;
     piece.from = point;
   }
@@ -253,29 +244,26 @@ NcResult<void> Positioning::add_along_vector(const Element& line) {
 }
 
 NcResult<void> Positioning::lengthened_line(Vec2 end) {
-  auto made = element({start_, end, std::nullopt, 0});
-  if (!made) return made.error();
+  auto made = TRY(element({start_, end, std::nullopt, 0}));
   const double by = contour().lengthening() * CutterPath::radius(channel_.machine());
   for (const std::size_t axis : {plane_.first, plane_.second}) {
-    auto& value = made->target.values[axis];
+    auto& value = made.target.values[axis];
     const double travel = value ? *value - position_.linear[axis] : 0;
     if (travel != 0) *value += std::copysign(by, by * travel);
   }
-  made->curve.end = plane_.project(plane_.with(position_.linear, end));
-  return move_along(*std::move(made));
+  made.curve.end = plane_.project(plane_.with(position_.linear, end));
+  return move_along(made);
 }
 
 NcResult<void> Positioning::arc() {
   for (std::size_t axis = 3; axis < machine::kAxes; ++axis) {
     if (words_.axes[axis]) return nc_error(1019, "a rotary axis cannot follow an arc");
   }
-  const auto end = end_point();
-  if (!end) return end.error();
-  const auto curve = motion_.path == Path::Cr                                ? radius_arc(*end)
-                     : motion_.path == Path::Ct || motion_.path == Path::Ctp ? tangential(*end)
-                                                                             : centre_arc(*end);
-  if (!curve) return curve.error();
-  return add(*curve);
+  const auto end = TRY(end_point());
+  const auto curve = TRY(motion_.path == Path::Cr                                ? radius_arc(end)
+                         : motion_.path == Path::Ct || motion_.path == Path::Ctp ? tangential(end)
+                                                                                 : centre_arc(end));
+  return add(curve);
 }
 
 NcResult<Curve> Positioning::radius_arc(Vec2 end) const {

@@ -7,17 +7,15 @@ using klartext::Path;
 using klartext::RadiusCompensation;
 
 NcResult<void> Positioning::approach() {
-  const auto end = end_point();
-  if (!end) return end.error();
+  const auto end = TRY(end_point());
   const auto before = contour().last_feed;
-  auto to_start = element({start_, *end, std::nullopt, 0});
-  if (!to_start) return to_start.error();
-  set_plane_target(*to_start, *end);
+  auto to_start = TRY(element({start_, end, std::nullopt, 0}));
+  set_plane_target(to_start, end);
   // F of APPR LCT applies to its whole way, of the others to the second part.
   const bool is_whole = !before || cartesian() == Path::ApprLct;
-  const machine::Feed first_part = is_whole ? to_start->feed : *before;
+  const machine::Feed first_part = is_whole ? to_start.feed : *before;
   return contour().add(channel_.machine(),
-                       Contour::Approach{cartesian(), *std::move(to_start), words_.len.value_or(0),
+                       Contour::Approach{cartesian(), to_start, words_.len.value_or(0),
                                          words_.cca.value_or(0), words_.r.value_or(0), first_part});
 }
 
@@ -35,10 +33,9 @@ NcResult<void> Positioning::depart() {
   const auto travel = arriving();
   if (!travel) return nc_error("DEP needs a contour element before it");
   const double left_side = side();
-  const auto tool = contour().depart(channel_.machine(), plane_);
-  if (!tool) return tool.error();
+  const auto tool = TRY(contour().depart(channel_.machine(), plane_));
   contour().compensate(RadiusCompensation::R0);
-  const Vec2 from = *tool;
+  const Vec2 from = tool;
   const Vec2 direction = *travel;
   const double length = words_.len.value_or(0);
   const double radius = words_.r.value_or(0);
@@ -54,21 +51,17 @@ NcResult<void> Positioning::depart() {
     }
     default: break;
   }
-  const auto end = end_point();
-  if (!end) return end.error();
+  const auto end = TRY(end_point());
   // DEP LCT is APPR LCT run backwards: the circle turns the other way seen from the end.
-  const auto met = tangent_point(*end, centre, radius, !left);
+  const auto met = tangent_point(end, centre, radius, !left);
   if (!met) return nc_error(1023, "DEP LCT ends inside its circle");
-  if (auto done = leave({from, *met, centre, sweep(from, *met, centre, left)}); !done) {
-    return done;
-  }
-  return add({*met, *end, std::nullopt, 0});
+  TRY(leave({from, *met, centre, sweep(from, *met, centre, left)}));
+  return add({*met, end, std::nullopt, 0});
 }
 
 NcResult<void> Positioning::leave(const Curve& curve) {
-  const auto feed = block_feed();
-  if (!feed) return feed.error();
-  Element element{plane_, curve, channel_.machine().position().linear, {}, *feed};
+  const auto feed = TRY(block_feed());
+  Element element{plane_, curve, channel_.machine().position().linear, {}, feed};
   set_plane_target(element, curve.end);
   return move_along(element);
 }

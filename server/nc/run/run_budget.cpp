@@ -8,7 +8,7 @@ namespace fitgauge::interpreter {
 
 NcResult<std::int64_t> RunBudget::refuel(std::int64_t left, std::int64_t needed) {
   give_back(left);
-  if (auto checked = check(); !checked) return checked.error();
+  TRY(check());
   const auto remaining = static_cast<std::int64_t>(limits_.blocks - granted_);
   if (needed > remaining) {
     return limit_error(fmt::format("the run has executed its limit of {} blocks", limits_.blocks));

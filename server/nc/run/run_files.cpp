@@ -35,8 +35,8 @@ NcResult<void> RunFiles::reserve(const ControlPath& path) {
 }
 
 NcResult<void> RunFiles::write(const ControlPath& path, std::string bytes) {
-  if (auto charged = budget_.charge(bytes.size()); !charged) return charged;
-  if (auto reserved = reserve(path); !reserved) return reserved;
+  TRY(budget_.charge(bytes.size()));
+  TRY(reserve(path));
   Written& file = written_.try_emplace(path.key(), Written{path, {}}).first->second;
   file.bytes = std::make_shared<std::string>(std::move(bytes));
   ++file.revision;
@@ -50,7 +50,7 @@ NcResult<void> RunFiles::append(const ControlPath& path, std::string_view bytes)
     std::string all = stored ? *stored->bytes : std::string();
     return write(path, std::move(all += bytes));
   }
-  if (auto charged = budget_.charge(bytes.size()); !charged) return charged;
+  TRY(budget_.charge(bytes.size()));
   Written& file = known->second;
   if (file.bytes.use_count() > 1) file.bytes = std::make_shared<std::string>(*file.bytes);
   *file.bytes += bytes;

@@ -67,7 +67,7 @@ NcResult<void> OutputBudget::charge(std::size_t bytes) {
 }
 
 NcResult<void> RunLog::print(std::string line) {
-  if (auto charged = budget_.charge(line.size() + sizeof(std::string)); !charged) return charged;
+  TRY(budget_.charge(line.size() + sizeof(std::string)));
   observer_.printed(line);
   screen_.push_back(std::move(line));
   return {};
@@ -75,7 +75,7 @@ NcResult<void> RunLog::print(std::string line) {
 
 NcResult<void> RunLog::report(MessageKind kind, int number, std::string text, const Place& place) {
   const std::size_t size = text.size() + place.path().size() + sizeof(RunMessage);
-  if (auto charged = budget_.charge(size); !charged) return charged;
+  TRY(budget_.charge(size));
   add(kind, number, std::move(text), place);
   return {};
 }
@@ -114,7 +114,7 @@ NcResult<void> RunLog::record(probing::MeasuringRecord record, const Place& plac
   probing::judge_by_uncertainty(record);
   const std::size_t size = sizeof(Measurement) + place.path().size() +
                            record.sizes.size() * sizeof(probing::MeasuredSize);
-  if (auto charged = budget_.charge(size); !charged) return charged;
+  TRY(budget_.charge(size));
   measurements_.push_back(
       {std::move(record), std::string(place.path()), place.line(), place.block()});
   return {};

@@ -91,7 +91,7 @@ class Clearing {
       : contours_(contours), reach_(reach), budget_(budget) {}
 
   NcResult<void> add_lanes(double y, bool is_back, std::vector<Lane>& lanes) {
-    if (auto allowed = budget_.check(); !allowed) return allowed;
+    TRY(budget_.check());
     limits_.clear();
     for (const SlContour& contour : contours_) {
       for (const Curve& curve : contour.curves) add_limits(curve, reach_, y, limits_);
@@ -100,7 +100,7 @@ class Clearing {
     const std::size_t before = lanes.size();
     bool goes_on = false;
     for (std::size_t i = 1; i < limits_.size(); ++i) {
-      if (auto allowed = budget_.check(); !allowed) return allowed;
+      TRY(budget_.check());
       const double from = limits_[i - 1];
       const double to = limits_[i];
       if (to - from < tolerance::kSamePoint) continue;
@@ -156,9 +156,7 @@ NcResult<std::vector<Lane>> clearing_lanes(const std::vector<SlContour>& contour
   bool is_back = false;
   for (double step = 0; step <= steps; ++step) {
     const std::size_t before = lanes.size();
-    if (auto done = clearing.add_lanes(low + (high - low) * step / steps, is_back, lanes); !done) {
-      return done.error();
-    }
+    TRY(clearing.add_lanes(low + (high - low) * step / steps, is_back, lanes));
     if (lanes.size() > before) is_back = !is_back;
   }
   return lanes;

@@ -109,19 +109,17 @@ NcResult<SlDrawing> draw(Channel& channel, const klartext::Label& label) {
   if (!done) return done.error();
   SlDrawing drawing = *channel.contour.drawing();
   channel.contour = path;
-  if (!are_the_same(channel.machine().state().frames, frames)) {
-    if (auto set = checked(channel.machine().set_frames(frames)); !set) return set.error();
-  }
+  if (!are_the_same(channel.machine().state().frames, frames))
+    TRY(checked(channel.machine().set_frames(frames)));
   return drawing;
 }
 
 }  // namespace
 
 NcResult<SlContour> read_contour(Channel& channel, const klartext::Label& label) {
-  auto drawing = draw(channel, label);
-  if (!drawing) return drawing.error();
+  auto drawing = TRY(draw(channel, label));
   SlContour contour;
-  contour.curves = drawing->curves();
+  contour.curves = drawing.curves();
   std::vector<Curve>& curves = contour.curves;
   if (!curves.empty()) {
     const Vec2 first = curves.front().start;
@@ -135,7 +133,7 @@ NcResult<SlContour> read_contour(Channel& channel, const klartext::Label& label)
     return nc_error(
         1024, fmt::format("contour label {} encloses nothing", std::get<std::uint32_t>(label)));
   }
-  contour.is_pocket = drawing->side() * enclosed >= 0;
+  contour.is_pocket = drawing.side() * enclosed >= 0;
   return contour;
 }
 

@@ -75,7 +75,7 @@ bool may_stand_in_contour(const klartext::Statement& statement) {
 NcResult<Next> execute_statement(Channel& channel, const Instruction& instruction) {
   const klartext::Statement& statement = channel.place().source().statement;
   if (!std::holds_alternative<klartext::Motion>(statement)) {
-    if (auto done = channel.contour.finish(channel.machine()); !done) return done.error();
+    TRY(channel.contour.finish(channel.machine()));
     if (channel.contour.drawing() != nullptr && !may_stand_in_contour(statement)) {
       return nc_error("this block is not allowed in the contour of an SL cycle");
     }

@@ -27,80 +27,61 @@ constexpr int kMostDecimals = 15;
 /// A position or length given as a number: decimals are cut off, as INT does. @errors 1011
 /// negative.
 NcResult<std::size_t> count(Channel& channel, const Expr& expr) {
-  const auto value = number(channel, expr);
-  if (!value) return value.error();
-  if (*value < 0 || *value > 1e9) {
-    return nc_error(1011, fmt::format("{} is not a position in a text", *value));
-  }
-  return static_cast<std::size_t>(*value);
+  const auto value = TRY(number(channel, expr));
+  if (value < 0 || value > 1e9)
+    return nc_error(1011, fmt::format("{} is not a position in a text", value));
+  return static_cast<std::size_t>(value);
 }
 
 NcResult<std::string> concatenate(Channel& channel, Operands operands) {
   std::string joined;
   for (const Expr& operand : operands) {
-    auto part = text(channel, operand);
-    if (!part) return part;
-    joined += *part;
+    auto part = TRY(text(channel, operand));
+    joined += part;
     if (joined.size() > kLongestText) return nc_error("a text has more than 255 characters");
   }
   return joined;
 }
 
 NcResult<std::string> number_text(Channel& channel, Operands operands) {
-  const auto value = number(channel, operands[0]);
-  if (!value) return value.error();
-  if (is_absent(operands[1])) return to_char(*value, -1);
-  const auto decimals = whole_in(channel, operands[1], 0, kMostDecimals);
-  if (!decimals) return decimals.error();
-  return to_char(*value, *decimals);
+  const auto value = TRY(number(channel, operands[0]));
+  if (is_absent(operands[1])) return to_char(value, -1);
+  const auto decimals = TRY(whole_in(channel, operands[1], 0, kMostDecimals));
+  return to_char(value, decimals);
 }
 
 /// BEG counts from 0; without LEN up to the end.
 NcResult<std::string> sub_string(Channel& channel, Operands operands) {
-  auto source = text(channel, operands[0]);
-  if (!source) return source;
+  auto source = TRY(text(channel, operands[0]));
   std::size_t begin = 0;
-  std::size_t length = source->size();
-  if (!is_absent(operands[1])) {
-    const auto value = count(channel, operands[1]);
-    if (!value) return value.error();
-    begin = *value;
-  }
-  if (!is_absent(operands[2])) {
-    const auto value = count(channel, operands[2]);
-    if (!value) return value.error();
-    length = *value;
-  }
-  const std::size_t size = tabfile::count_characters(*source);
+  std::size_t length = source.size();
+  if (!is_absent(operands[1])) begin = TRY(count(channel, operands[1]));
+  if (!is_absent(operands[2])) length = TRY(count(channel, operands[2]));
+  const std::size_t size = tabfile::count_characters(source);
   if (begin > size) {
     return nc_error(1011, fmt::format("SUBSTR begins at character {} of {}", begin, size));
   }
-  const std::size_t first = tabfile::skip_characters(*source, 0, begin);
-  const std::size_t last = tabfile::skip_characters(*source, first, length);
-  return source->substr(first, last - first);
+  const std::size_t first = tabfile::skip_characters(source, 0, begin);
+  const std::size_t last = tabfile::skip_characters(source, first, length);
+  return source.substr(first, last - first);
 }
 
 /// 10010: paths of the main program, the program that runs, and the one selected; 10060 and 10950:
 /// the tool; 10321: date and time.
 NcResult<std::string> system_string(Channel& channel, Operands operands) {
-  const auto id = whole(channel, operands[0]);
-  if (!id) return id.error();
+  const auto id = TRY(whole(channel, operands[0]));
   std::int64_t nr = 0;
-  if (!is_absent(operands[1])) {
-    const auto value = whole(channel, operands[1]);
-    if (!value) return value.error();
-    nr = *value;
-  }
-  if (*id == 10010 && nr == 1) return channel.calls.main_program().path().text();
-  if (*id == 10010 && nr == 2) return channel.linked().path().text();
-  if ((*id == 10060 || *id == 10950) && nr <= 1) {
+  if (!is_absent(operands[1])) nr = TRY(whole(channel, operands[1]));
+  if (id == 10010 && nr == 1) return channel.calls.main_program().path().text();
+  if (id == 10010 && nr == 2) return channel.linked().path().text();
+  if ((id == 10060 || id == 10950) && nr <= 1) {
     const machine::Tool* tool = channel.machine().state().active_tool();
     return tool == nullptr ? std::string() : tool->name;
   }
-  if (*id == 10321) {
+  if (id == 10321) {
     if (auto time = format_system_time(channel.now(), nr)) return *std::move(time);
   }
-  return nc_error(fmt::format("SYSSTR( ID{} NR{} ) is not available", *id, nr));
+  return nc_error(fmt::format("SYSSTR( ID{} NR{} ) is not available", id, nr));
 }
 
 NcResult<double> to_number(std::string source) {
@@ -118,15 +99,10 @@ NcResult<double> to_number(std::string source) {
 
 /// From 0; the length of the source when it is not found.
 NcResult<double> in_string(Channel& channel, const std::string& source, Operands operands) {
-  const auto sought = text(channel, operands[1]);
-  if (!sought) return sought.error();
+  const auto sought = TRY(text(channel, operands[1]));
   std::size_t begin = 0;
-  if (!is_absent(operands[2])) {
-    const auto value = count(channel, operands[2]);
-    if (!value) return value.error();
-    begin = *value;
-  }
-  const std::size_t found = source.find(*sought, tabfile::skip_characters(source, 0, begin));
+  if (!is_absent(operands[2])) begin = TRY(count(channel, operands[2]));
+  const std::size_t found = source.find(sought, tabfile::skip_characters(source, 0, begin));
   return static_cast<double>(tabfile::count_characters(std::string_view(source).substr(0, found)));
 }
 
@@ -186,16 +162,14 @@ NcResult<double> string_number(Channel& channel, NodeIndex index) {
     const auto* parameter = std::get_if<klartext::QRef>(&operands[0]);
     if (parameter != nullptr && !channel.parameters.is_defined(*parameter)) return -1.0;
   }
-  auto source = text(channel, operands[0]);
-  if (!source) return source.error();
+  auto source = TRY(text(channel, operands[0]));
   switch (op) {
-    case Operator::ToNumber: return to_number(*std::move(source));
-    case Operator::InString: return in_string(channel, *source, operands);
-    case Operator::StringLength: return static_cast<double>(tabfile::count_characters(*source));
+    case Operator::ToNumber: return to_number(std::move(source));
+    case Operator::InString: return in_string(channel, source, operands);
+    case Operator::StringLength: return static_cast<double>(tabfile::count_characters(source));
     case Operator::StringCompare: {
-      const auto other = text(channel, operands[1]);
-      if (!other) return other.error();
-      const int order = source->compare(*other);
+      const auto other = TRY(text(channel, operands[1]));
+      const int order = source.compare(other);
       return order == 0 ? 0.0 : order < 0 ? -1.0 : 1.0;
     }
     default: return nc_error("a number is needed here, not a text");

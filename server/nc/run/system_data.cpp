@@ -26,11 +26,10 @@ NcResult<Address> read_address(Channel& channel, klartext::NodeIndex node) {
   const auto operands = channel.program().operands(node);
   for (std::size_t i = 0; i < operands.size(); ++i) {
     if (is_absent(operands[i])) continue;
-    const auto value = whole(channel, operands[i]);
-    if (!value) return value.error();
-    if (i == 0) address.id = *value;
-    if (i == 1) address.nr = *value;
-    if (i == 2) address.index = *value;
+    const auto value = TRY(whole(channel, operands[i]));
+    if (i == 0) address.id = value;
+    if (i == 1) address.nr = value;
+    if (i == 2) address.index = value;
   }
   return address;
 }
@@ -271,11 +270,10 @@ Answer touch_data(const Channel& channel, const Address& address) {
 
 /// ID500: the datum table, NR is the row.
 NcResult<double> datum_data(const Channel& channel, const Address& address) {
-  const auto values = channel.tables.datum(address.nr);
-  if (!values) return values.error();
+  const auto values = TRY(channel.tables.datum(address.nr));
   const auto axis = axis_of(address);
-  if (!axis || !(*values)[*axis]) return unknown(address);
-  return *(*values)[*axis];
+  if (!axis || !values[*axis]) return unknown(address);
+  return *values[*axis];
 }
 
 /// ID502 and ID503: the preset table, NR is the row. The kinematics add nothing to a preset here.
@@ -357,36 +355,33 @@ NcResult<void> write_preset(Channel& channel, const Address& address, double val
 }  // namespace
 
 NcResult<double> read_system_data(Channel& channel, klartext::NodeIndex node) {
-  const auto address = read_address(channel, node);
-  if (!address) return address.error();
-  if (address->id == 500) return datum_data(channel, *address);
-  if (address->id == 502 || address->id == 503) {
-    return preset_data(channel.machine().state(), *address);
-  }
-  if (address->id == 50) {
+  const auto address = TRY(read_address(channel, node));
+  if (address.id == 500) return datum_data(channel, address);
+  if (address.id == 502 || address.id == 503)
+    return preset_data(channel.machine().state(), address);
+  if (address.id == 50) {
     const machine::MachineState& state = channel.machine().state();
-    const auto number = address->index.value_or(state.tool.number);
+    const auto number = address.index.value_or(state.tool.number);
     if (find_tool(state, number) == nullptr) return no_tool(number);
   }
-  const Answer answer = find(channel, *address);
-  if (!answer || !std::isfinite(*answer)) return unknown(*address);
+  const Answer answer = find(channel, address);
+  if (!answer || !std::isfinite(*answer)) return unknown(address);
   return *answer;
 }
 
 NcResult<void> write_system_data(Channel& channel, klartext::NodeIndex node, double value) {
-  const auto address = read_address(channel, node);
-  if (!address) return address.error();
-  switch (address->id) {
-    case 50: return write_tool(channel, *address, value);
+  const auto address = TRY(read_address(channel, node));
+  switch (address.id) {
+    case 50: return write_tool(channel, address, value);
     case 500: {
-      const auto axis = axis_of(*address);
-      if (!axis) return unknown(*address);
+      const auto axis = axis_of(address);
+      if (!axis) return unknown(address);
       machine::AxisWords words;
       words[*axis] = value;
-      return channel.tables.write_datum(address->nr, words);
+      return channel.tables.write_datum(address.nr, words);
     }
-    case 503: return write_preset(channel, *address, value);
-    default: return unknown(*address);
+    case 503: return write_preset(channel, address, value);
+    default: return unknown(address);
   }
 }
 

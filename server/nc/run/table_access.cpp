@@ -97,36 +97,31 @@ TabTable& TableAccess::editable(Table& table) {
 }
 
 NcResult<void> TableAccess::open(const ControlPath& path) {
-  if (auto saved = save(open_); !saved) return saved;
+  TRY(save(open_));
   open_.reset();
-  auto table = load(path, "table");
-  if (!table) return table.error();
-  open_ = *std::move(table);
+  open_ = TRY(load(path, "table"));
   return {};
 }
 
 NcResult<void> TableAccess::read(QRef first, std::int64_t row, std::string_view columns,
                                  double length_unit) const {
   if (!open_) return no_table_error();
-  const auto named = targets(columns, first);
-  if (!named) return named.error();
+  const auto named = TRY(targets(columns, first));
   const TabTable& table = *open_->content;
   const auto failed = [&](const Error& error) {
     return nc_error(fmt::format("table {}: {}", open_->path.text(), error.message));
   };
-  for (const auto& [column, parameter] : *named) {
+  for (const auto& [column, parameter] : named) {
     if (parameter.is_string()) {
       const auto cell = table.text(row, column);
       if (!cell) return failed(cell.error());
-      if (auto set = parameters_.set_string(parameter.number, std::string(*cell)); !set) {
-        return set;
-      }
+      TRY(parameters_.set_string(parameter.number, std::string(*cell)));
       continue;
     }
     const auto value = table.number(row, column);
     if (!value) return failed(value.error());
     const double scaled = *value * unit_of(table, column, length_unit);
-    if (auto set = parameters_.set(parameter, scaled); !set) return set;
+    TRY(parameters_.set(parameter, scaled));
   }
   return {};
 }
@@ -134,20 +129,17 @@ NcResult<void> TableAccess::read(QRef first, std::int64_t row, std::string_view 
 NcResult<void> TableAccess::write(QRef first, std::int64_t row, std::string_view columns,
                                   double length_unit) {
   if (!open_) return no_table_error();
-  const auto named = targets(columns, first);
-  if (!named) return named.error();
+  const auto named = TRY(targets(columns, first));
   TabTable& table = editable(*open_);
   const bool is_tool_table = ascii_iequals(open_->path.file_name(), "tool.t");
-  for (const auto& [column, parameter] : *named) {
+  for (const auto& [column, parameter] : named) {
     if (!parameters_.is_defined(parameter)) return undefined_error(parameter);
     const auto set = parameter.is_string()
                          ? table.set_text(row, column, *parameters_.string(parameter.number))
                          : table.set_number(row, column,
                                             *parameters_.number(parameter) /
                                                 unit_of(table, column, length_unit));
-    if (!set) {
-      return nc_error(fmt::format("table {}: {}", open_->path.text(), set.error().message));
-    }
+    if (!set) return nc_error(fmt::format("table {}: {}", open_->path.text(), set.error().message));
     if (const std::int64_t nr = tool_column(column); nr != 0 && is_tool_table) {
       const double unit =
           is_tool_length(nr) && table.header().unit == "INCH" ? kMillimetresPerInch : 1;
@@ -158,11 +150,9 @@ NcResult<void> TableAccess::write(QRef first, std::int64_t row, std::string_view
 }
 
 NcResult<void> TableAccess::select_datum_table(const ControlPath& path) {
-  if (auto saved = save(datum_); !saved) return saved;
+  TRY(save(datum_));
   datum_.reset();
-  auto table = load(path, "datum table");
-  if (!table) return table.error();
-  datum_ = *std::move(table);
+  datum_ = TRY(load(path, "datum table"));
   return {};
 }
 
@@ -194,7 +184,7 @@ NcResult<void> TableAccess::write_datum(std::int64_t row, const machine::AxisWor
 }
 
 NcResult<void> TableAccess::close() {
-  if (auto saved = save(open_); !saved) return saved;
+  TRY(save(open_));
   return save(datum_);
 }
 

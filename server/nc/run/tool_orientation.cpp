@@ -112,10 +112,9 @@ NcResult<std::optional<Vec3>> vector_of(Channel& channel, const klartext::Motion
   for (const klartext::Word& word : channel.program().view(motion.words)) {
     const int axis = static_cast<int>(word.letter) - static_cast<int>(first);
     if (axis < 0 || axis > 2) continue;
-    const auto value = number(channel, word.value);
-    if (!value) return value.error();
+    const auto value = TRY(number(channel, word.value));
     if (!vector) vector.emplace();
-    (*vector)[static_cast<std::size_t>(axis)] = *value;
+    (*vector)[static_cast<std::size_t>(axis)] = value;
   }
   if (vector && norm(*vector) < tolerance::kSameDirection) {
     return nc_error(first == Letter::Tx ? "LN: the tool vector TX TY TZ has no length"

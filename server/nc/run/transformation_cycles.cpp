@@ -50,10 +50,9 @@ NcResult<void> dwell(Channel& channel, Words words) {
 }
 
 NcResult<void> rotation(Channel& channel, Words words) {
-  const auto angle = value(channel, words, Letter::Rot, 0);
-  if (!angle) return angle.error();
+  const auto angle = TRY(value(channel, words, Letter::Rot, 0));
   const Word* word = find(words, Letter::Rot);
-  return rotate(channel, {*angle, word != nullptr && word->incremental});
+  return rotate(channel, {angle, word != nullptr && word->incremental});
 }
 
 NcResult<void> scaling(Channel& channel, Words words) {
@@ -66,22 +65,19 @@ NcResult<void> axis_scaling(Channel& channel, Words words) {
   constexpr std::array kFactors{Letter::X, Letter::Y, Letter::Z};
   constexpr std::array kCentres{Letter::Ccx, Letter::Ccy, Letter::Ccz};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto factor = value(channel, words, kFactors[axis], 1);
-    if (!factor) return factor.error();
-    const auto centre = value(channel, words, kCentres[axis], 0);
-    if (!centre) return centre.error();
-    scaling.factor[axis] = *factor;
-    scaling.centre[axis] = *centre * channel.length_unit();
+    const auto factor = TRY(value(channel, words, kFactors[axis], 1));
+    const auto centre = TRY(value(channel, words, kCentres[axis], 0));
+    scaling.factor[axis] = factor;
+    scaling.centre[axis] = centre * channel.length_unit();
   }
   return scale(channel, scaling);
 }
 
 NcResult<void> working_plane_cycle(Channel& channel, Words words) {
-  const auto axes = read_axis_words(channel, words);
-  if (!axes) return axes.error();
+  const auto axes = TRY(read_axis_words(channel, words));
   Vec3 angles;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto& word = (*axes)[i + 3];
+    const auto& word = axes[i + 3];
     if (word && word->incremental)
       return nc_error("cycle 19 takes no I: write the angles themselves");
     if (word) angles[i] = word->value;
@@ -93,11 +89,8 @@ NcResult<void> working_plane_cycle(Channel& channel, Words words) {
 NcResult<void> program_call(Channel& channel, Words words) {
   const Word* path = find(words, Letter::Program);
   if (path == nullptr) return nc_error(1017, "CYCL DEF 12 needs a program");
-  const auto written = text(channel, path->value);
-  if (!written) return written.error();
-  auto program = channel.resolve_program(*written);
-  if (!program) return program.error();
-  channel.active_cycle.definition = *std::move(program);
+  const auto written = TRY(text(channel, path->value));
+  channel.active_cycle.definition = TRY(channel.resolve_program(written));
   channel.active_cycle.number = 12;
   return {};
 }
@@ -108,12 +101,10 @@ NcResult<AxisCoordinates> read_axis_words(Channel& channel, std::span<const Word
   AxisCoordinates axes;
   for (const Word& word : words) {
     if (!is_axis(word.letter) || is_absent(word.value)) continue;
-    const auto axis = machine_axis(word.letter);
-    if (!axis) return axis.error();
-    const auto value = number(channel, word.value);
-    if (!value) return value.error();
-    const double unit = machine::is_rotary(*axis) ? 1 : channel.length_unit();
-    axes[machine::index(*axis)] = Coordinate{*value * unit, word.incremental};
+    const auto axis = TRY(machine_axis(word.letter));
+    const auto value = TRY(number(channel, word.value));
+    const double unit = machine::is_rotary(axis) ? 1 : channel.length_unit();
+    axes[machine::index(axis)] = Coordinate{value * unit, word.incremental};
   }
   return axes;
 }

@@ -34,11 +34,8 @@ bool is_string(const Channel& channel, const Expr& expr) {
 NcResult<double> arithmetic(Channel& channel, NodeIndex index) {
   const auto operands = channel.program().operands(index);
   double values[2] = {0, 0};
-  for (std::size_t i = 0; i < operands.size() && i < 2; ++i) {
-    auto value = number(channel, operands[i]);
-    if (!value) return value;
-    values[i] = *value;
-  }
+  for (std::size_t i = 0; i < operands.size() && i < 2; ++i)
+    values[i] = TRY(number(channel, operands[i]));
   const Operator op = channel.program().node(index).op;
   const double result = compute(op, values[0], values[1]);
   if (!std::isfinite(result)) return nc_error(failure(op, values[0], values[1]));
@@ -74,21 +71,17 @@ NcResult<std::optional<double>> coordinate(Channel& channel, const Expr& expr) {
       !is_preassigned(cell_of(*parameter))) {
     return std::optional<double>();
   }
-  const auto value = number(channel, expr);
-  if (!value) return value.error();
-  return std::optional(*value);
+  const auto value = TRY(number(channel, expr));
+  return std::optional(value);
 }
 
 NcResult<int> whole_in(Channel& channel, const Expr& expr, int least, int most) {
-  const auto value = number(channel, expr);
-  if (!value) return value.error();
-  if (*value != std::nearbyint(*value)) {
-    return nc_error(1011, fmt::format("{} is not a whole number", *value));
-  }
-  if (*value < least || *value > most) {
-    return nc_error(1011, fmt::format("{} is outside of {} to {}", *value, least, most));
-  }
-  return static_cast<int>(*value);
+  const auto value = TRY(number(channel, expr));
+  if (value != std::nearbyint(value))
+    return nc_error(1011, fmt::format("{} is not a whole number", value));
+  if (value < least || value > most)
+    return nc_error(1011, fmt::format("{} is outside of {} to {}", value, least, most));
+  return static_cast<int>(value);
 }
 
 NcResult<int> whole(Channel& channel, const Expr& expr) {
@@ -124,23 +117,19 @@ NcResult<bool> condition(Channel& channel, NodeIndex index) {
     return defined == (op == Operator::IsDefined);
   }
   if (is_string(channel, operands[0]) || is_string(channel, operands[1])) {
-    const auto a = text(channel, operands[0]);
-    if (!a) return a.error();
-    const auto b = text(channel, operands[1]);
-    if (!b) return b.error();
-    if (op == Operator::Equal) return *a == *b;
-    if (op == Operator::NotEqual) return *a != *b;
+    const auto a = TRY(text(channel, operands[0]));
+    const auto b = TRY(text(channel, operands[1]));
+    if (op == Operator::Equal) return a == b;
+    if (op == Operator::NotEqual) return a != b;
     return nc_error("texts can be compared with EQU and NE only");
   }
-  const auto a = number(channel, operands[0]);
-  if (!a) return a.error();
-  const auto b = number(channel, operands[1]);
-  if (!b) return b.error();
+  const auto a = TRY(number(channel, operands[0]));
+  const auto b = TRY(number(channel, operands[1]));
   switch (op) {
-    case Operator::Equal: return are_equal(*a, *b);
-    case Operator::NotEqual: return !are_equal(*a, *b);
-    case Operator::Greater: return *a > *b;
-    default: return *a < *b;
+    case Operator::Equal: return are_equal(a, b);
+    case Operator::NotEqual: return !are_equal(a, b);
+    case Operator::Greater: return a > b;
+    default: return a < b;
   }
 }
 

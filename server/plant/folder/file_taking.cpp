@@ -25,11 +25,9 @@ constexpr std::size_t kMostAppended = std::size_t{8} << 20;  ///< by one call of
 
 aqdef::LimitsOfClass limits_by(const iso286::ToleranceTables& tables) {
   return [&tables](Length nominal, const std::string& name) -> Result<aqdef::SizeLimits> {
-    const auto size = iso286::NominalSize::make(nominal);
-    if (!size) return size.error();
-    const auto limits = tables.limits_of_size(*size, name);
-    if (!limits) return limits.error();
-    return aqdef::SizeLimits{.upper = limits->upper_limit(), .lower = limits->lower_limit()};
+    const auto size = TRY(iso286::NominalSize::make(nominal));
+    const auto limits = TRY(tables.limits_of_size(size, name));
+    return aqdef::SizeLimits{.upper = limits.upper_limit(), .lower = limits.lower_limit()};
   };
 }
 
@@ -43,9 +41,8 @@ Result<void> append_all(Source& source, FileRows& rows) {
   std::size_t count = 0;  // of rows with text, where each call appends one
   for (;;) {
     const std::size_t before = rows.text.size();
-    const auto more = sheet::append_next(source, rows.text, rows.lines);
-    if (!more) return more.error();
-    if (!*more) return {};
+    const auto more = TRY(sheet::append_next(source, rows.text, rows.lines));
+    if (!more) return {};
     if (rows.text.size() > before && rows.text[before] != '\n') ++count;
     if (std::max(count, rows.lines.size()) > api::kMostRows) {
       return too_large(fmt::format("{} rows", api::kMostRows));
@@ -57,18 +54,16 @@ Result<void> append_all(Source& source, FileRows& rows) {
 }
 
 Result<void> append_table(const FolderInOptions& options, const RestingFile& file, FileRows& rows) {
-  auto table = sheet::ShopRows::open(file.from_begin(), file.from_begin(), options.csv);
-  if (!table) return table.error();
-  rows.text += table->header();
-  return append_all(*table, rows);
+  auto table = TRY(sheet::ShopRows::open(file.from_begin(), file.from_begin(), options.csv));
+  rows.text += table.header();
+  return append_all(table, rows);
 }
 
 Result<void> append_ndjson(const FolderInOptions& options, const RestingFile& file,
                            FileRows& rows) {
   auto records =
-      sheet::NdjsonRows::open(file.from_begin(), file.from_begin(), options.csv.encoding);
-  if (!records) return records.error();
-  return append_all(*records, rows);
+      TRY(sheet::NdjsonRows::open(file.from_begin(), file.from_begin(), options.csv.encoding));
+  return append_all(records, rows);
 }
 
 Result<void> append_dfq(const FolderInOptions& options, const iso286::ToleranceTables& tables,
@@ -89,24 +84,23 @@ Result<void> append_dfq(const FolderInOptions& options, const iso286::ToleranceT
   }
   if (description != nullptr) {
     csv.go_on_with(file.from_begin());
-    if (const auto appended = append_all(csv, rows); !appended) return appended.error();
+    TRY(append_all(csv, rows));
   }
   return csv.check();
 }
 
 Result<void> append_qif(const FolderInOptions& options, const iso286::ToleranceTables& tables,
                         const RestingFile& file, FileRows& rows) {
-  auto values = qif::QifRows::open(file.from_begin(), file.from_begin(),
-                                   {.constants = options.csv.constants,
-                                    .zone = options.csv.zone,
-                                    .length_unit = options.length_unit,
-                                    .leaves_out_others = options.csv.leaves_out_others,
-                                    .limits_of = limits_by(tables),
-                                    .most_rows = api::kMostRows});
-  if (!values) return values.error();
-  rows.text += values->header();
-  if (const auto appended = append_all(*values, rows); !appended) return appended.error();
-  return values->check();
+  auto values = TRY(qif::QifRows::open(file.from_begin(), file.from_begin(),
+                                       {.constants = options.csv.constants,
+                                        .zone = options.csv.zone,
+                                        .length_unit = options.length_unit,
+                                        .leaves_out_others = options.csv.leaves_out_others,
+                                        .limits_of = limits_by(tables),
+                                        .most_rows = api::kMostRows}));
+  rows.text += values.header();
+  TRY(append_all(values, rows));
+  return values.check();
 }
 
 bool is_dfq(std::string_view file_name) {
@@ -182,15 +176,14 @@ bool is_of_storage(const Error& error) {
 Result<std::optional<TakenFile>> take_file(const FolderInOptions& options, const Plant& plant,
                                            std::string_view file_name, const RestingFile& file,
                                            const RestingFile* description) {
-  const auto tables = plant.tables.tables();
-  if (!tables) return tables.error();
+  const auto tables = TRY(plant.tables.tables());
   Sha256 digest;
   for (const RestingFile* const part : {description, &file}) {
     if (part == nullptr) continue;
-    if (const auto added = part->add_to(digest); !added) return added.error();
+    TRY(part->add_to(digest));
   }
   const std::string key = to_hex(digest.finish());
-  const auto rows = read_file_rows(options, **tables, file_name, file, description);
+  const auto rows = read_file_rows(options, *tables, file_name, file, description);
   const bool is_unchanged =
       file.is_unchanged() && (description == nullptr || description->is_unchanged());
   if (!is_unchanged) return std::optional<TakenFile>();
@@ -203,7 +196,7 @@ Result<std::optional<TakenFile>> take_file(const FolderInOptions& options, const
                                     .body = key,
                                     .is_kept_for_ever = true};
   api::MeasurementBatch batch;
-  api::BatchContext context{.tables = **tables,
+  api::BatchContext context{.tables = *tables,
                             .received_at = plant.clock.now(),
                             .caller = options.name,
                             .gauges = gauges.get()};

@@ -264,14 +264,12 @@ std::unique_ptr<Worker> make(const FolderInOptions& options, const Plant& plant)
 
 ConnectionTest test_of(const FolderInOptions& options, const Plant&, const std::stop_token&) {
   const auto check = [&]() -> Result<void> {
-    const auto folder = Folder::open(options.folder);
-    if (!folder) return folder.error();
+    const auto folder = TRY(Folder::open(options.folder));
     for (const char* name : {"done", "failed"}) {
-      const auto sub = folder->sub(name);
-      if (!sub) return sub.error();
-      if (const auto writable = sub->check_writable(); !writable) return writable;
+      const auto sub = TRY(folder.sub(name));
+      TRY(sub.check_writable());
     }
-    return folder->check_writable();
+    return folder.check_writable();
   }();
   if (!check) return {.ok = false, .detail = check.error().message};
   return {.ok = true, .detail = "the folder can be read, and files moved in it"};

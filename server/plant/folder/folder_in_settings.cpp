@@ -125,10 +125,9 @@ Look look_of(const struct stat& status) {
 
 Result<std::optional<RestingFile>> RestingFile::open(const Folder& folder, const std::string& name,
                                                      const Look& look) {
-  auto file = folder.read(name);
-  if (!file) return file.error();
-  if (!*file) return std::optional<RestingFile>();
-  return std::optional(RestingFile(name, **std::move(file), look));
+  auto file = TRY(folder.read(name));
+  if (!file) return std::optional<RestingFile>();
+  return std::optional(RestingFile(name, *std::move(file), look));
 }
 
 Read RestingFile::from_begin() const {
@@ -147,10 +146,9 @@ Result<void> RestingFile::add_to(Sha256& digest) const {
   const Read read = from_begin();
   std::string piece(kPiece, '\0');
   for (;;) {
-    const auto count = read(piece);
-    if (!count) return count.error();
-    if (*count == 0) return {};
-    digest.update(std::string_view(piece).substr(0, *count));
+    const auto count = TRY(read(piece));
+    if (count == 0) return {};
+    digest.update(std::string_view(piece).substr(0, count));
   }
 }
 

@@ -153,9 +153,7 @@ Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::s
 auto part_text(std::size_t longest, int field) {
   return By{longest, [field](std::string_view text) -> Result<std::string> {
               if (text.empty()) return invalid_field("must be a text");
-              if (const auto checked = aqdef::check_text(field, text); !checked) {
-                return checked.error();
-              }
+              TRY(aqdef::check_text(field, text));
               return std::string(text);
             }};
 }

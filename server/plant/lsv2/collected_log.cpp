@@ -122,17 +122,12 @@ Error field_error(std::string message) { return {ErrorCode::FieldInvalid, std::m
 /// The limits of a class of the tables.
 Result<void> judge_by_class(Measurement& measurement, CollectedLog& log, const Fields& fields,
                             const Origin& origin) {
-  const auto tables = origin.tables.tables();
-  if (!tables) return tables.error();
-  log.tables = *tables;
-  const auto nominal = fields.length("nominal_mm");
-  if (!nominal) return nominal.error();
-  const auto size = iso286::NominalSize::make(*nominal);
-  if (!size) return size.error();
+  log.tables = TRY(origin.tables.tables());
+  const auto nominal = TRY(fields.length("nominal_mm"));
+  const auto size = TRY(iso286::NominalSize::make(nominal));
   const auto limits =
-      log.tables->limits_of_size(*size, std::string(fields.text("tolerance_class")));
-  if (!limits) return limits.error();
-  apply_limits(measurement, *limits, *log.tables);
+      TRY(log.tables->limits_of_size(size, std::string(fields.text("tolerance_class"))));
+  apply_limits(measurement, limits, *log.tables);
   judge(measurement);
   return {};
 }
@@ -143,13 +138,11 @@ Result<std::optional<app::SizeLimits>> drawn_limits(const Fields& fields, Length
     const char* const names[] = {as_deviation ? "upper_um" : "upper_mm",
                                  as_deviation ? "lower_um" : "lower_mm"};
     if (!fields.has(names[0]) && !fields.has(names[1])) continue;
-    const auto upper = as_deviation ? fields.micrometres(names[0]) : fields.length(names[0]);
-    if (!upper) return upper.error();
-    const auto lower = as_deviation ? fields.micrometres(names[1]) : fields.length(names[1]);
-    if (!lower) return lower.error();
+    const auto upper = TRY(as_deviation ? fields.micrometres(names[0]) : fields.length(names[0]));
+    const auto lower = TRY(as_deviation ? fields.micrometres(names[1]) : fields.length(names[1]));
     const Length base = as_deviation ? nominal : Length();
-    if (*upper < *lower) return field_error("the upper limit must not be below the lower limit");
-    return std::optional(app::SizeLimits{.upper = base + *upper, .lower = base + *lower});
+    if (upper < lower) return field_error("the upper limit must not be below the lower limit");
+    return std::optional(app::SizeLimits{.upper = base + upper, .lower = base + lower});
   }
   return std::optional<app::SizeLimits>();
 }
@@ -157,14 +150,8 @@ Result<std::optional<app::SizeLimits>> drawn_limits(const Fields& fields, Length
 Result<void> judge_by_drawing(Measurement& measurement, const Fields& fields) {
   app::CycleSize size;
   size.measured = measurement.measured;
-  if (fields.has("nominal_mm")) {
-    const auto nominal = fields.length("nominal_mm");
-    if (!nominal) return nominal.error();
-    size.nominal = *nominal;
-  }
-  const auto limits = drawn_limits(fields, size.nominal.value_or(measurement.measured));
-  if (!limits) return limits.error();
-  size.limits = *limits;
+  if (fields.has("nominal_mm")) size.nominal = TRY(fields.length("nominal_mm"));
+  size.limits = TRY(drawn_limits(fields, size.nominal.value_or(measurement.measured)));
   const std::string_view feature = fields.text("feature");
   if (!feature.empty() && feature != "hole" && feature != "shaft") {
     return field_error(fmt::format("feature must be hole or shaft; got '{}'", feature));
@@ -191,19 +178,16 @@ Result<std::shared_ptr<CollectedLog>> collected(const PatternResult& result, con
   log->text = result.text;
   const Fields fields(result);
   Measurement measurement = begun(*log, origin);
-  const auto measured = fields.length("measured_mm");
-  if (!measured) return measured.error();
-  if (*measured <= Length()) return field_error("a measured size must be above 0");
-  measurement.measured = *measured;
-  if (const auto taken = take_time(measurement, *log, fields); !taken) return taken.error();
+  const auto measured = TRY(fields.length("measured_mm"));
+  if (measured <= Length()) return field_error("a measured size must be above 0");
+  measurement.measured = measured;
+  TRY(take_time(measurement, *log, fields));
   for (const app::MeasurementField& field : app::kLabels) {
     if (!fields.has(field.name) || fields.text(field.name).empty()) continue;
     measurement.*field.text = kept(*log, fields.text(field.name), field.accepted.longest);
   }
-  const auto judged = fields.has("tolerance_class")
-                          ? judge_by_class(measurement, *log, fields, origin)
-                          : judge_by_drawing(measurement, fields);
-  if (!judged) return judged.error();
+  TRY(fields.has("tolerance_class") ? judge_by_class(measurement, *log, fields, origin)
+                                    : judge_by_drawing(measurement, fields));
   log->measurements.push_back(measurement);
   return log;
 }

@@ -29,11 +29,9 @@ control_link::LinkResult<LinkClient> connect(const MachineOptions& machine,
   auto control = LinkClient::connect({.address = machine.address, .stop = stop});
   if (!control) return control;
   for (const char* login : {"INSPECT", "FILE"}) {
-    if (const auto done = control->login(login); !done) return done.error();
+    TRY(control->login(login));
     // Set between the logins, because INSPECT may request the buffer.
-    if (login == std::string_view("INSPECT")) {
-      if (const auto agreed = control->agree_buffer(); !agreed) return agreed.error();
-    }
+    if (login == std::string_view("INSPECT")) TRY(control->agree_buffer());
   }
   return control;
 }

@@ -58,14 +58,13 @@ UnderWay store(app::MeasurementService& measurements, const MachineOptions& mach
 Result<void> keep(app::FileService& files, const MachineOptions& machine, const std::string& path,
                   const std::string& bytes) {
   constexpr std::size_t kDrive = 5;  // TNC:\.
-  auto kept = interpreter::ControlPath::parse(
-      fmt::format("TNC:\\collected\\{}\\{}", machine.name, path.substr(kDrive)));
-  if (!kept) return kept.error();
-  const auto there = wait_for_result<app::DiskFile>([&](auto done) { files.read(*kept, done); });
+  auto kept = TRY(interpreter::ControlPath::parse(
+      fmt::format("TNC:\\collected\\{}\\{}", machine.name, path.substr(kDrive))));
+  const auto there = wait_for_result<app::DiskFile>([&](auto done) { files.read(kept, done); });
   if (there && there->bytes == bytes) return {};
   if (!there && there.error().code != ErrorCode::FileUnknown) return there.error();
   const auto written = wait_for_result<bool>(
-      [&](auto done) { files.write(*std::move(kept), bytes, machine.name, {}, done); });
+      [&](auto done) { files.write(std::move(kept), bytes, machine.name, {}, done); });
   if (!written) return written.error();
   return {};
 }
@@ -98,7 +97,7 @@ Result<Taken> take_logs(const Plant& plant, const MachineOptions& machine, const
   }
   while (!under_way.empty()) finish_one();
   if (failed) return *failed;
-  if (const auto done = keep(plant.files, machine, path, bytes); !done) return done.error();
+  TRY(keep(plant.files, machine, path, bytes));
   return taken;
 }
 

@@ -68,9 +68,7 @@ Result<Sampled> sampled(const Gathering& gathering, const Sample& sample,
       streams.add(each, sequence);
     }
   }
-  if (!sample.backwards) {
-    return sampled(page.next ? mtconnect::part_sequence(*page.next) + 2 : end);
-  }
+  if (!sample.backwards) return sampled(page.next ? mtconnect::part_sequence(*page.next) + 2 : end);
   if (page.next) return sampled(mtconnect::part_sequence(*page.next) - 1);
   // The first sequence has nothing before it.
   if (streams.count() < sample.count) streams.add_availability();

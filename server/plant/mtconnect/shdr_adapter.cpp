@@ -144,9 +144,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   void take_in(http::Socket socket) {
     error_code ignored;
     const auto peer = socket.remote_endpoint(ignored).address().to_string();
-    if (agents_.size() >= options_.most_agents) {
-      return tell(peer, "too many agents are connected");
-    }
+    if (agents_.size() >= options_.most_agents) return tell(peer, "too many agents are connected");
     // Waiting bytes in the kernel are bounded too.
     socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
     socket.set_option(asio::ip::tcp::no_delay(true), ignored);
@@ -292,7 +290,7 @@ Result<std::unique_ptr<ShdrAdapter>> ShdrAdapter::start(AdapterOptions options,
                                                         app::EventService& events,
                                                         const Clock& clock) {
   auto loop = std::make_shared<Loop>(std::move(options), measurements, events, clock);
-  if (const auto opened = loop->open(); !opened) return opened.error();
+  TRY(loop->open());
   return std::unique_ptr<ShdrAdapter>(new ShdrAdapter(std::move(loop)));
 }
 

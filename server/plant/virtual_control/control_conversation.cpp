@@ -61,7 +61,7 @@ ControlResult<void> ControlConversation::needs(
 }
 
 ControlResult<void> ControlConversation::needs_to_write(std::string_view login) const {
-  if (auto has = needs({login}); !has) return has;
+  TRY(needs({login}));
   if (!state_.is_writable) return ControlError::NoWriteAccess;
   return {};
 }
@@ -86,7 +86,7 @@ ControlConversation::Reply ControlConversation::reply(const Logout& logout) {
 }
 
 ControlConversation::Reply ControlConversation::reply(const ReadVersion& request) {
-  if (auto may = needs({"INSPECT"}); !may) return may.error();
+  TRY(needs({"INSPECT"}));
   const ControlModel& model = state_.model;
   const std::string name(model.name);
   const std::string software(model.nc_software);
@@ -113,7 +113,7 @@ ControlConversation::Reply ControlConversation::reply(const ReadVersion& request
 }
 
 ControlConversation::Reply ControlConversation::reply(const ReadParameters&) {
-  if (auto may = needs({"INSPECT"}); !may) return may.error();
+  TRY(needs({"INSPECT"}));
   return encode(control_parameters());
 }
 
@@ -135,7 +135,7 @@ ControlConversation::Reply ControlConversation::reply(const SystemCommand& reque
 }
 
 ControlConversation::Reply ControlConversation::reply(const ReadRunInformation& request) {
-  if (auto may = needs({"DNC", "MONITOR"}); !may) return may.error();
+  TRY(needs({"DNC", "MONITOR"}));
   MachineView& machine = state_.machine;
   constexpr std::uint32_t kFullSpeed = 10'000;
   switch (request.which) {
@@ -168,24 +168,21 @@ ControlConversation::Reply ControlConversation::next_error(bool first) {
 }
 
 ControlConversation::Reply ControlConversation::reply(const ReadMemory& request) {
-  if (auto may = needs({"PLCDEBUG"}); !may) return may.error();
-  const auto memory = read_memory(request.address, request.count);
-  if (!memory) return memory.error();
-  return encode(*memory);
+  TRY(needs({"PLCDEBUG"}));
+  const auto memory = TRY(read_memory(request.address, request.count));
+  return encode(memory);
 }
 
 ControlConversation::Reply ControlConversation::reply(const ReadMachineParameter& request) {
-  if (auto may = needs({"INSPECT"}); !may) return may.error();
-  if (request.name == kRunParameter) {
-    return encode(MachineParameter{state_.machine.program().main});
-  }
+  TRY(needs({"INSPECT"}));
+  if (request.name == kRunParameter) return encode(MachineParameter{state_.machine.program().main});
   const auto found = state_.parameters.find(request.name);
   if (found == state_.parameters.end()) return ControlError::WrongParameter;
   return encode(MachineParameter{found->second});
 }
 
 ControlConversation::Reply ControlConversation::reply(const WriteMachineParameter& request) {
-  if (auto may = needs_to_write("PLCDEBUG"); !may) return may.error();
+  TRY(needs_to_write("PLCDEBUG"));
   if (request.name == kRunParameter) return run_program(request.value);
   const auto found = state_.parameters.find(request.name);
   if (found == state_.parameters.end()) return ControlError::WrongParameter;
@@ -198,22 +195,20 @@ ControlConversation::Reply ControlConversation::run_program(const std::string& p
     state_.machine.stop();
     return encode(control_link::Accepted{});
   }
-  const auto program = file_path(path, directory_);
-  if (!program) return program.error();
-  const auto run = state_.machine.start(*program);
-  if (!run) return run.error();
+  const auto program = TRY(file_path(path, directory_));
+  TRY(state_.machine.start(program));
   return encode(control_link::Accepted{});
 }
 
 ControlConversation::Reply ControlConversation::reply(const LockKeyboard& request) {
-  if (auto may = needs_to_write("MONITOR"); !may) return may.error();
+  TRY(needs_to_write("MONITOR"));
   state_.keyboard_locked = request.locked;
   return encode(control_link::Accepted{});
 }
 
 /// The keys of the operating modes switch the mode; every other key is accepted without effect.
 ControlConversation::Reply ControlConversation::reply(const PressKey& request) {
-  if (auto may = needs_to_write("MONITOR"); !may) return may.error();
+  TRY(needs_to_write("MONITOR"));
   constexpr std::uint16_t kManual = 0x01C0;
   constexpr std::uint16_t kSingleBlock = 0x01C2;
   constexpr std::uint16_t kAutomatic = 0x01C3;
@@ -230,10 +225,9 @@ ControlConversation::Reply ControlConversation::reply(const PressKey& request) {
 
 ControlConversation::Reply ControlConversation::reply(const ReadDataPath& request) {
   if (!state_.model.is_itnc) return ControlError::UnknownTelegram;
-  if (auto may = needs({"DATA"}); !may) return may.error();
-  const auto value = read_data_path(request.path);
-  if (!value) return value.error();
-  return encode(*value);
+  TRY(needs({"DATA"}));
+  const auto value = TRY(read_data_path(request.path));
+  return encode(value);
 }
 
 }  // namespace fitgauge::virtual_control

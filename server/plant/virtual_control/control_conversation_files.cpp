@@ -47,16 +47,15 @@ std::uint32_t unix_time(Timestamp time) {
 }  // namespace
 
 ControlConversation::Reply ControlConversation::reply(const ChangeDirectory& request) {
-  if (auto may = needs({kFile}); !may) return may.error();
-  auto directory = directory_path(request.path, directory_);
-  if (!directory) return directory.error();
-  if (!state_.disk.has_directory(*directory)) return ControlError::NoDirectory;
-  directory_ = *std::move(directory);
+  TRY(needs({kFile}));
+  auto directory = TRY(directory_path(request.path, directory_));
+  if (!state_.disk.has_directory(directory)) return ControlError::NoDirectory;
+  directory_ = std::move(directory);
   return encode(control_link::Accepted{});
 }
 
 ControlConversation::Reply ControlConversation::reply(const ReadDirectory&) {
-  if (auto may = needs({kFile}); !may) return may.error();
+  TRY(needs({kFile}));
   if (!state_.disk.has_directory(directory_)) return ControlError::NoDirectory;
   return encode(DirectoryInformation{.free_bytes = kFreeBytes, .path = directory_});
 }
@@ -71,17 +70,16 @@ DirectoryEntry ControlConversation::listed(const DiskEntry& entry) const {
 }
 
 ControlConversation::Reply ControlConversation::reply(const ListDirectory& request) {
-  if (auto may = needs({kFile}); !may) return may.error();
+  TRY(needs({kFile}));
   Sending sending{.share = ByteShare(state_.transfers)};
   if (request.mode == ListDirectory::kDrives) {
     sending.entries.push_back({.name = "TNC:", .is_directory = true});
   } else if (request.mode == ListDirectory::kEntries) {
-    auto entries = state_.disk.list(directory_);
-    if (!entries) return entries.error();
+    auto entries = TRY(state_.disk.list(directory_));
     std::size_t bytes = 0;
-    for (const DiskEntry& entry : *entries) bytes += kEntryBytes + entry.name.size();
+    for (const DiskEntry& entry : entries) bytes += kEntryBytes + entry.name.size();
     if (!sending.share.take(bytes)) return ControlError::NoSpace;
-    sending.entries = *std::move(entries);
+    sending.entries = std::move(entries);
   } else {
     return ControlError::WrongParameter;
   }
@@ -90,22 +88,20 @@ ControlConversation::Reply ControlConversation::reply(const ListDirectory& reque
 }
 
 ControlConversation::Reply ControlConversation::reply(const MakeDirectory& request) {
-  if (auto may = needs_to_write(kFile); !may) return may.error();
-  const auto directory = directory_path(request.path, directory_);
-  if (!directory) return directory.error();
-  return accepted(state_.disk.make_directory(*directory));
+  TRY(needs_to_write(kFile));
+  const auto directory = TRY(directory_path(request.path, directory_));
+  return accepted(state_.disk.make_directory(directory));
 }
 
 ControlConversation::Reply ControlConversation::reply(const DeleteDirectory& request) {
-  if (auto may = needs_to_write(kFile); !may) return may.error();
-  const auto directory = directory_path(request.path, directory_);
-  if (!directory) return directory.error();
-  if (!state_.model.is_itnc && ascii_iequals(*directory, directory_)) return ControlError::InUse;
-  return accepted(state_.disk.remove_directory(*directory));
+  TRY(needs_to_write(kFile));
+  const auto directory = TRY(directory_path(request.path, directory_));
+  if (!state_.model.is_itnc && ascii_iequals(directory, directory_)) return ControlError::InUse;
+  return accepted(state_.disk.remove_directory(directory));
 }
 
 ControlConversation::Reply ControlConversation::reply(const ReadFileInformation& request) {
-  if (auto may = needs({kFile}); !may) return may.error();
+  TRY(needs({kFile}));
   DiskEntry entry;
   const auto directory = directory_path(request.path, directory_);
   if (directory && state_.disk.has_directory(*directory)) {
@@ -113,29 +109,24 @@ ControlConversation::Reply ControlConversation::reply(const ReadFileInformation&
   } else {
     const auto path = file_path(request.path, directory_);
     if (!path) return ControlError::NoFile;
-    auto found = state_.disk.find(*path);
-    if (!found) return found.error();
-    entry = *std::move(found);
+    entry = TRY(state_.disk.find(*path));
   }
   const DirectoryEntry shown = listed(entry);
   return encode(FileInformation{shown.bytes, shown.unix_time, shown.flags, shown.name});
 }
 
 ControlConversation::Reply ControlConversation::reply(const DeleteFile& request) {
-  if (auto may = needs_to_write(kFile); !may) return may.error();
-  const auto path = file_path(request.path, directory_);
-  if (!path) return path.error();
-  return accepted(state_.disk.remove(*path));
+  TRY(needs_to_write(kFile));
+  const auto path = TRY(file_path(request.path, directory_));
+  return accepted(state_.disk.remove(path));
 }
 
 ControlConversation::Reply ControlConversation::copy(const std::string& source,
                                                      const std::string& target, bool moves) {
-  if (auto may = needs_to_write(kFile); !may) return may.error();
-  const auto from = file_path(source, directory_);
-  if (!from) return from.error();
-  const auto to = file_path(target, directory_);
-  if (!to) return to.error();
-  return accepted(moves ? state_.disk.rename(*from, *to) : state_.disk.copy(*from, *to));
+  TRY(needs_to_write(kFile));
+  const auto from = TRY(file_path(source, directory_));
+  const auto to = TRY(file_path(target, directory_));
+  return accepted(moves ? state_.disk.rename(from, to) : state_.disk.copy(from, to));
 }
 
 ControlConversation::Reply ControlConversation::reply(const CopyFile& request) {
@@ -147,11 +138,10 @@ ControlConversation::Reply ControlConversation::reply(const RenameFile& request)
 }
 
 ControlConversation::Reply ControlConversation::reply(const Upload& request) {
-  if (auto may = needs_to_write(kFile); !may) return may.error();
-  auto path = file_path(request.path, directory_);
-  if (!path) return path.error();
-  if (!state_.disk.has_directory(path->directory())) return ControlError::NoDirectory;
-  transfer_ = Receiving{.path = *std::move(path),
+  TRY(needs_to_write(kFile));
+  auto path = TRY(file_path(request.path, directory_));
+  if (!state_.disk.has_directory(path.directory())) return ControlError::NoDirectory;
+  transfer_ = Receiving{.path = std::move(path),
                         .binary = request.binary.value_or(false),
                         .bytes = {},
                         .share = ByteShare(state_.transfers)};
@@ -182,14 +172,12 @@ ControlConversation::Reply ControlConversation::reply(const EndOfData&) {
 }
 
 ControlConversation::Reply ControlConversation::reply(const Download& request) {
-  if (auto may = needs({kFile}); !may) return may.error();
-  const auto path = file_path(request.path, directory_);
-  if (!path) return path.error();
-  const auto bytes = state_.disk.read(*path);
-  if (!bytes) return bytes.error();
+  TRY(needs({kFile}));
+  const auto path = TRY(file_path(request.path, directory_));
+  const auto bytes = TRY(state_.disk.read(path));
   Sending sending{.is_file = true, .share = ByteShare(state_.transfers)};
-  if (!sending.share.take((*bytes)->size())) return ControlError::NoSpace;
-  sending.bytes = request.binary.value_or(false) ? **bytes : lines_on_the_wire(**bytes);
+  if (!sending.share.take(bytes->size())) return ControlError::NoSpace;
+  sending.bytes = request.binary.value_or(false) ? *bytes : lines_on_the_wire(*bytes);
   transfer_ = std::move(sending);
   return reply(control_link::Accepted{});
 }
@@ -213,10 +201,9 @@ ControlConversation::Reply ControlConversation::reply(const control_link::Accept
 }
 
 ControlConversation::Reply ControlConversation::dump_screen(const std::string& path) {
-  if (auto may = needs_to_write(kFile); !may) return may.error();
-  const auto file = file_path(path, directory_);
-  if (!file) return file.error();
-  return accepted(state_.disk.write(*file, screen_dump(state_.machine.state())));
+  TRY(needs_to_write(kFile));
+  const auto file = TRY(file_path(path, directory_));
+  return accepted(state_.disk.write(file, screen_dump(state_.machine.state())));
 }
 
 }  // namespace fitgauge::virtual_control

@@ -35,11 +35,10 @@ std::string tool_table(const machine::Setup& setup) {
 
 /// Stores a file unless one of that name exists.
 Result<void> bring(app::FileService& files, std::string_view path, const std::string& bytes) {
-  auto parsed = interpreter::ControlPath::parse(path);
-  if (!parsed) return parsed.error();
+  auto parsed = TRY(interpreter::ControlPath::parse(path));
   const auto done = wait_for_result<bool>([&](auto written) {
     files.write(
-        *std::move(parsed), bytes, std::nullopt,
+        std::move(parsed), bytes, std::nullopt,
         [](std::optional<std::string_view> stored) { return !stored; }, written);
   });
   if (!done && done.error().code != ErrorCode::PreconditionFailed) return done.error();
@@ -55,9 +54,7 @@ Result<void> bring_files(app::FileService& files, const ControlModel& model,
   for (const ExampleProgram& example : example_programs()) {
     brought.emplace_back(fmt::format("TNC:\\nc_prog\\{}", example.path), example.text);
   }
-  for (const auto& [path, bytes] : brought) {
-    if (const auto done = bring(files, path, bytes); !done) return done.error();
-  }
+  for (const auto& [path, bytes] : brought) TRY(bring(files, path, bytes));
   return {};
 }
 
@@ -95,9 +92,7 @@ Result<std::unique_ptr<VirtualControl>> VirtualControl::start(VirtualControlOpti
   if (model == nullptr) {
     return Error{ErrorCode::ConfigInvalid, "unknown control model '" + options.model + "'"};
   }
-  if (const auto brought = bring_files(files, *model, options.setup); !brought) {
-    return brought.error();
-  }
+  TRY(bring_files(files, *model, options.setup));
   auto start = [&files, begin = std::move(options.start)](const interpreter::ControlPath& path) {
     auto run = begin(path);
     if (run) keep_files(files, *run);

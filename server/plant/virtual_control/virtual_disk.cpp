@@ -91,11 +91,10 @@ VirtualDisk::run_files() {
 
 VirtualDisk::Answer<std::map<std::string, DiskEntry>> VirtualDisk::files_below(
     std::string_view prefix) {
-  auto stored = wait_for<std::vector<app::DiskFile>>(
-      [&](auto done) { files_.list(std::string(prefix), std::move(done)); });
-  if (!stored) return stored.error();
+  auto stored = TRY(wait_for<std::vector<app::DiskFile>>(
+      [&](auto done) { files_.list(std::string(prefix), std::move(done)); }));
   std::map<std::string, DiskEntry> entries;
-  for (app::DiskFile& file : *stored) {
+  for (app::DiskFile& file : stored) {
     std::string key = ascii_lower(file.path);
     entries[std::move(key)] = {.name = std::move(file.path),
                                .is_directory = false,
@@ -125,8 +124,7 @@ bool VirtualDisk::has_directory(std::string_view directory) {
 
 VirtualDisk::Answer<std::vector<DiskEntry>> VirtualDisk::list(std::string_view directory) {
   if (!has_directory(directory)) return ControlError::NoDirectory;
-  const auto below = files_below(directory);
-  if (!below) return below.error();
+  const auto below = TRY(files_below(directory));
   std::map<std::string, DiskEntry> directories;
   std::vector<DiskEntry> files;
   const auto add_directory = [&](std::string_view path, Timestamp time) {
@@ -149,7 +147,7 @@ VirtualDisk::Answer<std::vector<DiskEntry>> VirtualDisk::list(std::string_view d
        ++made) {
     add_directory(made->second, {});
   }
-  for (const auto& [path, entry] : *below) {
+  for (const auto& [path, entry] : below) {
     add_directory(entry.name, entry.modified_at);
     if (entry.name.find('\\', directory.size()) != std::string::npos) continue;
     files.push_back(entry);
@@ -176,9 +174,8 @@ VirtualDisk::Answer<void> VirtualDisk::make_directory(std::string_view directory
 
 VirtualDisk::Answer<void> VirtualDisk::remove_directory(std::string_view directory) {
   if (is_every_controls(directory)) return ControlError::InUse;
-  const auto entries = list(directory);
-  if (!entries) return entries.error();
-  if (!entries->empty()) return ControlError::DirectoryNotEmpty;
+  const auto entries = TRY(list(directory));
+  if (!entries.empty()) return ControlError::DirectoryNotEmpty;
   // The directory above may have been there only for this one.
   if (!is_every_controls(parent_of(directory))) keep_directory(parent_of(directory));
   made_bytes_ -= made_.erase(ascii_lower(directory)) * directory.size();
@@ -186,10 +183,9 @@ VirtualDisk::Answer<void> VirtualDisk::remove_directory(std::string_view directo
 }
 
 VirtualDisk::Answer<DiskEntry> VirtualDisk::find(const Path& path) {
-  auto entries = files_below(path.text());
-  if (!entries) return entries.error();
-  const auto found = entries->find(ascii_lower(path.text()));
-  if (found == entries->end()) return ControlError::NoFile;
+  auto entries = TRY(files_below(path.text()));
+  const auto found = entries.find(ascii_lower(path.text()));
+  if (found == entries.end()) return ControlError::NoFile;
   DiskEntry entry = std::move(found->second);
   entry.name = file_name_of(entry.name);
   return entry;
@@ -200,9 +196,8 @@ VirtualDisk::Answer<std::shared_ptr<const std::string>> VirtualDisk::read(const 
   if (const auto found = written.find(path.key()); found != written.end()) {
     return std::make_shared<const std::string>(found->second.first->bytes);
   }
-  auto file = wait_for<app::DiskFile>([&](auto done) { files_.read(path, std::move(done)); });
-  if (!file) return file.error();
-  return std::make_shared<const std::string>(std::move(file->bytes));
+  auto file = TRY(wait_for<app::DiskFile>([&](auto done) { files_.read(path, std::move(done)); }));
+  return std::make_shared<const std::string>(std::move(file.bytes));
 }
 
 VirtualDisk::Answer<void> VirtualDisk::write(const Path& path, std::string_view bytes) {
@@ -215,8 +210,7 @@ VirtualDisk::Answer<void> VirtualDisk::write(const Path& path, std::string_view 
 }
 
 VirtualDisk::Answer<void> VirtualDisk::remove(const Path& path) {
-  const auto found = find(path);
-  if (!found) return found.error();
+  TRY(find(path));
   const auto removed = wait_for<bool>(
       [&](auto done) { files_.remove(path, std::nullopt, {}, {}, std::move(done)); });
   // A file of only the run: nothing is stored of it.
@@ -227,14 +221,13 @@ VirtualDisk::Answer<void> VirtualDisk::remove(const Path& path) {
 }
 
 VirtualDisk::Answer<void> VirtualDisk::copy(const Path& source, const Path& target) {
-  const auto bytes = read(source);
-  if (!bytes) return bytes.error();
+  const auto bytes = TRY(read(source));
   if (find(target)) return ControlError::FileExists;
-  return write(target, **bytes);
+  return write(target, *bytes);
 }
 
 VirtualDisk::Answer<void> VirtualDisk::rename(const Path& source, const Path& target) {
-  if (auto copied = copy(source, target); !copied) return copied;
+  TRY(copy(source, target));
   return remove(source);
 }
 

@@ -163,14 +163,9 @@ void DocumentService::write(Change change, Done<bool> done) {
   database_.writer().submit(
       [change = std::move(change), at = clock_.now().nanoseconds,
        has_centre = has_centre_](store::Stores& stores) -> Result<bool> {
-        if (has_centre) {
-          if (const auto own = check_owner(stores, change.kind, change.name); !own) {
-            return own.error();
-          }
-        }
-        const auto allowed = check_change(change.precondition, change.kind, change.name,
-                                          stores.documents.find(change.kind, change.name));
-        if (!allowed) return allowed.error();
+        if (has_centre) TRY(check_owner(stores, change.kind, change.name));
+        TRY(check_change(change.precondition, change.kind, change.name,
+                         stores.documents.find(change.kind, change.name)));
         if (change.uncertainty &&
             !stores.documents.find(store::DocumentKind::Uncertainty, *change.uncertainty)) {
           return unknown_document(DocumentKind::Uncertainty, *change.uncertainty);
@@ -203,13 +198,9 @@ void DocumentService::remove(DocumentKind kind, std::string name, Precondition p
        has_centre = has_centre_](store::Stores& stores) -> Result<bool> {
         const auto current = stores.documents.find(kind, name);
         if (!current) return unknown_document(kind, name);
-        if (has_centre) {
-          if (const auto own = check_owner(stores, kind, name); !own) return own.error();
-        }
-        if (const auto free = check_free(stores, kind, name, users); !free) return free.error();
-        if (const auto allowed = check_change(precondition, kind, name, current); !allowed) {
-          return allowed.error();
-        }
+        if (has_centre) TRY(check_owner(stores, kind, name));
+        TRY(check_free(stores, kind, name, users));
+        TRY(check_change(precondition, kind, name, current));
         return remove_document(stores, kind, name, at, caller);
       },
       std::move(done));

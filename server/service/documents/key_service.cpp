@@ -45,7 +45,7 @@ void log_key(store::Stores& stores, const std::string& name, std::int64_t now_ns
 }
 
 Result<void> revoke_key(store::Stores& stores, const std::string& name, std::int64_t now_ns) {
-  if (const auto revoked = stores.keys.revoke(name, now_ns); !revoked) return revoked.error();
+  TRY(stores.keys.revoke(name, now_ns));
   log_key(stores, name, now_ns, false);
   return {};
 }
@@ -58,7 +58,7 @@ KeyService::~KeyService() = default;
 Result<std::unique_ptr<KeyService>> KeyService::open(store::Database& database, const Clock& clock,
                                                      Tell tell) {
   std::unique_ptr<KeyService> service(new KeyService(database, clock, std::move(tell)));
-  if (const auto loaded = service->reload(); !loaded) return loaded.error();
+  TRY(service->reload());
   service->loader_ = Thread("the loader of keys", [raw = service.get()](const auto& stop) {
     // Storage that fails for a while leaves the keys that were loaded last in force.
     while (wait_unless_stopped(stop, kReloadInterval)) static_cast<void>(raw->reload());
@@ -122,7 +122,7 @@ Result<std::string> KeyService::create(const std::string& name, Role role, std::
     return key;
   });
   if (!created) return created.error();
-  if (const auto loaded = reload(); !loaded) return loaded.error();
+  TRY(reload());
   return token;
 }
 
@@ -130,21 +130,19 @@ Result<std::string> KeyService::replace(const std::string& name, const std::stri
   const std::int64_t now = clock_.now().nanoseconds;
   const auto replaced =
       database_.writer().wait([&](store::Stores& stores) -> Result<store::ApiKey> {
-        if (const auto revoked = revoke_key(stores, name, now); !revoked) return revoked.error();
+        TRY(revoke_key(stores, name, now));
         auto key = stores.keys.create(name, store::Role::Admin, token, now);
         if (key) log_key(stores, name, now, true);
         return key;
       });
   if (!replaced) return replaced.error();
-  if (const auto loaded = reload(); !loaded) return loaded.error();
+  TRY(reload());
   return token;
 }
 
 Result<void> KeyService::revoke(const std::string& name) {
   const auto revoked = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
-    if (const auto done = revoke_key(stores, name, clock_.now().nanoseconds); !done) {
-      return done.error();
-    }
+    TRY(revoke_key(stores, name, clock_.now().nanoseconds));
     return true;
   });
   if (!revoked) return revoked.error();

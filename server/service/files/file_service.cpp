@@ -144,7 +144,7 @@ void FileService::remove(interpreter::ControlPath path, std::optional<std::strin
             return named && *named == path;
           });
         }
-        if (const auto free = check_unused(path.text(), users); !free) return free.error();
+        TRY(check_unused(path.text(), users));
         if (!holds(precondition, stores, path)) return changed(path);
         if (!stores.files.remove(path.text(), now.nanoseconds, caller)) return unknown(path);
         return true;

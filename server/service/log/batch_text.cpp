@@ -118,27 +118,22 @@ Result<store::IdempotencyStore::Forwarded> read_answer(const JsonValue& json) {
 }
 
 Result<void> read_line(std::string_view line, bool is_first, ReadBatch& read) {
-  auto json = parse_json(line);
-  if (!json) return json.error();
-  if (!json->is(JsonValue::Kind::Object)) return missing("object in a line");
-  if (is_first) return read_heading(*json, read.batch);
-  if (const JsonValue* kept = json->find("answer"); kept != nullptr && json->members.size() == 1) {
-    auto answer = read_answer(*kept);
-    if (!answer) return answer.error();
-    read.batch.answers.push_back(*std::move(answer));
+  auto json = TRY(parse_json(line));
+  if (!json.is(JsonValue::Kind::Object)) return missing("object in a line");
+  if (is_first) return read_heading(json, read.batch);
+  if (const JsonValue* kept = json.find("answer"); kept != nullptr && json.members.size() == 1) {
+    auto answer = TRY(read_answer(*kept));
+    read.batch.answers.push_back(std::move(answer));
     return {};
   }
-  if (const JsonValue* noted = json->find("note"); noted != nullptr && json->members.size() == 1) {
-    auto note = read_whole<app::Note>(*noted);
-    if (!note) return note.error();
-    if (!note->says_something()) {
+  if (const JsonValue* noted = json.find("note"); noted != nullptr && json.members.size() == 1) {
+    auto note = TRY(read_whole<app::Note>(*noted));
+    if (!note.says_something())
       return Error{ErrorCode::LogRecordInvalid, "a note of the batch is empty"};
-    }
-    read.batch.notes.push_back(*std::move(note));
+    read.batch.notes.push_back(std::move(note));
     return {};
   }
-  auto measurement = read_record(*json, read.texts);
-  if (!measurement) return measurement.error();
+  auto measurement = TRY(read_record(json, read.texts));
   if (read.batch.rows.size() == app::LogIntake::kMostRows || !read.batch.answers.empty() ||
       !read.batch.notes.empty()) {
     return Error{
@@ -146,7 +141,7 @@ Result<void> read_line(std::string_view line, bool is_first, ReadBatch& read) {
         fmt::format("a batch must have at most {} records, and responses and notes only after them",
                     app::LogIntake::kMostRows)};
   }
-  read.batch.rows.push_back({.measurement = *std::move(measurement), .record = line});
+  read.batch.rows.push_back({.measurement = measurement, .record = line});
   return {};
 }
 

@@ -68,37 +68,32 @@ Result<LogIntake::Answer> LogIntake::take(const ForwardedBatch& batch) {
                              "more, and a batch must have at most {} rows",
                              kDigitsOfOrigin, kMostRows)};
   }
-  auto known = read(batch);
-  if (!known) return known.error();
-  if (const auto trusted = trust(batch, *known); !trusted) return trusted.error();
+  auto known = TRY(read(batch));
+  TRY(trust(batch, known));
   if (batch.rows.empty() && batch.notes.empty()) {
     return Error{ErrorCode::RequestInvalid, "the batch has no record and no note"};
   }
-  if (batch.from > static_cast<std::int64_t>(known->head.size) + 1 || known->lacks_notes) {
-    return Answer{.outcome = Outcome::Elsewhere, .head = known->head};
-  }
-  auto judged = judge_tree(batch, *known);
-  if (!judged) return judged.error();
-  if (judged->outcome == Outcome::Forked) fork(batch, *known);
-  if (judged->outcome != Outcome::Taken) {
-    return Answer{.outcome = judged->outcome, .head = known->head};
-  }
-  if (const auto checked = check_rows(batch); !checked) return checked.error();
-  if (const auto prepared = prepare(batch, *known); !prepared) return prepared.error();
+  if (batch.from > static_cast<std::int64_t>(known.head.size) + 1 || known.lacks_notes)
+    return Answer{.outcome = Outcome::Elsewhere, .head = known.head};
+  auto judged = TRY(judge_tree(batch, known));
+  if (judged.outcome == Outcome::Forked) fork(batch, known);
+  if (judged.outcome != Outcome::Taken)
+    return Answer{.outcome = judged.outcome, .head = known.head};
+  TRY(check_rows(batch));
+  TRY(prepare(batch, known));
   const auto stored = database_.writer().wait(
-      [&](store::Stores& stores) { return store_rows(stores, batch, *known, *judged); });
+      [&](store::Stores& stores) { return store_rows(stores, batch, known, judged); });
   if (!stored) return stored.error();
   if (!*stored) {  // another batch of this log was faster
-    const auto now = read(batch);
-    if (!now) return now.error();
-    return Answer{.outcome = Outcome::Elsewhere, .head = now->head};
+    const auto now = TRY(read(batch));
+    return Answer{.outcome = Outcome::Elsewhere, .head = now.head};
   }
-  tell_branch(batch, *known);
-  for (const tlog::VerifierKey& key : known->new_keys) {
+  tell_branch(batch, known);
+  for (const tlog::VerifierKey& key : known.new_keys) {
     tell_("log_origin_key", fmt::format("{} signs with {} from now on", key.name(), key.text()));
   }
   return Answer{.outcome = Outcome::Taken,
-                .head = {.size = known->before.size() + batch.rows.size(), .root = judged->root}};
+                .head = {.size = known.before.size() + batch.rows.size(), .root = judged.root}};
 }
 
 Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
@@ -108,13 +103,12 @@ Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
     const auto behind = parse_note_id(batch.notes_after, origins_);
     known.lacks_notes = !batch.notes_after.empty() &&
                         (!behind || stores.notes.newest_of(behind->origin) < behind->number);
-    if (const auto based = read_base(stores, batch, known); !based) return based.error();
+    TRY(read_base(stores, batch, known));
     if (!origin) return known;
     known.number = origin->number;
     for (const std::string& text : stores.origins.keys(origin->number)) {
-      auto key = tlog::VerifierKey::parse(text);
-      if (!key) return key.error();
-      known.keys.push_back(*std::move(key));
+      auto key = TRY(tlog::VerifierKey::parse(text));
+      known.keys.push_back(std::move(key));
     }
     if (origin->checkpoint.empty() && origin->first_row) {
       return Error{ErrorCode::RequestInvalid,
@@ -122,9 +116,8 @@ Result<LogIntake::Known> LogIntake::read(const ForwardedBatch& batch) const {
                                batch.origin)};
     }
     if (origin->checkpoint.empty()) return known;
-    const auto checkpoint = tlog::parse_checkpoint(origin->checkpoint);
-    if (!checkpoint) return checkpoint.error();
-    known.head = {.size = checkpoint->size, .root = checkpoint->root};
+    const auto checkpoint = TRY(tlog::parse_checkpoint(origin->checkpoint));
+    known.head = {.size = checkpoint.size, .root = checkpoint.root};
     const auto before = static_cast<std::uint64_t>(batch.from - 1);
     if (before > known.head.size) return known;
     const RowNames names = row_names(tables_, origins_);
@@ -162,17 +155,16 @@ Result<void> LogIntake::read_base(const store::Stores& stores, const ForwardedBa
 /// Adds the keys that the batch brings with it: the first one on trust, each further one signed for
 /// by one before it.
 Result<void> LogIntake::trust(const ForwardedBatch& batch, Known& known) const {
-  const auto key = tlog::VerifierKey::parse(batch.key);
-  if (!key) return key.error();
+  const auto key = TRY(tlog::VerifierKey::parse(batch.key));
   if (origins_.number(batch.origin, 0) == 0) {
     return Error{ErrorCode::LogForked,
                  fmt::format("{} is the log of this centre itself: one of the two folders is a "
                              "copy of the other. Start the station with an empty folder",
-                             key->name())};
+                             key.name())};
   }
-  if (!is_name_of(key->name(), batch.origin)) {
+  if (!is_name_of(key.name(), batch.origin)) {
     return Error{ErrorCode::LogKeyUnknown,
-                 fmt::format("{} is not a key of the origin {}", key->name(), batch.origin)};
+                 fmt::format("{} is not a key of the origin {}", key.name(), batch.origin)};
   }
   const auto add = [&known](const tlog::VerifierKey& next) {
     known.keys.push_back(next);
@@ -181,7 +173,7 @@ Result<void> LogIntake::trust(const ForwardedBatch& batch, Known& known) const {
   const auto is_known = [&known](const tlog::VerifierKey& wanted) {
     return std::find(known.keys.begin(), known.keys.end(), wanted) != known.keys.end();
   };
-  if (known.keys.empty()) add(*key);
+  if (known.keys.empty()) add(key);
   // Notes may be in any order: the key of a signature can come from another note.
   for (bool more = true; more;) {
     more = false;
@@ -193,28 +185,27 @@ Result<void> LogIntake::trust(const ForwardedBatch& batch, Known& known) const {
       more = true;
     }
   }
-  if (is_known(*key)) return {};
+  if (is_known(key)) return {};
   return Error{ErrorCode::LogKeyUnknown,
                fmt::format("{} has a new key without a checkpoint that both keys signed: {}",
-                           key->name(), batch.key)};
+                           key.name(), batch.key)};
 }
 
 /// Compares the batch with its checkpoint and with the stored rows.
 Result<LogIntake::Judged> LogIntake::judge_tree(const ForwardedBatch& batch,
                                                 const Known& known) const {
-  const auto checkpoint = tlog::open_checkpoint(batch.checkpoint, known.keys);
-  if (!checkpoint) return checkpoint.error();
+  const auto checkpoint = TRY(tlog::open_checkpoint(batch.checkpoint, known.keys));
   const std::uint64_t end = known.before.size() + batch.rows.size();
-  if (checkpoint->origin != known.keys.front().name() || checkpoint->size != end) {
+  if (checkpoint.origin != known.keys.front().name() || checkpoint.size != end) {
     return Error{ErrorCode::RequestInvalid,
                  fmt::format("the checkpoint covers {} rows of {}, but the batch ends at {} of {}",
-                             checkpoint->size, checkpoint->origin, end, known.keys.front().name())};
+                             checkpoint.size, checkpoint.origin, end, known.keys.front().name())};
   }
   Judged judged;
   const auto is_other = [&](const tlog::Hash& here, const tlog::Hash& there) {
     if (here != there) judged.outcome = Outcome::Forked;
   };
-  if (known.root_at_end) is_other(*known.root_at_end, checkpoint->root);
+  if (known.root_at_end) is_other(*known.root_at_end, checkpoint.root);
   tlog::Frontier grown = known.before;
   judged.leaves.reserve(batch.rows.size());
   bool fits = true;
@@ -235,11 +226,11 @@ Result<LogIntake::Judged> LogIntake::judge_tree(const ForwardedBatch& batch,
     }
     return judged;
   }
-  if (judged.root != checkpoint->root) {
+  if (judged.root != checkpoint.root) {
     return Error{ErrorCode::LogRootMismatch,
                  fmt::format("the rows do not match the root that {} has signed for {} rows: they "
                              "were altered, or earlier rows differ here",
-                             checkpoint->origin, checkpoint->size)};
+                             checkpoint.origin, checkpoint.size)};
   }
   if (!fits) judged.outcome = Outcome::Forked;
   if (fits && known.before.size() != known.head.size) judged.outcome = Outcome::Elsewhere;
@@ -346,7 +337,7 @@ Result<bool> LogIntake::store_rows(store::Stores& stores, const ForwardedBatch& 
     origin->checkpoint = batch.checkpoint;
     stores.origins.set_head(*origin);
   }
-  if (const auto noted = store_notes(stores, batch, known.number); !noted) return noted.error();
+  TRY(store_notes(stores, batch, known.number));
   return true;
 }
 

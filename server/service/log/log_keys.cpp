@@ -30,15 +30,13 @@ Result<void> replace(const fs::path& file, std::string_view content, fs::perms r
   draft += ".new";
   std::error_code failure;
   fs::remove(draft, failure);
-  if (const auto reserved = store::reserve_name(draft); !reserved) return reserved;
+  TRY(store::reserve_name(draft));
   fs::permissions(draft, rights, failure);
   if (failure) return failed("protect", draft);
   std::ofstream out(draft, std::ios::binary);
   if (!(out << content).flush()) return failed("write", draft);
   out.close();
-  if (durably) {
-    if (const auto synced = store::sync_file(draft); !synced) return synced;
-  }
+  if (durably) TRY(store::sync_file(draft));
   fs::rename(draft, file, failure);
   if (failure) return failed("replace", file);
   return durably ? store::sync_file(file) : Result<void>();
@@ -69,10 +67,9 @@ bool is_origin_name(std::string_view name) {
 Result<std::vector<tlog::SigningKey>> read_log_keys(const fs::path& folder) {
   const fs::path file = folder / kLogKeyFile;
   std::vector<tlog::SigningKey> keys;
-  const auto text = read_small_file(file);
-  if (!text) return text.error();
-  if (!*text) return keys;
-  std::string_view rest = **text;
+  const auto text = TRY(read_small_file(file));
+  if (!text) return keys;
+  std::string_view rest = *text;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const auto key = tlog::SigningKey::parse(rest.substr(0, end));
@@ -96,21 +93,20 @@ Result<void> write_log_keys(const fs::path& folder, const std::vector<tlog::Sign
 }
 
 Result<std::string> renew_log_key(const fs::path& folder) {
-  auto keys = read_log_keys(folder);
-  if (!keys) return keys.error();
-  if (keys->empty()) {
+  auto keys = TRY(read_log_keys(folder));
+  if (keys.empty()) {
     return Error{
         ErrorCode::StorageUnavailable,
         fmt::format("{} has no {}: start fitgauged once to make it", folder.string(), kLogKeyFile)};
   }
-  const std::string name = keys->front().verifier().name();
-  const auto older = std::find_if(keys->begin(), keys->end(),
+  const std::string name = keys.front().verifier().name();
+  const auto older = std::find_if(keys.begin(), keys.end(),
                                   [&](const auto& key) { return key.verifier().name() != name; });
   const auto made = tlog::SigningKey::make(name);
   std::vector<tlog::SigningKey> all{made};
   // Removes a new key that no start has used; those of former histories stay.
-  all.insert(all.end(), std::prev(older), keys->end());
-  if (const auto written = write_log_keys(folder, all); !written) return written.error();
+  all.insert(all.end(), std::prev(older), keys.end());
+  TRY(write_log_keys(folder, all));
   return made.verifier().text();
 }
 

@@ -42,7 +42,7 @@ Result<std::unique_ptr<LogService>> LogService::open(store::Database& database,
                                                      const TableCatalog& tables, const Clock& clock,
                                                      LogOptions options) {
   std::unique_ptr<LogService> log(new LogService(database, tables, clock, std::move(options)));
-  if (const auto loaded = log->load(); !loaded) return loaded.error();
+  TRY(log->load());
   return log;
 }
 
@@ -94,9 +94,7 @@ void LogService::take_names(const store::Stores& stores) {
                                  "an older copy of the database was restored, and another service "
                                  "has begun a branch: restart this service"});
   }
-  for (const auto& origin : stores.origins.list()) {
-    origins_.remember(origin.number, origin.digits);
-  }
+  for (const auto& origin : stores.origins.list()) origins_.remember(origin.number, origin.digits);
   std::string lines;
   for (const std::string& key : stores.log.keys()) lines += key + "\n";
   verifier_keys_.set(std::make_shared<const std::string>(std::move(lines)));
@@ -161,7 +159,7 @@ struct LogService::Stretch {
 Result<void> LogService::grow(const IsOver& is_over) {
   for (bool more = true; more && !is_over();) {
     Stretch stretch{.grown = frontier_};
-    if (const auto taken = take_leaves(is_over, stretch); !taken) return taken;
+    TRY(take_leaves(is_over, stretch));
     if (stretch.grown.size() == frontier_.size()) break;
     const auto kept = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
       stores.log.grow(static_cast<std::int64_t>(stretch.grown.size()), stretch.nodes);

@@ -62,7 +62,7 @@ Result<void> LogService::load() {
   if (!loaded) return loaded.error();
   if (!options_.attach) {
     if (const auto why = why_to_branch(*loaded)) {
-      if (const auto begun = branch(*loaded, *why); !begun) return begun;
+      TRY(branch(*loaded, *why));
       loaded = read();
       if (!loaded) return loaded.error();
     }
@@ -86,7 +86,7 @@ Result<void> LogService::load() {
   frontier_ = *frontier;
   name_ = loaded->state.name.value_or(name_of(options_.name, origin()));
   histories_.push_back({.digits = std::string(origin()), .name = name_, .begin = begin});
-  if (const auto keys = load_keys(loaded->keys); !keys) return keys;
+  TRY(load_keys(loaded->keys));
   if (loaded->forked) {
     forked_.set(std::make_shared<const std::string>(*loaded->forked));
     tell("log_forked", *loaded->forked);
@@ -99,10 +99,9 @@ Result<void> LogService::load() {
 
 /// Makes the key at the first start of a history, or when it was lost, and lists its public half.
 Result<void> LogService::load_keys(const std::vector<std::string>& known) {
-  auto keys = read_log_keys(options_.directory);
-  if (!keys) return keys.error();
-  const bool is_in_order = !keys->empty() && keys->front().verifier().name() == name_;
-  for (const tlog::SigningKey& key : *keys) {
+  auto keys = TRY(read_log_keys(options_.directory));
+  const bool is_in_order = !keys.empty() && keys.front().verifier().name() == name_;
+  for (const tlog::SigningKey& key : keys) {
     const auto history =
         std::find_if(histories_.begin(), histories_.end(),
                      [&](const History& each) { return each.name == key.verifier().name(); });
@@ -116,9 +115,7 @@ Result<void> LogService::load_keys(const std::vector<std::string>& known) {
   }
   const bool is_made = signers_.empty();
   if (is_made) signers_.push_back(tlog::SigningKey::make(name_));
-  if (is_made || !is_in_order) {
-    if (const auto written = write_keys(); !written) return written;
-  }
+  if (is_made || !is_in_order) TRY(write_keys());
   if (is_made) {
     const bool was_there = std::any_of(known.begin(), known.end(), [this](const auto& text) {
       const auto key = tlog::VerifierKey::parse(text);

@@ -80,11 +80,10 @@ Result<void> read_columns(const JsonValue& json, app::Revision& revision) {
     if (!feature || rows == nullptr) return unreadable(revision);
     JsonValue body{.kind = JsonValue::Kind::Object};
     body.members.emplace_back("rows", *rows);
-    auto read = read_whole<CustomRows>(body);
-    if (!read) return read.error();
+    auto read = TRY(read_whole<CustomRows>(body));
     revision.columns.push_back({.feature = *feature,
                                 .name = text_of(column, "tolerance_class"),
-                                .rows = std::move(read->rows)});
+                                .rows = std::move(read.rows)});
   }
   return {};
 }
@@ -111,15 +110,13 @@ Result<void> read_key(const JsonValue& json, app::Revision& revision) {
 Result<void> read_correction(const JsonValue& json, app::Revision& revision, TextArena& texts) {
   revision.text = text_of(json, "record");
   revision.place = number_of(json, "place");
-  const auto record = parse_json(revision.text);
-  if (!record) return record.error();
-  auto measurement = read_record(*record, texts);
-  if (!measurement) return measurement.error();
-  if (!app::is_origin_digits(measurement->origin) || !measurement->corrected_elsewhere ||
+  const auto record = TRY(parse_json(revision.text));
+  auto measurement = TRY(read_record(record, texts));
+  if (!app::is_origin_digits(measurement.origin) || !measurement.corrected_elsewhere ||
       revision.place < 1) {
     return unreadable(revision);
   }
-  revision.measurement = *measurement;
+  revision.measurement = measurement;
   return {};
 }
 
@@ -164,22 +161,19 @@ std::string revisions_text(const app::RevisionPage& page) {
 }
 
 Result<std::unique_ptr<ReadRevisions>> read_revisions(std::string_view body) {
-  const auto json = parse_json(body);
-  if (!json) return json.error();
+  const auto json = TRY(parse_json(body));
   auto read = std::make_unique<ReadRevisions>();
-  read->page.origin = text_of(*json, "origin");
-  read->page.size = number_of(*json, "size");
-  if (json->find("notes") != nullptr) read->page.notes = number_of(*json, "notes");
-  read->page.position = text_of(*json, "position");
-  read->page.more = is_true(*json, "more");
-  const JsonValue* revisions = json->find("revisions");
+  read->page.origin = text_of(json, "origin");
+  read->page.size = number_of(json, "size");
+  if (json.find("notes") != nullptr) read->page.notes = number_of(json, "notes");
+  read->page.position = text_of(json, "position");
+  read->page.more = is_true(json, "more");
+  const JsonValue* revisions = json.find("revisions");
   if (!app::is_origin_digits(read->page.origin) || read->page.position.empty() ||
       revisions == nullptr) {
     return Error{ErrorCode::RequestInvalid, "the response is not from a centre"};
   }
-  for (const JsonValue& revision : revisions->items) {
-    if (const auto done = read_revision(revision, *read); !done) return done.error();
-  }
+  for (const JsonValue& revision : revisions->items) TRY(read_revision(revision, *read));
   return read;
 }
 

@@ -152,8 +152,7 @@ Result<bool> MeasurementQueue::store(store::Stores& stores, Load& load) {
     rendering->add(load.of(request), leaves_.records(request.first, request.count));
     request.answer = rendering->finish();
   }
-  const auto appended = stores.measurements.append(rows_);
-  if (!appended) return appended.error();
+  TRY(stores.measurements.append(rows_));
   return true;
 }
 
@@ -285,11 +284,9 @@ void MeasurementFeed::end(Result<Answer> outcome) {
 Result<Answer> append_pieces(store::Stores& stores, MeasurementFeed& feed) {
   feed.begin(stores.measurements.last_id());
   while (true) {
-    const auto piece = feed.take();
-    if (!piece) return piece.error();
-    if (piece->empty()) return feed.take_answer();
-    const auto appended = stores.measurements.append(*piece);
-    if (!appended) return appended.error();
+    const auto piece = TRY(feed.take());
+    if (piece.empty()) return feed.take_answer();
+    TRY(stores.measurements.append(piece));
   }
 }
 
@@ -337,8 +334,7 @@ void MeasurementService::record(std::vector<Measurement> measurements,
   auto work = [measurements = std::move(measurements), origin = origins_.own(),
                render = std::move(render)](store::Stores& stores) mutable -> Result<Answer> {
     const auto rendering = render();
-    const auto first = append(stores, measurements, origin, rendering.get());
-    if (!first) return first.error();
+    TRY(append(stores, measurements, origin, rendering.get()));
     return rendering->finish();
   };
   submit(scope, std::move(work), std::move(done));
@@ -348,10 +344,9 @@ void MeasurementService::add_note(const RecordName& name, Note note,
                                   const std::optional<IdempotencyScope>& scope, Done<Answer> done) {
   auto work = [this, name,
                note = std::move(note)](store::Stores& stores) mutable -> Result<Answer> {
-    const auto row = existing_row_of(stores, name, origins_);
-    if (!row) return row.error();
+    const auto row = TRY(existing_row_of(stores, name, origins_));
     note.measurement = measurement_id_text(name.number, origins_.digits(name.origin, name.number));
-    append_note(stores, *row, origins_, note, note.received_at.nanoseconds);
+    append_note(stores, row, origins_, note, note.received_at.nanoseconds);
     return Answer{.status = 201,
                   .content_type = "application/json",
                   .location = {},

@@ -59,9 +59,8 @@ void MeasurementService::find(const RecordName& name, Visitor visit, Done<std::i
 void MeasurementService::list_notes(const RecordName& name, Done<std::vector<Note>> done) {
   database_.readers().submit(
       [this, name](const store::Stores& stores) -> Result<std::vector<Note>> {
-        const auto row = existing_row_of(stores, name, origins_);
-        if (!row) return row.error();
-        return notes_of(stores, *row,
+        const auto row = TRY(existing_row_of(stores, name, origins_));
+        return notes_of(stores, row,
                         measurement_id_text(name.number, origins_.digits(name.origin, name.number)),
                         origins_);
       },

@@ -270,9 +270,8 @@ void members(auto& v, BudgetOrder& order) {
 std::string uncertainty_budget_schema() { return schema_of<BudgetOrder>(Side::Order); }
 
 Result<UncertaintyBudget> read_uncertainty_budget(const JsonValue& body) {
-  auto order = read_whole<BudgetOrder>(body);
-  if (!order) return order.error();
-  UncertaintyBudget made = std::move(order->made);
+  auto order = TRY(read_whole<BudgetOrder>(body));
+  UncertaintyBudget made = std::move(order.made);
   const auto combined = metrology::combine(made.budget);
   if (!combined) {
     FieldErrors errors;
@@ -284,9 +283,8 @@ Result<UncertaintyBudget> read_uncertainty_budget(const JsonValue& body) {
 }
 
 Result<metrology::CombinedUncertainty> combined_uncertainty(const JsonValue& body) {
-  const auto made = read_uncertainty_budget(body);
-  if (!made) return made.error();
-  return made->combined;
+  const auto made = TRY(read_uncertainty_budget(body));
+  return made.combined;
 }
 
 }  // namespace fitgauge::api

@@ -71,9 +71,7 @@ struct RevisionIntake::Job {
 
   void take_tables(const Revision& revision) {
     auto taken = tables.receive(stores, revision.id, revision.columns, now);
-    if (!taken) {
-      return refuse(fmt::format("tables {}: {}", revision.id, taken.error().message));
-    }
+    if (!taken) return refuse(fmt::format("tables {}: {}", revision.id, taken.error().message));
     const auto before = received_of(revision);
     set_received(revision, taken->digest);
     if (!taken->state) return;  // they are in force
@@ -97,9 +95,7 @@ struct RevisionIntake::Job {
         remove_document(stores, kind, revision.name, now, {});
         ++outcome.taken;
       }
-      if (before) {
-        stores.revisions.forget_received(revision.kind, revision.name);
-      }
+      if (before) stores.revisions.forget_received(revision.kind, revision.name);
       return;
     }
     if (is_own) {
@@ -186,7 +182,7 @@ struct RevisionIntake::Job {
 
 Result<RevisionIntake::Outcome> RevisionIntake::take(const RevisionPage& page) {
   if (page.revisions.empty()) return Outcome{};
-  if (const auto prepared = prepare(page); !prepared) return prepared.error();
+  TRY(prepare(page));
   struct Taken {
     Outcome outcome;
     std::optional<TableCatalog::Received> received;

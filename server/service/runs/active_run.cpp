@@ -121,9 +121,7 @@ void ActiveRun::finished(Result<FinishedRun> end) {
     shown_.notify_all();
     at_end.swap(at_end_);
   });
-  for (const auto& done : at_end) {
-    guarded("a run's end", [&] { done(*end_); });
-  }
+  for (const auto& done : at_end) guarded("a run's end", [&] { done(*end_); });
 }
 
 SharedRuns::SharedRuns(store::Database& database, Own own)

@@ -20,13 +20,11 @@ using machine::Vec3;
 Error refused(std::string message) { return {ErrorCode::FieldInvalid, std::move(message)}; }
 
 Result<std::shared_ptr<const TriangleTree>> read_body(std::string_view bytes, double unit) {
-  auto triangles = machine::read_stl(bytes);
-  if (!triangles) return triangles.error();
-  if (auto closed = machine::check_closed(*triangles); !closed) return closed.error();
-  for (Triangle& triangle : *triangles) {
+  auto triangles = TRY(machine::read_stl(bytes));
+  TRY(machine::check_closed(triangles));
+  for (Triangle& triangle : triangles)
     for (Vec3& corner : triangle) corner = corner * unit;
-  }
-  return std::make_shared<const TriangleTree>(*std::move(triangles));
+  return std::make_shared<const TriangleTree>(std::move(triangles));
 }
 
 interpreter::ProjectingDisk::Projection projection(const iso286::ToleranceTables& tables,

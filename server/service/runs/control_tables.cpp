@@ -251,14 +251,12 @@ void read(Row& row, Preset& preset) {
 template <class ReadRow>
 Result<void> for_each_row(const interpreter::ControlDisk& disk, std::string_view name,
                           Allowance& allowance, const ReadRow& read_row) {
-  const auto table = MachineTable::find(disk, name, allowance);
-  if (!table) return table.error();
-  if (!*table) return {};
-  for (std::size_t i = 0; i < (*table)->table.row_count(); ++i) {
-    const auto number = (*table)->number_of(i);
-    if (!number) return number.error();
-    if (!*number) continue;
-    Row row(**table, **number);
+  const auto table = TRY(MachineTable::find(disk, name, allowance));
+  if (!table) return {};
+  for (std::size_t i = 0; i < table->table.row_count(); ++i) {
+    const auto number = TRY(table->number_of(i));
+    if (!number) continue;
+    Row row(*table, *number);
     read_row(row);
     if (row.error()) return *row.error();
   }
@@ -327,7 +325,7 @@ Result<ControlTables> read_control_tables(const interpreter::ControlDisk& disk,
                                           Allowance& allowance) {
   ControlTables tables;
   for (const auto& read_table : {read_probes, read_tools, read_presets}) {
-    if (const auto done = read_table(disk, allowance, tables); !done) return done.error();
+    TRY(read_table(disk, allowance, tables));
   }
   return tables;
 }
@@ -336,9 +334,8 @@ Result<std::shared_ptr<const ControlTables>> ControlTablesCache::read(Allowance&
   std::string revisions;
   for (const auto name : kTables) revisions += MachineTable::revision(disk_, name);
   if (tables_ != nullptr && revisions == revisions_) return tables_;
-  auto tables = read_control_tables(disk_, allowance);
-  if (!tables) return tables.error();
-  tables_ = std::make_shared<const ControlTables>(*std::move(tables));
+  auto tables = TRY(read_control_tables(disk_, allowance));
+  tables_ = std::make_shared<const ControlTables>(std::move(tables));
   revisions_ = std::move(revisions);
   return tables_;
 }

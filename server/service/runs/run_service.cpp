@@ -79,10 +79,9 @@ Result<std::shared_ptr<ActiveRun>> RunService::start(RunOrder order,
                                          Timestamp{row.created_at_ns});
     return accepted(*active);
   };
-  const auto created = scope ? database_.writer().wait_once(to_store(*scope), create)
-                             : database_.writer().wait(create);
-  if (!created) return created.error();
-  if (created->replayed) {
+  const auto created = TRY(scope ? database_.writer().wait_once(to_store(*scope), create)
+                                 : database_.writer().wait(create));
+  if (created.replayed) {
     return Error{ErrorCode::IdempotencyInProgress,
                  "another request with this Idempotency-Key was first: try again"};
   }

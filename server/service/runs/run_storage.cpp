@@ -75,9 +75,8 @@ Result<void> RunService::take_over(const store::Run& run) {
     const std::lock_guard lock(mutex_);
     if (active_.size() >= options_.workers + options_.queue) return {};  // there is another look
   }
-  const auto tables = control_tables();
-  if (!tables) return tables.error();
-  auto order = format_.order(run.request, **tables);
+  const auto tables = TRY(control_tables());
+  auto order = format_.order(run.request, *tables);
   if (order) {
     order->caller = run.caller;
     if (auto loaded = load_meshes(order->setup, "/setup", MissingFiles::Refused); !loaded) {
@@ -132,9 +131,7 @@ Result<FinishedRun> RunService::keep(const RunReport& report, std::string_view t
                                             .files = files},
                                            now);
     if (!closed) return closed.error();
-    if (const auto first = append(stores, measurements, origins_.own()); !first) {
-      return first.error();
-    }
+    TRY(append(stores, measurements, origins_.own()));
     stores.events.append(kFinishedEvent, event, now);
     return true;
   };

@@ -70,9 +70,7 @@ Result<store::LoadedTables> load_or_import(store::Stores& stores, Timestamp now)
                                     .source = std::string(kStandardSource),
                                     .parent = {},
                                     .caller = {}};
-  if (const auto imported = stores.tables.import(standard, now.nanoseconds); !imported) {
-    return imported.error();
-  }
+  TRY(stores.tables.import(standard, now.nanoseconds));
   return stores.tables.load_latest().value();
 }
 
@@ -205,8 +203,7 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
         const Error changed{ErrorCode::PreconditionFailed,
                             "the tables do not match If-Match or If-None-Match: read them again, "
                             "and repeat the change"};
-        const auto created = edit(data.custom_columns);
-        if (!created) return created.error();
+        const auto created = TRY(edit(data.custom_columns));
         auto after = column_text(data.custom_columns, column);
         if (after == before && !holds) return changed;
         if (after == before) return Changed{false, latest.revision, state_.get()};
@@ -237,13 +234,11 @@ void TableCatalog::change(ColumnName column, Edit edit, Condition condition,
           };
           std::vector<std::string> users;
           add_users(users, stores, DocumentKind::Plan, names_it);
-          const auto free =
-              check_unused(fmt::format("the custom tolerance class {}", column.name), users);
-          if (!free) return free.error();
+          TRY(check_unused(fmt::format("the custom tolerance class {}", column.name), users));
         }
         // RFC 9110, 13.2.1: this is the last refusal.
         if (!holds) return changed;
-        return Changed{*created, std::move(loaded.revision), std::move(audited)};
+        return Changed{created, std::move(loaded.revision), std::move(audited)};
       },
       [this, done = std::move(done)](Result<Changed> changed) {
         if (!changed) return done(changed.error());
@@ -260,27 +255,23 @@ Result<TableCatalog::Received> TableCatalog::receive(
   const auto latest = stores.tables.load_latest().value();
   const store::TableRevision& before = latest.revision;
   if (before.id == id) return Received{.number = before.number, .id = id, .digest = before.digest};
-  auto data = from_store({.cells = latest.content.cells, .custom = {}});
-  if (!data) return data.error();
-  for (const iso286::CustomColumn& column : columns) {
-    if (const auto checked = iso286::check_custom_column(column); !checked) return checked.error();
-  }
-  data->custom_columns = columns;
-  if (const auto made = iso286::ToleranceTables::make(*data, {id}); !made) return made.error();
-  store::TableContent content = to_store(*data);
+  auto data = TRY(from_store({.cells = latest.content.cells, .custom = {}}));
+  for (const iso286::CustomColumn& column : columns) TRY(iso286::check_custom_column(column));
+  data.custom_columns = columns;
+  TRY(iso286::ToleranceTables::make(data, {id}));
+  store::TableContent content = to_store(data);
   const Digest digest = digest_of(content);
   if (!id.ends_with("-" + store::shown_digits(digest))) {
     return Error{ErrorCode::TablesInconsistent,
                  "the tables differ from the centre's tables of this revision: use the centre's "
                  "version of fitgauge"};
   }
-  const auto imported = stores.tables.import({.content = std::move(content),
-                                              .source = "centre",
-                                              .parent = before.number,
-                                              .caller = {},
-                                              .id = id},
-                                             now_ns);
-  if (!imported) return imported.error();
+  const auto imported = TRY(stores.tables.import({.content = std::move(content),
+                                                  .source = "centre",
+                                                  .parent = before.number,
+                                                  .caller = {},
+                                                  .id = id},
+                                                 now_ns));
   const auto revision_text = [](const std::string& of) {
     return fmt::format(R"({{"table_revision":"{}"}})", of);
   };
@@ -290,7 +281,7 @@ Result<TableCatalog::Received> TableCatalog::receive(
                       .after = revision_text(id)});
   stores.events.append(kChangedEvent, revision_text(id), now_ns);
   return Received{
-      .number = imported->number,
+      .number = imported.number,
       .id = id,
       .digest = digest,
       .state = std::make_shared<const TableState>(audit(stores.tables.load_latest().value())),

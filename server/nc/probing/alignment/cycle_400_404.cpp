@@ -16,19 +16,17 @@ constexpr std::array kParameters =
     join(line(kMeasuringAxisInPlane), std::array{kReferenceAngle, kPresetRow});
 
 CycleResult<void> rotate(const CycleContext& context, ProbingMotion& motion) {
-  const auto edge = probe_line(context, motion);
-  if (!edge) return edge.error();
-  double angle =
-      workpiece_angle(context.machine.state().frames, motion.plane(), edge->direction()) -
-      context.arguments.number(307);
+  const auto edge = TRY(probe_line(context, motion));
+  double angle = workpiece_angle(context.machine.state().frames, motion.plane(), edge.direction()) -
+                 context.arguments.number(307);
   // Along the secondary axis, that axis is the reference line, with Q307 = 90 or 0.
-  if (edge->axis == 0) angle -= 90 * std::round(angle / 90);
+  if (edge.axis == 0) angle -= 90 * std::round(angle / 90);
   const Vec3 rotation = turned_rotation(context.machine.state().frames, motion.plane(), angle);
   return set_basic_rotation(context, rotation, context.arguments.whole(305));
 }
 
 CycleResult<void> set_rotation(const CycleContext& context) {
-  if (auto motion = ProbingMotion::begin(context); !motion) return motion.error();
+  TRY(ProbingMotion::begin(context));
   Vec3 rotation;
   rotation[index(context.machine.state().tool_axis())] = to_angle(context.arguments.number(307));
   return set_basic_rotation(context, rotation, context.arguments.whole(305));

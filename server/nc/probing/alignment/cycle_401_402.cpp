@@ -44,7 +44,7 @@ CycleResult<void> compensate(const CycleContext& context, const WorkingPlane& pl
     return set_basic_rotation(context, rotation, arguments.whole(305));
   }
   const machine::Axis table = rotary_axis_around(plane.probe);
-  if (auto turned = align_rotary_axis(context, table, angle); !turned) return turned;
+  TRY(align_rotary_axis(context, table, angle));
   if (arguments.whole(337) == 0) return {};
   return zero_rotary_axis(context, table, arguments.whole(305));
 }
@@ -54,9 +54,8 @@ CycleResult<void> two_holes(const CycleContext& context, ProbingMotion& motion) 
   const std::array nominal{Point2{arguments.number(268), arguments.number(269)},
                            Point2{arguments.number(270), arguments.number(271)}};
   const auto holes =
-      probe_hole_centres(motion, nominal, arguments.number(261), arguments.number(260));
-  if (!holes) return holes.error();
-  return compensate(context, motion.plane(), holes->front(), holes->back());
+      TRY(probe_hole_centres(motion, nominal, arguments.number(261), arguments.number(260)));
+  return compensate(context, motion.plane(), holes.front(), holes.back());
 }
 
 CycleResult<Point2> stud_centre(const Arguments& arguments, ProbingMotion& motion, Point2 nominal,
@@ -68,22 +67,20 @@ CycleResult<Point2> stud_centre(const Arguments& arguments, ProbingMotion& motio
                       .height = height,
                       .start_distance = motion.start_distance(arguments.number(320)),
                       .via_clearance = arguments.whole(301) == 1});
-  const auto contacts = motion.touch_all(touches, arguments.number(260));
-  if (!contacts) return contacts.error();
-  const auto circle = circle_through(*contacts, Side::Outside, motion.ball_radius());
-  if (!circle) return circle.error();
-  return circle->centre;
+  const auto contacts = TRY(motion.touch_all(touches, arguments.number(260)));
+  const auto circle = TRY(circle_through(contacts, Side::Outside, motion.ball_radius()));
+  return circle.centre;
 }
 
 CycleResult<void> two_studs(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  const auto first = stud_centre(arguments, motion, {arguments.number(268), arguments.number(269)},
-                                 arguments.number(313), arguments.number(261));
-  if (!first) return first.error();
-  const auto second = stud_centre(arguments, motion, {arguments.number(270), arguments.number(271)},
-                                  arguments.number(314), arguments.number(315));
-  if (!second) return second.error();
-  return compensate(context, motion.plane(), *first, *second);
+  const auto first =
+      TRY(stud_centre(arguments, motion, {arguments.number(268), arguments.number(269)},
+                      arguments.number(313), arguments.number(261)));
+  const auto second =
+      TRY(stud_centre(arguments, motion, {arguments.number(270), arguments.number(271)},
+                      arguments.number(314), arguments.number(315)));
+  return compensate(context, motion.plane(), first, second);
 }
 
 constinit const TouchProbeCycle kCycle401 =

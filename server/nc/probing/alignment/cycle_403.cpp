@@ -47,19 +47,17 @@ CycleResult<void> align(const CycleContext& context) {
   const Arguments& arguments = context.arguments;
   const int wanted = arguments.whole(312);
   if (wanted > 0 && wanted < 4) return nc_error(1019, "Q312 is 0, 4 (A), 5 (B) or 6 (C)");
-  auto motion = begin_alignment(context);
-  if (!motion) return motion.error();
-  const auto edge = probe_line(context, *motion);
-  if (!edge) return edge.error();
-  const auto [around, angle] = misalignment(*edge, motion->plane());
+  auto motion = TRY(begin_alignment(context));
+  const auto edge = TRY(probe_line(context, motion));
+  const auto [around, angle] = misalignment(edge, motion.plane());
   const Axis rotary = rotary_axis_around(around);
   if (wanted != 0 && rotary != static_cast<Axis>(wanted - 1)) {
     return nc_error(1019, "this rotary axis does not turn the measured line");
   }
   context.host.set_q(150, to_angle(angle), Unit::Angle);
-  const bool in_plane = around == motion->plane().probe;
+  const bool in_plane = around == motion.plane().probe;
   const double target = in_plane ? arguments.number(380) : 0;
-  if (auto turned = align_rotary_axis(context, rotary, angle - target); !turned) return turned;
+  TRY(align_rotary_axis(context, rotary, angle - target));
   return arguments.whole(337) == 0 ? CycleResult<void>() : zero(context, rotary);
 }
 

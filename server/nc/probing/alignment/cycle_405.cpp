@@ -26,13 +26,12 @@ double angle_of(Point2 point) { return machine::degrees(std::atan2(point.y, poin
 CycleResult<void> align(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
   const Point2 nominal{arguments.number(321), arguments.number(322)};
-  const auto probed = probe_circle(context, motion, Side::Inside, nominal);
-  if (!probed) return probed.error();
+  const auto probed = TRY(probe_circle(context, motion, Side::Inside, nominal));
   const double wanted = nominal.y == 0 ? 90 : angle_of(nominal);
-  const double misalignment = std::remainder(angle_of(probed->circle.centre) - wanted, 360);
+  const double misalignment = std::remainder(angle_of(probed.circle.centre) - wanted, 360);
   context.host.set_q(150, to_angle(misalignment), Unit::Angle);
   const machine::Axis table = rotary_axis_around(motion.plane().probe);
-  if (auto turned = align_rotary_axis(context, table, misalignment); !turned) return turned;
+  TRY(align_rotary_axis(context, table, misalignment));
   const int row = arguments.whole(337);
   if (row == 0) return zero_rotary_axis(context, table, 0);
   machine::AxisWords offset;

@@ -63,12 +63,10 @@ CycleResult<void> begin_without_rotation(const CycleContext& context) {
 }
 
 CycleResult<ProbingMotion> begin_alignment(const CycleContext& context) {
-  if (auto allowed = refuse_mirror_and_scaling(context.machine.state().frames); !allowed) {
-    return allowed.error();
-  }
+  TRY(refuse_mirror_and_scaling(context.machine.state().frames));
   auto motion = ProbingMotion::begin(context);
   if (!motion) return motion;
-  if (auto reset = begin_without_rotation(context); !reset) return reset.error();
+  TRY(begin_without_rotation(context));
   return motion;
 }
 
@@ -83,7 +81,7 @@ CycleResult<void> set_basic_rotation(const CycleContext& context, const Vec3& ro
     machine::Preset preset{.number = number, .comment = {}, .frame = active};
     if (const machine::Preset* existing = state.presets.find(number)) preset = *existing;
     preset.frame.basic_rotation_deg = active.basic_rotation_deg;
-    if (auto written = lift(context.machine.write_preset(preset)); !written) return written;
+    TRY(lift(context.machine.write_preset(preset)));
   }
   if (row > 0) return {};
   frames.set_preset(active);
@@ -104,10 +102,9 @@ CycleResult<double> table_angle(const machine::MachineState& state, Axis rotary,
 }
 
 CycleResult<void> align_rotary_axis(const CycleContext& context, Axis rotary, double angle_deg) {
-  const auto turn = table_angle(context.machine.state(), rotary, angle_deg);
-  if (!turn) return turn.error();
+  const auto turn = TRY(table_angle(context.machine.state(), rotary, angle_deg));
   machine::AxisWords target;
-  target[rotary] = to_angle(context.machine.position()[rotary] + *turn);
+  target[rotary] = to_angle(context.machine.position()[rotary] + turn);
   return lift(context.machine.move({target, machine::Feed::rapid()}));
 }
 

@@ -34,34 +34,31 @@ CycleResult<RoundStandard> touch_sphere(ProbeCalibrator& calibrator, double radi
   const double start_height = calibrator.start().z;
   const std::array down{Touch{.start = {near.x, near.y, start_height + motion.ball_radius()},
                               .direction = {0, 0, -1}}};
-  const auto contacts = motion.touch_all(down, start_height);
-  if (!contacts) return contacts.error();
-  const Vec3 pole = contacts->front().ball_centre;
+  const auto contacts = TRY(motion.touch_all(down, start_height));
+  const Vec3 pole = contacts.front().ball_centre;
   const double equator = pole.z - (radius + motion.ball_radius());
-  const auto circle = calibrator.touch_around(Side::Outside, near, equator);
-  if (!circle) return circle.error();
-  return sphere_through(*circle, pole);
+  const auto circle = TRY(calibrator.touch_around(Side::Outside, near, equator));
+  return sphere_through(circle, pole);
 }
 
 CycleResult<void> calibrate(const CycleContext& context) {
   const Arguments& arguments = context.arguments;
   const double radius = arguments.number(407);
-  auto calibrator = ProbeCalibrator::begin(context);
-  if (!calibrator) return calibrator.error();
+  auto calibrator = TRY(ProbeCalibrator::begin(context));
   const auto measured =
-      calibrator->measure([&](Point2 near) { return touch_sphere(*calibrator, radius, near); });
+      calibrator.measure([&](Point2 near) { return touch_sphere(calibrator, radius, near); });
   if (!measured) return measured.error();
 
   const machine::ProbeSystem probe = *context.machine.state().probe_system();
   ProbeCalibration found{.radius = measured->mean.radius - radius,
-                         .centre_offset = calibrator->corrected_offset(measured->error),
+                         .centre_offset = calibrator.corrected_offset(measured->error),
                          .residual = measured->mean.residual};
   if (arguments.whole(433) == 1) {
     // The ball centre is one radius above the south pole, where the length ends.
     const double too_high = measured->mean.height - arguments.number(434);
     found.length = probe.length + too_high + *found.radius - probe.radius;
   }
-  return calibrator->finish(found);
+  return calibrator.finish(found);
 }
 
 constinit const TouchProbeCycle kCycle460 =

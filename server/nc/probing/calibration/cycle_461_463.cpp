@@ -12,12 +12,10 @@ constexpr std::array k461Parameters{
     coordinate(434, "Coordinate of the touched surface in the probe axis")};
 
 CycleResult<void> calibrate_length(const CycleContext& context) {
-  auto calibrator = ProbeCalibrator::begin(context);
-  if (!calibrator) return calibrator.error();
-  const auto contact = calibrator->motion().probe({0, 0, -1});
-  if (!contact) return contact.error();
-  const double too_high = contact->surface.z - context.arguments.number(434);
-  return calibrator->finish({.length = context.machine.state().probe_system()->length + too_high});
+  auto calibrator = TRY(ProbeCalibrator::begin(context));
+  const auto contact = TRY(calibrator.motion().probe({0, 0, -1}));
+  const double too_high = contact.surface.z - context.arguments.number(434);
+  return calibrator.finish({.length = context.machine.state().probe_system()->length + too_high});
 }
 
 constinit const TouchProbeCycle kCycle461 =
@@ -42,16 +40,15 @@ double measuring_height(ProbeCalibrator& calibrator, Side side, double q320) {
 
 CycleResult<void> calibrate_radius(const CycleContext& context, Side side) {
   const Arguments& arguments = context.arguments;
-  auto calibrator = ProbeCalibrator::begin(context);
-  if (!calibrator) return calibrator.error();
-  const double height = measuring_height(*calibrator, side, arguments.number(320));
-  const auto measured = calibrator->measure(
-      [&](Point2 near) { return calibrator->touch_around(side, near, height); });
+  auto calibrator = TRY(ProbeCalibrator::begin(context));
+  const double height = measuring_height(calibrator, side, arguments.number(320));
+  const auto measured =
+      calibrator.measure([&](Point2 near) { return calibrator.touch_around(side, near, height); });
   if (!measured) return measured.error();
   const double radius = measured->mean.radius - arguments.number(407);
-  return calibrator->finish({.radius = side == Side::Inside ? -radius : radius,
-                             .centre_offset = calibrator->corrected_offset(measured->error),
-                             .residual = measured->mean.residual});
+  return calibrator.finish({.radius = side == Side::Inside ? -radius : radius,
+                            .centre_offset = calibrator.corrected_offset(measured->error),
+                            .residual = measured->mean.residual});
 }
 
 constinit const TouchProbeCycle kCycle462 =

@@ -65,13 +65,10 @@ ProbeCalibrator::ProbeCalibrator(const CycleContext& context, const ProbingMotio
 
 CycleResult<ProbeCalibrator> ProbeCalibrator::begin(const CycleContext& context) {
   const MachineState& state = context.machine.state();
-  if (auto allowed = refuse_mirror_and_scaling(state.frames); !allowed) return allowed.error();
-  const auto motion = ProbingMotion::begin(context);
-  if (!motion) return motion.error();
-  if (auto straight = check_straight(state, motion->plane().probe); !straight) {
-    return straight.error();
-  }
-  return ProbeCalibrator(context, *motion);
+  TRY(refuse_mirror_and_scaling(state.frames));
+  const auto motion = TRY(ProbingMotion::begin(context));
+  TRY(check_straight(state, motion.plane().probe));
+  return ProbeCalibrator(context, motion);
 }
 
 CycleResult<RoundStandard> ProbeCalibrator::touch_around(Side side, Point2 centre, double height) {
@@ -88,28 +85,23 @@ CycleResult<RoundStandard> ProbeCalibrator::touch_around(Side side, Point2 centr
                       .height = height,
                       .start_distance = motion_.start_distance(arguments.number(320)),
                       .via_clearance = arguments.number_or(301, 0) == 1});
-  const auto contacts = motion_.touch_all(touches, start_.z);
-  if (!contacts) return contacts.error();
-  const auto circle = circle_through(*contacts, side, 0);
-  if (!circle) return circle.error();
-  return RoundStandard{circle->centre, height, circle->radius, circle->residual};
+  const auto contacts = TRY(motion_.touch_all(touches, start_.z));
+  const auto circle = TRY(circle_through(contacts, side, 0));
+  return RoundStandard{circle.centre, height, circle.radius, circle.residual};
 }
 
 CycleResult<ReversalResult> ProbeCalibrator::measure(const Pass& pass) {
-  const auto near = turned(0, pass, {start_.x, start_.y});
-  if (!near) return near.error();
-  const auto first = turned(0, pass, near->centre);
-  if (!first) return first.error();
-  const auto second = turned(180, pass, near->centre);
-  if (!second) return second.error();
+  const auto near = TRY(turned(0, pass, {start_.x, start_.y}));
+  const auto first = TRY(turned(0, pass, near.centre));
+  const auto second = TRY(turned(180, pass, near.centre));
   const RoundStandard mean{
-      {(first->centre.x + second->centre.x) / 2, (first->centre.y + second->centre.y) / 2},
-      (first->height + second->height) / 2,
-      (first->radius + second->radius) / 2,
-      std::max(first->residual, second->residual)};
-  if (auto moved = move_over(mean.centre); !moved) return moved.error();
-  const Vec3 error{(second->centre.x - first->centre.x) / 2,
-                   (second->centre.y - first->centre.y) / 2, 0};
+      {(first.centre.x + second.centre.x) / 2, (first.centre.y + second.centre.y) / 2},
+      (first.height + second.height) / 2,
+      (first.radius + second.radius) / 2,
+      std::max(first.residual, second.residual)};
+  TRY(move_over(mean.centre));
+  const Vec3 error{(second.centre.x - first.centre.x) / 2, (second.centre.y - first.centre.y) / 2,
+                   0};
   return ReversalResult{
       mean, context_.machine.state().frames.direction_to_machine(motion_.plane().to_input(error))};
 }
@@ -122,9 +114,9 @@ CycleResult<RoundStandard> ProbeCalibrator::turned(double spindle_deg, const Pas
     return lift(context_.machine.set_modes(modes));
   };
   const double before = context_.machine.state().modes.spindle_deg;
-  if (auto oriented = orient(spindle_deg); !oriented) return oriented.error();
+  TRY(orient(spindle_deg));
   auto found = pass(near);
-  if (auto oriented = orient(before); !oriented) return oriented.error();
+  TRY(orient(before));
   return found;
 }
 
@@ -153,15 +145,13 @@ CycleResult<void> ProbeCalibrator::finish(const ProbeCalibration& found) {
   // The effective values include DL and DR of the tool call; DL and DR of the table become zero.
   machine::Tool tool = *state.active_tool();
   if (found.radius) {
-    const auto radius = positive(*found.radius, "effective ball radius");
-    if (!radius) return radius.error();
-    tool.r = *radius - state.tool.dr;
+    const auto radius = TRY(positive(*found.radius, "effective ball radius"));
+    tool.r = radius - state.tool.dr;
     tool.dr = 0;
   }
   if (found.length) {
-    const auto length = positive(*found.length, "effective length");
-    if (!length) return length.error();
-    tool.l = *length - state.tool.dl;
+    const auto length = TRY(positive(*found.length, "effective length"));
+    tool.l = length - state.tool.dl;
     tool.dl = 0;
   }
   if (auto written = machine.write_probe(row); !written) return from_machine(written.error());

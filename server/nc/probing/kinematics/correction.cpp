@@ -49,15 +49,14 @@ using machine::MachineState;
 using machine::Preset;
 
 CycleResult<void> set_preset(const CycleContext& context, KinematicsProbing& probing) {
-  const auto reference = probing.measure({});
-  if (!reference) return reference.error();
+  const auto reference = TRY(probing.measure({}));
   const MachineState& state = context.machine.state();
-  const Vec3 centre = on_table(*reference, state.kinematics, probing.tool());
+  const Vec3 centre = on_table(reference, state.kinematics, probing.tool());
   Preset row{.number = state.active_preset, .comment = {}, .frame = state.frames.preset()};
   if (const Preset* existing = state.presets.find(row.number)) row = *existing;
   row.frame.origin = {to_length(centre.x).to_mm(), to_length(centre.y).to_mm(),
                       to_length(centre.z).to_mm()};
-  if (auto written = lift(context.machine.write_preset(row)); !written) return written;
+  TRY(lift(context.machine.write_preset(row)));
   return lift(context.machine.activate_preset(row.number));
 }
 
@@ -73,24 +72,18 @@ CycleResult<void> correct_kinematics(const CycleContext& context,
                                      const machine::Kinematics& corrected) {
   const machine::KinematicsOptions& options = context.machine.state().kinematics_options;
   if (const std::string small = insignificant(errors); !small.empty()) {
-    if (!is_corrected) {
-      return nc_error(1102, small + ": measure a larger range or more positions");
-    }
+    if (!is_corrected) return nc_error(1102, small + ": measure a larger range or more positions");
     const std::string_view taken = options.notes_insignificant ? "corrected" : "not corrected";
-    if (auto noted = context.host.note(
-            fmt::format("cycle {}: {}: {}", context.arguments.descriptor().number, taken, small));
-        !noted) {
-      return noted;
-    }
+    TRY(context.host.note(
+        fmt::format("cycle {}: {}: {}", context.arguments.descriptor().number, taken, small)));
   }
   if (!is_corrected) return {};
   const double largest = largest_location(errors);
   if (options.max_modification && largest > *options.max_modification) {
-    const auto confirmed = context.host.confirm(
+    const auto confirmed = TRY(context.host.confirm(
         fmt::format("the kinematics change by {:.4f} mm, more than max_modification_mm ({} mm)",
-                    largest, *options.max_modification));
-    if (!confirmed) return confirmed.error();
-    if (!*confirmed) return {};
+                    largest, *options.max_modification)));
+    if (!confirmed) return {};
   }
   return lift(context.machine.set_kinematics(corrected));
 }
@@ -106,7 +99,7 @@ CycleResult<void> PresetAtSphere::check(const CycleContext& context) const {
 CycleResult<void> PresetAtSphere::before(const CycleContext& context,
                                          KinematicsProbing& probing) const {
   if (!sets_before_) return {};
-  if (auto found = probing.find(); !found) return found;
+  TRY(probing.find());
   return set_preset(context, probing);
 }
 

@@ -75,16 +75,14 @@ CycleResult<std::string> save(const CycleContext& context, KinematicsRecords& re
   }
   const Kinematics& active = context.machine.state().kinematics;
   records.insert_or_assign(record, active);
-  if (auto kept = context.host.keep_kinematics(records); !kept) return kept.error();
+  TRY(context.host.keep_kinematics(records));
   return fmt::format("<p>Saved as {}</p>\n{}", escape_html(record), table_of(active));
 }
 
 CycleResult<std::string> restore(const CycleContext& context, const KinematicsRecords& records,
                                  const std::string& record) {
   const auto saved = records.find(record);
-  if (saved == records.end()) {
-    return nc_error(1096, fmt::format("record not found: {}", record));
-  }
+  if (saved == records.end()) return nc_error(1096, fmt::format("record not found: {}", record));
   const std::string before = table_of(context.machine.state().kinematics);
   if (const auto set = context.machine.set_kinematics(saved->second); !set) {
     return nc_error(1096, set.error().text);  // of another machine
@@ -106,7 +104,7 @@ CycleResult<std::string> remove(const CycleContext& context, KinematicsRecords& 
   if (records.erase(record) == 0) {
     return nc_error(1011, fmt::format("record not found: {}", record));
   }
-  if (auto kept = context.host.keep_kinematics(records); !kept) return kept.error();
+  TRY(context.host.keep_kinematics(records));
   return fmt::format("<p>Deleted {}</p>\n", escape_html(record));
 }
 
@@ -116,22 +114,19 @@ CycleResult<std::string> handle(const CycleContext& context) {
   constexpr int kRestore = 1;
   constexpr int kStatus = 2;
   const int mode = context.arguments.whole(410);
-  auto records = context.host.kinematics_records();
-  if (!records) return records.error();
-  if (mode == kStatus) return status(*records);
-  const auto record = record_name(context.arguments);
-  if (!record) return record.error();
-  if (mode == kSave) return save(context, *records, *record);
-  if (mode == kRestore) return restore(context, *records, *record);
-  return remove(context, *records, *record);
+  auto records = TRY(context.host.kinematics_records());
+  if (mode == kStatus) return status(records);
+  const auto record = TRY(record_name(context.arguments));
+  if (mode == kSave) return save(context, records, record);
+  if (mode == kRestore) return restore(context, records, record);
+  return remove(context, records, record);
 }
 
 CycleResult<void> manage_kinematics(const CycleContext& context) {
-  const auto text = handle(context);
-  if (!text) return text.error();
+  const auto text = TRY(handle(context));
   return add_section(context.host, kLog,
                      fmt::format("<section>\n<h2>Kinematics on {}</h2>\n{}</section>\n",
-                                 date_and_time(context.host), *text));
+                                 date_and_time(context.host), text));
 }
 
 constinit const TouchProbeCycle kCycle450 = cycle(

@@ -31,32 +31,25 @@ CycleResult<void> measure(const CycleContext& context) {
   const Arguments& arguments = context.arguments;
   const int mode = arguments.whole(406);
   const PresetAtSphere preset(arguments.whole(431));
-  const auto plans = plan_positions(arguments, context.machine.state());
-  if (!plans) return plans.error();
-  if (auto writable = preset.check(context); !writable) return writable;
-  auto probing = KinematicsProbing::begin(context);
-  if (!probing) return probing.error();
-  if (auto set = preset.before(context, *probing); !set) return set;
+  const auto plans = TRY(plan_positions(arguments, context.machine.state()));
+  TRY(preset.check(context));
+  auto probing = TRY(KinematicsProbing::begin(context));
+  TRY(preset.before(context, probing));
 
   FitOptions options = fit_options(context, mode != 1);
   options.zeros = mode == 3;
-  const auto measurement = measure_kinematics(context, *probing, *plans, options);
-  if (!measurement) return measurement.error();
-  write_kinematics_results(context.host, *measurement, offset_error(*measurement));
+  const auto measurement = TRY(measure_kinematics(context, probing, plans, options));
+  write_kinematics_results(context.host, measurement, offset_error(measurement));
   const KinematicsReport report{.mode = kModes.at(static_cast<std::size_t>(mode)),
-                                .measurement = *measurement,
+                                .measurement = measurement,
                                 .directions = mode != 1};
-  if (auto logged = log_kinematics(context, report); !logged) return logged;
+  TRY(log_kinematics(context, report));
   if (mode != 0) {
     std::vector<AxisErrors> errors;
-    for (const AxisMeasurement& axis : measurement->axes) errors.push_back(axis.errors);
-    if (auto corrected =
-            correct_kinematics(context, errors, measurement->is_corrected, measurement->corrected);
-        !corrected) {
-      return corrected;
-    }
+    for (const AxisMeasurement& axis : measurement.axes) errors.push_back(axis.errors);
+    TRY(correct_kinematics(context, errors, measurement.is_corrected, measurement.corrected));
   }
-  return preset.after(context, *probing);
+  return preset.after(context, probing);
 }
 
 constinit const TouchProbeCycle kCycle451 = cycle(

@@ -47,26 +47,23 @@ CycleResult<void> check_complete(const KinematicsMeasurement& measurement) {
 }
 
 CycleResult<void> compensate(const CycleContext& context) {
-  const auto plans = plan_positions(context.arguments, context.machine.state());
-  if (!plans) return plans.error();
-  auto probing = KinematicsProbing::begin(context);
-  if (!probing) return probing.error();
-  const Vec3 preset = probing->sphere();
-  const auto measurement = measure_kinematics(context, *probing, *plans, {.directions = false});
-  if (!measurement) return measurement.error();
-  if (auto complete = check_complete(*measurement); !complete) return complete;
+  const auto plans = TRY(plan_positions(context.arguments, context.machine.state()));
+  auto probing = TRY(KinematicsProbing::begin(context));
+  const Vec3 preset = probing.sphere();
+  const auto measurement = TRY(measure_kinematics(context, probing, plans, {.directions = false}));
+  TRY(check_complete(measurement));
 
-  const Vec3 shift = place_of_sphere(*measurement, probing->tool()) - preset;
-  const Kinematics model = compensated(measurement->corrected, shift);
-  if (auto set = lift(context.machine.set_kinematics(model)); !set) return set;
-  write_kinematics_results(context.host, *measurement, shift);
+  const Vec3 shift = place_of_sphere(measurement, probing.tool()) - preset;
+  const Kinematics model = compensated(measurement.corrected, shift);
+  TRY(lift(context.machine.set_kinematics(model)));
+  write_kinematics_results(context.host, measurement, shift);
   const KinematicsReport report{.mode = "preset compensation",
-                                .measurement = *measurement,
+                                .measurement = measurement,
                                 .directions = false,
                                 .shift = shift};
-  if (auto logged = log_kinematics(context, report); !logged) return logged;
-  if (auto turned = probing->turn({}); !turned) return turned;
-  return probing->retract();
+  TRY(log_kinematics(context, report));
+  TRY(probing.turn({}));
+  return probing.retract();
 }
 
 constinit const TouchProbeCycle kCycle452 =

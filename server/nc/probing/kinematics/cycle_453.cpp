@@ -76,31 +76,23 @@ CycleResult<void> measure_grid(const CycleContext& context) {
   if (mode == -1) {
     return nc_error(1097, "corrections go into the kinematic model: restore a record of cycle 450");
   }
-  const auto grid = grid_of(context.machine.state());
-  if (!grid) return grid.error();
-  if (auto writable = preset.check(context); !writable) return writable;
-  auto probing = KinematicsProbing::begin(context);
-  if (!probing) return probing.error();
-  if (auto set = preset.before(context, *probing); !set) return set;
+  const auto grid = TRY(grid_of(context.machine.state()));
+  TRY(preset.check(context));
+  auto probing = TRY(KinematicsProbing::begin(context));
+  TRY(preset.before(context, probing));
 
   PoseGroup poses;
-  for (const Vec3& position : grid->positions) {
-    const auto pose = probing->measure(position);
-    if (!pose) return pose.error();
-    poses.push_back(*pose);
+  for (const Vec3& position : grid.positions) {
+    const auto pose = TRY(probing.measure(position));
+    poses.push_back(pose);
   }
   const KinematicsFit fit = fit_kinematics(std::array{poses}, context.machine.state().kinematics,
-                                           probing->tool(), grid->axes, fit_options(context, true));
-  write_results(context.host, *grid, fit);
+                                           probing.tool(), grid.axes, fit_options(context, true));
+  write_results(context.host, grid, fit);
   const std::string_view words = mode == 1 ? "1 = optimise" : "0 = check";
-  if (auto logged = log_grid(context, words, poses, fit); !logged) return logged;
-  if (mode == 1) {
-    if (auto corrected = correct_kinematics(context, fit.errors, fit.is_corrected, fit.corrected);
-        !corrected) {
-      return corrected;
-    }
-  }
-  return preset.after(context, *probing);
+  TRY(log_grid(context, words, poses, fit));
+  if (mode == 1) TRY(correct_kinematics(context, fit.errors, fit.is_corrected, fit.corrected));
+  return preset.after(context, probing);
 }
 
 constinit const TouchProbeCycle kCycle453 =

@@ -150,9 +150,7 @@ CycleResult<void> log_kinematics(const CycleContext& context, const KinematicsRe
   for (const AxisMeasurement& axis : report.measurement.axes) {
     html += axis_text(axis, report.directions);
   }
-  if (report.shift) {
-    html += fmt::format(parts::shift, "shift"_a = components(*report.shift, mm));
-  }
+  if (report.shift) html += fmt::format(parts::shift, "shift"_a = components(*report.shift, mm));
   return add(context, report.mode, html);
 }
 

@@ -50,9 +50,7 @@ CycleResult<void> check_reach(const AxisPlan& plan, double backlash,
   };
   reach(0);
   for (const double position : plan.positions) reach(position);
-  for (const double position : reached) {
-    if (auto checked = check_range(plan.axis, position, range); !checked) return checked;
-  }
+  for (const double position : reached) TRY(check_range(plan.axis, position, range));
   return {};
 }
 
@@ -70,10 +68,9 @@ CycleResult<void> approach(KinematicsProbing& probing, const Vec3& rotary, Axis 
                            PoseGroup& poses) {
   Vec3 beyond = rotary;
   beyond[index(axis) - 3] += by;
-  if (auto turned = probing.turn(beyond); !turned) return turned;
-  const auto pose = probing.measure(rotary);
-  if (!pose) return pose.error();
-  poses.push_back(*pose);
+  TRY(probing.turn(beyond));
+  const auto pose = TRY(probing.measure(rotary));
+  poses.push_back(pose);
   return {};
 }
 
@@ -84,13 +81,9 @@ CycleResult<Approaches> measure_axis(KinematicsProbing& probing, const AxisPlan&
   positions.insert(positions.end(), plan.positions.begin(), plan.positions.end());
   for (const double position : positions) {
     rotary[index(plan.axis) - 3] = position;
-    if (auto done = approach(probing, rotary, plan.axis, -backlash, found.first); !done) {
-      return done.error();
-    }
+    TRY(approach(probing, rotary, plan.axis, -backlash, found.first));
     if (backlash == 0) continue;
-    if (auto done = approach(probing, rotary, plan.axis, backlash, found.second); !done) {
-      return done.error();
-    }
+    TRY(approach(probing, rotary, plan.axis, backlash, found.second));
   }
   return found;
 }
@@ -162,9 +155,7 @@ CycleResult<std::vector<AxisPlan>> plan_positions(const Arguments& arguments,
                                         "turn it to 0 before the cycle",
                                         name(axis), state.nose[axis]));
     }
-    if (auto checked = check_reach(plan, arguments.number_or(432, 0), *range); !checked) {
-      return checked.error();
-    }
+    TRY(check_reach(plan, arguments.number_or(432, 0), *range));
     plans.push_back(std::move(plan));
   }
   if (plans.empty()) return nc_error(1100, "the machine has no rotary axis");
@@ -188,15 +179,14 @@ CycleResult<KinematicsMeasurement> measure_kinematics(const CycleContext& contex
     measured.radius = measuring_radius(probing.sphere(), *active.find(plan.axis), tool);
     measured.no_backlash = no_backlash(plan, measured.radius, angle);
     const bool both_sides = measured.no_backlash.empty();
-    auto found = measure_axis(probing, plan, incidence, both_sides ? angle : 0);
-    if (!found) return found.error();
+    auto found = TRY(measure_axis(probing, plan, incidence, both_sides ? angle : 0));
     if (both_sides) {
       const bool up = angle > 0;
       measured.backlash_deg =
-          fit_backlash(up ? found->first : found->second, up ? found->second : found->first, active,
+          fit_backlash(up ? found.first : found.second, up ? found.second : found.first, active,
                        tool, plan.axis);
     }
-    measured.poses = std::move(found->first);
+    measured.poses = std::move(found.first);
     measurement.axes.push_back(std::move(measured));
   }
   evaluate(measurement, active, tool, options);

@@ -26,7 +26,7 @@ CycleResult<void> set_tcpm(machine::Machine& machine, bool on) {
 CycleResult<void> reset_tilting(machine::Machine& machine) {
   machine::Frames frames = machine.state().frames;
   frames.set_plane(std::nullopt);
-  if (auto reset = lift(machine.set_frames(frames)); !reset) return reset;
+  TRY(lift(machine.set_frames(frames)));
   return set_tcpm(machine, false);
 }
 
@@ -61,14 +61,11 @@ AxisWords turning_words(const MachineState& state, const Vec3& rotary) {
 }  // namespace
 
 CycleResult<KinematicsProbing> KinematicsProbing::begin(const CycleContext& context) {
-  const auto probe = SphereProbe::begin(context);
-  if (!probe) return probe.error();
-  if (auto checked = check_retraction(context.arguments, context.machine.state()); !checked) {
-    return checked.error();
-  }
+  const auto probe = TRY(SphereProbe::begin(context));
+  TRY(check_retraction(context.arguments, context.machine.state()));
   const bool follows = context.arguments.number(408) == 0;
-  if (auto reset = reset_tilting(context.machine); !reset) return reset.error();
-  return KinematicsProbing(context, *probe, follows);
+  TRY(reset_tilting(context.machine));
+  return KinematicsProbing(context, probe, follows);
 }
 
 KinematicsProbing::KinematicsProbing(const CycleContext& context, const SphereProbe& probe,
@@ -86,33 +83,30 @@ Vec3 KinematicsProbing::expected(const Vec3& rotary) const {
 }
 
 CycleResult<void> KinematicsProbing::find() {
-  const auto found = probe_.find();
-  if (!found) return found.error();
-  sphere_ = state().kinematics.table(state().nose.rotary).inverse().point(*found);
-  const auto measured = measure_here();
-  if (!measured) return measured.error();
-  sphere_ = on_table(*measured, state().kinematics, tool());
+  const auto found = TRY(probe_.find());
+  sphere_ = state().kinematics.table(state().nose.rotary).inverse().point(found);
+  const auto measured = TRY(measure_here());
+  sphere_ = on_table(measured, state().kinematics, tool());
   return {};
 }
 
 CycleResult<SpherePose> KinematicsProbing::measure(const Vec3& rotary) {
-  if (auto turned = turn(rotary); !turned) return turned.error();
+  TRY(turn(rotary));
   return measure_here();
 }
 
 CycleResult<SpherePose> KinematicsProbing::measure_here() {
   const Vec3 rotary = state().nose.rotary;
-  const auto centre = probe_.measure(expected(rotary));
-  if (!centre) return centre.error();
+  const auto centre = TRY(probe_.measure(expected(rotary)));
   const auto [axis, length] = tool();
-  const SpherePose pose{rotary, *centre - state().kinematics.tool_vector(rotary, axis, length)};
+  const SpherePose pose{rotary, centre - state().kinematics.tool_vector(rotary, axis, length)};
   return pose;
 }
 
 CycleResult<void> KinematicsProbing::turn(const Vec3& rotary) {
   if (state().nose.rotary == rotary) return {};
   if (follows_) return circle(rotary);
-  if (auto moved = retract(); !moved) return moved;
+  TRY(retract());
   return turn_axes(rotary);
 }
 
@@ -136,12 +130,8 @@ CycleResult<void> KinematicsProbing::retract() {
                                                       CoordinateSystem::Workpiece);
   const Vec3 tip = machine_.position(CoordinateSystem::Machine).linear;
   const double height = dot(tip - sphere_, up);
-  if (height < retraction_) {
-    if (auto moved = probe_.move_tip(tip + up * (retraction_ - height)); !moved) return moved;
-  }
-  if (auto moved = probe_.move_tip(sphere_ + up * std::max(height, retraction_)); !moved) {
-    return moved;
-  }
+  if (height < retraction_) TRY(probe_.move_tip(tip + up * (retraction_ - height)));
+  TRY(probe_.move_tip(sphere_ + up * std::max(height, retraction_)));
   return probe_.move_tip(sphere_ + up * retraction_);
 }
 
@@ -157,9 +147,9 @@ CycleResult<void> KinematicsProbing::circle(const Vec3& rotary) {
     return expected(position) +
            state().kinematics.tool_direction(position, state().tool_axis()) * distance;
   };
-  if (auto moved = probe_.go_over(expected(from), probe_.start_distance()); !moved) return moved;
-  if (auto moved = probe_.move_tip(tip_at(from)); !moved) return moved;
-  if (auto on = set_tcpm(machine_, true); !on) return on;
+  TRY(probe_.go_over(expected(from), probe_.start_distance()));
+  TRY(probe_.move_tip(tip_at(from)));
+  TRY(set_tcpm(machine_, true));
   const int steps = std::max(1, static_cast<int>(std::ceil(angle / kStepDeg)));
   for (int step = 1; step <= steps; ++step) {
     const Vec3 next = step == steps ? rotary : from + way * (static_cast<double>(step) / steps);
@@ -167,10 +157,7 @@ CycleResult<void> KinematicsProbing::circle(const Vec3& rotary) {
     AxisWords words = turning_words(state(), next);
     const Vec3 tip = tip_at(next);
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) words[axis] = tip[index(axis)];
-    if (auto moved = lift_move(machine_.move({words, turning_feed_, CoordinateSystem::Machine}));
-        !moved) {
-      return moved;
-    }
+    TRY(lift_move(machine_.move({words, turning_feed_, CoordinateSystem::Machine})));
   }
   return set_tcpm(machine_, false);
 }

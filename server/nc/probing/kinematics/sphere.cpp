@@ -17,7 +17,7 @@ using machine::CoordinateSystem;
 }  // namespace
 
 CycleResult<SphereProbe> SphereProbe::begin(const CycleContext& context) {
-  if (const auto ready = ProbingMotion::begin(context); !ready) return ready.error();
+  TRY(ProbingMotion::begin(context));
   return SphereProbe(context);
 }
 
@@ -53,10 +53,8 @@ CycleResult<void> SphereProbe::move_ball(const Vec3& centre) {
 CycleResult<void> SphereProbe::go_over(const Vec3& sphere, double distance) {
   const Vec3 up = tool_direction();
   const double height = dot(ball() - sphere, up);
-  if (height < distance) {
-    if (auto moved = move_ball(ball() + up * (distance - height)); !moved) return moved;
-  }
-  if (auto moved = move_ball(sphere + up * std::max(height, distance)); !moved) return moved;
+  if (height < distance) TRY(move_ball(ball() + up * (distance - height)));
+  TRY(move_ball(sphere + up * std::max(height, distance)));
   return move_ball(sphere + up * distance);
 }
 
@@ -74,9 +72,8 @@ CycleResult<Vec3> SphereProbe::touch(const Vec3& direction) {
 
 CycleResult<Vec3> SphereProbe::find() {
   const Vec3 up = tool_direction();
-  const auto touched = touch(-up);
-  if (!touched) return touched.error();
-  return *touched - up * (sphere_radius_ + probe_.radius);
+  const auto touched = TRY(touch(-up));
+  return touched - up * (sphere_radius_ + probe_.radius);
 }
 
 /// Direction from the main axis of the workpiece system; with an inclined head, from the part of
@@ -99,23 +96,21 @@ Vec3 SphereProbe::around(double angle_deg) const {
 CycleResult<Vec3> SphereProbe::measure(const Vec3& sphere) {
   constexpr double kTurn = 360;
   const double distance = start_distance();
-  if (auto moved = go_over(sphere, distance); !moved) return moved.error();
+  TRY(go_over(sphere, distance));
   const Vec3 up = tool_direction();
-  const auto pole = touch(-up);
-  if (!pole) return pole.error();
-  std::vector<Vec3> centres{*pole};
+  const auto pole = TRY(touch(-up));
+  std::vector<Vec3> centres{pole};
   for (int k = 0; k < touches_; ++k) {
     const Vec3 outward = around(first_angle_ + k * kTurn / touches_);
     const Vec3 beside = sphere + outward * distance;
     const Vec3 above = beside + up * distance;
-    if (auto moved = move_ball(above); !moved) return moved.error();
-    if (auto moved = move_ball(beside); !moved) return moved.error();
-    const auto touched = touch(-outward);
-    if (!touched) return touched.error();
-    centres.push_back(*touched);
-    if (auto moved = move_ball(above); !moved) return moved.error();
+    TRY(move_ball(above));
+    TRY(move_ball(beside));
+    const auto touched = TRY(touch(-outward));
+    centres.push_back(touched);
+    TRY(move_ball(above));
   }
-  if (auto moved = move_ball(sphere + up * distance); !moved) return moved.error();
+  TRY(move_ball(sphere + up * distance));
 
   const auto fitted = fit_sphere(centres, {sphere, sphere_radius_ + probe_.radius});
   if (!fitted) return nc_error(1072, "the touched points lie on no sphere");

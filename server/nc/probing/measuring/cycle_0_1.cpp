@@ -23,15 +23,14 @@ constexpr std::array k1Parameters{
 
 /// Moves the tip in all axes at once to the position in the block, then touches and returns.
 CycleResult<Contact> touch_from_position(const CycleContext& context, const Vec3& direction) {
-  auto motion = begin_measurement(context);
-  if (!motion) return motion.error();
+  auto motion = TRY(begin_measurement(context));
   machine::AxisWords position;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto id = static_cast<ParameterId>(static_cast<std::size_t>(ParameterId::WordX) + axis);
     if (context.arguments.has_number(id)) position.values[axis] = context.arguments.number(id);
   }
-  if (auto moved = motion->move_tip(position); !moved) return moved.error();
-  return motion->probe(motion->plane().from_input(direction));
+  TRY(motion.move_tip(position));
+  return motion.probe(motion.plane().from_input(direction));
 }
 
 CycleResult<void> reference_plane(const CycleContext& context) {
@@ -39,18 +38,16 @@ CycleResult<void> reference_plane(const CycleContext& context) {
   const double sign = arguments.number(ParameterId::WordDirection);
   if (sign == 0) return nc_error(1042, "the sign of the probing direction is missing");
   const auto axis = static_cast<machine::Axis>(arguments.number(ParameterId::WordAxis));
-  const auto contact = touch_from_position(context, unit_vector(axis) * sign);
-  if (!contact) return contact.error();
+  const auto contact = TRY(touch_from_position(context, unit_vector(axis) * sign));
   const WorkingPlane plane = WorkingPlane::across(context.machine.state().tool_axis());
-  const double coordinate = plane.to_input(contact->surface)[index(axis)];
+  const double coordinate = plane.to_input(contact.surface)[index(axis)];
   set_length(context.host, static_cast<std::uint16_t>(arguments.number(ParameterId::WordResult)),
              coordinate);
   return {};
 }
 
 CycleResult<void> polar(const CycleContext& context) {
-  const auto contact = touch_from_position(context, angled_direction(context.arguments));
-  if (!contact) return contact.error();
+  TRY(touch_from_position(context, angled_direction(context.arguments)));
   return {};
 }
 

@@ -88,7 +88,7 @@ machine::ProbeMove probe_move(const Arguments& arguments, const Vec3& direction,
 /// without compensation of the ball, then 0, or -1 when nothing was touched.
 CycleResult<void> measure(const CycleContext& context, const Vec3& direction, bool goes_on) {
   const Arguments& arguments = context.arguments;
-  if (auto motion = ProbingMotion::begin(context); !motion) return motion.error();
+  TRY(ProbingMotion::begin(context));
   const auto probe = context.machine.state().probe_system();
   const auto first = static_cast<std::uint16_t>(arguments.number(ParameterId::WordResult));
   const auto fourth = static_cast<std::uint16_t>(first + 3);

@@ -16,23 +16,22 @@ constexpr std::array kParameters = join(line(kMeasuringAxis), std::array{kMeasur
 constexpr std::array<CycleOutput, 1> kResults{{{150, "Measured angle", Unit::Angle}}};
 
 CycleResult<void> measure(const CycleContext& context, ProbingMotion& motion) {
-  const auto edge = probe_line(context, motion);
-  if (!edge) return edge.error();
-  const double angle = to_angle(edge->angle_deg());
+  const auto edge = TRY(probe_line(context, motion));
+  const double angle = to_angle(edge.angle_deg());
   context.host.set_q(150, angle, Unit::Angle);
   MeasuringLog log(context.arguments.descriptor(), context.host);
   log.section("Actual values");
   log.angle("Measured angle", angle);
   log.section("Further results");
   log.length("Measuring height", to_length(context.arguments.number(261)));
-  if (auto written = deliver_log(context, std::move(log)); !written) return written;
+  TRY(deliver_log(context, std::move(log)));
   MeasuringRecord record{.cycle = context.arguments.descriptor().number};
   constexpr std::array<std::string_view, 2> kNames{"1st point", "2nd point"};
   for (std::size_t k = 0; k < 2; ++k) {
     record.sizes.push_back({.characteristic = kNames.at(k),
                             .is_position = true,
-                            .nominal = to_length(edge->coordinates.at(k).nominal),
-                            .measured = to_length(edge->coordinates.at(k).measured)});
+                            .nominal = to_length(edge.coordinates.at(k).nominal),
+                            .measured = to_length(edge.coordinates.at(k).measured)});
   }
   context.host.record(record);
   return {};

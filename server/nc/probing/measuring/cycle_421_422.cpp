@@ -29,28 +29,26 @@ constexpr std::string_view kNotSimulated =
 CycleResult<void> measure(const CycleContext& context, Side side) {
   const Arguments& arguments = context.arguments;
   const bool inside = side == Side::Inside;
-  const auto limits = inside ? size_limits(arguments, 275, 276) : size_limits(arguments, 277, 278);
-  if (!limits) return limits.error();
-  auto motion = begin_measurement(context);
-  if (!motion) return motion.error();
+  const auto limits =
+      TRY(inside ? size_limits(arguments, 275, 276) : size_limits(arguments, 277, 278));
+  auto motion = TRY(begin_measurement(context));
   const auto probed =
-      probe_circle(context, *motion, side, {arguments.number(273), arguments.number(274)});
-  if (!probed) return probed.error();
+      TRY(probe_circle(context, motion, side, {arguments.number(273), arguments.number(274)}));
 
   const MeasuredValue diameter{.characteristic = "Diameter",
                                .role = size_role(side),
                                .nominal = to_length(arguments.number(262)),
-                               .measured = to_length(2 * probed->circle.radius),
-                               .limits = *limits,
+                               .measured = to_length(2 * probed.circle.radius),
+                               .limits = limits,
                                .result_q = 153,
                                .deviation_q = 163,
                                .error_too_large = inside ? 1047 : 1049,
                                .error_too_small = inside ? 1046 : 1048};
-  const auto [centre_main, centre_secondary] = centre_values(arguments, probed->circle.centre);
+  const auto [centre_main, centre_secondary] = centre_values(arguments, probed.circle.centre);
   return finish_measurement(context, {.values = {centre_main, centre_secondary, diameter},
                                       .measuring_height = to_length(arguments.number(261)),
                                       .correction = radius_correction(diameter),
-                                      .form = probed->form});
+                                      .form = probed.form});
 }
 
 constinit const TouchProbeCycle kCycle421 = cycle(

@@ -55,28 +55,24 @@ ToolCorrection tool_correction(const MeasuredValue& main, const MeasuredValue& s
 
 CycleResult<void> measure(const CycleContext& context, Side side) {
   const Arguments& arguments = context.arguments;
-  const auto main_limits = size_limits(arguments, 284, 285);
-  if (!main_limits) return main_limits.error();
-  const auto secondary_limits = size_limits(arguments, 286, 287);
-  if (!secondary_limits) return secondary_limits.error();
-  auto motion = begin_measurement(context);
-  if (!motion) return motion.error();
+  const auto main_limits = TRY(size_limits(arguments, 284, 285));
+  const auto secondary_limits = TRY(size_limits(arguments, 286, 287));
+  auto motion = TRY(begin_measurement(context));
   const RectanglePlan plan{.side = side,
                            .centre = {arguments.number(273), arguments.number(274)},
                            .length_main = arguments.number(282),
                            .length_secondary = arguments.number(283),
                            .height = arguments.number(261),
-                           .start_distance = motion->start_distance(arguments.number(320)),
+                           .start_distance = motion.start_distance(arguments.number(320)),
                            .via_clearance = arguments.whole(301) == 1};
-  const auto rectangle = probe_rectangle(*motion, plan, arguments.number(260));
-  if (!rectangle) return rectangle.error();
+  const auto rectangle = TRY(probe_rectangle(motion, plan, arguments.number(260)));
 
   const bool inside = side == Side::Inside;
   const MeasuredValue main{.characteristic = "Length, main axis",
                            .role = size_role(side),
                            .nominal = to_length(plan.length_main),
-                           .measured = to_length(rectangle->length_main),
-                           .limits = *main_limits,
+                           .measured = to_length(rectangle.length_main),
+                           .limits = main_limits,
                            .result_q = 154,
                            .deviation_q = 164,
                            .error_too_large = inside ? 1052 : 1056,
@@ -84,13 +80,13 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
   const MeasuredValue secondary{.characteristic = "Length, secondary axis",
                                 .role = size_role(side),
                                 .nominal = to_length(plan.length_secondary),
-                                .measured = to_length(rectangle->length_secondary),
-                                .limits = *secondary_limits,
+                                .measured = to_length(rectangle.length_secondary),
+                                .limits = secondary_limits,
                                 .result_q = 155,
                                 .deviation_q = 165,
                                 .error_too_large = inside ? 1053 : 1057,
                                 .error_too_small = inside ? 1051 : 1055};
-  const auto [centre_main, centre_secondary] = centre_values(arguments, rectangle->centre);
+  const auto [centre_main, centre_secondary] = centre_values(arguments, rectangle.centre);
   return finish_measurement(context, {.values = {centre_main, centre_secondary, main, secondary},
                                       .measuring_height = to_length(plan.height),
                                       .correction = tool_correction(main, secondary)});

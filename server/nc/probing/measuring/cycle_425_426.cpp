@@ -83,26 +83,23 @@ std::array<Touch, 2> ridge_touches(const Arguments& arguments, double start_dist
 
 CycleResult<void> measure(const CycleContext& context, Side side) {
   const Arguments& arguments = context.arguments;
-  const auto limits = size_limits(arguments, 288, 289);
-  if (!limits) return limits.error();
-  auto motion = begin_measurement(context);
-  if (!motion) return motion.error();
+  const auto limits = TRY(size_limits(arguments, 288, 289));
+  auto motion = TRY(begin_measurement(context));
   const bool inside = side == Side::Inside;
-  const auto touches =
-      inside ? slot_touches(arguments)
-             : ridge_touches(arguments, motion->start_distance(arguments.number(320)));
-  const auto contacts = motion->touch_all(touches, arguments.number(260));
-  if (!contacts) return contacts.error();
+  const auto touches = inside
+                           ? slot_touches(arguments)
+                           : ridge_touches(arguments, motion.start_distance(arguments.number(320)));
+  const auto contacts = TRY(motion.touch_all(touches, arguments.number(260)));
 
   const std::size_t axis = measuring_axis(arguments);
-  const double first = contacts->front().surface[axis];
-  const double second = contacts->back().surface[axis];
+  const double first = contacts.front().surface[axis];
+  const double second = contacts.back().surface[axis];
   set_length(context.host, 157, (first + second) / 2);
   const MeasuredValue size{.characteristic = "Length",
                            .role = size_role(side),
                            .nominal = to_length(arguments.number(311)),
                            .measured = to_length(std::abs(first - second)),
-                           .limits = *limits,
+                           .limits = limits,
                            .result_q = 156,
                            .deviation_q = 166,
                            .error_too_large = inside ? 1058 : 1060,

@@ -33,22 +33,19 @@ constexpr std::array<CycleOutput, 5> kResults{{{160, "Measured coordinate", Unit
 
 CycleResult<void> measure(const CycleContext& context) {
   const Arguments& arguments = context.arguments;
-  const auto limits = size_limits(arguments, 288, 289);
-  if (!limits) return limits.error();
-  auto motion = begin_measurement(context);
-  if (!motion) return motion.error();
-  const auto touched = touch_coordinate(context, *motion);
-  if (!touched) return touched.error();
+  const auto limits = TRY(size_limits(arguments, 288, 289));
+  auto motion = TRY(begin_measurement(context));
+  const auto touched = TRY(touch_coordinate(context, motion));
 
   const MeasuredValue coordinate{.characteristic = "Coordinate",
                                  .role = ValueRole::ShaftSize,
-                                 .nominal = to_length(touched->nominal[touched->axis]),
-                                 .measured = to_length(touched->surface[touched->axis]),
-                                 .limits = *limits,
+                                 .nominal = to_length(touched.nominal[touched.axis]),
+                                 .measured = to_length(touched.surface[touched.axis]),
+                                 .limits = limits,
                                  .result_q = 160,
                                  .deviation_q = 168};
   const Length deviation = coordinate.deviation();
-  const ToolCorrection correction = touched->axis == 2
+  const ToolCorrection correction = touched.axis == 2
                                         ? length_correction(deviation)
                                         : face_correction(deviation, arguments.whole(267));
   return finish_measurement(context, {.values = {coordinate},

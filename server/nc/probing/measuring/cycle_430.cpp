@@ -17,29 +17,26 @@ constexpr std::array kParameters = join(
 
 CycleResult<void> measure(const CycleContext& context) {
   const Arguments& arguments = context.arguments;
-  const auto limits = size_limits(arguments, 288, 289);
-  if (!limits) return limits.error();
-  auto motion = begin_measurement(context);
-  if (!motion) return motion.error();
-  const auto probed = probe_bolt_circle(context, *motion);
-  if (!probed) return probed.error();
+  const auto limits = TRY(size_limits(arguments, 288, 289));
+  auto motion = TRY(begin_measurement(context));
+  const auto probed = TRY(probe_bolt_circle(context, motion));
 
   const MeasuredValue diameter{.characteristic = "Diameter",
                                .role = ValueRole::HoleSize,
                                .nominal = to_length(arguments.number(262)),
-                               .measured = to_length(2 * probed->circle.radius),
-                               .limits = *limits,
+                               .measured = to_length(2 * probed.circle.radius),
+                               .limits = limits,
                                .result_q = 153,
                                .deviation_q = 163,
                                .error_too_large = 1062,
                                .error_too_small = 1063};
-  const auto [centre_main, centre_secondary] = centre_values(arguments, probed->circle.centre);
+  const auto [centre_main, centre_secondary] = centre_values(arguments, probed.circle.centre);
   // The place of holes does not depend on the tool's radius: the tool is only watched for breakage.
   return finish_measurement(context,
                             {.values = {centre_main, centre_secondary, diameter},
                              .measuring_height = to_length(arguments.number(261)),
                              .correction = ToolCorrection{.deviation = diameter.deviation()},
-                             .form = probed->form});
+                             .form = probed.form});
 }
 
 constinit const TouchProbeCycle kCycle430 =

@@ -71,10 +71,8 @@ CycleResult<void> measure(const CycleContext& context, ProbingMotion& motion) {
     touches.push_back(
         {.start = nominal - back, .direction = down, .transit = Transit::ClearanceHeight});
   }
-  const auto contacts = motion.touch_all(touches, arguments.number(260));
-  if (!contacts) return contacts.error();
-  const auto axes = axes_through(*contacts);
-  if (!axes) return axes.error();
+  const auto contacts = TRY(motion.touch_all(touches, arguments.number(260)));
+  const auto axes = TRY(axes_through(contacts));
 
   MeasuringLog log(arguments.descriptor(), context.host);
   log.section("Actual values");
@@ -82,15 +80,15 @@ CycleResult<void> measure(const CycleContext& context, ProbingMotion& motion) {
     context.host.set_q(result.q, to_angle(angle), Unit::Angle);
     log.angle(result.meaning, angle);
   };
-  const Vec3& n = axes->normal;
-  const Vec3 spatial = spatial_angles_of(*axes, motion.plane());
+  const Vec3& n = axes.normal;
+  const Vec3 spatial = spatial_angles_of(axes, motion.plane());
   publish_angle(kResults[0], machine::degrees(std::atan2(-n.y, n.z)));
   publish_angle(kResults[1], machine::degrees(std::atan2(n.x, n.z)));
   for (std::size_t i = 0; i < 3; ++i) publish_angle(kResults[2 + i], spatial[i]);
   MeasuringRecord record{.cycle = arguments.descriptor().number};
   for (std::size_t i = 0; i < 3; ++i) {
     // The ball touches next to its lowest point: the plane is below its centre by radius / cosine.
-    const Vec3& centre = (*contacts)[i].ball_centre;
+    const Vec3& centre = contacts[i].ball_centre;
     const Length height = to_length(centre.z - motion.ball_radius() / std::abs(n.z));
     context.host.set_q(kResults[5 + i].q, height.to_mm(), Unit::Length);
     log.length(kResults[5 + i].meaning, height);
@@ -99,7 +97,7 @@ CycleResult<void> measure(const CycleContext& context, ProbingMotion& motion) {
                             .nominal = to_length(touches[i].start.z + back.z),
                             .measured = height});
   }
-  if (auto written = deliver_log(context, std::move(log)); !written) return written;
+  TRY(deliver_log(context, std::move(log)));
   context.host.record(record);
   return {};
 }

@@ -62,7 +62,7 @@ CycleResult<void> check_arguments(const Arguments& arguments) {
   }
   const std::string* tolerance = arguments.text(q(kTolerance));
   if (tolerance == nullptr) return {};
-  if (const auto read = parse_tolerance(*tolerance, false); !read) return read.error();
+  TRY(parse_tolerance(*tolerance, false));
   return {};
 }
 
@@ -102,21 +102,17 @@ CycleResult<ProbedPoint> touch_point(const CycleContext& context,
   const Arguments& arguments = context.arguments;
   const machine::MachineState& state = context.machine.state();
   const Vec3 normal = surface_normal(arguments);
-  if (auto allowed = refuse_mirror_and_scaling(state.frames); !allowed) return allowed.error();
-  auto motion = ProbingMotion::begin(context);
-  if (!motion) return motion.error();
-  if (auto checked = check_tilting_axes(state, motion->plane().probe); !checked) {
-    return checked.error();
-  }
+  TRY(refuse_mirror_and_scaling(state.frames));
+  auto motion = TRY(ProbingMotion::begin(context));
+  TRY(check_tilting_axes(state, motion.plane().probe));
   const Vec3 nominal{arguments.number(263), arguments.number(264), arguments.number(294)};
   const auto contact =
-      motion->touch({.start = nominal + normal * motion->start_distance(arguments.number(320)),
-                     .direction = -normal},
-                    arguments.number(260));
-  if (!contact) return contact.error();
-  const Vec3 surface = contact->surface;
+      TRY(motion.touch({.start = nominal + normal * motion.start_distance(arguments.number(320)),
+                        .direction = -normal},
+                       arguments.number(260)));
+  const Vec3 surface = contact.surface;
 
-  ProbedPoint point{.plane = motion->plane(),
+  ProbedPoint point{.plane = motion.plane(),
                     .normal = normal,
                     .distance = state.probe_system()->data.distance,
                     .deviation = to_length(dot(surface - nominal, normal)),
@@ -168,15 +164,13 @@ CycleResult<void> measure(const CycleContext& context) {
   host.set_q(kStatus, -1, Unit::None);
   const std::string* tolerance = arguments.text(q(kTolerance));
   const auto limits =
-      parse_tolerance(tolerance == nullptr ? std::string_view{} : *tolerance, host.is_inch());
-  if (!limits) return limits.error();
-  const auto point = touch_point(context, *limits);
-  if (!point) return point.error();
+      TRY(parse_tolerance(tolerance == nullptr ? std::string_view{} : *tolerance, host.is_inch()));
+  const auto point = TRY(touch_point(context, limits));
 
-  write_results(host, *point);
-  if (auto logged = log_probed_point(host, *point); !logged) return logged;
-  host.record(make_record(*point));
-  if (stops(arguments.whole(309), point->verdict)) return tolerance_stop(1072);
+  write_results(host, point);
+  TRY(log_probed_point(host, point));
+  host.record(make_record(point));
+  if (stops(arguments.whole(309), point.verdict)) return tolerance_stop(1072);
   return {};
 }
 

@@ -109,10 +109,9 @@ ToolCorrection length_correction(Length deviation) {
 }
 
 CycleResult<void> correct_tool(const CycleContext& context, const ToolCorrection& correction) {
-  const auto found = named_tool(context);
-  if (!found) return found.error();
-  if (*found == nullptr) return {};
-  Tool tool = **found;
+  const auto found = TRY(named_tool(context));
+  if (found == nullptr) return {};
+  Tool tool = *found;
   const bool radius = correction.target == ToolCorrection::Target::Radius;
   double& oversize = radius ? tool.dr : tool.dl;
   oversize = to_length(oversize + correction.change.to_mm()).to_mm();
@@ -133,7 +132,7 @@ CycleResult<ProbingMotion> begin_measurement(const CycleContext& context) {
     return nc_error(1108, "reset cycle 26 before measuring");
   }
   if (has_status(context.arguments.descriptor())) set_status(context.host, std::nullopt);
-  if (auto reset = begin_without_rotation(context); !reset) return reset.error();
+  TRY(begin_without_rotation(context));
   return ProbingMotion::begin(context);
 }
 
@@ -149,23 +148,16 @@ CycleResult<void> finish_measurement(const CycleContext& context, const Measurem
     log.length("Measuring height", *measurement.measuring_height);
     add_short_arc(log, measurement.form);
   }
-  if (auto written = deliver_log(context, std::move(log)); !written) return written;
+  TRY(deliver_log(context, std::move(log)));
   const MeasuringRecord record = record_of(context, measurement);
   for (const MeasuredSize& size : record.sizes) {
     const bool is_size = gauging::has_feature(quantity_of(record.cycle, size.is_position));
     if (!is_size || !size.limits || size.limits->lower != Length{}) continue;
-    if (auto noted = host.note(
-            fmt::format("the minimum of \"{}\" is 0: no size is too small", size.characteristic));
-        !noted) {
-      return noted;
-    }
+    TRY(host.note(
+        fmt::format("the minimum of \"{}\" is 0: no size is too small", size.characteristic)));
   }
   host.record(record);
-  if (measurement.correction) {
-    if (auto corrected = correct_tool(context, *measurement.correction); !corrected) {
-      return corrected;
-    }
-  }
+  if (measurement.correction) TRY(correct_tool(context, *measurement.correction));
   const int error = decisive.error();
   if (context.arguments.whole(309) != 0 && error != 0) return tolerance_stop(error);
   return {};

@@ -29,56 +29,47 @@ constexpr auto kWidthResults =
     object_results<1>(std::array{CycleOutput{968, "Width", Unit::Length}});
 
 CycleResult<void> probe_face(const CycleContext& context) {
-  const auto direction = object_direction(context.arguments);
-  if (!direction) return direction.error();
-  auto probing = ObjectProbing::begin(context);
-  if (!probing) return probing.error();
-  auto point = probing->point(1100);
-  if (!point) return point.error();
-  const auto contacts = probing->touch({{probing->towards(point->nominal, *direction)}});
-  if (!contacts) return contacts.error();
-  point->touch(contacts->front().surface, *direction);
-  return probing->finish({.points = {*point}});
+  const auto direction = TRY(object_direction(context.arguments));
+  auto probing = TRY(ObjectProbing::begin(context));
+  auto point = TRY(probing.point(1100));
+  const auto contacts = TRY(probing.touch({{probing.towards(point.nominal, direction)}}));
+  point.touch(contacts.front().surface, direction);
+  return probing.finish({.points = {point}});
 }
 
 CycleResult<void> probe_width(const CycleContext& context) {
-  auto probing = ObjectProbing::begin(context);
-  if (!probing) return probing.error();
-  auto point = probing->point(1100);
-  if (!point) return point.error();
-  const auto width = probing->size(1113);
-  if (!width) return width.error();
+  auto probing = TRY(ObjectProbing::begin(context));
+  auto point = TRY(probing.point(1100));
+  const auto width = TRY(probing.size(1113));
   const bool ridge = context.arguments.whole(1115) == 1;
   const auto [sine, cosine] = machine::sine_cosine(context.arguments.number(1114));
   const Vec3 along{cosine, sine, 0};
   const Vec3 outwards = ridge ? -along : along;
-  const double half = width->target.to_mm() / 2;
-  const double offset = half + (ridge ? 1 : -1) * probing->start_distance();
+  const double half = width.target.to_mm() / 2;
+  const double offset = half + (ridge ? 1 : -1) * probing.start_distance();
   const Vec3 start = along * std::max(0.0, offset);
   const auto contacts =
-      probing->touch({{{.start = point->nominal + start, .direction = outwards},
-                       {.start = point->nominal - start,
-                        .direction = -outwards,
-                        .transit = ridge ? Transit::ClearanceHeight : Transit::Straight}}});
-  if (!contacts) return contacts.error();
-  const double first = dot(contacts->front().surface - point->nominal, along);
-  const double second = dot(contacts->back().surface - point->nominal, along);
-  point->measured = point->nominal + along * ((first + second) / 2);
-  return probing->finish({.points = {*point},
-                          .sizes = {{.characteristic = "Width",
-                                     .role = ridge ? ValueRole::ShaftSize : ValueRole::HoleSize,
-                                     .nominal = width->target,
-                                     .measured = to_length(first - second),
-                                     .limits = width->limits,
-                                     .result_q = 968,
-                                     .deviation_q = 998}}});
+      TRY(probing.touch({{{.start = point.nominal + start, .direction = outwards},
+                          {.start = point.nominal - start,
+                           .direction = -outwards,
+                           .transit = ridge ? Transit::ClearanceHeight : Transit::Straight}}}));
+  const double first = dot(contacts.front().surface - point.nominal, along);
+  const double second = dot(contacts.back().surface - point.nominal, along);
+  point.measured = point.nominal + along * ((first + second) / 2);
+  return probing.finish({.points = {point},
+                         .sizes = {{.characteristic = "Width",
+                                    .role = ridge ? ValueRole::ShaftSize : ValueRole::HoleSize,
+                                    .nominal = width.target,
+                                    .measured = to_length(first - second),
+                                    .limits = width.limits,
+                                    .result_q = 968,
+                                    .deviation_q = 998}}});
 }
 
 CycleResult<void> extrude(const CycleContext& context) {
   const Arguments& arguments = context.arguments;
-  const auto direction = object_direction(arguments);
-  if (!direction) return direction.error();
-  const Vec3 step = *direction * (arguments.number(1146) / arguments.number(1145));
+  const auto direction = TRY(object_direction(arguments));
+  const Vec3 step = direction * (arguments.number(1146) / arguments.number(1145));
   context.host.memory().extrusion =
       Extrusion{step, static_cast<std::size_t>(arguments.whole(1145)), arguments.whole(1149) == 1};
   return {};

@@ -47,29 +47,26 @@ struct ObjectCircle {
 
 CycleResult<ObjectCircle> circle_of(const ObjectProbing& probing, Side side, int first,
                                     int diameter) {
-  const auto point = probing.point(first);
-  if (!point) return point.error();
-  const auto nominal = probing.size(diameter);
-  if (!nominal) return nominal.error();
+  const auto point = TRY(probing.point(first));
+  const auto nominal = TRY(probing.size(diameter));
   const Arguments& arguments = probing.arguments();
   const double sweep = arguments.number(1119);
   const int points = arguments.whole(423);
   return ObjectCircle{
-      side, *point, *nominal,
+      side, point, nominal,
       circle_touches({.side = side,
-                      .centre = {point->nominal.x, point->nominal.y},
-                      .diameter = nominal->target.to_mm(),
+                      .centre = {point.nominal.x, point.nominal.y},
+                      .diameter = nominal.target.to_mm(),
                       .start_angle = arguments.number(325),
                       .step = sweep / (std::abs(sweep) == 360 ? points : points - 1),
                       .points = points,
-                      .height = point->nominal.z,
+                      .height = point.nominal.z,
                       .start_distance = probing.start_distance()})};
 }
 
 /// One or two circles in the plane.
 CycleResult<void> probe_circles(const CycleContext& context) {
-  auto probing = ObjectProbing::begin(context);
-  if (!probing) return probing.error();
+  auto probing = TRY(ObjectProbing::begin(context));
   const int geometry = context.arguments.whole(1115);
   const std::array sides{geometry == 0 || geometry == 2 ? Side::Inside : Side::Outside,
                          geometry == 0 || geometry == 3 ? Side::Inside : Side::Outside};
@@ -78,55 +75,49 @@ CycleResult<void> probe_circles(const CycleContext& context) {
   std::vector<std::vector<Touch>> objects;
   for (int i = 0; i < count; ++i) {
     const auto circle =
-        circle_of(*probing, sides.at(static_cast<std::size_t>(i)), 1100 + 3 * i, 1116 + i);
-    if (!circle) return circle.error();
-    circles.push_back(*circle);
-    objects.push_back(circle->touches);
+        TRY(circle_of(probing, sides.at(static_cast<std::size_t>(i)), 1100 + 3 * i, 1116 + i));
+    circles.push_back(circle);
+    objects.push_back(circle.touches);
   }
   const Vec3 nominal = circles.back().point.nominal - circles.front().point.nominal;
   if (count == 2 && nominal.x == 0 && nominal.y == 0) {
     return nc_error(1081, "both centres are the same");
   }
-  const auto contacts = probing->touch(objects);
-  if (!contacts) return contacts.error();
+  const auto contacts = TRY(probing.touch(objects));
   ObjectFound found;
-  std::span<const Contact> left = *contacts;
+  std::span<const Contact> left = contacts;
   for (ObjectCircle& object : circles) {
     const auto own = left.first(object.touches.size());
     left = left.subspan(own.size());
-    const auto circle = circle_through(own, object.side, probing->motion().ball_radius());
-    if (!circle) return circle.error();
-    object.point.measured.x = circle->centre.x;
-    object.point.measured.y = circle->centre.y;
-    found.sizes.push_back(object.size(circle->radius, found.points.empty() ? 966 : 967));
+    const auto circle = TRY(circle_through(own, object.side, probing.motion().ball_radius()));
+    object.point.measured.x = circle.centre.x;
+    object.point.measured.y = circle.centre.y;
+    found.sizes.push_back(object.size(circle.radius, found.points.empty() ? 966 : 967));
     found.points.push_back(object.point);
     if (count > 1) continue;
-    found.form = circle_form(ball_centres(own), *circle, context.arguments.number(325));
-    found.form->touch_uncertainty_um = probing->motion().touch_uncertainty_um();
+    found.form = circle_form(ball_centres(own), circle, context.arguments.number(325));
+    found.form->touch_uncertainty_um = probing.motion().touch_uncertainty_um();
   }
   const Vec3 measured = found.points.back().measured - found.points.front().measured;
   if (count == 2)
-    add_line(found, *probing, {nominal.x, nominal.y, 0}, {measured.x, measured.y, 0}, true);
-  return probing->finish(found);
+    add_line(found, probing, {nominal.x, nominal.y, 0}, {measured.x, measured.y, 0}, true);
+  return probing.finish(found);
 }
 
 CycleResult<void> probe_sphere(const CycleContext& context) {
-  auto probing = ObjectProbing::begin(context);
-  if (!probing) return probing.error();
-  auto object = circle_of(*probing, Side::Outside, 1100, 1116);
-  if (!object) return object.error();
-  const Vec3 centre = object->point.nominal;
-  const double half = object->diameter.target.to_mm() / 2;
-  object->touches.push_back(probing->towards(centre + Vec3{0, 0, half}, {0, 0, -1}));
-  object->touches.back().transit = Transit::ClearanceHeight;
-  const auto contacts = probing->touch({object->touches});
-  if (!contacts) return contacts.error();
-  const double ball = probing->motion().ball_radius();
-  const auto sphere = fit_sphere(centres_in_space(*contacts), {centre, half + ball});
+  auto probing = TRY(ObjectProbing::begin(context));
+  auto object = TRY(circle_of(probing, Side::Outside, 1100, 1116));
+  const Vec3 centre = object.point.nominal;
+  const double half = object.diameter.target.to_mm() / 2;
+  object.touches.push_back(probing.towards(centre + Vec3{0, 0, half}, {0, 0, -1}));
+  object.touches.back().transit = Transit::ClearanceHeight;
+  const auto contacts = TRY(probing.touch({object.touches}));
+  const double ball = probing.motion().ball_radius();
+  const auto sphere = fit_sphere(centres_in_space(contacts), {centre, half + ball});
   if (!sphere) return nc_error(1081, "no sphere passes near the touched points");
-  object->point.measured = sphere->centre;
-  return probing->finish(
-      {.points = {object->point}, .sizes = {object->size(sphere->radius - ball, 966)}});
+  object.point.measured = sphere->centre;
+  return probing.finish(
+      {.points = {object.point}, .sizes = {object.size(sphere->radius - ball, 966)}});
 }
 
 constinit const TouchProbeCycle kCycle1401 =

@@ -47,31 +47,26 @@ CycleResult<ObjectFound> touch_line(ObjectProbing& probing, ObjectPoint first, O
   if (norm(cross(nominal, direction)) <= tolerance::kCollinear * (1 + norm(nominal))) {
     return nc_error(1081, "both points lie at the same place of the line");
   }
-  const auto contacts = probing.touch(
-      {{probing.towards(first.nominal, direction), probing.towards(second.nominal, direction)}});
-  if (!contacts) return contacts.error();
-  const Vec3 measured = line(contacts->front().ball_centre, contacts->back().ball_centre);
+  const auto contacts = TRY(probing.touch(
+      {{probing.towards(first.nominal, direction), probing.towards(second.nominal, direction)}}));
+  const Vec3 measured = line(contacts.front().ball_centre, contacts.back().ball_centre);
   const Vec3 along = unit(measured);
   const Vec3 normal = unit(direction - along * dot(direction, along));
   const double ball = probing.motion().ball_radius();
-  first.touch(face_behind(contacts->front(), direction, normal, ball), direction);
-  second.touch(face_behind(contacts->back(), direction, normal, ball), direction);
+  first.touch(face_behind(contacts.front(), direction, normal, ball), direction);
+  second.touch(face_behind(contacts.back(), direction, normal, ball), direction);
   ObjectFound found{.points = {first, second}};
   add_line(found, probing, nominal, measured, is_level);
   return found;
 }
 
 CycleResult<void> probe_edge(const CycleContext& context) {
-  const auto direction = object_direction(context.arguments);
-  if (!direction) return direction.error();
-  auto probing = ObjectProbing::begin(context);
-  if (!probing) return probing.error();
-  const auto first = probing->point(1100);
-  if (!first) return first.error();
-  const auto second = probing->point(1103);
-  if (!second) return second.error();
-  const auto found = touch_line(*probing, *first, *second, *direction, direction->z == 0);
-  return found ? probing->finish(*found) : found.error();
+  const auto direction = TRY(object_direction(context.arguments));
+  auto probing = TRY(ObjectProbing::begin(context));
+  const auto first = TRY(probing.point(1100));
+  const auto second = TRY(probing.point(1103));
+  const auto found = touch_line(probing, first, second, direction, direction.z == 0);
+  return found ? probing.finish(*found) : found.error();
 }
 
 CycleResult<std::optional<Limits>> tolerance_of(const Arguments& arguments, bool inch) {
@@ -83,15 +78,11 @@ CycleResult<void> probe_inclined(const CycleContext& context) {
   const Arguments& arguments = context.arguments;
   const int turn = arguments.whole(1131);
   if (turn == 0) return nc_error(1042, "Q1131 must be -1 or +1");
-  auto probing = ObjectProbing::begin(context);
-  if (!probing) return probing.error();
-  const auto start = probing->point(1100);
-  if (!start) return start.error();
-  if (start->limits != decltype(start->limits){}) {
+  auto probing = TRY(ObjectProbing::begin(context));
+  const auto start = TRY(probing.point(1100));
+  if (start.limits != decltype(start.limits){})
     return nc_error(1011, "QS1100 to QS1102 are the start of the line: its tolerance is QS400");
-  }
-  const auto limits = tolerance_of(arguments, context.host.is_inch());
-  if (!limits) return limits.error();
+  const auto limits = TRY(tolerance_of(arguments, context.host.is_inch()));
   const auto [sine, cosine] = machine::sine_cosine(arguments.number(1130));
   const auto plane = static_cast<std::size_t>(arguments.whole(1139));
   Vec3 along;
@@ -101,50 +92,44 @@ CycleResult<void> probe_inclined(const CycleContext& context) {
   direction[plane % 3] = -sine * turn;
   direction[(plane + 1) % 3] = cosine * turn;
   const auto at = [&](int distance) {
-    const Vec3 nominal = start->nominal + along * arguments.number(distance);
+    const Vec3 nominal = start.nominal + along * arguments.number(distance);
     return ObjectPoint{.nominal = nominal, .measured = nominal};
   };
-  auto found = touch_line(*probing, at(1132), at(1133), direction, plane == 3);
-  if (!found) return found.error();
-  const ObjectPoint& first = found->points.front();
-  found->sizes.push_back({.characteristic = "Distance from the nominal line",
-                          .role = ValueRole::ShaftSize,
-                          .measured = to_length(dot(first.nominal - first.measured, direction)),
-                          .limits = *limits,
-                          .is_position = true});
-  return probing->finish(*found);
+  auto found = TRY(touch_line(probing, at(1132), at(1133), direction, plane == 3));
+  const ObjectPoint& first = found.points.front();
+  found.sizes.push_back({.characteristic = "Distance from the nominal line",
+                         .role = ValueRole::ShaftSize,
+                         .measured = to_length(dot(first.nominal - first.measured, direction)),
+                         .limits = limits,
+                         .is_position = true});
+  return probing.finish(found);
 }
 
 CycleResult<void> probe_plane(const CycleContext& context) {
-  const auto direction = object_direction(context.arguments);
-  if (!direction) return direction.error();
-  auto probing = ObjectProbing::begin(context);
-  if (!probing) return probing.error();
+  const auto direction = TRY(object_direction(context.arguments));
+  auto probing = TRY(ObjectProbing::begin(context));
   ObjectFound found;
   std::vector<Touch> touches;
   std::vector<Vec3> nominal;
   for (const int first : {1100, 1103, 1106}) {
-    const auto point = probing->point(first);
-    if (!point) return point.error();
-    found.points.push_back(*point);
-    nominal.push_back(point->nominal);
-    touches.push_back(probing->towards(point->nominal, *direction));
+    const auto point = TRY(probing.point(first));
+    found.points.push_back(point);
+    nominal.push_back(point.nominal);
+    touches.push_back(probing.towards(point.nominal, direction));
   }
   // Away from the material.
-  const auto expected = fit_plane(nominal, -*direction);
-  if (!expected || std::abs(dot(expected->normal, *direction)) <= tolerance::kCollinear) {
+  const auto expected = fit_plane(nominal, -direction);
+  if (!expected || std::abs(dot(expected->normal, direction)) <= tolerance::kCollinear)
     return nc_error(1081, "the three points lie on a straight line");
-  }
-  const auto contacts = probing->touch({touches});
-  if (!contacts) return contacts.error();
-  const auto plane = fit_plane(centres_in_space(*contacts), -*direction);
+  const auto contacts = TRY(probing.touch({touches}));
+  const auto plane = fit_plane(centres_in_space(contacts), -direction);
   if (!plane) return nc_error(1081, "the three touched points lie on a straight line");
   const Vec3 normal = plane->normal;
-  const double ball = probing->motion().ball_radius();
+  const double ball = probing.motion().ball_radius();
   for (std::size_t i = 0; i < 3; ++i)
-    found.points[i].touch(face_behind((*contacts)[i], *direction, normal, ball), *direction);
+    found.points[i].touch(face_behind(contacts[i], direction, normal, ball), direction);
   found.turn = shortest_turn(expected->normal, normal);
-  const WorkingPlane& working = probing->motion().plane();
+  const WorkingPlane& working = probing.motion().plane();
   const auto spatial = [&](const Vec3& from) {
     return machine::spatial_angles(shortest_turn(working.to_input(from), working.to_input(normal)));
   };
@@ -152,11 +137,11 @@ CycleResult<void> probe_plane(const CycleContext& context) {
     found.angles.push_back({kSpatial.at(axis).meaning, kSpatial.at(axis).q,
                             spatial({0, 0, 1})[axis], spatial(expected->normal)[axis]});
   }
-  return probing->finish(found);
+  return probing.finish(found);
 }
 
 CycleResult<void> check_inclined(const Arguments& arguments) {
-  if (auto read = check_dimensions(arguments); !read) return read;
+  TRY(check_dimensions(arguments));
   const auto tolerance = tolerance_of(arguments, false);
   return tolerance ? CycleResult<void>() : tolerance.error();
 }

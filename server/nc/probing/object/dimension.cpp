@@ -146,16 +146,13 @@ CycleResult<std::optional<Limits>> parse_tolerance(std::string_view text, bool i
   bool is_sum = false;
   bool has_lower = reader.take('-');
   if (!has_lower) {
-    const auto upper = reader.number();
-    if (!upper) return upper.error();
-    limits.upper = *upper;
+    limits.upper = TRY(reader.number());
     is_sum = reader.take('+');
     has_lower = is_sum || reader.take('-');
   }
   if (has_lower) {
-    const auto lower = reader.number();
-    if (!lower) return lower.error();
-    limits.lower = -*lower;
+    const auto lower = TRY(reader.number());
+    limits.lower = -lower;
   }
   if (!reader.at_end()) {
     return reader.fault(has_lower ? "the end of the text" : "'-' or the end of the text");

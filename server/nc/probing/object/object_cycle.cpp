@@ -90,17 +90,14 @@ CycleResult<void> log_object(const CycleContext& context, const std::vector<Meas
 
 CycleResult<ObjectProbing> ObjectProbing::begin(const CycleContext& context) {
   context.host.set_q(183, -1, Unit::None);
-  if (auto allowed = refuse_mirror_and_scaling(context.machine.state().frames); !allowed) {
-    return allowed.error();
-  }
+  TRY(refuse_mirror_and_scaling(context.machine.state().frames));
   if (context.arguments.number_or(1126, 0) != 0 && context.arguments.number_or(1121, 0) != 2) {
     return nc_error(1097,
                     "Q1126 without Q1121 = 2 would position the axes of a tilted plane: write "
                     "Q1126 = 0, and PLANE after the cycle");
   }
-  auto motion = ProbingMotion::begin(context);
-  if (!motion) return motion.error();
-  return ObjectProbing(context, *motion);
+  auto motion = TRY(ProbingMotion::begin(context));
+  return ObjectProbing(context, motion);
 }
 
 CycleResult<Nominal> ObjectProbing::size(int parameter) const {
@@ -112,10 +109,9 @@ CycleResult<Nominal> ObjectProbing::size(int parameter) const {
 CycleResult<ObjectPoint> ObjectProbing::point(int first) const {
   ObjectPoint point;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto nominal = size(first + static_cast<int>(axis));
-    if (!nominal) return nominal.error();
-    point.nominal[axis] = nominal->target.to_mm();
-    point.limits.at(axis) = nominal->limits;
+    const auto nominal = TRY(size(first + static_cast<int>(axis)));
+    point.nominal[axis] = nominal.target.to_mm();
+    point.limits.at(axis) = nominal.limits;
   }
   point.measured = point.nominal;
   return point;
@@ -142,19 +138,18 @@ CycleResult<std::vector<Contact>> ObjectProbing::touch(
       touches.push_back(std::move(touch));
     }
     if (mode != 1 && &object != &objects.back()) continue;
-    const auto contacts = motion_.touch_all(touches, height);
-    if (!contacts) return contacts.error();
-    for (std::size_t k = 0; k < contacts->size(); ++k) {
+    const auto contacts = TRY(motion_.touch_all(touches, height));
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
       const Vec3 back = extrusion.step * static_cast<double>(k % times);
       if (k % times == 0) means.emplace_back();
       const double share = 1 / static_cast<double>(times);
       means.back().ball_centre =
-          means.back().ball_centre + ((*contacts)[k].ball_centre - back) * share;
-      means.back().surface = means.back().surface + ((*contacts)[k].surface - back) * share;
+          means.back().ball_centre + (contacts[k].ball_centre - back) * share;
+      means.back().surface = means.back().surface + (contacts[k].surface - back) * share;
       if (times == 1 || (k + 1) % times != 0 || means.size() > 3) continue;
       double farthest = 0;
       for (std::size_t i = k + 1 - times; i <= k; ++i) {
-        const Vec3 off = (*contacts)[i].surface - means.back().surface;
+        const Vec3 off = contacts[i].surface - means.back().surface;
         const Vec3 along = extrusion.step * static_cast<double>(i % times);
         farthest = std::max(farthest, std::abs(dot(off - along, touches[k].direction)));
       }
@@ -177,9 +172,9 @@ CycleResult<void> ObjectProbing::finish(const ObjectFound& found) {
   const MeasuringRecord record = record_of(context_, {.values = values, .form = found.form});
   const ObjectStatus status = status_of(record.verdict);
   host.set_q(183, status.q183, Unit::None);
-  if (auto logged = log_object(context_, values, found.angles, status); !logged) return logged;
+  TRY(log_object(context_, values, found.angles, status));
   host.record(record);
-  if (auto transferred = transfer(found); !transferred) return transferred;
+  TRY(transfer(found));
   const int reaction = arguments().whole(309);
   const bool stops = status.q183 == 2 ? reaction != 0 : status.q183 == 1 && reaction == 1;
   return stops ? CycleResult<void>(tolerance_stop(1072)) : CycleResult<void>();
@@ -204,12 +199,9 @@ CycleResult<void> ObjectProbing::transfer(const ObjectFound& found) {
   if (rotation == 2) {
     if (!found.turn_deg) return nc_error(1016, "Q1121 = 2: the table does not turn in that plane");
     const machine::Axis table = rotary_axis_around(plane.probe);
-    const auto turn = table_angle(context_.machine.state(), table, *found.turn_deg);
-    if (!turn) return turn.error();
-    if (arguments().whole(1126) != 0) {
-      if (auto done = align_rotary_axis(context_, table, *found.turn_deg); !done) return done;
-    }
-    turned.rotary_offsets_deg[machine::index(table) - 3] += to_angle(*turn);
+    const auto turn = TRY(table_angle(context_.machine.state(), table, *found.turn_deg));
+    if (arguments().whole(1126) != 0) TRY(align_rotary_axis(context_, table, *found.turn_deg));
+    turned.rotary_offsets_deg[machine::index(table) - 3] += to_angle(turn);
   }
   return correct_preset(context_, plane, turned, moved);
 }
@@ -259,8 +251,7 @@ CycleResult<void> check_dimensions(const Arguments& arguments) {
   for (const CycleParameter& parameter : arguments.descriptor().parameters) {
     const std::string* text = arguments.text(parameter.id);
     if (text == nullptr || parameter.kind != ValueKind::NumberOrText) continue;
-    const auto read = parse_nominal("QS" + name(parameter).substr(1), *text, false);
-    if (!read) return read.error();
+    TRY(parse_nominal("QS" + name(parameter).substr(1), *text, false));
   }
   return {};
 }

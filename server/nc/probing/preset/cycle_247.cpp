@@ -22,9 +22,8 @@ CycleResult<int> named_row(const machine::PresetTable& presets, const std::strin
 
 CycleResult<void> activate(const CycleContext& context) {
   if (const std::string* name = context.arguments.text(q(339))) {
-    const auto row = named_row(context.machine.state().presets, *name);
-    if (!row) return row.error();
-    return lift(context.machine.activate_preset(*row));
+    const auto row = TRY(named_row(context.machine.state().presets, *name));
+    return lift(context.machine.activate_preset(row));
   }
   const double number = context.arguments.number(339);
   if (number != std::nearbyint(number)) return nc_error(1011, "Q339 must be a whole number");

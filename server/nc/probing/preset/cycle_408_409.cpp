@@ -37,11 +37,10 @@ CycleResult<void> set_datum(const CycleContext& context, ProbingMotion& motion, 
   if (moves && (side == Side::Outside || arguments.whole(301) == 1)) {
     touches[1].transit = Transit::ClearanceHeight;
   }
-  const auto contacts = motion.touch_all(touches, arguments.number(260));
-  if (!contacts) return contacts.error();
+  const auto contacts = TRY(motion.touch_all(touches, arguments.number(260)));
 
-  const double first = contacts->front().surface[axis];
-  const double second = contacts->back().surface[axis];
+  const double first = contacts.front().surface[axis];
+  const double second = contacts.back().surface[axis];
   DatumPoint found{.point = centre};
   found.point[axis] = (first + second) / 2;
   found.axes[axis] = true;

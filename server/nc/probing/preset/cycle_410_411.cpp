@@ -30,13 +30,12 @@ CycleResult<void> set_datum(const CycleContext& context, ProbingMotion& motion, 
                            .height = arguments.number(261),
                            .start_distance = motion.start_distance(arguments.number(320)),
                            .via_clearance = arguments.whole(301) == 1};
-  const auto rectangle = probe_rectangle(motion, plan, arguments.number(260));
-  if (!rectangle) return rectangle.error();
-  set_length(context.host, 151, rectangle->centre.x);
-  set_length(context.host, 152, rectangle->centre.y);
-  set_length(context.host, 154, rectangle->length_main);
-  set_length(context.host, 155, rectangle->length_secondary);
-  return finish_preset(context, motion, plane_datum(arguments, rectangle->centre));
+  const auto rectangle = TRY(probe_rectangle(motion, plan, arguments.number(260)));
+  set_length(context.host, 151, rectangle.centre.x);
+  set_length(context.host, 152, rectangle.centre.y);
+  set_length(context.host, 154, rectangle.length_main);
+  set_length(context.host, 155, rectangle.length_secondary);
+  return finish_preset(context, motion, plane_datum(arguments, rectangle.centre));
 }
 
 constinit const TouchProbeCycle kCycle410 =

@@ -17,10 +17,9 @@ constexpr std::array kParameters = join(
 CycleResult<void> set_datum(const CycleContext& context, ProbingMotion& motion, Side side) {
   const Arguments& arguments = context.arguments;
   const auto probed =
-      probe_circle(context, motion, side, {arguments.number(321), arguments.number(322)});
-  if (!probed) return probed.error();
-  publish_circle(context, side, *probed);
-  return finish_preset(context, motion, plane_datum(arguments, probed->circle.centre));
+      TRY(probe_circle(context, motion, side, {arguments.number(321), arguments.number(322)}));
+  publish_circle(context, side, probed);
+  return finish_preset(context, motion, plane_datum(arguments, probed.circle.centre));
 }
 
 constinit const TouchProbeCycle kCycle412 =

@@ -89,20 +89,17 @@ Touches inside_touches(const Arguments& arguments, double start_distance) {
 CycleResult<void> set_datum(const CycleContext& context, ProbingMotion& motion, bool inside) {
   const Arguments& arguments = context.arguments;
   const double start_distance = motion.start_distance(arguments.number(320));
-  const auto touches = inside ? CycleResult<Touches>(inside_touches(arguments, start_distance))
-                              : outside_touches(arguments, start_distance);
-  if (!touches) return touches.error();
-  const auto contacts = motion.touch_all(*touches, arguments.number(260));
-  if (!contacts) return contacts.error();
-  const auto corner = corner_of(*contacts, *touches, motion.ball_radius());
-  if (!corner) return corner.error();
-  set_length(context.host, 151, corner->point.x);
-  set_length(context.host, 152, corner->point.y);
+  const auto touches = TRY(inside ? CycleResult<Touches>(inside_touches(arguments, start_distance))
+                                  : outside_touches(arguments, start_distance));
+  const auto contacts = TRY(motion.touch_all(touches, arguments.number(260)));
+  const auto corner = TRY(corner_of(contacts, touches, motion.ball_radius()));
+  set_length(context.host, 151, corner.point.x);
+  set_length(context.host, 152, corner.point.y);
   std::optional<double> rotation;
   if (arguments.whole(304) == 1) {
-    rotation = workpiece_angle(context.machine.state().frames, motion.plane(), corner->direction);
+    rotation = workpiece_angle(context.machine.state().frames, motion.plane(), corner.direction);
   }
-  return finish_preset(context, motion, plane_datum(arguments, corner->point), rotation);
+  return finish_preset(context, motion, plane_datum(arguments, corner.point), rotation);
 }
 
 constinit const TouchProbeCycle kCycle414 =

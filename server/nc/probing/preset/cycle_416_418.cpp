@@ -28,10 +28,9 @@ constexpr std::array<CycleOutput, 2> k418Results{
 
 CycleResult<void> bolt_circle(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  const auto probed = probe_bolt_circle(context, motion);
-  if (!probed) return probed.error();
-  publish_circle(context, Side::Inside, *probed);
-  return finish_preset(context, motion, plane_datum(arguments, probed->circle.centre));
+  const auto probed = TRY(probe_bolt_circle(context, motion));
+  publish_circle(context, Side::Inside, probed);
+  return finish_preset(context, motion, plane_datum(arguments, probed.circle.centre));
 }
 
 CycleResult<void> four_holes(const CycleContext& context, ProbingMotion& motion) {
@@ -41,14 +40,12 @@ CycleResult<void> four_holes(const CycleContext& context, ProbingMotion& motion)
     nominal.push_back({arguments.number(main), arguments.number(main + 1)});
   }
   const auto holes =
-      probe_hole_centres(motion, nominal, arguments.number(261), arguments.number(260));
-  if (!holes) return holes.error();
-  const auto& centre = *holes;
-  const auto point = intersection(centre[0], centre[2], centre[1], centre[3]);
-  if (!point) return point.error();
-  set_length(context.host, 151, point->x);
-  set_length(context.host, 152, point->y);
-  return finish_preset(context, motion, plane_datum(arguments, *point));
+      TRY(probe_hole_centres(motion, nominal, arguments.number(261), arguments.number(260)));
+  const auto& centre = holes;
+  const auto point = TRY(intersection(centre[0], centre[2], centre[1], centre[3]));
+  set_length(context.host, 151, point.x);
+  set_length(context.host, 152, point.y);
+  return finish_preset(context, motion, plane_datum(arguments, point));
 }
 
 constinit const TouchProbeCycle kCycle416 =

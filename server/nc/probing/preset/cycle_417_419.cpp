@@ -34,15 +34,14 @@ constexpr std::array<CycleOutput, 1> kResults{{{160, "Measured coordinate", Unit
 CycleResult<void> in_probe_axis(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
   const Vec3 nominal{arguments.number(263), arguments.number(264), arguments.number(294)};
-  const auto surface = touch_down(motion, nominal, arguments.number(320), arguments.number(260));
-  if (!surface) return surface.error();
-  return set_datum_of_axis(context, motion.plane(), *surface, 2);
+  const auto surface =
+      TRY(touch_down(motion, nominal, arguments.number(320), arguments.number(260)));
+  return set_datum_of_axis(context, motion.plane(), surface, 2);
 }
 
 CycleResult<void> in_one_axis(const CycleContext& context, ProbingMotion& motion) {
-  const auto touched = touch_coordinate(context, motion);
-  if (!touched) return touched.error();
-  return set_datum_of_axis(context, motion.plane(), touched->surface, touched->axis);
+  const auto touched = TRY(touch_coordinate(context, motion));
+  return set_datum_of_axis(context, motion.plane(), touched.surface, touched.axis);
 }
 
 constinit const TouchProbeCycle kCycle417 =

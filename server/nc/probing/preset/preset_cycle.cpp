@@ -68,13 +68,11 @@ CycleResult<void> write_preset(const CycleContext& context, const PresetFrame& t
   const Preset* existing = number == 0 ? nullptr : state.presets.find(number);
   if (existing != nullptr) {
     row = *existing;
-    if (turned != state.frames.preset()) {
-      row.frame.basic_rotation_deg = turned.basic_rotation_deg;
-    }
+    if (turned != state.frames.preset()) row.frame.basic_rotation_deg = turned.basic_rotation_deg;
   }
   const Matrix3 axes = axes_of(state.frames, row.frame);
   for (const Found& point : points) move_zero(row.frame, axes, point);
-  if (auto written = lift(context.machine.write_preset(row)); !written) return written;
+  TRY(lift(context.machine.write_preset(row)));
   if (number != 0) return {};
   return lift(context.machine.activate_preset(0));
 }
@@ -93,9 +91,7 @@ CycleResult<void> write_datum_table(const CycleContext& context, const PresetFra
       if (found.axes[axis]) values.values[axis] = datum[axis];
     }
   }
-  if (auto written = context.host.write_datum(context.arguments.whole(305), values); !written) {
-    return written;
-  }
+  TRY(context.host.write_datum(context.arguments.whole(305), values));
   if (turned == frames.preset()) return {};
   frames.set_preset(turned);
   return lift(context.machine.set_frames(frames));
@@ -119,9 +115,7 @@ void publish_circle(const CycleContext& context, Side side, const ProbedCircle& 
 }
 
 CycleResult<ProbingMotion> begin_preset(const CycleContext& context) {
-  if (auto allowed = refuse_mirror_and_scaling(context.machine.state().frames); !allowed) {
-    return allowed.error();
-  }
+  TRY(refuse_mirror_and_scaling(context.machine.state().frames));
   if (context.arguments.whole(303) == -1 && context.arguments.whole(305) != 0) {
     return nc_error(1078, "0 is the datum table, 1 the preset table");
   }
@@ -158,7 +152,7 @@ CycleResult<void> correct_preset(const CycleContext& context, const WorkingPlane
   row.frame.origin = tidy(row.frame.origin + turned.origin - before.origin);
   row.frame.basic_rotation_deg = turned.basic_rotation_deg;
   row.frame.rotary_offsets_deg = turned.rotary_offsets_deg;
-  if (auto written = lift(context.machine.write_preset(row)); !written) return written;
+  TRY(lift(context.machine.write_preset(row)));
   frames.set_preset(turned);
   return lift(context.machine.set_frames(frames));
 }
@@ -176,10 +170,9 @@ CycleResult<void> finish_preset(const CycleContext& context, ProbingMotion& moti
   if (arguments.whole(381) == 1) {
     const Vec3 nominal{arguments.number(382), arguments.number(383), arguments.number(384)};
     const auto surface =
-        touch_down(motion, nominal, arguments.number_or(320, 0), arguments.number(260));
-    if (!surface) return surface.error();
+        TRY(touch_down(motion, nominal, arguments.number_or(320, 0), arguments.number(260)));
     points.push_back(
-        {.point = *surface, .axes = {false, false, true}, .datum = {0, 0, arguments.number(333)}});
+        {.point = surface, .axes = {false, false, true}, .datum = {0, 0, arguments.number(333)}});
   }
   return transfer_datum(context, motion.plane(), points, basic_rotation);
 }

@@ -24,43 +24,38 @@ struct Width {
 
 CycleResult<Width> touch_across(ToolProbing& probing, Point2 centre, double height,
                                 Point2 outwards) {
-  const auto near = probing.touch_side(centre, height, outwards, Spindle::Stands);
-  if (!near) return near.error();
-  const auto far = probing.touch_side(centre, height, {-outwards.x, -outwards.y}, Spindle::Stands);
-  if (!far) return far.error();
-  return Width{(*near - *far) / 2, (*near + *far) / 2};
+  const auto near = TRY(probing.touch_side(centre, height, outwards, Spindle::Stands));
+  const auto far =
+      TRY(probing.touch_side(centre, height, {-outwards.x, -outwards.y}, Spindle::Stands));
+  return Width{(near - far) / 2, (near + far) / 2};
 }
 
 /// Touches the top, then X, Y and X again. The first pair meets a disc along a chord, because the
 /// centre in Y is still unknown. It gives the centre in X, but not the width.
 CycleResult<machine::ToolTouchProbe> touch_plate(ToolProbing& probing, Point2 near,
                                                  double tool_radius) {
-  const auto top = probing.touch_top(near, Spindle::Stands);
-  if (!top) return top.error();
+  const auto top = TRY(probing.touch_top(near, Spindle::Stands));
   Point2 centre = near;
   double half = 0;
   for (const Point2 outwards : {Point2{1, 0}, Point2{0, 1}, Point2{1, 0}}) {
-    const auto width = touch_across(probing, centre, *top - tt_parameters::kDepth, outwards);
-    if (!width) return width.error();
-    centre = {centre.x + outwards.x * width->middle, centre.y + outwards.y * width->middle};
-    half = width->half;
+    const auto width = TRY(touch_across(probing, centre, top - tt_parameters::kDepth, outwards));
+    centre = {centre.x + outwards.x * width.middle, centre.y + outwards.y * width.middle};
+    half = width.half;
   }
-  if (auto moved = probing.retract(); !moved) return moved.error();
-  if (auto moved = probing.move_over(centre); !moved) return moved.error();
+  TRY(probing.retract());
+  TRY(probing.move_over(centre));
   return machine::ToolTouchProbe{
-      {to_length(centre.x).to_mm(), to_length(centre.y).to_mm(), to_length(*top).to_mm()},
+      {to_length(centre.x).to_mm(), to_length(centre.y).to_mm(), to_length(top).to_mm()},
       to_length(half - tool_radius).to_mm()};
 }
 
 CycleResult<void> calibrate(const CycleContext& context, CycleResult<ToolProbing> probing,
                             Point2 near) {
   if (!probing) return probing.error();
-  const auto found = touch_plate(*probing, near, context.machine.state().tool_radius());
-  if (!found) return found.error();
-  if (found->radius <= 0) {
+  const auto found = TRY(touch_plate(*probing, near, context.machine.state().tool_radius()));
+  if (found.radius <= 0)
     return nc_error(1109, "the tool table has a radius R of the calibrating tool too large");
-  }
-  return lift(context.machine.write_tool_touch_probe(*found));
+  return lift(context.machine.write_tool_touch_probe(found));
 }
 
 CycleResult<void> calibrate_at_known_place(const CycleContext& context) {

@@ -100,13 +100,12 @@ CycleResult<double> measure_length(const CycleContext& context, ToolProbing& pro
   const machine::MachineState& state = context.machine.state();
   const Tool& tool = *state.active_tool();
   const machine::ToolTouchProbe tt = state.tt;
-  const auto touches = touches_of(context, tool.r_offset != 0 || state.tool_radius() > tt.radius);
-  if (!touches) return touches.error();
+  const auto touches =
+      TRY(touches_of(context, tool.r_offset != 0 || state.tool_radius() > tt.radius));
   double longest = 0;
-  for (const Spindle spindle : *touches) {
-    const auto tip = probing.touch_top({tt.centre.x + tool.r_offset, tt.centre.y}, spindle);
-    if (!tip) return tip.error();
-    longest = std::max(longest, state.tool_length() + *tip - tt.centre.z);
+  for (const Spindle spindle : touches) {
+    const auto tip = TRY(probing.touch_top({tt.centre.x + tool.r_offset, tt.centre.y}, spindle));
+    longest = std::max(longest, state.tool_length() + tip - tt.centre.z);
   }
   return longest;
 }
@@ -114,14 +113,12 @@ CycleResult<double> measure_length(const CycleContext& context, ToolProbing& pro
 CycleResult<double> measure_radius(const CycleContext& context, ToolProbing& probing) {
   const machine::MachineState& state = context.machine.state();
   const machine::ToolTouchProbe tt = state.tt;
-  const auto touches = touches_of(context, true);
-  if (!touches) return touches.error();
+  const auto touches = TRY(touches_of(context, true));
   const double height = tt.centre.z - tt_parameters::kDepth - state.active_tool()->l_offset;
   double largest = 0;
-  for (const Spindle spindle : *touches) {
-    const auto axis = probing.touch_side({tt.centre.x, tt.centre.y}, height, {1, 0}, spindle);
-    if (!axis) return axis.error();
-    largest = std::max(largest, *axis - tt.radius);
+  for (const Spindle spindle : touches) {
+    const auto axis = TRY(probing.touch_side({tt.centre.x, tt.centre.y}, height, {1, 0}, spindle));
+    largest = std::max(largest, axis - tt.radius);
   }
   return largest;
 }
@@ -154,21 +151,19 @@ CycleResult<void> finish(const CycleContext& context, Tool tool, Status status) 
 }
 
 CycleResult<void> measure(const CycleContext& context, bool length, bool radius) {
-  auto probing = ToolProbing::begin(context, tool_order_of(context.arguments).clearance_height);
-  if (!probing) return probing.error();
+  auto probing =
+      TRY(ToolProbing::begin(context, tool_order_of(context.arguments).clearance_height));
   Tool tool = *context.machine.state().active_tool();
   Status status = Status::WithinTolerance;
   if (length) {
-    const auto measured = measure_length(context, *probing);
-    if (!measured) return measured.error();
-    status = enter(context, kLength, *measured, tool);
+    const auto measured = TRY(measure_length(context, probing));
+    status = enter(context, kLength, measured, tool);
   }
   if (radius) {
-    const auto measured = measure_radius(context, *probing);
-    if (!measured) return measured.error();
-    status = std::max(status, enter(context, kRadius, *measured, tool));
+    const auto measured = TRY(measure_radius(context, probing));
+    status = std::max(status, enter(context, kRadius, measured, tool));
   }
-  if (auto moved = probing->retract(); !moved) return moved;
+  TRY(probing.retract());
   return finish(context, tool, status);
 }
 

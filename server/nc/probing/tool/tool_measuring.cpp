@@ -50,7 +50,7 @@ double probing_feed(double tool_radius, Spindle spindle) {
 
 CycleResult<ToolProbing> ToolProbing::begin(const CycleContext& context, double clearance_height) {
   const MachineState& state = context.machine.state();
-  if (auto checked = check(state); !checked) return checked.error();
+  TRY(check(state));
   const double height = state.frames.to_machine({0, 0, clearance_height}).z;
   const double start = state.tt.centre.z + tt_parameters::kSafetyDistance;
   return ToolProbing(context, std::max(height, start), start);
@@ -58,33 +58,28 @@ CycleResult<ToolProbing> ToolProbing::begin(const CycleContext& context, double 
 
 CycleResult<ToolProbing> ToolProbing::begin_here(const CycleContext& context) {
   const MachineState& state = context.machine.state();
-  if (auto checked = check(state); !checked) return checked.error();
+  TRY(check(state));
   const double height = state.position(CoordinateSystem::Machine).linear.z;
   return ToolProbing(context, height, height);
 }
 
 CycleResult<double> ToolProbing::touch_top(Point2 at, Spindle spindle) {
-  if (auto moved = retract(); !moved) return moved.error();
-  if (auto moved = move_over(at); !moved) return moved.error();
-  if (auto moved = move_to_height(start_height_); !moved) return moved.error();
-  const auto tip = probe({0, 0, -1}, spindle);
-  if (!tip) return tip.error();
-  return tip->z;
+  TRY(retract());
+  TRY(move_over(at));
+  TRY(move_to_height(start_height_));
+  const auto tip = TRY(probe({0, 0, -1}, spindle));
+  return tip.z;
 }
 
 CycleResult<double> ToolProbing::touch_side(Point2 centre, double tip_height, Point2 outwards,
                                             Spindle spindle) {
   const MachineState& state = machine_.state();
   const double away = state.tt.radius + state.tool_radius() + tt_parameters::kSafetyDistance;
-  if (auto moved = retract(); !moved) return moved.error();
-  if (auto moved = move_over({centre.x + outwards.x * away, centre.y + outwards.y * away});
-      !moved) {
-    return moved.error();
-  }
-  if (auto moved = move_to_height(tip_height); !moved) return moved.error();
-  const auto tip = probe({-outwards.x, -outwards.y, 0}, spindle);
-  if (!tip) return tip.error();
-  return (tip->x - centre.x) * outwards.x + (tip->y - centre.y) * outwards.y;
+  TRY(retract());
+  TRY(move_over({centre.x + outwards.x * away, centre.y + outwards.y * away}));
+  TRY(move_to_height(tip_height));
+  const auto tip = TRY(probe({-outwards.x, -outwards.y, 0}, spindle));
+  return (tip.x - centre.x) * outwards.x + (tip.y - centre.y) * outwards.y;
 }
 
 CycleResult<void> ToolProbing::retract() { return move_to_height(clearance_height_); }

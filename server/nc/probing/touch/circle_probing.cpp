@@ -90,12 +90,9 @@ CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotio
                       .start_distance = motion.start_distance(arguments.number(320)),
                       .via_clearance = arguments.whole(301) == 1,
                       .on_arc = arguments.number_or(365, 1) == 1});
-  const auto contacts = motion.touch_all(touches, arguments.number(260));
-  if (!contacts) return contacts.error();
-  const auto circle = circle_through(*contacts, side, motion.ball_radius());
-  if (!circle) return circle.error();
-  ProbedCircle probed{*circle,
-                      circle_form(ball_centres(*contacts), *circle, arguments.number(325))};
+  const auto contacts = TRY(motion.touch_all(touches, arguments.number(260)));
+  const auto circle = TRY(circle_through(contacts, side, motion.ball_radius()));
+  ProbedCircle probed{circle, circle_form(ball_centres(contacts), circle, arguments.number(325))};
   probed.form.touch_uncertainty_um = motion.touch_uncertainty_um();
   return probed;
 }
@@ -106,11 +103,9 @@ CycleResult<std::vector<Point2>> probe_hole_centres(ProbingMotion& motion,
   std::vector<Point2> centres;
   for (const Point2& point : nominal) {
     const auto touches = circle_touches({.centre = point, .height = height});
-    const auto contacts = motion.touch_all(touches, clearance_height);
-    if (!contacts) return contacts.error();
-    const auto circle = circle_through(*contacts, Side::Inside, motion.ball_radius());
-    if (!circle) return circle.error();
-    centres.push_back(circle->centre);
+    const auto contacts = TRY(motion.touch_all(touches, clearance_height));
+    const auto circle = TRY(circle_through(contacts, Side::Inside, motion.ball_radius()));
+    centres.push_back(circle.centre);
   }
   return centres;
 }
@@ -125,11 +120,9 @@ CycleResult<ProbedCircle> probe_bolt_circle(const CycleContext& context, Probing
         {arguments.number(273) + radius * cosine, arguments.number(274) + radius * sine});
   }
   const auto holes =
-      probe_hole_centres(motion, nominal, arguments.number(261), arguments.number(260));
-  if (!holes) return holes.error();
-  const auto circle = fit_circle(*holes);
-  if (!circle) return circle.error();
-  return ProbedCircle{*circle, circle_form(*holes, *circle, arguments.number(291))};
+      TRY(probe_hole_centres(motion, nominal, arguments.number(261), arguments.number(260)));
+  const auto circle = TRY(fit_circle(holes));
+  return ProbedCircle{circle, circle_form(holes, circle, arguments.number(291))};
 }
 
 }  // namespace fitgauge::probing

@@ -87,7 +87,6 @@ CycleResult<Circle> fit_circle(std::span<const Point2> points) {
   if (!gauss_newton(*circle, kSettled, [&](const Vector3d& at) { return linearise(all, at); })) {
     return nc_error(1081, "no circle passes near the touched points");
   }
-
   const double residual = (distances(all, *circle).array() - circle->z()).abs().maxCoeff();
   return Circle{{circle->x() * spread + mean.x(), circle->y() * spread + mean.y()},
                 circle->z() * spread,

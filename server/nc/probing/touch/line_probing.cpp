@@ -12,9 +12,8 @@ CycleResult<Vec3> touch(ProbingMotion& motion, const Vec3& nominal, const Vec3& 
                         double q320, double clearance_height) {
   const std::array touches{
       Touch{.start = nominal - direction * motion.start_distance(q320), .direction = direction}};
-  const auto contacts = motion.touch_all(touches, clearance_height);
-  if (!contacts) return contacts.error();
-  return contacts->front().surface;
+  const auto contacts = TRY(motion.touch_all(touches, clearance_height));
+  return contacts.front().surface;
 }
 
 struct Edge {
@@ -48,8 +47,7 @@ double ProbedLine::angle_deg() const {
 
 CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  const auto direction = probing_direction(arguments);
-  if (!direction) return direction.error();
+  const auto direction = TRY(probing_direction(arguments));
   const double height = arguments.number(261);
   const std::array nominal{Vec3{arguments.number(263), arguments.number(264), height},
                            Vec3{arguments.number(265), arguments.number(266), height}};
@@ -60,18 +58,17 @@ CycleResult<ProbedLine> probe_line(const CycleContext& context, ProbingMotion& m
     return nc_error(1081, "both points lie at the same place of the line");
   }
   Vec3 along;
-  along[line.axis] = *direction;
+  along[line.axis] = direction;
   const Vec3 back = along * motion.start_distance(arguments.number(320));
   const Transit between = arguments.whole(301) == 1 ? Transit::ClearanceHeight : Transit::Straight;
   const std::array touches{
       Touch{.start = nominal[0] - back, .direction = along},
       Touch{.start = nominal[1] - back, .direction = along, .transit = between}};
-  const auto contacts = motion.touch_all(touches, arguments.number(260));
-  if (!contacts) return contacts.error();
-  line.first = contacts->front().ball_centre;
-  line.second = contacts->back().ball_centre;
+  const auto contacts = TRY(motion.touch_all(touches, arguments.number(260)));
+  line.first = contacts.front().ball_centre;
+  line.second = contacts.back().ball_centre;
   for (std::size_t k = 0; k < 2; ++k) {
-    line.coordinates[k] = {nominal[k][line.axis], (*contacts)[k].surface[line.axis]};
+    line.coordinates[k] = {nominal[k][line.axis], contacts[k].surface[line.axis]};
   }
   return line;
 }
@@ -85,18 +82,15 @@ CycleResult<int> probing_direction(const Arguments& arguments) {
 CycleResult<TouchedCoordinate> touch_coordinate(const CycleContext& context,
                                                 ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
-  const auto direction = probing_direction(arguments);
-  if (!direction) return direction.error();
+  const auto direction = TRY(probing_direction(arguments));
   TouchedCoordinate touched{
       .axis = static_cast<std::size_t>(arguments.whole(272) - 1),
       .nominal = {arguments.number(263), arguments.number(264), arguments.number(261)},
       .surface = {}};
   Vec3 along;
-  along[touched.axis] = *direction;
-  const auto surface =
-      touch(motion, touched.nominal, along, arguments.number(320), arguments.number(260));
-  if (!surface) return surface.error();
-  touched.surface = *surface;
+  along[touched.axis] = direction;
+  touched.surface =
+      TRY(touch(motion, touched.nominal, along, arguments.number(320), arguments.number(260)));
   return touched;
 }
 
@@ -120,9 +114,8 @@ CycleResult<Corner> corner_of(std::span<const Contact> contacts, std::span<const
                               double ball_radius) {
   const Edge main = edge_of(contacts[0], contacts[1], touches[0].direction, ball_radius);
   const Edge secondary = edge_of(contacts[2], contacts[3], touches[2].direction, ball_radius);
-  const auto point = intersection(main.first, main.second, secondary.first, secondary.second);
-  if (!point) return point.error();
-  return Corner{*point, contacts[1].ball_centre - contacts[0].ball_centre};
+  const auto point = TRY(intersection(main.first, main.second, secondary.first, secondary.second));
+  return Corner{point, contacts[1].ball_centre - contacts[0].ball_centre};
 }
 
 }  // namespace fitgauge::probing

@@ -49,25 +49,23 @@ CycleResult<std::vector<Contact>> ProbingMotion::touch_all(std::span<const Touch
   std::vector<Contact> contacts;
   for (const Touch& touch : touches) {
     const bool first = contacts.empty();
-    auto moved = first ? approach(touch, clearance_height) : transit(touch, clearance_height);
-    if (!moved) return moved.error();
-    auto contact = probe(touch.direction);
-    if (!contact) return contact.error();
-    contacts.push_back(*contact);
+    TRY(first ? approach(touch, clearance_height) : transit(touch, clearance_height));
+    auto contact = TRY(probe(touch.direction));
+    contacts.push_back(contact);
   }
   if (std::isinf(clearance_height)) return contacts;
-  if (auto moved = move_tip_to_height(clearance_height); !moved) return moved.error();
+  TRY(move_tip_to_height(clearance_height));
   return contacts;
 }
 
 CycleResult<Contact> ProbingMotion::touch(const Touch& touch, double clearance_height) {
-  if (auto moved = approach(touch, clearance_height); !moved) return moved.error();
+  TRY(approach(touch, clearance_height));
   return probe(touch.direction);
 }
 
 CycleResult<void> ProbingMotion::approach(const Touch& touch, double clearance_height) {
   if (tip().z < clearance_height) return via_clearance_height(touch.start, clearance_height);
-  if (auto moved = move_ball_in_plane(touch.start); !moved) return moved;
+  TRY(move_ball_in_plane(touch.start));
   return move_ball(touch.start);
 }
 
@@ -77,15 +75,13 @@ CycleResult<void> ProbingMotion::transit(const Touch& touch, double clearance_he
     case Transit::ClearanceHeight: return via_clearance_height(touch.start, clearance_height);
     case Transit::Straight: break;
   }
-  for (const Vec3& waypoint : touch.waypoints) {
-    if (auto moved = move_ball(waypoint); !moved) return moved;
-  }
+  for (const Vec3& waypoint : touch.waypoints) TRY(move_ball(waypoint));
   return move_ball(touch.start);
 }
 
 CycleResult<void> ProbingMotion::via_clearance_height(const Vec3& start, double clearance_height) {
-  if (auto moved = move_tip_to_height(clearance_height); !moved) return moved;
-  if (auto moved = move_ball_in_plane(start); !moved) return moved;
+  TRY(move_tip_to_height(clearance_height));
+  TRY(move_ball_in_plane(start));
   return move_ball(start);
 }
 
@@ -157,9 +153,7 @@ CycleResult<void> refuse_mirror_and_scaling(const machine::Frames& frames) {
 void publish_touch(const MachineState& state, CycleHost& host, const ContactPoint& contact) {
   const Vec3 nose = state.frames.from_machine(contact.nose.linear, CoordinateSystem::Workpiece);
   std::uint16_t number = 115;
-  for (const double coordinate : {nose.x, nose.y, nose.z}) {
-    set_length(host, number++, coordinate);
-  }
+  for (const double coordinate : {nose.x, nose.y, nose.z}) set_length(host, number++, coordinate);
   for (const machine::Axis axis : {machine::Axis::A, machine::Axis::B, machine::Axis::C}) {
     if (state.ranges[index(axis)] && number <= 119) {
       host.set_q(number++, contact.nose[axis], Unit::Angle);

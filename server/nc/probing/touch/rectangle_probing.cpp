@@ -40,12 +40,11 @@ CycleResult<Rectangle> probe_rectangle(ProbingMotion& motion, const RectanglePla
   // Around the rectangle, so that no way leads across it.
   std::array touches{main[0], secondary[0], main[1], secondary[1]};
   for (std::size_t i = 1; i < touches.size(); ++i) go_around(touches[i], touches[i - 1], plan);
-  const auto contacts = motion.touch_all(touches, clearance_height);
-  if (!contacts) return contacts.error();
-  const double x1 = (*contacts)[0].surface.x;
-  const double x2 = (*contacts)[2].surface.x;
-  const double y1 = (*contacts)[1].surface.y;
-  const double y2 = (*contacts)[3].surface.y;
+  const auto contacts = TRY(motion.touch_all(touches, clearance_height));
+  const double x1 = contacts[0].surface.x;
+  const double x2 = contacts[2].surface.x;
+  const double y1 = contacts[1].surface.y;
+  const double y2 = contacts[3].surface.y;
   return Rectangle{{(x1 + x2) / 2, (y1 + y2) / 2}, x1 - x2, y1 - y2};
 }
 

@@ -50,9 +50,8 @@ std::string_view refusal_text(std::uint8_t code) {
 }
 
 LinkResult<LinkClient> LinkClient::connect(LinkClientOptions options) {
-  auto socket = LinkSocket::connect(std::move(options));
-  if (!socket) return socket.error();
-  return LinkClient(*std::move(socket));
+  auto socket = TRY(LinkSocket::connect(std::move(options)));
+  return LinkClient(std::move(socket));
 }
 
 LinkFailure LinkClient::unexpected(const Telegram& telegram) const {
@@ -67,7 +66,7 @@ LinkResult<Telegram> LinkClient::ask_telegram(const Telegram& request) {
         fmt::format("{} bytes are too long for a telegram of {}", request.payload.size(), buffer_),
         static_cast<std::uint8_t>(ControlError::BadFileName));
   }
-  if (const auto sent = socket_.send(request); !sent) return sent.error();
+  TRY(socket_.send(request));
   auto answer = socket_.receive();
   if (!answer || answer->name != Refused::kName) return answer;
   const auto refused = decode<Refused>(*answer);
@@ -89,10 +88,9 @@ LinkResult<void> LinkClient::login(std::string_view name) {
 }
 
 LinkResult<ControlIdentity> LinkClient::identity() {
-  const auto versions = ask<Versions>(ReadVersion{});
-  if (!versions) return versions.error();
+  const auto versions = TRY(ask<Versions>(ReadVersion{}));
   ControlIdentity identity;
-  PayloadReader texts(versions->texts.value);
+  PayloadReader texts(versions.texts.value);
   texts.get(identity.control);
   texts.get(identity.nc_software);
   texts.get(identity.plc);
@@ -119,7 +117,7 @@ LinkResult<void> LinkClient::agree_buffer() {
 
 LinkResult<std::vector<DirectoryEntry>> LinkClient::list(const std::string& directory,
                                                          std::size_t most) {
-  if (const auto there = tell(ChangeDirectory{directory}); !there) return there.error();
+  TRY(tell(ChangeDirectory{directory}));
   std::vector<DirectoryEntry> entries;
   auto answer = ask_telegram(encode(ListDirectory{}));
   for (; answer && answer->name == DirectoryEntry::kName;
@@ -170,17 +168,13 @@ LinkResult<void> LinkClient::upload(const std::string& path, std::string_view by
   // Without it the end is not answered, and whether the file was stored is not known.
   const auto acknowledged = tell(SystemCommand{.command = SystemCommand::kAcknowledgeEnd});
   if (!acknowledged && acknowledged.error().kind != Kind::Refused) return acknowledged;
-  auto begun = tell(Upload{.path = path, .binary = transfer == Transfer::Binary});
-  if (!begun) return begun;
+  TRY(tell(Upload{.path = path, .binary = transfer == Transfer::Binary}));
   const std::size_t step = buffer_ - kBlockHead;
-  for (std::size_t at = 0; at < wire.size(); at += step) {
-    auto taken = tell(FileBlock{.bytes = {wire.substr(at, step)}});
-    if (!taken) return taken;
-  }
+  for (std::size_t at = 0; at < wire.size(); at += step)
+    TRY(tell(FileBlock{.bytes = {wire.substr(at, step)}}));
   if (acknowledged) return tell(EndOfData{});
-  if (auto sent = socket_.send(encode(EndOfData{})); !sent) return sent;
-  const auto stored = file_information(path);
-  if (!stored) return stored.error();
+  TRY(socket_.send(encode(EndOfData{})));
+  TRY(file_information(path));
   return {};
 }
 

@@ -50,17 +50,15 @@ class LinkClient {
   /// Sends a request and reads its answer as a message.
   template <class Answer, class Request>
   LinkResult<Answer> ask(const Request& request) {
-    const auto telegram = ask_telegram(encode(request));
-    if (!telegram) return telegram.error();
-    auto answer = decode<Answer>(*telegram);
-    if (!answer) return unexpected(*telegram);
+    const auto telegram = TRY(ask_telegram(encode(request)));
+    auto answer = decode<Answer>(telegram);
+    if (!answer) return unexpected(telegram);
     return *std::move(answer);
   }
   /// A request that is answered with T_OK.
   template <class Request>
   LinkResult<void> tell(const Request& request) {
-    const auto answer = ask<Accepted>(request);
-    if (!answer) return answer.error();
+    TRY(ask<Accepted>(request));
     return {};
   }
 

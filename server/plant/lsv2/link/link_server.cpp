@@ -281,7 +281,7 @@ class LinkServer::Loop {
 Result<std::unique_ptr<LinkServer>> LinkServer::start(LinkServerOptions options,
                                                       LinkServerHooks hooks) {
   auto loop = std::make_unique<Loop>(std::move(options), std::move(hooks));
-  if (const auto opened = loop->open(); !opened) return opened.error();
+  TRY(loop->open());
   return std::unique_ptr<LinkServer>(new LinkServer(std::move(loop)));
 }
 

@@ -86,11 +86,10 @@ LinkFailure LinkSocket::broken(std::string_view what) const {
 
 LinkResult<LinkSocket> LinkSocket::connect(LinkClientOptions options) {
   LinkSocket link(std::move(options));
-  const auto addresses = resolve(link.address());
-  if (!addresses) return addresses.error();
+  const auto addresses = TRY(resolve(link.address()));
   const Time deadline = std::chrono::steady_clock::now() + link.options_.connect_timeout;
   std::string why = "it does not answer";
-  for (const addrinfo* at = addresses->get(); at != nullptr; at = at->ai_next) {
+  for (const addrinfo* at = addresses.get(); at != nullptr; at = at->ai_next) {
     link.socket_ = Descriptor(
         socket(at->ai_family, at->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, at->ai_protocol));
     if (link.socket_.get() < 0) continue;
@@ -141,7 +140,7 @@ LinkResult<void> LinkSocket::send(const Telegram& telegram) {
     if (count >= 0) {
       sent += static_cast<std::size_t>(count);
     } else if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) {
-      if (auto ready = wait(POLLOUT, deadline); !ready) return ready;
+      TRY(wait(POLLOUT, deadline));
     } else {
       return broken("has closed the connection");
     }
@@ -155,7 +154,7 @@ LinkResult<Telegram> LinkSocket::receive() {
     auto telegram = reader_.next();
     if (!telegram) return broken("does not send LSV-2 telegrams: is it a control?");
     if (*telegram) return **std::move(telegram);
-    if (const auto ready = wait(POLLIN, deadline); !ready) return ready.error();
+    TRY(wait(POLLIN, deadline));
     std::array<char, kLargestBuffer> bytes;
     const ssize_t count = recv(socket_.get(), bytes.data(), bytes.size(), 0);
     if (count > 0) {

@@ -136,9 +136,7 @@ enum class TelegramName : std::uint32_t {};
 
 consteval TelegramName telegram_name(const char (&letters)[5]) {
   std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    value = value << 8U | static_cast<unsigned char>(letters[i]);
-  }
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8U | static_cast<unsigned char>(letters[i]);
   return TelegramName{value};
 }
 
