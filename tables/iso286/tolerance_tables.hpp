@@ -46,9 +46,8 @@ class ToleranceTables {
   }
 
   /// @errors DesignationMalformed for what cannot name a class (`7H`, and `H` unless a custom
-  /// column
-  ///   has that name); ClassUnknown for what names none (`H19`, `I7`, `h7x`, and `J9`, which the
-  ///   standard has for no size).
+  ///   column has that name); ClassUnknown for what names none (`H19`, `I7`, `h7x`, and `J9`, which
+  ///   the standard has for no size).
   Result<ClassId> find_class(std::string_view name) const;
 
   /// @pre the id is one of these tables, here and below.

@@ -53,8 +53,7 @@ struct Table {
 /// `hub_depth_mm`, `P6_lower_um`, `m_plus_minus_um`, `f_plus_minus_arcmin`,
 /// `external_6_tolerance_um`, `G_deviation_um`. An empty cell: the standard has no number there.
 /// @errors TablesInconsistent with the line: an unknown column, a cell that is no number, limits
-/// the
-///   wrong way round, ranges with a gap or out of order.
+///   the wrong way round, ranges with a gap or out of order.
 Result<Table> read_table(std::string_view name, std::string_view csv);
 
 /// A standard besides ISO 286 with tables in the program.

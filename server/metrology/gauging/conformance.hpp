@@ -98,9 +98,8 @@ inline constexpr std::int64_t kHottest = 10'000'000'000;
 Length size_at_20_degrees(Length reading, const ThermalBody& part, const ThermalBody& scale);
 
 /// The standard uncertainty that the temperatures and expansions add to a size at 20 °C, in pm: of
-/// first order and as if none knew of another (JCGM 100:2008, 5.1.2), with the sensitivities L α /
-/// (1
-/// + α(t - 20)) to a temperature and L (t - 20) / (1 + α(t - 20)) to an expansion.
+/// first order and as if none knew of another (JCGM 100:2008, 5.1.2), to a temperature with the
+/// sensitivity L α / (1 + α(t - 20)), to an expansion with L (t - 20) / (1 + α(t - 20)).
 /// @param corrected as of size_at_20_degrees
 std::int64_t added_uncertainty(Length corrected, const ThermalBody& part, const ThermalBody& scale);
 

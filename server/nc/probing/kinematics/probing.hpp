@@ -14,8 +14,7 @@ class KinematicsProbing {
  public:
   /// The sphere is expected at the zero of the active preset.
   /// @errors 1082 Q408 = 0 without the option of TCPM or on a machine with Hirth axes, or a height
-  /// inside the
-  ///   sphere; those of SphereProbe::begin.
+  ///   inside the sphere; those of SphereProbe::begin.
   static CycleResult<KinematicsProbing> begin(const CycleContext& context);
 
   MeasuringTool tool() const { return {state().tool_axis(), probe_.ball_length()}; }
