@@ -149,13 +149,14 @@ export class Ledger extends EventTarget {
     return this.of(plan, part, round).filter(({ shown }) => shown.characteristic === name).at(-1);
   }
 
-  /** The values in force of a sample: the newest, those before it after which the sample went on, and a GO gauge that failed and was not used since. */
+  /** The values in force of the newest sample, of what is no sample the newest; with them a GO gauge that failed and was not used since. */
   sampleInForce(plan, part, round, name) {
     const all = this.of(plan, part, round).filter(({ shown }) => shown.characteristic === name);
     all.sort((one, other) => this.#rootOf(one).seq - this.#rootOf(other).seq);
-    const from = all.findLastIndex((value, i) => i < all.length - 1 && !value.partial) + 1;
-    const tried = all.findLastIndex(({ record }) => record?.go_gauge);
-    return all.filter((value, i) => i >= from || (i === tried && value.record.go_gauge === 'fails'));
+    const newest = all.at(-1);
+    const sample = newest?.shown.subgroup;
+    const tried = all.findLast(({ record }) => record?.go_gauge);
+    return all.filter((value) => value === newest || (sample !== undefined && value.shown.subgroup === sample) || (value === tried && value.record.go_gauge === 'fails'));
   }
 
   /** When a part was measured last, by its values in force: a date, or undefined. */
@@ -174,8 +175,8 @@ export class Ledger extends EventTarget {
 
   /** A value, or the next one of a chain: at no time is none of it in force. */
   #link(value, old) {
-    const { plan, round, characteristic, reaction, catalogue } = old?.shown ?? {};
-    const inherited = old && { plan, round, characteristic, reaction, catalogue };
+    const { plan, round, characteristic, reaction, catalogue, subgroup } = old?.shown ?? {};
+    const inherited = old && { plan, round, characteristic, reaction, catalogue, subgroup };
     if (old) this.#change(old.key, (one) => { one.by = [...one.by ?? [], value.key]; });
     this.#put({ ...value, shown: { ...inherited, ...value.shown }, root: old?.root ?? old?.key, partial: old?.partial, past: old?.past });
   }

@@ -1,4 +1,4 @@
-/** The state of every value against a model: drawn sequences of values, answers, outages, reloads, corrections and tabs. */
+/** The state of every value against a model: drawn sequences of values and samples, answers, outages, reloads, corrections, notes, tabs and closed pages. */
 
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
@@ -7,7 +7,7 @@ import { Ledger } from '../../../clients/web/gauge/ledger.js';
 import { Desk } from './support/desk.mjs';
 
 const SEQUENCES = process.env.TESTS_DEEP ? 10000 : 300;
-const STEPS = 40;
+const STEPS = 50;
 
 /** Runs one sequence. @throws with its seed and steps where the record and the screen differ */
 function run(seed, Kind) {
@@ -55,6 +55,14 @@ describe('the ledger', () => {
 
   it('is found out where a refused correction stays', () => {
     assert.ok(found(class extends Ledger { refused() {} }) > 10);
+  });
+
+  it('is found out where it takes the last value of a sample for all', () => {
+    assert.ok(found(class extends Ledger { sampleInForce(...of) { return super.sampleInForce(...of).slice(-1); } }) > 10);
+  });
+
+  it('is found out where it hears of no note that was made while its page was closed', () => {
+    assert.ok(found(class extends Ledger { noted() {} }) > 10);
   });
 
   it('is found out where it does not hear of another tab', () => {

@@ -11,6 +11,9 @@ const PLAN = '4711-A';
 const PARTS = ['SN-1', 'SN-2'];
 /** One with a catalogue, one with a reaction, one that demands nothing. */
 const CHARACTERISTICS = [{ name: 'bore', catalogue: 'turning' }, { name: 'seat', reaction: 'Stop' }, { name: 'slot' }];
+/** In a row at parts that have no names. */
+const SAMPLED = { name: 'collar', reaction: 'Stop', size: 3 };
+const ROUND = 'round';
 const VERDICTS = ['good', 'reject', 'rework'];
 
 /** mulberry32 */
@@ -123,6 +126,7 @@ export class Desk {
   serial = 0;
   said = new Map();
   steps = [];
+  samples = 0;
 
   /** @param Kind of ledger: that of the page, or one that is wrong */
   constructor(seed, Kind = Ledger) {
@@ -149,15 +153,22 @@ export class Desk {
   }
 
   #tell() {
-    for (const record of this.service.records) for (const { ledger } of this.tabs) ledger.told({ ...record, measured_mm: 25, measured_at: '2026-11-20T08:00:00Z' });
+    for (const record of this.service.records) {
+      for (const { ledger } of this.tabs) {
+        ledger.told({ ...record, measured_mm: 25, measured_at: '2026-11-20T08:00:00Z' });
+        for (const note of record.notes) ledger.noted({ measurement_id: record.id, ...note });
+      }
+    }
     this.#spread();
   }
 
-  static STEPS = ['value', 'value', 'value', 'send', 'send', 'send', 'lose', 'outage', 'reload', 'correct', 'correct', 'move', 'elsewhere', 'say', 'say', 'say', 'tab'];
+  static STEPS = ['value', 'value', 'value', 'sample', 'sample', 'sample', 'send', 'send', 'send', 'lose', 'outage', 'reload', 'correct', 'correct', 'move', 'elsewhere', 'note', 'note', 'note', 'note', 'note', 'say', 'say', 'say', 'tab', 'close'];
+  /** While no page is open. */
+  static CLOSED = ['elsewhere', 'note', 'note', 'outage', 'open'];
 
-  step(name = this.one(Desk.STEPS)) {
+  step(name = this.one(this.tabs.length ? Desk.STEPS : Desk.CLOSED)) {
     this.steps.push(name);
-    this[name](this.one(this.tabs));
+    this[name](this.one(this.tabs) ?? this.last);
     this.#spread();
     this.#tell();
     this.check();
@@ -168,6 +179,7 @@ export class Desk {
     const refused = this.random(8) === 0;
     tab.line.add({ key, content: { ...content, refused }, correcting: corrected?.id, shown });
     tab.ledger.taken(key, shown, corrected);
+    return key;
   }
 
   /** The page judges it as the service will, otherwise, or not at all. */
@@ -183,16 +195,27 @@ export class Desk {
     this.#take(tab, content, shown);
   }
 
+  /** A value of a sample: the next of the one that lacks some, else the first of another. */
+  sample(tab) {
+    if (tab.ledger.open.length) return;
+    const taken = () => this.#all(tab.ledger).filter((value) => value.shown.subgroup === this.samples && !value.root && value.state !== 'refused').length;
+    if (!this.samples || taken() >= SAMPLED.size) ++this.samples;
+    const { name: characteristic, reaction } = SAMPLED;
+    const content = { characteristic, verdict: this.one(VERDICTS), subgroup: this.samples };
+    const key = this.#take(tab, content, { ...content, reaction, measured: '25', plan: PLAN, round: ROUND, at: 0, verdict: this.#provisional(content.verdict) });
+    if (taken() < SAMPLED.size) tab.ledger.goesOn(key);
+  }
+
   #stored(tab) {
     return this.#all(tab.ledger).filter((value) => value.record && ['judged', 'open', 'done'].includes(tab.ledger.stateOf(value)));
   }
 
   #correct(tab, fields) {
-    const value = this.one(this.#stored(tab));
+    const value = this.one(this.#stored(tab).filter(({ record }) => record.part_id || !fields.part_id));
     if (!value) return;
-    const { part_id, characteristic, verdict } = { ...value.record, ...fields };
+    const { part_id, characteristic, verdict, subgroup } = { ...value.record, ...fields };
     const content = { part_id, characteristic, verdict };
-    this.#take(tab, content, { measured: '25', ...content, at: 0, verdict: this.#provisional(verdict) }, value.record);
+    this.#take(tab, { ...content, subgroup }, { measured: '25', ...content, at: 0, verdict: this.#provisional(verdict) }, value.record);
   }
 
   correct(tab) {
@@ -205,11 +228,21 @@ export class Desk {
 
   /** In the view of all parts, at a desk: the service has it, the station is told. */
   elsewhere(tab) {
-    const value = this.one(this.#stored(tab));
-    const record = value && this.service.get(value.record.id);
-    if (!record || record.corrected || !this.up) return;
-    const { part_id, characteristic } = record;
-    this.service.store({ part_id, characteristic, verdict: this.one(VERDICTS) }, record);
+    const record = this.#known(this.#stored(tab));
+    if (!record) return;
+    const { part_id, characteristic, subgroup } = record;
+    this.service.store({ part_id, characteristic, verdict: this.one(VERDICTS), subgroup }, record);
+  }
+
+  note(tab) {
+    const record = this.#known(tab.ledger.open);
+    if (record?.notes.length === 0) record.notes.push({ cause: 'there', measure: 'there', isElsewhere: true });
+  }
+
+  /** The record of one of some values, as the station knows it, unless it was corrected since. */
+  #known(values) {
+    const record = this.up ? this.service.get(this.one(values)?.record?.id) : undefined;
+    return record?.corrected ? undefined : record;
   }
 
   send(tab) {
@@ -234,6 +267,15 @@ export class Desk {
     else this.tabs.splice(this.tabs.indexOf(tab), 1);
   }
 
+  /** Nobody listens. */
+  close(tab) {
+    Object.assign(this, { last: tab, tabs: [] });
+  }
+
+  open() {
+    this.tabs.push(this.#tab());
+  }
+
   /** A cause, a measure, or that the reaction is done, of what is asked first: the screen asks for it once. */
   say({ ledger }) {
     const [value] = ledger.open;
@@ -251,7 +293,9 @@ export class Desk {
   /** Sends all there is. */
   settle() {
     this.up = true;
+    if (!this.tabs.length) this.open();
     for (const tab of [...this.tabs]) this.reload(tab); // a page that loads sends what a closed one has left
+    this.#tell();
     for (let left = 400; this.tabs.some(({ line }) => line.entries.length); --left) {
       assert.ok(left, 'the queue does not end');
       for (const { line } of this.tabs) line.send(false);
@@ -265,13 +309,14 @@ export class Desk {
   check() {
     const [first, ...others] = this.tabs.map(({ ledger }) => this.#screen(ledger));
     for (const other of others) assert.deepEqual(other, first, 'two tabs differ');
-    for (const { notes } of this.service.records) assert.ok(notes.length <= 1, 'two notes on one record');
+    for (const { notes } of this.service.records) assert.ok(notes.filter((note) => !note.isElsewhere).length <= 1, 'two notes on one record');
     for (const { ledger } of this.tabs) {
       for (const { key, record, state } of this.#all(ledger)) if (state === 'stored' && record) assert.equal(this.service.get(record.id)?.verdict, record.verdict, key);
-      for (const value of ledger.open) assert.ok(!this.said.has(value.root ?? value.key), 'what was done is open');
+      for (const value of ledger.open) assert.ok(!this.said.has(value.root ?? value.key) && !this.service.get(value.record?.id)?.notes.length, 'what was done is open');
     }
     if (this.kept.length) return;
-    for (const part of PARTS) for (const { name } of CHARACTERISTICS) this.#compare(part, name);
+    for (const part of PARTS) for (const demands of CHARACTERISTICS) this.#compare(part, demands);
+    this.#compareSample();
   }
 
   #all(ledger) {
@@ -280,24 +325,38 @@ export class Desk {
 
   #screen(ledger) {
     const tiles = PARTS.flatMap((part) => CHARACTERISTICS.map(({ name }) => ledger.inForce(PLAN, part, undefined, name)?.key));
-    return { tiles, states: this.#all(ledger).map((value) => [value.key, ledger.stateOf(value)]) };
+    return { tiles, sample: ledger.sampleInForce(PLAN, '', ROUND, SAMPLED.name).map(({ key }) => key), states: this.#all(ledger).map((value) => [value.key, ledger.stateOf(value)]) };
   }
 
   /** Nothing is on its way: the tile, what is asked, and the notes are those of the records. */
-  #compare(part, name) {
-    const demands = CHARACTERISTICS.find((each) => each.name === name);
+  #compare(part, { name, ...demands }) {
     const records = this.service.records.filter((record) => record.part_id === part && record.characteristic === name && !record.corrected);
     for (const { ledger } of this.tabs) {
       const value = ledger.inForce(PLAN, part, undefined, name);
       assert.equal(value !== undefined, records.length > 0, `the tile of ${part} ${name}`);
       if (!value) continue;
       assert.ok(records.some(({ id }) => id === value.record?.id), `the tile of ${part} ${name} is of another record`);
-      const open = new Set(ledger.open.map((each) => each.record?.id));
-      for (const { id, verdict, notes } of records) {
-        const isBad = verdict !== 'good';
-        if (!isBad) assert.ok(!open.has(id), `${id} is good and open`);
-        else assert.equal(open.has(id), Boolean(demands.catalogue || demands.reaction) && notes.length === 0, `${id}: open or noted`);
-      }
+      this.#compareOpen(ledger, records, demands);
+    }
+  }
+
+  /** The sample that is shown is the last, with every value that it has. */
+  #compareSample() {
+    const records = this.service.records.filter(({ characteristic, corrected }) => characteristic === SAMPLED.name && !corrected);
+    const last = Math.max(...records.map(({ subgroup }) => subgroup));
+    for (const { ledger } of this.tabs) {
+      const shown = ledger.sampleInForce(PLAN, '', ROUND, SAMPLED.name).map(({ record }) => record?.id);
+      assert.deepEqual(shown.sort(), records.filter(({ subgroup }) => subgroup === last).map(({ id }) => id).sort(), 'the sample that is shown');
+      this.#compareOpen(ledger, records, SAMPLED);
+    }
+  }
+
+  #compareOpen(ledger, records, demands) {
+    const open = new Set(ledger.open.map((each) => each.record?.id));
+    for (const { id, verdict, notes } of records) {
+      const isBad = verdict !== 'good';
+      if (!isBad) assert.ok(!open.has(id), `${id} is good and open`);
+      else assert.equal(open.has(id), Boolean(demands.catalogue || demands.reaction) && notes.length === 0, `${id}: open or noted`);
     }
   }
 }
