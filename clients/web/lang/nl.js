@@ -201,9 +201,9 @@ export default {
   'recent.corrected': 'gecorrigeerd',
   'recent.moved': 'van een ander onderdeel',
   'recent.not_yet': 'De laatste waarde is nog niet opgeslagen: daarna kan ze gecorrigeerd worden.',
-  'recent.correct': 'Waarde corrigeren',
+  'recent.correct': 'Andere waarde',
   'recent.correct_this': 'De waarde {mm} mm corrigeren',
-  'recent.correct_part': 'Onderdeel corrigeren',
+  'recent.correct_part': 'Ander onderdeel',
   'recent.correct_part_this': 'Onderdeel {part} corrigeren',
 
   'view.gauges': 'Meetmiddelen',

@@ -107,6 +107,19 @@ describe('the reach of the page', () => {
     await close(page);
   });
 
+  it('has both corrections of a value in one line at 1366 pixels, in every language', async () => {
+    const page = await openView('gauge', { viewport: { width: 1366, height: 768 } });
+    await page.keyboard.type('25.0131\n');
+    await page.waitForSelector('.recent .fix');
+    for (const locale of LANGUAGES) {
+      await speak(page, locale);
+      await page.waitForSelector('.recent .fix');
+      const [one, other] = await page.$$eval('.recent .fix button', (all) => all.map((button) => button.getBoundingClientRect().top));
+      assert.equal(one, other, locale);
+    }
+    await close(page);
+  });
+
   it('hides no value of a list behind what is done with it, nor beyond the edge of a phone', async () => {
     const parts = await openView('parts', { viewport: PHONE });
     const cells = await parts.$$eval('.records tbody tr:first-child > *', (all) => all.map((cell) => cell.getBoundingClientRect()).map(({ left, right }) => [left, right]));
