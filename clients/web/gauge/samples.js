@@ -88,18 +88,20 @@ export class Samples {
 
   /** A record was stored, here or elsewhere. */
   take(record) {
-    if (!this.#of(record)) return;
+    if (!this.#of(record) && !record.correction_of) return;
     this.#meanwhile.push(record);
     this.#add(record);
     this.kept.changed();
     this.onChange();
   }
 
+  /** A correction may be of another characteristic, or of another machine, than what it corrects. */
   #add(record) {
-    const { name } = this.#of(record);
+    for (const [name, values] of this.#known) this.#known.set(name, values.filter(({ id }) => id !== record.correction_of));
+    const { name } = this.#of(record) ?? {};
     const values = this.#known.get(name) ?? [];
-    if (values.some(({ id }) => id === record.id)) return;
-    this.#known.set(name, [...values.filter(({ id }) => id !== record.correction_of), valueOf(record)].sort(byTime).slice(-MOST));
+    if (!name || values.some(({ id }) => id === record.id)) return;
+    this.#known.set(name, [...values, valueOf(record)].sort(byTime).slice(-MOST));
   }
 
   /** The service tells of a record: one of this station's own has its answer first. */

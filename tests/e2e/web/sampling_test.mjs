@@ -269,6 +269,29 @@ describe('a sample', () => {
     assert.deepEqual(found.map(({ subgroup }) => found.findIndex((one) => one.subgroup === subgroup)), [0, 1, 0, 1]);
   });
 
+  it('has what was corrected at another place, and lacks what was made another characteristic\'s there', async () => {
+    await put('THERE', [['size', { subgroup_size: 3, reaction: 'Stop' }]]);
+    const page = await station('THERE');
+    const correct = ({ id }, fields) => daemon.send('POST', `/v1/measurements/${id}/corrections`, { reason: 'slip', ...fields });
+    await measure(page, daemon, '25.001', '25.002');
+    await progress(page, '1 of 1 · value 3 of 3');
+    const [first, second] = await storedOf('THERE');
+    await correct(first, { measured_mm: '25.04' });
+    await page.click('.reactions .primary');
+    await progress(page, '1 of 1 · value 3 of 3');
+    await correct(second, { measured_mm: '25.002', characteristic: 'THERE-other' });
+    await progress(page, '1 of 1 · value 2 of 3');
+    await page.goto('about:blank');
+    await page.goto(`${daemon.url}/#/gauge?plan=THERE`);
+    await progress(page, '1 of 1 · value 2 of 3');
+    await ready(page);
+    await page.focus('#value');
+    await measure(page, daemon, '25.003', '25.005');
+    await page.waitForSelector('.tiles-of-plan [data-verdict="reject"]');
+    const sizes = await daemon.stored('characteristic=THERE-size');
+    assert.deepEqual(sizes.map(({ measured_mm: mm, subgroup }) => [mm, subgroup === first.subgroup]), [[25.04, true], [25.003, true], [25.005, true]]);
+  });
+
   it('lacks a value that the service has refused, and asks for it again', async () => {
     await put('REFUSED', [['size', { subgroup_size: 2 }]]);
     const page = await station('REFUSED');
