@@ -1,9 +1,10 @@
-/** The overview as a map of parts by characteristic and as a wall of small charts, which live as the values come. */
+/** The overview as a list, as a map of parts by characteristic and as a wall of small charts, which live as the values come. */
 
 import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';
 
 import { close, findings, hashOf, open, picture } from './support/browser.mjs';
+import { untilPoints } from './support/chart.mjs';
 import { browser, daemon } from './support/stage.mjs';
 
 const NAMES = ['bore-A', 'bore-B', 'seat', 'slot', 'length', 'pin', 'collar', 'groove'];
@@ -21,6 +22,30 @@ describe('the overview', () => {
     const values = Array.from({ length: PARTS }, (_, part) => NAMES.map((_name, i) => record(part, i)).filter((_one, i) => !(part === 25 && i === 3))).flat();
     await daemon.send('POST', '/v1/measurements', values);
     await daemon.send('POST', '/v1/measurements', { ...record(0, 0), machine: 'M2', part_id: 'OTHER-1' });
+  });
+
+  it('shows every characteristic of a machine or a plan, the worst first, as the values come in', async () => {
+    const values = (characteristic, middle, spread, count = 40) => Array.from({ length: count }, (_, i) => ({
+      designation: '25 H7', measured_mm: (middle + spread * Math.sin(i * 2.4)).toFixed(4), characteristic, machine: 'OV-1' }));
+    await daemon.send('POST', '/v1/measurements', [...values('ov-fine', 25.0105, 0.002), ...values('ov-edge', 25.019, 0.003), ...values('ov-few', 25.01, 0.001, 5)]);
+    await daemon.send('PUT', '/v1/plans/OV-PLAN', { characteristics: ['ov-fine', 'ov-new'].map((name) => ({ name, designation: '25 H7' })) });
+    const page = await open(browser, daemon, '#/overview?machine=OV-1');
+    const order = (names) => page.waitForFunction((wanted) => [...document.querySelectorAll('.overview tbody th')].map((cell) => cell.textContent).join() === wanted, names.join());
+    await order(['ov-edge', 'ov-fine', 'ov-few']);
+    const { ppk } = await daemon.json('/v1/measurements/capability?characteristic=ov-edge&machine=OV-1');
+    assert.match(await page.textContent('.overview tbody tr'), new RegExp(`^ov-edge40[^]*${ppk.value.toFixed(2)}`.replace('.', '\\.')));
+    assert.ok(await page.$('.overview tbody tr:last-child .index.in-doubt'), 'five values are no index');
+    await picture(page, 'overview', { fullPage: true });
+    await daemon.send('POST', '/v1/measurements', Array.from({ length: 5 }, () => ({ designation: '25 H7', measured_mm: '25.09', characteristic: 'ov-fine', machine: 'OV-1' })));
+    await page.waitForFunction(() => /ov-fine45/.test(document.querySelector('.overview tbody tr')?.textContent));
+    assert.match(await page.textContent('.overview tbody tr'), /Not stable/);
+    await page.selectOption('#overview-plan', 'OV-PLAN');
+    await order(['ov-fine', 'ov-new']);
+    assert.match(await page.textContent('.overview tbody tr:last-child'), /No values yet/);
+    await page.click('.overview tbody a');
+    await untilPoints(page, 45);
+    assert.match(hashOf(page), /^#\/trend\?characteristic=ov-fine/);
+    await close(page);
   });
 
   it('maps parts by characteristic: every value at its place, by keys, by touch and as a table', async () => {

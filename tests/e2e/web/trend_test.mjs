@@ -1,5 +1,5 @@
 /**
- * Control charts as values come: of one characteristic, and of all of them.
+ * Control charts of one characteristic, as values come.
  *
  * Tried, and held here:
  * - Fit and Trend with one answer a second late, another chosen meanwhile: the last choice counts
@@ -204,30 +204,5 @@ describe('the trend', () => {
     await daemon.send('POST', '/v1/measurements', groove('12.015', 30));
     await page.waitForFunction(() => document.querySelector('.trend .note')?.textContent === '');
     page.errors.length = 0;
-  });
-});
-
-describe('the overview', () => {
-  it('shows every characteristic of a machine or a plan, the worst first, as the values come in', async () => {
-    const values = (characteristic, middle, spread, count = 40) => Array.from({ length: count }, (_, i) => ({
-      designation: '25 H7', measured_mm: (middle + spread * Math.sin(i * 2.4)).toFixed(4), characteristic, machine: 'OV-1' }));
-    await daemon.send('POST', '/v1/measurements', [...values('ov-fine', 25.0105, 0.002), ...values('ov-edge', 25.019, 0.003), ...values('ov-few', 25.01, 0.001, 5)]);
-    await daemon.send('PUT', '/v1/plans/OV-PLAN', { characteristics: ['ov-fine', 'ov-new'].map((name) => ({ name, designation: '25 H7' })) });
-    page = await open(browser, daemon, '#/overview?machine=OV-1');
-    const order = (names) => page.waitForFunction((wanted) => [...document.querySelectorAll('.overview tbody th')].map((cell) => cell.textContent).join() === wanted, names.join());
-    await order(['ov-edge', 'ov-fine', 'ov-few']);
-    const { ppk } = await daemon.json('/v1/measurements/capability?characteristic=ov-edge&machine=OV-1');
-    assert.match(await page.textContent('.overview tbody tr'), new RegExp(`^ov-edge40[^]*${ppk.value.toFixed(2)}`.replace('.', '\\.')));
-    assert.ok(await page.$('.overview tbody tr:last-child .index.in-doubt'), 'five values are no index');
-    await picture(page, 'overview', { fullPage: true });
-    await daemon.send('POST', '/v1/measurements', Array.from({ length: 5 }, () => ({ designation: '25 H7', measured_mm: '25.09', characteristic: 'ov-fine', machine: 'OV-1' })));
-    await page.waitForFunction(() => /ov-fine45/.test(document.querySelector('.overview tbody tr')?.textContent));
-    assert.match(await page.textContent('.overview tbody tr'), /Not stable/);
-    await page.selectOption('#overview-plan', 'OV-PLAN');
-    await order(['ov-fine', 'ov-new']);
-    assert.match(await page.textContent('.overview tbody tr:last-child'), /No values yet/);
-    await page.click('.overview tbody a');
-    await untilPoints(page, 45);
-    assert.match(hash(), /^#\/trend\?characteristic=ov-fine/);
   });
 });
