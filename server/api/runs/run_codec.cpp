@@ -184,7 +184,8 @@ void members(auto& v, const RunAnswer& run) {
   v.member("created_at", run.created_at, Time{}, "Time in UTC");
   v.optional("finished_at", run.finished_at, Time{}, "Absent until the run ends");
   v.member("blocks_executed", run.blocks, "Number until now");
-  v.member("verdict", result.verdict, kVerdict, "Verdict of the last measuring cycle");
+  v.member("verdict", result.verdict, kVerdict,
+           "Verdict of the last measuring cycle; each cycle has its own in its records");
   v.member("parameters", result.parameters, ParameterValues{},
            "Every Q, QL, QR and QS defined at the end");
   v.member("screen", is_over ? result.screen : run.screen, "Every line printed, in order");
