@@ -360,7 +360,7 @@ class NewMeasurement(_NewMeasurement, total=False):
 
 class _PartCharacteristics(TypedDict):
     measurement_id: str
-    verdict: Union[str, None]
+    verdict: Union[VerdictWord, None]
     measured_mm: Decimal
     measured_at: str
 
@@ -382,7 +382,7 @@ class PartOpenReactions(_PartOpenReactions, total=False):
 
 class _Part(TypedDict):
     part_id: str
-    verdict: Union[str, None]
+    verdict: Union[VerdictWord, None]
     missing: List[str]
     characteristics: List[PartCharacteristics]
     open_reactions: List[PartOpenReactions]

@@ -12,6 +12,7 @@
 #include "api/services.hpp"
 #include "base/json/json_writer.hpp"
 #include "base/length.hpp"
+#include "metrology/gauging/severity.hpp"
 #include "record/record.hpp"
 #include "record/verdict_codec.hpp"
 #include "tables/standards/designated_limits.hpp"
@@ -139,21 +140,6 @@ std::optional<double> place_of(const app::Measurement& m) {
   return (m.decisive() - m.lower_limit()).to_mm() / (m.upper_limit() - m.lower_limit()).to_mm();
 }
 
-/// `1 µm above the upper limit`, `3 µm inside the lower limit`.
-std::string distance_text(const app::Measurement& m) {
-  if (!m.is_judged()) return "no limits";
-  const Length above = m.decisive() - m.upper_limit();
-  const Length below = m.lower_limit() - m.decisive();
-  const bool is_upper = m.has_upper_limit() && (!m.has_lower_limit() || below <= above);
-  const Length beyond = is_upper ? above : below;
-  return fmt::format(
-      "{} \u00b5m {} the {} limit{}", format_um(beyond < Length() ? -beyond : beyond),
-      beyond <= Length() ? "inside"
-      : is_upper         ? "above"
-                         : "below",
-      is_upper ? "upper" : "lower", m.has_failed_envelope() ? ", the GO gauge does not pass" : "");
-}
-
 /// `2026-11-22 08:00:00`, UTC
 std::string time_text(Timestamp time) {
   return format_rfc3339(time).substr(0, 19).replace(10, 1, " ");
@@ -168,7 +154,6 @@ std::string listed(const Texts&... texts) {
   return out;
 }
 
-constexpr std::array kSeverity = {0, 2, 3, 1, -1};  // of each gauging::Verdict
 constexpr std::array kWeights = {certificate::Weight::Plain, certificate::Weight::Noted,
                                  certificate::Weight::Marked, certificate::Weight::Noted,
                                  certificate::Weight::Plain};
@@ -222,25 +207,41 @@ void CertificateDraft::add(const app::Measurement& m) {
        .measured_at = time_text(m.measured_at),
        .place = place ? std::optional(static_cast<float>(*place)) : std::nullopt,
        .weight = kWeights.at(static_cast<std::size_t>(m.result.verdict))});
-  const certificate::Line& line = lines_.back();
-  values_.back().text =
-      fmt::format("{}: {} mm, {}", listed(line.part, line.characteristic, line.size),
-                  mm_text(m.decisive()), distance_text(m));
 }
 
 void CertificateDraft::count(const app::Measurement& m) {
   const std::optional<double> place = place_of(m);
-  values_.push_back({.candidate = candidate_of(m),
-                     .id = app::measurement_id_text(m.id, m.origin),
-                     .verdict = m.result.verdict,
-                     .badness = {kSeverity.at(static_cast<std::size_t>(m.result.verdict)),
-                                 place ? std::abs(2 * *place - 1) : 0}});
+  const Length above = m.decisive() - m.upper_limit();
+  const Length below = m.lower_limit() - m.decisive();
+  const bool is_upper = m.has_upper_limit() && (!m.has_lower_limit() || below <= above);
+  values_.push_back(
+      {.candidate = candidate_of(m),
+       .id = app::measurement_id_text(m.id, m.origin),
+       .verdict = m.result.verdict,
+       .badness = {gauging::severity(m.result.verdict), place ? std::abs(2 * *place - 1) : 0},
+       .decisive = m.decisive(),
+       .beyond = is_upper ? above : below,
+       .is_upper = is_upper});
 }
 
-const CertificateDraft::Counted& CertificateDraft::worst() const {
-  return *std::ranges::max_element(values_, {}, [](const Counted& value) {
+const CertificateDraft::Counted* CertificateDraft::worst() const {
+  const auto worst = std::ranges::max_element(values_, {}, [](const Counted& value) {
     return std::pair(value.candidate.counts, value.badness);
   });
+  return worst->verdict == gauging::Verdict::Unjudged ? nullptr : &*worst;
+}
+
+/// `W3, bore, 25 H7: 24.999 mm, 1 µm below the lower limit`.
+std::string CertificateDraft::text_of(const Counted& value, const certificate::Line& line) {
+  const Length beyond = value.beyond;
+  return fmt::format(
+      "{}: {} mm, {} \u00b5m {} the {} limit{}", listed(line.part, line.characteristic, line.size),
+      mm_text(value.decisive), format_um(beyond < Length() ? -beyond : beyond),
+      beyond <= Length() ? "inside"
+      : value.is_upper   ? "above"
+                         : "below",
+      value.is_upper ? "upper" : "lower",
+      value.candidate.go_passes.value_or(true) ? "" : ", the GO gauge does not pass");
 }
 
 std::size_t CertificateDraft::measured_again() const {
@@ -257,8 +258,9 @@ std::string CertificateDraft::json(Timestamp made_at, const std::string& checkpo
     if (!order_.customer.empty()) json.member("customer", order_.customer);
     json.member("made_at", format_rfc3339(made_at)).member("count", std::uint64_t{count()});
     write_verdict_counts(json, verdicts_);
-    json.member("parts", std::uint64_t{parts_.size()}).member("worst_id", worst().id);
-    if (has_verdict()) json.member("verdict", word(worst().verdict));
+    json.member("parts", std::uint64_t{parts_.size()});
+    if (worst() != nullptr) json.member("worst_id", worst()->id);
+    if (has_verdict()) json.member("verdict", word(worst()->verdict));
     if (measured_again() > 0) {
       json.key("measured_again").begin_array();
       for (const Counted& value : values_) {
@@ -309,8 +311,7 @@ std::string CertificateDraft::summary() const {
 
 bool CertificateDraft::has_verdict() const {
   const bool lacks = plan_ && !plan_->missing.empty();
-  const gauging::Verdict verdict = worst().verdict;
-  return verdict != gauging::Verdict::Unjudged && !(lacks && verdict == gauging::Verdict::Good);
+  return worst() != nullptr && !(lacks && worst()->verdict == gauging::Verdict::Good);
 }
 
 std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoint,
@@ -322,11 +323,16 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
   certificate::Certificate paper{
       .title = order_.title,
       .letterhead = letterhead,
-      .summary = {summary(), "Worst value: " + worst().text + '.'},
+      .summary = {summary()},
       .statements = std::vector<std::string>(rules_.size()),
       .lines = std::move(lines_),
       .code = fmt::format("{}/v1/measurements/{}/proof", order_.own_origin, values_.front().id),
       .signatures = {"Inspector", "Quality", "Date"}};
+  if (const Counted* const value = worst()) {
+    const certificate::Line& line = paper.lines[static_cast<std::size_t>(value - values_.data())];
+    paper.summary.push_back(fmt::format("Worst value: {}.", text_of(*value, line)));
+    if (has_verdict()) paper.worst = line;
+  }
   if (plan_) {
     paper.summary.push_back(plan_->plan ? fmt::format("Held against plan {}.", *plan_->plan)
                                         : "Not held against a plan.");
@@ -354,7 +360,6 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
                                     listed(gauge.certificate, gauge.laboratory)));
   }
   paper.statements.insert(paper.statements.end(), calibrations.begin(), calibrations.end());
-  if (has_verdict()) paper.worst = paper.lines[static_cast<std::size_t>(&worst() - values_.data())];
   std::string made = fmt::format("Made {} UTC by fitgauge {}", time_text(made_at), kVersion);
   for (const auto& [revision, uses] : revisions_) made += ", tables " + revision;
   paper.facts.push_back(made);

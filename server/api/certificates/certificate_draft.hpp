@@ -54,12 +54,15 @@ class CertificateDraft {
     std::string id{};
     gauging::Verdict verdict{};
     std::pair<int, double> badness{};  ///< by its verdict, then by its share of the tolerance
-    std::string text{};                ///< on paper
+    Length decisive{};
+    Length beyond{};        ///< the nearest limit; less than 0 is inside
+    bool is_upper = false;  ///< that limit
   };
 
   void count(const app::Measurement& measurement);
-  /// The worst value of those that count.
-  const Counted& worst() const;
+  /// The worst value of those that count; nullptr if none has limits.
+  const Counted* worst() const;
+  static std::string text_of(const Counted& value, const certificate::Line& line);
   std::size_t measured_again() const;
   /// Returns false if no value has limits, or if all are good but one is missing.
   bool has_verdict() const;

@@ -225,7 +225,9 @@ void add_measurement_schemas(Schemas& schemas) {
             {"verdicts", schema::ref("VerdictCounts"), ""},
             {"parts", schema::count(), "Different part numbers"},
             {"worst_id", schema::text(),
-             "Id of the worst value that counts: by verdict, then by position within the limits"},
+             "Id of the worst value that counts: by verdict, then by position within the limits; "
+             "absent if none has limits",
+             false},
             {"verdict", verdict_words(),
              "Worst verdict of the values that count; absent if none has limits, or if it is good "
              "but a value is missing",

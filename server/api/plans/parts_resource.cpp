@@ -7,6 +7,7 @@
 #include "api/plans/plan_codec.hpp"
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"
+#include "metrology/gauging/severity.hpp"
 #include "record/record_members.hpp"
 #include "service/documents/document_service.hpp"
 #include "service/measurements/gauges_in_use.hpp"
@@ -20,6 +21,9 @@ namespace fitgauge::api {
 namespace {
 
 using app::NamedDocument;
+using gauging::Verdict;
+
+constexpr Words kVerdict{Verdict::Indeterminate};
 
 constexpr std::size_t kMostValues = 10'000;  ///< of one part; older ones are ignored
 
@@ -29,7 +33,7 @@ struct PartValue {
   std::optional<SizeLimits> size{};
   std::optional<std::string> other_size{};
   std::string measurement{};
-  std::optional<std::string_view> verdict{};
+  std::optional<Verdict> verdict{};
   std::optional<std::string_view> envelope{};
   Length measured{};
   bool has_note = false;
@@ -41,7 +45,7 @@ void members(auto& v, const PartValue& value) {
              "Its size, 100 H7 or 8 +0.036/0, if the plan has another for the characteristic: the "
              "value stands beside the plan; empty without limits");
   v.member("measurement_id", value.measurement, "The record");
-  v.member("verdict", value.verdict, "Verdict; null without limits");
+  v.member("verdict", value.verdict, kVerdict, "Verdict; null without limits");
   v.optional("envelope_result", value.envelope,
              "verified, not_verified or failed, if the envelope is required");
   v.member("measured_mm", value.measured, Millimetres{});
@@ -66,7 +70,7 @@ void members(auto& v, const Reaction& open) {
 struct Part {
   std::string part{};
   std::optional<std::string> plan{};
-  std::optional<std::string> verdict{};
+  std::optional<Verdict> verdict{};
   std::vector<std::string> missing{};
   std::vector<PartValue> values{};
   std::vector<Reaction> reactions{};
@@ -74,7 +78,8 @@ struct Part {
 void members(auto& v, const Part& part) {
   v.member("part_id", part.part);
   v.optional("plan", part.plan, "The plan it is held against");
-  v.member("verdict", part.verdict, "Worst verdict; null if a value is missing or none has limits");
+  v.member("verdict", part.verdict, kVerdict,
+           "Worst verdict; null if a value is missing or none has limits");
   v.member("missing", part.missing,
            "Characteristics of the plan without a value, in its order; not those with a frequency");
   v.member("characteristics", part.values,
@@ -138,7 +143,7 @@ void hold_against(const std::vector<Reaction>& plan, const BatchContext& context
     for (const PartValue& value : part.values) {
       if (value.characteristic != each.characteristic || value.other_size) continue;
       is_missing = false;
-      if (value.verdict.value_or("good") != "good" &&
+      if (value.verdict.value_or(Verdict::Good) != Verdict::Good &&
           (each.has_catalogue ? !value.has_cause : each.reaction && !value.has_note)) {
         part.reactions.emplace_back(each).measurement = value.measurement;
       }
@@ -182,12 +187,9 @@ Result<void> plan_part(const Services& services, const std::vector<NamedDocument
 }
 
 void judge(Part& part) {
-  for (const std::string_view word : {"reject", "rework", "indeterminate", "good"}) {
-    const bool is_there =
-        std::ranges::find(part.values, word, &PartValue::verdict) != part.values.end();
-    if (is_there && (word != "good" || part.missing.empty())) part.verdict = word;
-    if (is_there) return;
-  }
+  const auto of = [](const PartValue& value) { return gauging::severity(value.verdict); };
+  part.verdict = std::ranges::max_element(part.values, {}, of)->verdict;
+  if (part.verdict == Verdict::Good && !part.missing.empty()) part.verdict.reset();
 }
 
 PartValue value_of(const app::Measurement& m) {
@@ -199,7 +201,7 @@ PartValue value_of(const app::Measurement& m) {
                       m.notes, [](const auto& note) { return note.cause || note.measure; })};
   if (m.characteristic) value.characteristic.emplace(*m.characteristic);
   value.size = size_of(m);
-  if (m.is_judged()) value.verdict = word(m.result.verdict);
+  if (m.is_judged()) value.verdict = m.result.verdict;
   if (m.envelope) value.envelope = app::members::envelope_result(m);
   return value;
 }

@@ -1,10 +1,8 @@
 #include "nc/probing/measuring_record.hpp"
 
-#include <algorithm>
+#include "metrology/gauging/severity.hpp"
 
 namespace fitgauge::probing {
-
-using gauging::Verdict;
 
 gauging::DecisionRule MeasuredSize::rule() const {
   return uncertainty ? gauging::DecisionRule::guard_band(*uncertainty).value()
@@ -15,6 +13,7 @@ void judge_by_uncertainty(MeasuringRecord& record) {
   if (!record.form || !record.form->touch_uncertainty_um) return;
   const auto uncertainty =
       gauging::rounded_up(record.form->diameter_factor * *record.form->touch_uncertainty_um);
+  std::optional<gauging::Verdict> worst;
   for (MeasuredSize& size : record.sizes) {
     const gauging::Quantity quantity = quantity_of(record.cycle, size.is_position);
     if (!size.limits || quantity != gauging::Quantity::Diameter) continue;
@@ -23,12 +22,10 @@ void judge_by_uncertainty(MeasuringRecord& record) {
                                   size.measured, size.rule())
                        .verdict;
   }
-  for (const Verdict verdict :
-       {Verdict::Good, Verdict::Indeterminate, Verdict::Rework, Verdict::Reject}) {
-    const bool is_there =
-        std::ranges::find(record.sizes, verdict, &MeasuredSize::verdict) != record.sizes.end();
-    if (is_there) record.verdict = verdict;
+  for (const MeasuredSize& size : record.sizes) {
+    if (gauging::severity(worst) < gauging::severity(size.verdict)) worst = size.verdict;
   }
+  if (worst) record.verdict = worst;
 }
 
 }  // namespace fitgauge::probing

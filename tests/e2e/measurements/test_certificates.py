@@ -194,6 +194,17 @@ class Certificates(DaemonTest):
         worst = next(one for one in of_all["measurements"] if one["verdict"] == "rework")
         self.assertEqual((of_all["verdict"], of_all["parts"], of_all["worst_id"]), ("rework", 3, worst["id"]))
 
+    def test_a_value_without_limits_is_never_the_worst(self):
+        self.daemon.measure({"quantity": "diameter", "measured_mm": 25.4, "part_id": "U-1"})
+        report = lambda: self.daemon.get("/v1/certificates?part_id=U-1", Accept="application/json").json
+        self.assertEqual([name in report() for name in ("worst_id", "verdict")], [False, False])
+        head = self.flat("part_id=U-1").split("Measured at", 1)[0]
+        self.assertIn("1 unjudged.", head)
+        self.assertNotIn("Worst value", head)
+        judged = self.daemon.measure({"designation": "25 H7", "measured_mm": 25.01, "part_id": "U-1"}).json["id"]
+        self.assertEqual((report()["worst_id"], report()["verdict"]), (judged, "good"))
+        self.assertIn("Worst value: U-1, 25 H7: 25.010 mm, 10 µm inside the lower limit.", self.flat("part_id=U-1"))
+
     def test_rules_stand_in_words_and_u_with_its_coverage(self):
         given = {"designation": "25 H7", "measured_mm": "25.01", "order": "WO-R", "uncertainty_um": 0.8}
         for part, rule in enumerate(({}, {"rule": "guard_band", "coverage_factor": 3}, {"rule": "guard_band", "degrees_of_freedom": 4},

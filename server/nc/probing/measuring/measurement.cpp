@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metrology/gauging/severity.hpp"
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 
@@ -49,7 +50,8 @@ void set_status(CycleHost& host, std::optional<Verdict> verdict) {
 
 /// Returns the first value with the worst verdict: reject before rework before good (decision 1).
 const MeasuredValue& worst(const std::vector<MeasuredValue>& values) {
-  return *std::ranges::max_element(values, {}, &MeasuredValue::verdict);
+  return *std::ranges::max_element(
+      values, {}, [](const auto& value) { return gauging::severity(value.verdict()); });
 }
 
 /// A short arc magnifies the scatter of the touches in the diameter.
