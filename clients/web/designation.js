@@ -30,7 +30,7 @@ function otherStandard(typed) {
   const nominal = parseMeasured(thread ? thread[1] : general[2]);
   const text = thread ? `M${nominal}${thread[2] ? `x${parseMeasured(thread[2])}` : ''}-${thread[3]}`
     : `${(general[1] ?? '').toUpperCase()}${nominal} ISO 2768-${general[3].toLowerCase()}`;
-  return { text, nominal_nm: nmFromMm(nominal), tolerance_class: thread ? text : text.replace(/^[RC]?[\d.]+ /, ''), standard: true };
+  return { text, nominal_nm: nmFromMm(nominal), tolerance_class: thread ? text : text.replace(/^([RC]?)[\d.]+/, '$1').trim(), standard: true };
 }
 
 /** Whether limits hold inside and outside alike, so that somebody must say which of them is measured. */

@@ -241,6 +241,7 @@ export class Job {
     // What a plan asks holds for its own size.
     const asked = this.asked && designationOf(this.asked) === this.designation ? this.asked : {};
     const required = Boolean(limits) && (asked.envelope !== undefined || Boolean(parseDesignation(this.designation)?.envelope));
+    this.isInsideCorner = Boolean(limits) && asked.inside_corner === true;
     this.envelope.show(required, limits ? asked.size_operator : undefined);
     this.echo.replaceChildren(...(limits ? understood(this.limits, required) : [reason || (this.designation ? '' : t('job.missing'))]));
     this.#changed();

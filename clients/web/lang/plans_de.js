@@ -60,6 +60,7 @@ export default {
   'plans.member.catalogue': 'Katalog der Ursachen',
   'plans.member.picture': 'Bild',
   'plans.member.envelope': 'Hüllbedingung',
+  'plans.member.inside_corner': 'Innenecke',
   'plans.member.entity': 'Element der Zeichnungsdatei',
   'plans.hint.frequency': 'stündlich · jedes 5. Teil · leer: jedes Teil',
   'plans.hint.size': '25 H7 · 8 +0,036/0 · 40 ±0,1 · 3 ≥ 2,9 · M10-6H',

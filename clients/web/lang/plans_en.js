@@ -60,6 +60,7 @@ export default {
   'plans.member.catalogue': 'Catalogue of causes',
   'plans.member.picture': 'Picture',
   'plans.member.envelope': 'Envelope requirement',
+  'plans.member.inside_corner': 'Inside corner',
   'plans.member.entity': 'Entity of the drawing file',
   'plans.hint.frequency': 'each hour · every 5th part · empty: each part',
   'plans.hint.size': '25 H7 · 8 +0.036/0 · 40 ±0.1 · 3 ≥ 2.9 · M10-6H',

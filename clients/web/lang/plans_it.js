@@ -60,6 +60,7 @@ export default {
   'plans.member.catalogue': 'Catalogo delle cause',
   'plans.member.picture': 'Immagine',
   'plans.member.envelope': 'Requisito di inviluppo',
+  'plans.member.inside_corner': 'Angolo interno',
   'plans.member.entity': 'Entità del file del disegno',
   'plans.hint.frequency': 'ogni ora · ogni 5 pezzi · vuoto: ogni pezzo',
   'plans.hint.size': '25 H7 · 8 +0,036/0 · 40 ±0,1 · 3 ≥ 2,9 · M10-6H',

@@ -60,6 +60,7 @@ export default {
   'plans.member.catalogue': 'Catalogus van oorzaken',
   'plans.member.picture': 'Afbeelding',
   'plans.member.envelope': 'Omhullingseis',
+  'plans.member.inside_corner': 'Binnenhoek',
   'plans.member.entity': 'Element van het tekeningbestand',
   'plans.hint.frequency': 'elk uur · elk 5e onderdeel · leeg: elk onderdeel',
   'plans.hint.size': '25 H7 · 8 +0,036/0 · 40 ±0,1 · 3 ≥ 2,9 · M10-6H',

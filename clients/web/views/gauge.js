@@ -186,7 +186,7 @@ export function mount(main, route) {
     const { limits } = job;
     return {
       measured, part_id, characteristic, machine, designation: limits?.designation ?? job.designation, at: connection.now(), limits,
-      verdict: limits && job.envelope.said !== 'fails' ? judge(nmFromMm(measured), limits, job.rule.guard) : null,
+      verdict: limits && job.envelope.said !== 'fails' && !job.isInsideCorner ? judge(nmFromMm(measured), limits, job.rule.guard) : null,
     };
   }
 
@@ -198,7 +198,7 @@ export function mount(main, route) {
     const limits = own ? {
       nominal_mm: exact(own.nominal_mm), feature: own.feature, ...(own.quantity && { quantity: own.quantity }), upper_um: exact(own.upper_deviation_um), lower_um: exact(own.lower_deviation_um),
     } : { designation, feature };
-    return { ...limits, measured_mm: new Decimal(measured), ...Object.fromEntries(given), ...(subgroup && { subgroup }), ...(confirmed && { confirmed }), ...job.rule.body, ...job.envelope.take(!envelope) };
+    return { ...limits, measured_mm: new Decimal(measured), ...Object.fromEntries(given), ...(subgroup && { subgroup }), ...(confirmed && { confirmed }), ...(job.isInsideCorner && { inside_corner: true }), ...job.rule.body, ...job.envelope.take(!envelope) };
   }
 
   function post({ text, correcting, confirmed }) {

@@ -151,7 +151,13 @@ Result<http::Response> verdict(const http::Request& request,
   const auto rule = TRY(make_rule(words));
   TRY(check_acceptance(rule, limits.of));
 
-  const auto result = gauging::gauge({limits.quantity, limits.feature}, limits.of.upper,
+  const bool is_inside = request.text("inside_corner") == "true";
+  if (is_inside && limits.quantity != gauging::Quantity::Radius &&
+      limits.quantity != gauging::Quantity::Chamfer) {
+    return Error{ErrorCode::QueryInvalid, "inside_corner is for radii and chamfers only",
+                 "inside_corner"};
+  }
+  const auto result = gauging::gauge({limits.quantity, limits.feature, is_inside}, limits.of.upper,
                                      limits.of.lower, measured.decisive(), rule);
   std::vector<Warning> warnings;
   for (const auto& [name, reason] : unused) {
@@ -204,6 +210,9 @@ void add_verdicts_routes(Routes& add) {
                        .type = http::Words{{"hole", "shaft"}},
                        .description = "Feature of a general tolerance (default: a distance, with "
                                       "rejects on both sides)"},
+                      {.name = "inside_corner",
+                       .type = http::Words{{"true", "false"}},
+                       .description = "true: the radius or chamfer is that of an inside corner"},
                       {.name = "measured_mm",
                        .type = http::LengthIn{.round_to_nearest = true},
                        .required = true,

@@ -118,6 +118,7 @@ std::string rule_of(const app::Measurement& m) {
   if (m.size_operator && m.size_operator != "LP") say("size_operator", *m.size_operator);
   if (m.envelope) say("envelope", *m.envelope);
   if (m.go_gauge) say("go_gauge", *m.go_gauge);
+  if (m.inside_corner) say("inside_corner", "true");
   if (m.conformance) say("probability", format(m.rule.probability()));
   return rule;
 }

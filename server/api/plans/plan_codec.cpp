@@ -21,10 +21,10 @@ constexpr std::int64_t kMostAlike = 10'000;
 constexpr std::size_t kLongestEntity = 32;
 
 /// Fields that a measurement of the characteristic copies.
-constexpr std::array<std::string_view, 13> kMeasurementFields = {
+constexpr std::array<std::string_view, 14> kMeasurementFields = {
     "designation", "nominal_mm",    "tolerance_class", "feature",        "upper_um",
     "lower_um",    "quantity",      "gauge",           "uncertainty_um", "coverage_factor",
-    "rule",        "size_operator", "envelope"};
+    "rule",        "size_operator", "envelope",        "inside_corner"};
 
 void check_length(FieldReader& reader, std::string_view name,
                   const std::optional<std::string>& text, std::size_t longest) {
@@ -127,6 +127,7 @@ Fields characteristic_fields() {
              {"quantity", quantity_words(), "Quantity; diameter when absent"},
              {"size_operator", schema::text(8), "Size operator of ISO 14405-1; LP when absent"},
              {"envelope", schema::words({app::kEnvelopeRequired}), "As (E) behind a designation"},
+             {"inside_corner", schema::boolean(), "true: a radius or chamfer of an inside corner"},
              {"count", schema::integer(1, 10000), "Number of features with this size: 4 of 4X"},
              {"entity", schema::text(32), "The dimension of the drawing that it came from: #120"},
              {"gauge", schema::text(200), "Gauge"},

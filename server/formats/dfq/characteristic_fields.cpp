@@ -15,9 +15,10 @@ namespace fitgauge::aqdef {
 namespace {
 
 /// Fields of the measurements in the user field of a characteristic.
-constexpr std::array<std::string_view, 10> kUserFields = {
-    "feature",     "quantity",           "rule",          "uncertainty_um", "coverage_factor",
-    "probability", "degrees_of_freedom", "size_operator", "envelope",       "go_gauge"};
+constexpr std::array<std::string_view, 11> kUserFields = {
+    "feature",      "quantity",           "rule",          "uncertainty_um", "coverage_factor",
+    "probability",  "degrees_of_freedom", "size_operator", "envelope",       "go_gauge",
+    "inside_corner"};
 
 constexpr std::size_t kMostBytes = std::size_t{8} << 20;  ///< all prepared texts
 

@@ -76,6 +76,23 @@ class Plans(DaemonTest):
         self.assertEqual([(one["characteristic"], one.get("envelope_result")) for one in self.daemon.get("/v1/parts/P-3").json["characteristics"]],
                          [("seat", "not_verified"), ("pin", "verified"), ("free", None)])
 
+    def test_an_inside_corner_is_one_in_plans_verdicts_and_files(self):
+        corner = {"name": "groove", "designation": "R5 ISO 2768-m", "inside_corner": True}
+        self.assertEqual(self.put("9-E", corner).status, 201)
+        self.assertIs(self.daemon.get("/v1/plans/9-E").json["characteristics"][0]["inside_corner"], True)
+        self.assert_problem(self.put("9-F", {**corner, "designation": "25 H7"}), 422, "request.invalid")
+        self.daemon.request("DELETE", "/v1/plans/9-E")
+        verdict = lambda query: self.daemon.get(f"/v1/verdicts/{query}")
+        for size, outside, inside in (("9", "reject", "rework"), ("1", "rework", "reject")):
+            given = f"R5%20ISO%202768-m?measured_mm={size}"
+            self.assertEqual([verdict(f"{given}&inside_corner={said}").json["verdict"] for said in ("false", "true")], [outside, inside])
+            self.assertEqual(verdict(given).json["verdict"], outside)
+        self.assert_problem(verdict("25H7?measured_mm=25&inside_corner=true"), 400, "query.invalid")
+        record = self.daemon.measure({"designation": "R5 ISO 2768-m", "measured_mm": 9, "inside_corner": True, "part_id": "P-4", "order": "WO-R"}).json
+        for form in ("dfq", "qif"):
+            self.assertIn("inside_corner", self.daemon.get(f"/v1/measurements?order=WO-R&format={form}").body.decode(), form)
+        self.assertEqual(record["verdict"], "rework")
+
     def test_a_value_waits_for_a_cause_of_its_catalogue(self):
         self.daemon.request("PUT", "/v1/catalogues/bores", {"causes": ["Insert worn"], "measures": []})
         self.put("9-D", {"name": "seat", "designation": "25 H7", "catalogue": "bores"})

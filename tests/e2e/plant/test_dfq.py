@@ -247,6 +247,17 @@ class Out(Folders):
         self.out(second, self.root / "second")
         self.assertEqual(self.written(self.root / "second"), contents)
 
+    def test_an_inside_corner_comes_in_again(self):
+        first, second = self.daemon().start(), self.daemon().start()
+        first.measure({"quantity": "radius", "nominal_mm": 5, "upper_um": 500, "lower_um": -500, "measured_mm": "5.6", "inside_corner": True})
+        self.out(first, self.root / "first")
+        self.connect(second, time_zone="UTC")
+        self.drop("export.dfq", self.written(self.root / "first")[0])
+        self.wait(lambda: self.files("done") + self.files("failed"))
+        self.assertEqual([path.read_text() for path in (self.folder / "failed").glob("*.txt")], [])
+        self.assertEqual([[row.get(name) for name in ("quantity", "inside_corner", "verdict")] for row in second.stored()],
+                         [["radius", True, "rework"]])
+
     def test_what_a_field_cannot_hold_is_a_dead_letter(self):
         daemon = self.daemon().start()
         for order in ("WO-1", "x" * 21, "WO-2"):

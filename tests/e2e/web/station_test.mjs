@@ -249,6 +249,17 @@ describe('a station with a scanner', () => {
     assert.equal(await page.inputValue('.designation'), '25 h7');
   });
 
+  it('gauges the radius of an inside corner as its plan has it', async () => {
+    await daemon.send('PUT', '/v1/plans/R-1', { characteristics: [{ name: 'r-groove', designation: 'R5 ISO 2768-m', inside_corner: true }, { name: 'r-edge', designation: 'R5 ISO 2768-m' }] });
+    await page.reload();
+    await page.waitForSelector('.plan select:visible');
+    for (const text of ['R-1', 'SN-R1', '5.6']) await scan(text);
+    await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 1);
+    await scan('5.6');
+    await page.waitForFunction(() => document.querySelectorAll('.recent li.stored').length === 2);
+    assert.deepEqual((await storedSince()).map(({ characteristic, inside_corner: inside, verdict: word }) => [characteristic, inside, word]), [['r-groove', true, 'rework'], ['r-edge', undefined, 'reject']]);
+  });
+
   it('corrects the part of a record', async () => {
     await scan('SN-1');
     await slow('25.011');
