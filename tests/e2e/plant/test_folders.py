@@ -9,7 +9,6 @@ import re
 import shutil
 import subprocess
 import tempfile
-import time
 import unittest
 
 from support.cli import FITGAUGE
@@ -85,12 +84,14 @@ class Taking(Folders):
 
     def test_only_whole_files_are_taken(self):
         daemon = self.daemon().start()
-        self.connect(daemon, rest_s=5)  # longer than a busy machine lets the writer stand still
+        self.connect(daemon, rest_s=600)
         with open(self.folder / "slow.csv", "w") as file:
             for line in ROWS.splitlines(True):
                 file.write(line)
                 file.flush()
-                time.sleep(0.7)
+                self.wait_for_looks(daemon, 1)
+        self.assertEqual(self.files(), ["slow.csv"])
+        self.connect(daemon, 200)
         self.wait(lambda: self.files("done") == ["slow.csv"])
         self.assertEqual(len(self.parts(daemon)), 5)
         self.assertEqual(self.files("failed"), [])

@@ -5,7 +5,6 @@ import pathlib
 import subprocess
 import tempfile
 import threading
-import time
 import unittest
 
 from support.broker import Broker, Forgetful, kill_in_step
@@ -173,7 +172,7 @@ class Lost(Mqtt):
             told = len(seen.messages)
             wait_for(lambda: len(seen.messages) > told + 50, lambda: self.state(daemon))
             end()
-            time.sleep(0.5)
+            self.wait_state(daemon, "failing")
             broker.start()
         told = len(seen.messages)
         wait_for(lambda: len(seen.messages) > told + 50, lambda: self.state(daemon))
