@@ -138,6 +138,7 @@ describe('what a value demands', () => {
     await station('SN-N');
     await line('25.04');
     await page.waitForSelector('.reactions .catalogue');
+    await page.waitForSelector('.recent li:first-child.stored');
     const [{ id }] = await storedSince('SN-N');
     await daemon.send('POST', `/v1/measurements/${id}/notes`, { cause: 'Wrong offset', measure: 'Part scrapped' });
     await page.waitForSelector('.reactions', { state: 'hidden' });
