@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "base/text.hpp"
 #include "nc/klartext/parser.hpp"
@@ -50,6 +52,19 @@ bool is_feed_word(klartext::CycleValue kind) {
   return kind != klartext::CycleValue::Expression && kind != klartext::CycleValue::Predef;
 }
 
+/// Whether one of two M functions undoes the other at once, both at the begin or end of the block.
+bool exclude(int a, int b) {
+  constexpr std::pair<int, int> kOpposite[] = {{3, 4},   {3, 14},    {4, 13},
+                                               {13, 14}, {128, 129}, {136, 137}};
+  const auto ends = [](int one, int other) {
+    const MFunction* known = m_function(one);
+    return known != nullptr && known->role == MRole::Ends && known->text == std::to_string(other);
+  };
+  return a == b || ends(a, b) || ends(b, a) || std::ranges::any_of(kOpposite, [=](auto pair) {
+           return pair == std::pair(a, b) || pair == std::pair(b, a);
+         });
+}
+
 /// Finds the faults of one block.
 class BlockCheck {
  public:
@@ -77,13 +92,24 @@ class BlockCheck {
   }
 
   void check_words(klartext::Slice<klartext::Word> words) {
+    std::vector<int> before;
     for (const klartext::Word& word : program_.view(words)) {
       const auto* number = std::get_if<double>(&word.value);
       if (word.letter != klartext::Letter::M || number == nullptr) continue;
-      const MFunction* known = m_function(static_cast<int>(*number));
+      const int function = static_cast<int>(*number);
+      constexpr std::size_t kMostCompared = 16;
+      const auto other = std::ranges::find_if(
+          before, [function](int earlier) { return exclude(earlier, function); });
+      if (other != before.end())
+        report(Severity::Warning, DiagnosticCode::WordRepeated, block_.written,
+               fmt::format("M{} and M{} exclude each other in a block: leave one of them out",
+                           *other, function));
+      else if (before.size() < kMostCompared)
+        before.push_back(function);
+      const MFunction* known = m_function(function);
       if (known != nullptr && known->role != MRole::Refuses) continue;
       report(Severity::Warning, DiagnosticCode::MFunctionUnknown, block_.written,
-             m_function_hint(static_cast<int>(*number)));
+             m_function_hint(function));
     }
   }
 

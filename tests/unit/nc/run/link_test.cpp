@@ -30,6 +30,24 @@ TEST_CASE("all findings of all named programs are reported at once, each file on
   CHECK(has_errors(warnings));
 }
 
+TEST_CASE("M functions of one block that exclude each other are found before the run") {
+  Control control;
+  const auto found = [&](std::string_view block) {
+    control.program(block);
+    const auto diagnostics = control.diagnostics();
+    return diagnostics.empty() ? std::string() : diagnostics[0].message;
+  };
+  const std::string end = " exclude each other in a block: leave one of them out";
+  CHECK(found("L X+1 F100 M3 M4") == "M3 and M4" + end);
+  CHECK(found("M127 M126") == "M127 and M126" + end);
+  CHECK(found("L X+1 F100 M128 M8 M129") == "M128 and M129" + end);
+  CHECK(found("STOP M8 M8") == "M8 and M8" + end);
+  // One applies at the begin of the block, the other at its end.
+  CHECK(found("L X+1 F100 M3 M5").empty());
+  CHECK(found("L X+1 F100 M8 M9").empty());
+  CHECK(found("L X+1 F100 M3 M8 M91").empty());
+}
+
 TEST_CASE("a row and columns that the only open table lacks are found before the run") {
   Control control;
   control.file("t.tab", "BEGIN T .TAB\nNR X  Y\n12 +1 +2\n[END]\n");
