@@ -253,6 +253,12 @@ class Linker {
       }
       instruction.c = *target;
     }
+    for (const auto& [block, label] : contours_)
+      if (!resolve(label))
+        report(Severity::Warning, DiagnosticCode::LabelUnknown, *block,
+               fmt::format("label {} is not defined in this program: the cycle that mills the "
+                           "contour fails",
+                           shown(label)));
   }
 
   void add_reference(FileReference::Kind kind, const Expr& path, const Block& block) {
@@ -309,6 +315,11 @@ class Linker {
     } else if (const auto* part = std::get_if<klartext::CyclePart>(&statement)) {
       for (const klartext::Word& word : program_.view(part->words)) {
         if (word.letter == klartext::Letter::Program) add(Kind::Program, word.value);
+        constexpr double kAboveLabels = 65535;
+        const auto* label = std::get_if<double>(&word.value);
+        if (part->number == 14 && word.letter == klartext::Letter::Value && label != nullptr)
+          contours_.emplace_back(&block,
+                                 static_cast<std::uint32_t>(std::clamp(*label, 0.0, kAboveLabels)));
       }
     }
   }
@@ -318,6 +329,7 @@ class Linker {
   CodeWriter writer_;
   LinkedParts parts_;
   std::vector<Jump> jumps_;
+  std::vector<std::pair<const Block*, Label>> contours_;  ///< the labels of cycle 14
   const Expr* opened_ = nullptr;
   bool is_one_table_ = true;  ///< each FN 26 opens the same one, and it is not written
   std::vector<std::pair<const Block*, const klartext::TableRead*>> reads_;

@@ -30,6 +30,16 @@ TEST_CASE("all findings of all named programs are reported at once, each file on
   CHECK(has_errors(warnings));
 }
 
+TEST_CASE("a contour label that is missing is found before the run") {
+  Control control;
+  control.program("CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1 /2\nM30\nLBL 1\nLBL 0");
+  const auto found = control.diagnostics();
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].severity == Severity::Warning);
+  CHECK(found[0].message ==
+        "label 2 is not defined in this program: the cycle that mills the contour fails");
+}
+
 TEST_CASE("M functions of one block that exclude each other are found before the run") {
   Control control;
   const auto found = [&](std::string_view block) {
