@@ -54,7 +54,11 @@ NcResult<void> read_coordinate(Channel& channel, const Word& word, double unit,
                                std::optional<Coordinate>& target) {
   if (is_absent(word.value)) return {};
   const auto value = TRY(coordinate(channel, word.value));
-  if (value) target = Coordinate{*value * unit, word.incremental};
+  if (!value) {
+    return channel.note(
+        fmt::format("{} is left out: its parameter is undefined", spelling(word.letter)));
+  }
+  target = Coordinate{*value * unit, word.incremental};
   return {};
 }
 

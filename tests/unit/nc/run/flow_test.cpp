@@ -119,6 +119,15 @@ TEST_CASE("conditions compare numbers with a tolerance, strings exactly") {
   CHECK(value(result, "Q4") == "1");
 }
 
+TEST_CASE("a coordinate without a value is left out, and a note says so") {
+  Control control;
+  const RunResult result = control.run("TOOL CALL 30 Z\nL X+Q1 Y+5 FMAX\nL X+Q1 FMAX");
+  REQUIRE(result.messages.size() == 1);
+  CHECK(result.messages[0].kind == MessageKind::Note);
+  CHECK(result.messages[0].line == 3);
+  CHECK(result.messages[0].text == "X is left out: its parameter is undefined");
+}
+
 TEST_CASE("an undefined operand of a comparison is an error") {
   Control control;
   CHECK(outcome(control.run("FN 9: IF +Q7 EQU +1 GOTO LBL 1\nLBL 1")) ==
