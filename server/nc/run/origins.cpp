@@ -169,11 +169,12 @@ std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
   Origins origins(chain);
   const Origins::Position failed{0, chain.front().index};
   const Block& block = origins.block(failed);
+  const auto calls_tool = [](const auto&, const Block& each) {
+    return as<klartext::ToolCall>(each) != nullptr;
+  };
   // Tool axis is missing, tool not defined, no touch probe.
   if (error.number == 1001 || error.number == 1092 || error.number == 1093) {
-    origins.find("tool", failed, [](const auto&, const Block& each) {
-      return as<klartext::ToolCall>(each) != nullptr;
-    });
+    origins.find("tool", failed, calls_tool);
     return std::move(origins.notes);
   }
   if (as<klartext::ConditionalJump>(block) != nullptr) origins.note("condition", chain.front());
@@ -193,7 +194,9 @@ std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
         [parameter](const auto& in, const Block& each) { return sets(in, each, parameter); });
     if (!setter) continue;
     if (as<klartext::Assignment>(origins.block(*setter)) != nullptr) follow(*setter);
-    if (reads_control(origins.program(*setter), origins.block(*setter))) moved = setter;
+    if (!reads_control(origins.program(*setter), origins.block(*setter))) continue;
+    moved = setter;
+    origins.find("tool", *setter, calls_tool);
   }
   if (reads_control(origins.program(failed), block)) origins.find("datum", failed, sets_datum);
   if (error.number == 1004 || !moved) return std::move(origins.notes);

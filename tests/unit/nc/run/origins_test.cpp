@@ -64,13 +64,13 @@ TEST_CASE("an error names the blocks that it comes from") {
       // A test by the program itself: the jump, what it reads, and the position read there.
       {"TOOL CALL 30 Z\nL X+20 Y+30 FMAX\nFN 18: SYSREAD Q1 = ID270 NR1 IDX1\n"
        "FN 9: IF +Q1 EQU +20 GOTO LBL 9\nM30\nLBL 9\nFN 14: ERROR = 1000",
-       {"8", "5: condition set here", "4: Q1 set here", "3: Y, X set here"}},
+       {"8", "5: condition set here", "4: Q1 set here", "2: tool set here", "3: Y, X set here"}},
       // A value that was computed: what it was computed from, and the position when it was read.
       {"TOOL CALL 30 Z\nL X+20 Y+30 FMAX\nFN 18: SYSREAD Q1 = ID270 NR1 IDX1\nL X+50 FMAX\n"
        "Q2 = Q1 - 21\nCALL LBL 1\nM30\nLBL 1\nQ2 = ABS Q2\nFN 11: IF +Q2 GT +0 GOTO LBL 9\n"
        "LBL 0\nLBL 9\nFN 14: ERROR = 1000",
        {"14", "11: condition set here", "10: Q2 set here", "6: Q2 set here", "4: Q1 set here",
-        "3: Y, X set here"}},
+        "2: tool set here", "3: Y, X set here"}},
       // An error that comes from no position.
       {"TOOL CALL 30 Z\nL X+20 Y+30 Z+50 FMAX\nCALL PGM GONE", {"4"}},
       {"TOOL CALL 30 Z\nL X+20 Y+30 Z+50 FMAX\nL X+10 F100 M999", {"4"}},
