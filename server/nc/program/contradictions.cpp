@@ -221,11 +221,15 @@ class Contradictions {
       std::string given;
       for (const auto& result : last_measured_->results)
         given += fmt::format("{}Q{}", given.empty() ? "" : ", ", result.q);
+      const std::size_t before = diagnostics_.size();
       warn(DiagnosticCode::ResultUnset, block->written,
            fmt::format("no cycle and no block of this program sets Q{}; cycle {} gives {}: read "
                        "one of these",
                        number, last_measured_->number, given),
            block);
+      if (before < diagnostics_.size())
+        diagnostics_.back().notes.push_back(
+            {fmt::format("cycle {}", last_measured_->number), program_.range(measuring_->written)});
     }
   }
 
@@ -244,7 +248,7 @@ class Contradictions {
       return;
     }
     if (cycle.family != klartext::CycleFamily::TchProbe) return;
-    if (!descriptor->results.empty()) last_measured_ = descriptor;
+    if (!descriptor->results.empty()) last_measured_ = descriptor, measuring_ = block_;
     check_words(cycle, *descriptor);
     const bool touches =
         descriptor->errors.contains(1093) && descriptor->kind != probing::CycleKind::Tool;
@@ -402,6 +406,7 @@ class Contradictions {
   bool is_called_ = false;  ///< a subprogram is looked at for its call
   std::size_t entered_ = 0;
   const CycleDescriptor* last_measured_ = nullptr;
+  const Block* measuring_ = nullptr;  ///< its block
   std::bitset<kEndOfResults> set_;
   FollowedValues constants_;
   std::map<std::size_t, const Block*> reads_;  ///< results by the first block that reads them

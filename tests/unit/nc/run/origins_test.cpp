@@ -88,6 +88,12 @@ TEST_CASE("an error names the blocks that it comes from") {
 
 TEST_CASE("a finding of the check names what it contradicts") {
   Control control;
+  control.program("TOOL CALL 30 Z\n" + kFace + "Q5 = Q164");
+  const auto unset = control.diagnostics();
+  REQUIRE(unset.size() == 1);
+  CHECK(unset[0].range.begin.line == 16);
+  REQUIRE(unset[0].notes.size() == 1);
+  CHECK(unset[0].notes[0].range.begin.line == 3);
   control.program(
       "Q1 = +30\nQ2 = +20\nTCH PROBE 427 MEASURE COORDINATE ~\n Q263=+0 ~\n Q264=+0 ~\n "
       "Q261=+Q1 ~\n Q272=+3 ~\n Q267=-1 ~\n Q260=+Q2\n");
