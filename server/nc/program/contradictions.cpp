@@ -12,6 +12,7 @@
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
 #include "nc/program/followed_values.hpp"
+#include "nc/program/machining_cycles.hpp"
 #include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {
@@ -40,15 +41,19 @@ enum Sense : unsigned {
   kDiameter = 1U << 13U,
   kHeight = 1U << 14U,
   kTolerance = 1U << 15U,
-  kClearance = 1U << 16U
+  kClearance = 1U << 16U,
+  kDepth = 1U << 17U,
+  kDrill = 1U << 18U,
+  kScrew = 1U << 19U
 };
 
 /// Senses that exclude each other.
 constexpr unsigned kSide = kInside | kOutside;
 constexpr unsigned kOfCycles[] = {kSide, kCircle | kRectangle,
-                                  kWidth | kCoordinate | kPlane | kAngle};
+                                  kWidth | kCoordinate | kPlane | kAngle, kDrill | kScrew};
 constexpr unsigned kOfParameters[] = {kMaximum | kMinimum, kFirstAxis | kSecondAxis | kThirdAxis,
-                                      kAngle | kDiameter | kHeight | kTolerance | kClearance};
+                                      kAngle | kDiameter | kHeight | kTolerance | kClearance,
+                                      kClearance | kDepth};
 
 struct Term {
   std::string_view word;
@@ -244,7 +249,9 @@ class Contradictions {
     for (const auto& result : descriptor->results) set({klartext::QSpace::Q, result.q});
     check_order(cycle, *descriptor);
     if (cycle.family == klartext::CycleFamily::CyclDef) {
-      if (descriptor->kind == probing::CycleKind::Machining) cutter_ = block_;
+      if (descriptor->kind != probing::CycleKind::Machining) return;
+      cutter_ = block_;
+      check_words(cycle, *descriptor);
       return;
     }
     if (cycle.family != klartext::CycleFamily::TchProbe) return;
@@ -271,13 +278,13 @@ class Contradictions {
     const unsigned meant = senses_of(descriptor.name);
     const std::string_view dialog = program_.text(cycle.dialog);
     const CycleDescriptor* named = nullptr;
-    for (const probing::TouchProbeCycle* other : probing::cycles()) {
-      if (other->descriptor.family != descriptor.family ||
-          !ascii_iequals(other->descriptor.name, dialog))
-        continue;
-      named = &other->descriptor;
-      if (ascii_iequals(descriptor.name, dialog)) named = nullptr;
-    }
+    const auto compare = [&](const CycleDescriptor& other) {
+      if (other.family == descriptor.family && ascii_iequals(other.name, dialog) &&
+          !ascii_iequals(descriptor.name, dialog))
+        named = &other;
+    };
+    for (const probing::TouchProbeCycle* other : probing::cycles()) compare(other->descriptor);
+    for (const MachiningCycle& other : machining_cycles()) compare(other.descriptor);
     if (named != nullptr) {
       warn(DiagnosticCode::DialogContradicts, block_->written,
            fmt::format("'{}' is cycle {}, but this is cycle {} {}: correct the number or the text",
@@ -286,7 +293,8 @@ class Contradictions {
       warn(DiagnosticCode::DialogContradicts, block_->written,
            fmt::format("'{}' contradicts cycle {}, which is {}: correct the number or the text",
                        dialog, descriptor.number, descriptor.name));
-    } else if (contradict(senses_of(comment_above()), meant, std::array{kSide})) {
+    } else if (descriptor.kind != probing::CycleKind::Machining &&
+               contradict(senses_of(comment_above()), meant, std::array{kSide})) {
       warn(DiagnosticCode::CommentContradicts, block_->written,
            fmt::format("the comment '{}' contradicts cycle {}, which is {}: it would probe from "
                        "the wrong side",

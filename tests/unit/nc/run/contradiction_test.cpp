@@ -46,7 +46,18 @@ TEST_CASE("a contradiction is found at its line") {
   const std::string dialog = "warning 2 cycle.dialog_contradicts";
   const std::string order = "warning 2 cycle.order_contradicts";
   const std::string by_q1 = replaced(hole(), "Q275=+12.1", "Q275=+Q1");
+  const std::string drill =
+      "CYCL DEF 200 DRILLING ~\n Q200=+2 ;SET-UP CLEARANCE ~\n Q201=-10 ;DEPTH ~\n "
+      "Q206=+200 ;FEED RATE FOR PLNGNG ~\n Q202=+5 ;PLUNGING DEPTH\n";
   const Case cases[] = {
+      // machining cycles
+      {drill, {}},
+      {replaced(drill, "DRILLING", "BOHREN"), {}},
+      {replaced(drill, "DRILLING", "TAPPING"), {dialog}},
+      {replaced(drill, "DRILLING", "GEWINDEBOHREN NEU"), {dialog}},
+      {replaced(drill, "DRILLING", "REAMING"), {dialog}},
+      {replaced(drill, ";DEPTH", ";SET-UP CLEARANCE"), {"warning 4 cycle.comment_contradicts"}},
+      {"CYCL DEF 251 CIRCULAR POCKET Q218=+60 Q219=+20 Q201=-5\n", {dialog}},
       {hole(), {}},
       {hole("MESSEN BOHRUNG"), {}},
       {hole("MEASURE BOSS"), {dialog}},
