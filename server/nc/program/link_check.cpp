@@ -65,6 +65,12 @@ bool exclude(int a, int b) {
          });
 }
 
+/// A feed at which the tool is in the material.
+bool cuts(const probing::CycleParameter& parameter) {
+  constexpr int kCutting[] = {11, 12, 19, 206, 207, 254, 385};
+  return std::ranges::find(kCutting, static_cast<int>(parameter.id)) != std::end(kCutting);
+}
+
 /// Finds the faults of one block.
 class BlockCheck {
  public:
@@ -187,6 +193,10 @@ class BlockCheck {
                 name(*parameter)));
         continue;
       }
+      if (written.kind == klartext::CycleValue::Max && cuts(*parameter))
+        report(Severity::Warning, DiagnosticCode::OrderContradicts, written.written,
+               fmt::format("{} is the {}: in rapid traverse the tool breaks, so write a feed",
+                           name(*parameter), parameter->meaning));
       if (auto value = literal(program_, written, *parameter)) {
         const bool stands = report_failure(probing::check(*parameter, *value), written.written);
         if (stands) known.set(parameter->id, *std::move(value));

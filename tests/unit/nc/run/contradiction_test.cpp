@@ -57,6 +57,7 @@ TEST_CASE("a contradiction is found at its line") {
       {replaced(drill, "DRILLING", "GEWINDEBOHREN NEU"), {dialog}},
       {replaced(drill, "DRILLING", "REAMING"), {dialog}},
       {replaced(drill, ";DEPTH", ";SET-UP CLEARANCE"), {"warning 4 cycle.comment_contradicts"}},
+      {replaced(drill, "Q206=+200", "Q206=FMAX"), {"warning 5 cycle.order_contradicts"}},
       {"CYCL DEF 251 CIRCULAR POCKET Q218=+60 Q219=+20 Q201=-5\n", {dialog}},
       {hole(), {}},
       {hole("MESSEN BOHRUNG"), {}},
