@@ -305,8 +305,9 @@ class Contradictions {
       const std::string_view comment = program_.text(written.comment);
       if (parameter == nullptr || comment.empty()) continue;
       const unsigned said = senses_of(comment);
-      if (!contradict(said, senses_of(parameter->meaning), kOfParameters) &&
-          !contradict(said, meant, std::array{kSide})) {
+      const unsigned intended = senses_of(parameter->meaning);
+      if (!contradict(said, intended, kOfParameters) &&
+          !contradict(said & ~intended, meant, std::array{kSide})) {
         continue;
       }
       warn(DiagnosticCode::CommentContradicts, written.written,
