@@ -31,18 +31,18 @@ class Signing(unittest.TestCase):
         # In /tmp: the socket of gpg's agent has a short path.
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="fitgauge-sign-", dir="/tmp"))
         cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
-        cls.keys = [cls.make_key(name) for name in ("shop", "stranger")]
+        cls.keys = [cls.make_key("shop", "20260101"), cls.make_key("stranger", "20261119")]  # the commit is of 18 November
         made = cls.folder / "package/DEBIAN"
         made.mkdir(parents=True)
         (made / "control").write_text(CONTROL)
         cls.dist = cls.signed("dist", cls.keys[0])
 
     @classmethod
-    def make_key(cls, name):
+    def make_key(cls, name, day):
         """@returns the file of a new private key"""
         home = cls.folder / f"{name}-gnupg"
         home.mkdir(mode=0o700)
-        made = run("gpg", "--batch", "--quiet", "--passphrase", "", "--faked-system-time", "20260101T000000",
+        made = run("gpg", "--batch", "--quiet", "--passphrase", "", "--faked-system-time", f"{day}T000000",
                    "--quick-generate-key", f"{name} <{name}@fitgauge.example>", "ed25519", "sign", "never", GNUPGHOME=str(home))
         exported = run("gpg", "--batch", "--armor", "--export-secret-keys", GNUPGHOME=str(home))
         run("gpgconf", "--kill", "all", GNUPGHOME=str(home))
