@@ -37,8 +37,8 @@ struct Modes {
 /// The words of one block of G codes, M functions and coordinates.
 struct BlockWords {
   std::vector<Word> words;
-  std::vector<std::string_view> p;  ///< the values of P01, P02, ...
-  const Code* block = nullptr;      ///< a code with a separate block
+  std::vector<std::string_view> p;      ///< the values of P01, P02, ...
+  const Code* block = nullptr;          ///< a code with a separate block
   std::array<const Code*, 3> stated{};  ///< the codes of Path, Compensation and Plane
   bool has_path = false;
   bool has_plane = false;
