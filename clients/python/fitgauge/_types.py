@@ -367,7 +367,6 @@ class _PartCharacteristics(TypedDict):
 
 class PartCharacteristics(_PartCharacteristics, total=False):
     characteristic: str
-    other_size: str
     envelope_result: str
 
 

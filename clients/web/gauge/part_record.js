@@ -67,7 +67,7 @@ export class PartRecord {
     // The service has lost what it had stored.
     if (own.some(({ name }) => missing.includes(name))) return null;
     return characteristics.filter((one) => one.verdict && this.#isOther(one, part, plan, own))
-      .map(({ characteristic, other_size: size, verdict, measured_mm: measured, measured_at: at }) => ({ name: [characteristic, size].filter(Boolean).join(' '), verdict, value: { shown: { measured, at } } }));
+      .map(({ characteristic, verdict, measured_mm: measured, measured_at: at }) => ({ name: characteristic ?? '', verdict, value: { shown: { measured, at } } }));
   }
 
   /** Whether a value of the service is none of those that count here, and none that was corrected since. */

@@ -160,7 +160,6 @@ export default {
   'part.open_count': '{count} zu erledigen',
   'part.missing': 'Noch nicht gemessen: {names}.',
   'part.go_fails': 'Die Gutlehre passt nicht: {names}.',
-  'part.other_size': '{name}: gemessen wurde {size}, der Plan hat ein anderes Maß.',
   'part.unverified': 'Keine Gutlehre hat die Hüllbedingung geprüft: {names}.',
   'part.unnamed': 'ein Wert ohne Merkmal',
   'part.measure': 'Jetzt messen',

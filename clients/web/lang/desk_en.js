@@ -160,7 +160,6 @@ export default {
   'part.open_count': '{count} to be done',
   'part.missing': 'Not measured yet: {names}.',
   'part.go_fails': 'The GO gauge does not pass: {names}.',
-  'part.other_size': '{name}: {size} was measured, the plan has another size.',
   'part.unverified': 'No GO gauge has verified the envelope: {names}.',
   'part.unnamed': 'a value without a characteristic',
   'part.measure': 'Measure it',

@@ -160,7 +160,6 @@ export default {
   'part.open_count': '{count} da fare',
   'part.missing': 'Non ancora misurati: {names}.',
   'part.go_fails': 'Il calibro passa non passa: {names}.',
-  'part.other_size': '{name}: è stato misurato {size}, il piano ha un’altra dimensione.',
   'part.unverified': 'Nessun calibro passa ha verificato l’inviluppo: {names}.',
   'part.unnamed': 'un valore senza caratteristica',
   'part.measure': 'Misura ora',

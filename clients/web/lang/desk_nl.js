@@ -160,7 +160,6 @@ export default {
   'part.open_count': '{count} te doen',
   'part.missing': 'Nog niet gemeten: {names}.',
   'part.go_fails': 'Het goedkaliber past niet: {names}.',
-  'part.other_size': '{name}: gemeten is {size}, het plan heeft een andere maat.',
   'part.unverified': 'Geen goedkaliber heeft de omhulling gecontroleerd: {names}.',
   'part.unnamed': 'een waarde zonder kenmerk',
   'part.measure': 'Nu meten',

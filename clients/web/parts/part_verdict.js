@@ -1,7 +1,6 @@
 /** The verdict of a part: the worst of its plan, what is missing and which reactions are open. Only parts in sight are asked for, each once. */
 
 import { getJson, isFolded, url } from '../api.js';
-import { designationText } from '../designation.js';
 import { h, refill } from '../dom.js';
 import { t } from '../i18n.js';
 import { fragment } from '../route.js';
@@ -110,7 +109,7 @@ export async function partSheet(part, signal) {
   const { plan, missing, open_reactions: open, characteristics } = found;
   const failed = characteristics.filter(({ envelope_result: result }) => result === 'failed');
   const unverified = unverifiedOf(found).filter(({ characteristic: name }) => !name || !failed.some(({ characteristic }) => characteristic === name));
-  const counted = t('part.measured_count', { count: countOf(characteristics.map(({ characteristic, other_size: size = '' }) => characteristic && `${characteristic} ${size}`)) });
+  const counted = t('part.measured_count', { count: countOf(characteristics.map(({ characteristic }) => characteristic)) });
   const station = plan && h('a', { href: fragment({ view: 'gauge', options: { plan, part_id: part } }) }, t('part.measure'));
   return h('section.sheet.part-verdict', { 'data-verdict': found.verdict, 'aria-label': t('panel.part', { part }) }, shapeOf(found) ? verdictShape(shapeOf(found)) : null,
     h('div', h('p.headline', [part, !isOpenEnded(found) && wordOf(found)].filter(Boolean).join(' · ')),
@@ -118,7 +117,6 @@ export async function partSheet(part, signal) {
       failed.length > 0 && h('p.missing', t('part.go_fails', { names: namesOf(failed) })),
       unverified.length > 0 && h('p.missing', t('part.unverified', { names: namesOf(unverified) })),
       missing.length > 0 && h('p.missing', t('part.missing', { names: missing.join(', ') }), ' ', station),
-      characteristics.filter(({ other_size: size }) => size).map(({ characteristic: name, other_size: size }) => h('p.missing', t('part.other_size', { name, size: designationText(size) }))),
       open.length > 0 && h('ul', { 'aria-label': t('part.open') }, open.map(({ characteristic, reaction }) => h('li', h('strong', characteristic), ` ${reaction ?? t('part.cause')}`))),
       h('p.aside', t('part.rule'))));
 }

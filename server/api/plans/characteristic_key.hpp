@@ -15,7 +15,6 @@ namespace fitgauge::api {
 struct CharacteristicKey {
   std::string part{};  ///< empty: the value stands alone, under its id
   std::string name{};
-  Length nominal{};  ///< a bore of 100 mm is not that of 25 mm; 0 without limits
 
   friend auto operator<=>(const CharacteristicKey&, const CharacteristicKey&) = default;
 };
@@ -25,30 +24,7 @@ inline CharacteristicKey key_of(const app::Measurement& m) {
   if (!m.part_id || !m.characteristic) {
     return {.name = app::measurement_id_text(m.id, m.origin)};
   }
-  return {.part = std::string(*m.part_id),
-          .name = std::string(*m.characteristic),
-          .nominal = m.is_judged() ? m.nominal_size : Length()};
-}
-
-/// The limits of a value or of a characteristic.
-struct SizeLimits {
-  Length nominal{};
-  iso286::LimitDeviations deviations{};
-  std::string class_name{};  ///< empty: limits of a drawing
-
-  /// The class, whose numbers may be revised, or the same numbers.
-  bool equals(const SizeLimits& other) const {
-    const bool is_class = !class_name.empty() && class_name == other.class_name;
-    return nominal == other.nominal && (is_class || deviations == other.deviations);
-  }
-};
-
-/// None without limits.
-inline std::optional<SizeLimits> size_of(const app::Measurement& m) {
-  if (!m.is_judged()) return {};
-  return SizeLimits{.nominal = m.nominal_size,
-                    .deviations = m.deviations,
-                    .class_name = std::string(m.class_name.value_or(""))};
+  return {.part = std::string(*m.part_id), .name = std::string(*m.characteristic)};
 }
 
 /// A value as far as it says which values of its characteristic count.

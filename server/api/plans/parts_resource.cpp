@@ -4,16 +4,13 @@
 #include <memory>
 
 #include "api/handlers.hpp"
-#include "api/plans/plan_codec.hpp"
+#include "api/plans/characteristic_key.hpp"
 #include "api/resources.hpp"
 #include "base/json/body_forms.hpp"
 #include "metrology/gauging/severity.hpp"
 #include "record/record_members.hpp"
 #include "service/documents/document_service.hpp"
-#include "service/measurements/gauges_in_use.hpp"
 #include "service/measurements/measurement_service.hpp"
-#include "service/tables/table_catalog.hpp"
-#include "tables/standards/designated_limits.hpp"
 
 // A part: the value of each characteristic that was measured last, compared with a plan.
 
@@ -30,8 +27,6 @@ constexpr std::size_t kMostValues = 10'000;  ///< of one part; older ones are ig
 struct PartValue {
   Candidate candidate{};
   std::optional<std::string> characteristic{};
-  std::optional<SizeLimits> size{};
-  std::optional<std::string> other_size{};
   std::string measurement{};
   std::optional<Verdict> verdict{};
   std::optional<std::string_view> envelope{};
@@ -41,9 +36,6 @@ struct PartValue {
 };
 void members(auto& v, const PartValue& value) {
   v.optional("characteristic", value.characteristic, "Absent if the value names no characteristic");
-  v.optional("other_size", value.other_size,
-             "Its size, 100 H7 or 8 +0.036/0, if the plan has another for the characteristic: the "
-             "value stands beside the plan; empty without limits");
   v.member("measurement_id", value.measurement, "The record");
   v.member("verdict", value.verdict, kVerdict, "Verdict; null without limits");
   v.optional("envelope_result", value.envelope,
@@ -55,7 +47,6 @@ void members(auto& v, const PartValue& value) {
 /// A characteristic of a plan and its record.
 struct Reaction {
   std::string characteristic{};
-  JsonValue planned{};
   std::optional<std::string> reaction{};
   std::string measurement{};
   bool has_catalogue = false;
@@ -101,7 +92,6 @@ Result<std::vector<Reaction>> characteristics_of(const NamedDocument& plan) {
     };
     Reaction& one = found.emplace_back(Reaction{.characteristic = each.find("name")->text});
     if (has("reaction")) one.reaction = each.find("reaction")->text;
-    one.planned = each;
     one.has_catalogue = has("catalogue");
     one.is_at_each_part = !has("frequency");
   }
@@ -112,36 +102,13 @@ auto place_in(const std::vector<Reaction>& plan, const PartValue& value) {
   return std::ranges::find(plan, value.characteristic, &Reaction::characteristic) - plan.begin();
 }
 
-std::string text_of(const SizeLimits& size) {
-  std::string text;
-  if (!size.class_name.empty()) {
-    standards::append_designation(text, size.nominal, size.class_name);
-    return text;
-  }
-  const auto deviation = [](Length length) {
-    if (length <= -app::kNoLimit || app::kNoLimit <= length) return std::string("-");
-    return (Length() < length ? "+" : "") + format_mm(length);
-  };
-  return fmt::format("{} {}/{}", format_mm(size.nominal), deviation(size.deviations.upper),
-                     deviation(size.deviations.lower));
-}
-
-/// A value counts for the characteristic of its name if it is of that size.
-void hold_against(const std::vector<Reaction>& plan, const BatchContext& context, Part& part) {
+void hold_against(const std::vector<Reaction>& plan, Part& part) {
   std::ranges::stable_sort(part.values, {},
                            [&](const auto& value) { return place_in(plan, value); });
-  for (PartValue& value : part.values) {
-    const auto planned = std::ranges::find(plan, value.characteristic, &Reaction::characteristic);
-    if (planned == plan.end()) continue;
-    const auto size = planned_size(planned->planned, context);
-    if (size && !(value.size && value.size->equals(*size))) {
-      value.other_size = value.size ? text_of(*value.size) : "";
-    }
-  }
   for (const Reaction& each : plan) {
     bool is_missing = each.is_at_each_part;
     for (const PartValue& value : part.values) {
-      if (value.characteristic != each.characteristic || value.other_size) continue;
+      if (value.characteristic != each.characteristic) continue;
       is_missing = false;
       if (value.verdict.value_or(Verdict::Good) != Verdict::Good &&
           (each.has_catalogue ? !value.has_cause : each.reaction && !value.has_note)) {
@@ -154,7 +121,7 @@ void hold_against(const std::vector<Reaction>& plan, const BatchContext& context
 
 /// Compares the part with a plan: the named plan, the plan with the part's name, or the only plan
 /// with all measured characteristics. @errors QueryInvalid if the named plan does not exist.
-Result<void> plan_part(const Services& services, const std::vector<NamedDocument>& plans,
+Result<void> plan_part(const std::vector<NamedDocument>& plans,
                        std::optional<std::string_view> named, Part& part) {
   std::vector<std::pair<std::string, std::vector<Reaction>>> fitting;
   const std::string name(named.value_or(part.part));
@@ -177,12 +144,7 @@ Result<void> plan_part(const Services& services, const std::vector<NamedDocument
   }
   if (fitting.size() != 1) return {};
   part.plan = fitting.front().first;
-  const auto tables = services.tables.tables();
-  if (!tables) return tables.error();
-  const auto gauges = services.gauges.book();
-  hold_against(fitting.front().second,
-               {.tables = **tables, .received_at = services.clock.now(), .gauges = gauges.get()},
-               part);
+  hold_against(fitting.front().second, part);
   return {};
 }
 
@@ -200,7 +162,6 @@ PartValue value_of(const app::Measurement& m) {
                   .has_cause = std::ranges::any_of(
                       m.notes, [](const auto& note) { return note.cause || note.measure; })};
   if (m.characteristic) value.characteristic.emplace(*m.characteristic);
-  value.size = size_of(m);
   if (m.is_judged()) value.verdict = m.result.verdict;
   if (m.envelope) value.envelope = app::members::envelope_result(m);
   return value;
@@ -227,9 +188,9 @@ void read_part(const Services& services, std::string_view id, std::optional<std:
         std::erase_if(part->values, [](const auto& value) { return !value.candidate.counts; });
         services.documents.list(
             app::DocumentKind::Plan,
-            [&services, part, plan, done](const Result<std::vector<NamedDocument>>& plans) {
+            [part, plan, done](const Result<std::vector<NamedDocument>>& plans) {
               if (!plans) return done(plans.error());
-              const auto planned = plan_part(services, *plans, plan, *part);
+              const auto planned = plan_part(*plans, plan, *part);
               if (!planned) return done(planned.error());
               judge(*part);
               done(std::move(*part));
@@ -264,8 +225,8 @@ void add_parts_routes(Routes& add) {
        .description =
            "The value of each characteristic that was measured last, with corrections; the verdict "
            "is the worst of them. A value without a characteristic stands alone, and one without "
-           "limits or of another size takes no other's place. A value whose GO gauge failed also "
-           "counts until this gauge passes. Without `plan` the plan with the name of the part is "
+           "limits takes no other's place. A value whose GO gauge failed also counts until this "
+           "gauge passes. Without `plan` the plan with the name of the part is "
            "used, or the only plan that has every measured characteristic; without a plan nothing "
            "is missing.",
        .parameters = {path_parameter("part", "part_id of its measurements"),

@@ -56,22 +56,16 @@ void read_own_fields(FieldReader& reader, std::set<std::string>& names) {
 }
 
 /// Judges some value as a measurement of the characteristic would be.
-std::optional<SizeLimits> judge_some(const JsonValue& characteristic, std::size_t index,
-                                     const BatchContext& context, FieldErrors& errors) {
-  MeasurementRowReader row(context, errors);
+void check_limits(const JsonValue& characteristic, std::size_t index, const BatchContext& context,
+                  FieldErrors& errors) {
+  FieldErrors found;
+  MeasurementRowReader row(context, found);
   row.begin(index);
   row.field("measured_mm", {.kind = RawValue::Kind::Number, .text = "1"});
   for (const std::string_view name : kMeasurementFields) {
     if (const JsonValue* value = characteristic.find(name)) row.field(name, raw_value(*value));
   }
-  const app::Measurement* judged = row.end();
-  return judged != nullptr ? size_of(*judged) : std::nullopt;
-}
-
-void check_limits(const JsonValue& characteristic, std::size_t index, const BatchContext& context,
-                  FieldErrors& errors) {
-  FieldErrors found;
-  judge_some(characteristic, index, context, found);
+  row.end();
   const auto error = found.take();
   if (!error) return;
   for (const Error& each : error->details) {
@@ -174,12 +168,6 @@ Result<std::string> read_plan(const JsonValue& body, std::string_view part,
   }
   if (auto error = errors.take()) return std::move(*error);
   return stored_text(body, part);
-}
-
-std::optional<SizeLimits> planned_size(const JsonValue& characteristic,
-                                       const BatchContext& context) {
-  FieldErrors ignored;
-  return judge_some(characteristic, 0, context, ignored);
 }
 
 Result<PlanHead> read_plan_head(std::string_view text) {

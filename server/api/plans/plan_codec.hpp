@@ -1,10 +1,8 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
-#include "api/plans/characteristic_key.hpp"
 #include "base/json/json_value.hpp"
 #include "record/measurement_batch.hpp"
 
@@ -20,10 +18,6 @@ inline constexpr std::size_t kMostCharacteristics = 500;
 /// @errors RequestInvalid with every bad field.
 Result<std::string> read_plan(const JsonValue& body, std::string_view part,
                               const BatchContext& context);
-
-/// The limits of a characteristic of a stored plan; none if the tables or gauges have them no more.
-std::optional<SizeLimits> planned_size(const JsonValue& characteristic,
-                                       const BatchContext& context);
 
 /// The entry of a stored plan in a list.
 struct PlanHead {

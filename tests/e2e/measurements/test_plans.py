@@ -106,25 +106,6 @@ class Plans(DaemonTest):
         for path in ("plans/9-D", "catalogues/bores"):
             self.daemon.request("DELETE", f"/v1/{path}")
 
-    def test_a_value_of_another_size_stands_beside_the_plan(self):
-        self.put("9-E", {"name": "bore-A", "designation": "25 H7", "reaction": "Stop"}, SLOT)
-        measure = lambda **fields: self.daemon.measure({"part_id": "P-4", **fields})
-        state = lambda: (lambda part: (part["verdict"], part["missing"], [(one["characteristic"], one.get("other_size")) for one in part["characteristics"]]))(
-            self.daemon.get("/v1/parts/P-4?plan=9-E").json)
-        measure(characteristic="slot", nominal_mm=8, feature="hole", upper_um=50, lower_um=0, measured_mm="8.01")
-        measure(characteristic="bore-A", designation="100 H7", measured_mm="100.01")
-        self.assertEqual(state(), (None, ["bore-A", "slot"], [("bore-A", "100 H7"), ("slot", "8 +0.05/0")]))
-        measure(characteristic="bore-A", quantity="diameter", measured_mm="25.01")
-        self.assertEqual(state()[1:], (["bore-A", "slot"], [("bore-A", "100 H7"), ("bore-A", ""), ("slot", "8 +0.05/0")]))
-        measure(characteristic="slot", **{name: SLOT[name] for name in ("nominal_mm", "feature", "upper_um", "lower_um")}, measured_mm="8.02")
-        bad = measure(characteristic="bore-A", nominal_mm=25, tolerance_class="H7", measured_mm="25.05").json["id"]
-        measure(characteristic="bore-A", designation="100 H7", measured_mm="100.02")
-        self.assertEqual(state(), ("reject", [], [("bore-A", ""), ("bore-A", None), ("bore-A", "100 H7"), ("slot", None)]))
-        seen = self.daemon.get("/v1/parts/P-4?plan=9-E").json
-        self.assertEqual(seen["open_reactions"], [{"characteristic": "bore-A", "measurement_id": bad, "reaction": "Stop"}])
-        self.assertEqual(self.daemon.get("/v1/certificates?part_id=P-4", Accept="application/json").json["verdict"], "reject")
-        self.daemon.request("DELETE", "/v1/plans/9-E")
-
     def test_every_bad_field_is_named(self):
         cases = [
             ([{**BORE, "designation": "25 H19"}], "/characteristics/0/designation", "class.unknown"),

@@ -123,19 +123,6 @@ describe('a part that is handled elsewhere', () => {
     await close(page);
   });
 
-  it('ends with what was measured of another size beside its own', async () => {
-    await station('E-15');
-    for (const value of ['25.01', '40.01', '120.1']) await line(value);
-    await says('GoodPart E-15All 3 measured');
-    await store('E-15', { designation: '100 H7', measured_mm: 100.05 });
-    await says('RejectPart E-15 · bore-A 100 H7 Reject');
-    await store('E-15', { designation: '100 H7', measured_mm: 100.01 });
-    await says('GoodPart E-15All 4 measured');
-    await page.goto(`${daemon.url}/#/parts?part_id=E-15`);
-    await page.waitForFunction(() => /bore-A: Ø 100 H7 was measured, the plan has another size/.test(document.querySelector('.part-verdict')?.textContent));
-    await close(page);
-  });
-
   it('says that nobody can ask about a part whose name a browser folds', async () => {
     await station('..');
     for (const value of ['25.01', '40.01', '120.1']) await line(value);
