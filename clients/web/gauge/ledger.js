@@ -154,9 +154,11 @@ export class Ledger extends EventTarget {
     const all = this.of(plan, part, round).filter(({ shown }) => shown.characteristic === name);
     all.sort((one, other) => this.#rootOf(one).seq - this.#rootOf(other).seq);
     const newest = all.at(-1);
-    const sample = newest?.shown.subgroup;
-    const tried = all.findLast(({ record }) => record?.go_gauge);
-    return all.filter((value) => value === newest || (sample !== undefined && value.shown.subgroup === sample) || (value === tried && value.record.go_gauge === 'fails'));
+    // The values of a sample are of different parts: of one part the newest counts.
+    const sample = part ? undefined : newest?.shown.subgroup;
+    const saidOf = ({ record, shown }) => (record ?? shown).go_gauge;
+    const tried = all.findLast(saidOf);
+    return all.filter((value) => value === newest || (sample !== undefined && value.shown.subgroup === sample) || (value === tried && saidOf(value) === 'fails'));
   }
 
   /** When a part was measured last, by its values in force: a date, or undefined. */

@@ -4,6 +4,7 @@ import { getJson, isFolded, PATIENCE_MS, url } from '../api.js';
 import { countOf, isUnverified } from '../verdict.js';
 
 export const WORST_FIRST = ['reject', 'rework', 'indeterminate', 'good'];
+const rank = ({ verdict }) => WORST_FIRST.indexOf(verdict);
 
 const AGAIN_MS = 5000;
 
@@ -52,10 +53,11 @@ export class PartRecord {
   result(part, plan, own) {
     const isStored = own.every(({ value }) => value.record);
     const others = isStored && part && !isFolded(part) ? this.#others(part, plan, own) : [];
-    const measured = [...own.filter(({ name, value }) => !others?.some((other) => other.name === name && timeOf(other.value) >= timeOf(value))), ...others ?? []];
+    const counted = new Set(this.#found?.characteristics.map(({ measurement_id: id }) => id));
+    const measured = [...own.filter(({ name, value }) => counted.has(value.record?.id) || !others?.some((other) => other.name === name && timeOf(other.value) >= timeOf(value))), ...others ?? []];
     const verdict = WORST_FIRST.find((word) => measured.some((each) => each.verdict === word));
     const newest = measured.reduce((one, other) => (timeOf(other.value) > timeOf(one.value) ? other : one));
-    return { part, verdict, bad: measured.filter((each) => each.verdict !== 'good'), count: countOf(measured.map(({ name }) => name)), newest, unverified: measured.some(({ value: { record } }) => record && isUnverified(record)), provisional: !isStored || others === null ? 'away' : others ? undefined : 'storing' };
+    return { part, verdict, bad: measured.filter((each, i) => each.verdict !== 'good' && !measured.some((other, j) => other.name && other.name === each.name && (rank(other) - rank(each) || j - i) < 0)), count: countOf(measured.map(({ name }) => name)), newest, unverified: measured.some(({ value: { record } }) => record && isUnverified(record)), provisional: !isStored || others === null || isFolded(part) ? 'away' : others ? undefined : 'storing' };
   }
 
   /** The values of others; undefined while they are asked for, null where there was no answer. */

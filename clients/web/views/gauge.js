@@ -185,7 +185,7 @@ export function mount(main, route) {
     const { part_id, characteristic, machine } = job.options;
     const { limits } = job;
     return {
-      measured, part_id, characteristic, machine, designation: limits?.designation ?? job.designation, at: connection.now(), limits,
+      measured, part_id, characteristic, machine, designation: limits?.designation ?? job.designation, at: connection.now(), limits, go_gauge: job.envelope.said,
       verdict: limits && job.envelope.said !== 'fails' && !job.isInsideCorner ? judge(nmFromMm(measured), limits, job.rule.guard) : null,
     };
   }

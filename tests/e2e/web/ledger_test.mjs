@@ -78,6 +78,20 @@ describe('the ledger', () => {
     assert.deepEqual([plan, confirmed, verdict, ledger.stateOf(ledger.get('first'))], ['P', undefined, undefined, 'corrected']);
   });
 
+  it('counts at a part with a name the newest value, of a sample too, and a GO gauge that failed before it', () => {
+    const [{ ledger }] = new Desk(1).tabs;
+    const take = (key, more) => ledger.taken(key, { measured: '25', plan: 'P', part_id: 'SN', characteristic: 'bore', subgroup: 's', at: 0, ...more });
+    const counts = () => ledger.sampleInForce('P', 'SN', undefined, 'bore').map(({ key }) => key);
+    take('first', { verdict: 'reject' });
+    take('second', { verdict: 'good' });
+    assert.deepEqual(counts(), ['second']);
+    take('third', { verdict: null, go_gauge: 'fails' });
+    take('fourth', { verdict: 'good' });
+    assert.deepEqual(counts(), ['third', 'fourth']);
+    take('fifth', { verdict: 'good', go_gauge: 'passes' });
+    assert.deepEqual(counts(), ['fifth']);
+  });
+
   it('keeps what is not done when it forgets the oldest', () => {
     const desk = new Desk(1);
     const [{ ledger }] = desk.tabs;

@@ -240,6 +240,9 @@ describe('a station with a scanner', () => {
     await page.waitForFunction(() => document.querySelector('.recent li.stored')?.textContent.includes('8.02'));
     await page.waitForFunction(() => /Part SN-E6 · e-bore Rework/.test(document.querySelector('.verdict').textContent));
     assert.equal(await page.textContent('.tiles-of-plan button >> nth=0 >> .unseen'), 'Rework');
+    // Another station measures it without the gauge as well: it is named once, with its worst verdict.
+    await daemon.send('POST', '/v1/measurements', { nominal_mm: 8, feature: 'hole', upper_um: 36, lower_um: 0, envelope: 'required', measured_mm: '8.03', part_id: 'SN-E6', characteristic: 'e-bore', machine: 'M2' });
+    await page.waitForFunction(() => /Part SN-E6 · e-bore Reworke-bore 8.03/.test(document.querySelector('.verdict:not([data-provisional])')?.textContent));
     await scan('SN-E8');
     await page.waitForSelector('.envelope:visible');
     await scan('8.01');
