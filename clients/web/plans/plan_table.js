@@ -8,6 +8,7 @@ import { KINDS, limitsTyped, umOfMm } from './sizes.js';
 const MEMBERS = ['name', 'designation', 'nominal_mm', 'tolerance_class', 'upper_um', 'lower_um', 'feature', 'quantity', 'count', 'gauge', 'size_operator', 'rule',
   'uncertainty_um', 'coverage_factor', 'subgroup_size', 'frequency', 'reaction', 'catalogue', 'picture', 'envelope', 'inside_corner', 'entity'];
 const NUMBERS = new Set(['nominal_mm', 'upper_um', 'lower_um', 'count', 'uncertainty_um', 'coverage_factor', 'subgroup_size']);
+const WORDS = { true: true, false: false };
 /** Columns that are no members: of the part, and what people have in their place. */
 const OTHERS = ['part', 'size', 'kind', 'upper_mm', 'lower_mm'];
 
@@ -55,7 +56,7 @@ function characteristicOf(cells) {
   // Beside deviations of their own a size is the nominal one.
   const isNominal = Object.values(deviations).some(Boolean) || given('upper_um') || given('lower_um') || given('tolerance_class');
   const size = given('size') && (isNominal ? { nominal_mm: decimal(cells.size.replace(/^[Øø⌀∅\s]+/, '')) } : limitsTyped(cells.size, kind));
-  const own = MEMBERS.filter(given).map((name) => [name, NUMBERS.has(name) ? decimal(cells[name]) : name === 'inside_corner' ? plain(cells[name]) === 'true' : cells[name]]);
+  const own = MEMBERS.filter(given).map((name) => [name, NUMBERS.has(name) ? decimal(cells[name]) : name === 'inside_corner' ? WORDS[plain(cells[name])] ?? cells[name] : cells[name]]);
   const { feature, ...quantity } = KINDS[kind];
   const isClass = size?.designation ?? given('designation') ?? given('tolerance_class');
   return JSON.parse(toJson({ ...size, ...(isNominal && deviations), ...(!isClass && feature && { feature }), ...quantity, ...Object.fromEntries(own) }));
