@@ -386,7 +386,7 @@ class Letterhead(unittest.TestCase):
                 self.assertLess(text.index("Öhler"), text.index("Inspection report"))
 
     def test_a_logo_that_cannot_be_printed_is_refused_before_the_start(self):
-        for content, why in ((None, "cannot be read"), (b"GIF89a", "must be a PNG file"), (png(9, 9, 6), "save it so"),
+        for content, why in ((None, "cannot be read"), (b"GIF89a", "must be a PNG file"), (png(9, 9, 6), "save it again"),
                              (png(2001, 1), "save it smaller"), (png(9, 9, damaged=True), "is damaged")):
             with self.subTest(why):
                 self.logo.unlink(missing_ok=True)

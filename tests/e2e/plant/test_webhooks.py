@@ -121,8 +121,9 @@ class Webhooks(Receivers):
             count = len(receiver.events)
             answer = daemon.post("/v1/connections/mes/replay", {"from": place})
             self.assertEqual((answer.status, answer.json.get("name")), (200, "mes"), answer)
-            receiver.wait(lambda: len(receiver.events) >= count + len(expected))
-            self.assertEqual(receiver.ids()[count:], expected)
+            receiver.wait(lambda: receiver.ids()[count:][-len(expected):] == expected)
+            # One whose answer was still under way comes once more.
+            self.assertIn(receiver.ids()[count:-len(expected)], ([], receiver.ids()[count - 1:count]))
 
         replayed(ids[3], ids[3:])
         replayed(note, [note])
