@@ -130,6 +130,7 @@ async function changeLanguage(event) {
 }
 
 await loadLanguage();
+document.documentElement.lang = language;
 onKeyNeeded(enterKey);
 document.getElementById('language').addEventListener('change', changeLanguage);
 document.getElementById('skip').addEventListener('click', (event) => {

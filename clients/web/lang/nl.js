@@ -202,9 +202,9 @@ export default {
   'recent.moved': 'van een ander onderdeel',
   'recent.not_yet': 'De laatste waarde is nog niet opgeslagen: daarna kan ze gecorrigeerd worden.',
   'recent.correct': 'Andere waarde',
-  'recent.correct_this': 'De waarde {mm} mm corrigeren',
+  'recent.correct_this': 'Andere waarde in plaats van {mm} mm',
   'recent.correct_part': 'Ander onderdeel',
-  'recent.correct_part_this': 'Onderdeel {part} corrigeren',
+  'recent.correct_part_this': 'Ander onderdeel dan {part}',
 
   'view.gauges': 'Meetmiddelen',
   'gauges.link': 'Meetmiddelen en meetmiddelstudies',

@@ -154,10 +154,10 @@ export function mount(main, route) {
     timer = list.isBusy ? setTimeout(renew, GATHER_MS) : 0;
     if (timer || location.hash !== address) return;
     if (isInDoubt && !isAnew) {
-      const isOld = await list.isOld(leaving.signal).catch(() => false);
+      const isOld = await list.isOld(leaving.signal).catch(() => null);
+      isInDoubt = isOld === null;
       isAnew ||= isOld;
     }
-    isInDoubt = false;
     if (leaving.signal.aborted || location.hash !== address) return;
     if (isAnew) {
       isAnew = false;
