@@ -167,6 +167,11 @@ std::vector<std::pair<std::string_view, std::string>> other_fields(const app::Me
   return fields;
 }
 
+/// Other standards have no classes of a table: their limits and quantity are in the file.
+std::string_view table_class_of(const app::Measurement& m) {
+  return m.basis == app::LimitsBasis::Standard ? "" : m.class_name.value_or("");
+}
+
 }  // namespace
 
 std::unique_ptr<MeasurementFile> make_dfq_file(aqdef::DfqOptions options) {
@@ -197,7 +202,7 @@ Result<void> add_to_dfq(aqdef::DfqWriter& writer, const app::Measurement& m) {
   if (m.has_nominal) value.nominal = m.nominal_size;
   if (m.has_upper_limit()) value.limits.upper = m.upper_limit();
   if (m.has_lower_limit()) value.limits.lower = m.lower_limit();
-  value.class_name = m.class_name.value_or("");
+  value.class_name = table_class_of(m);
   if (m.has_feature()) value.feature = word(m.feature);
   if (m.quantity && (m.quantity != gauging::Quantity::Diameter || !m.is_judged())) {
     value.quantity = word(*m.quantity);
@@ -225,7 +230,7 @@ Result<void> add_to_qif(qif::QifWriter& writer, const app::Measurement& m) {
   if (m.has_nominal) value.nominal = m.nominal_size;
   if (m.has_upper_limit()) value.upper = m.upper_limit();
   if (m.has_lower_limit()) value.lower = m.lower_limit();
-  value.class_name = m.class_name.value_or("");
+  value.class_name = table_class_of(m);
   value.is_iso286 = m.basis == app::LimitsBasis::Iso286;
   value.quantity = m.quantity.value_or(gauging::Quantity::Diameter);
   if (m.has_feature()) value.feature = word(m.feature);

@@ -196,6 +196,22 @@ class CommandLine(Folders):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual([(row["verdict"], round(row["degrees_of_freedom"])) for row in second.stored()], [(verdict, 89) for verdict in there])
 
+    def test_sizes_of_other_standards_come_in_again(self):
+        first = self.daemon().start()
+        for given in ({"designation": "R5 ISO 2768-m", "measured_mm": "5.6", "inside_corner": True}, {"designation": "C2 ISO 2768-f", "measured_mm": "2.1"},
+                      {"designation": "25 ISO 2768-m", "feature": "hole", "measured_mm": "25.1"}, {"designation": "M10-6g", "measured_mm": "9"}):
+            self.assertEqual(first.measure(given).status, 201, given)
+        names = ("quantity", "nominal_mm", "feature", "inside_corner", "verdict")
+        there = [[row.get(name) for name in names] for row in first.stored()]
+        for kind in ("dfq", "qif"):
+            path = self.root / f"again.{kind}"
+            path.write_bytes(first.get(f"/v1/measurements?format={kind}").body)
+            second = self.daemon().start()
+            done = subprocess.run([FITGAUGE, "import", path, "--server", f"http://127.0.0.1:{second.port}", "--state", self.root / kind, "--time-zone", "UTC"],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual(done.stderr, "", kind)
+            self.assertEqual([[row.get(name) for name in names] for row in second.stored()], there, kind)
+
 
 class Out(Folders):
     def out(self, daemon, folder, **more):
