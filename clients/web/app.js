@@ -130,7 +130,7 @@ async function changeLanguage(event) {
 }
 
 await loadLanguage();
-document.documentElement.lang = language;
+document.documentElement.lang = language; // of the frame, which is there before the first view
 onKeyNeeded(enterKey);
 document.getElementById('language').addEventListener('change', changeLanguage);
 document.getElementById('skip').addEventListener('click', (event) => {

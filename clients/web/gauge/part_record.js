@@ -5,6 +5,9 @@ import { countOf, isUnverified } from '../verdict.js';
 
 export const WORST_FIRST = ['reject', 'rework', 'indeterminate', 'good'];
 const rank = ({ verdict }) => WORST_FIRST.indexOf(verdict);
+/** The values that are not good, of each name the worst, then the first; a value without a name stands alone. */
+const worstOfEach = (values) => values.filter((one, i) => one.verdict !== 'good'
+  && !values.some((other, j) => other.name && other.name === one.name && (rank(other) - rank(one) || j - i) < 0));
 
 const AGAIN_MS = 5000;
 
@@ -48,16 +51,17 @@ export class PartRecord {
   /**
    * How a part is, by its worst value, of this station or of others: {part, verdict, bad, count, newest, unverified, provisional}; `away` as the service has not
    * answered, `storing` while it is asked.
-   * @param own its values in force here, as {name, value, verdict}: of a name the service counts another one that was measured later
+   * @param own its values in force here, as {name, value, verdict}: of a name another one that was measured later takes its place, unless the service counts both
    */
   result(part, plan, own) {
     const isStored = own.every(({ value }) => value.record);
     const others = isStored && part && !isFolded(part) ? this.#others(part, plan, own) : [];
     const counted = new Set(this.#found?.characteristics.map(({ measurement_id: id }) => id));
-    const measured = [...own.filter(({ name, value }) => counted.has(value.record?.id) || !others?.some((other) => other.name === name && timeOf(other.value) >= timeOf(value))), ...others ?? []];
+    const isReplaced = ({ name, value }) => others?.some((other) => other.name === name && timeOf(other.value) >= timeOf(value));
+    const measured = [...own.filter((one) => counted.has(one.value.record?.id) || !isReplaced(one)), ...others ?? []];
     const verdict = WORST_FIRST.find((word) => measured.some((each) => each.verdict === word));
     const newest = measured.reduce((one, other) => (timeOf(other.value) > timeOf(one.value) ? other : one));
-    return { part, verdict, bad: measured.filter((each, i) => each.verdict !== 'good' && !measured.some((other, j) => other.name && other.name === each.name && (rank(other) - rank(each) || j - i) < 0)), count: countOf(measured.map(({ name }) => name)), newest, unverified: measured.some(({ value: { record } }) => record && isUnverified(record)), provisional: !isStored || others === null || isFolded(part) ? 'away' : others ? undefined : 'storing' };
+    return { part, verdict, bad: worstOfEach(measured), count: countOf(measured.map(({ name }) => name)), newest, unverified: measured.some(({ value: { record } }) => record && isUnverified(record)), provisional: !isStored || others === null || isFolded(part) ? 'away' : others ? undefined : 'storing' };
   }
 
   /** The values of others; undefined while they are asked for, null where there was no answer. */
