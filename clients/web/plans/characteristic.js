@@ -4,7 +4,7 @@ import { getJson, keyInUse, request, url } from '../api.js';
 import { freshId, h, refill } from '../dom.js';
 import { Decimal, parseMeasured } from '../exact.js';
 import { ownLimits } from '../gauge/plan.js';
-import { explain, t } from '../i18n.js';
+import { explain, has, t } from '../i18n.js';
 import { limitsText } from '../verdict.js';
 import { KINDS, kindOf, LIMITS, sizeMembers, sizeTyped } from './sizes.js';
 import { iconButton } from './sorting.js';
@@ -21,7 +21,7 @@ const textOf = (value) => value;
 const MORE = {
   frequency: { read: textOf, hint: true }, subgroup_size: { read: numberOf }, count: { read: numberOf },
   size_operator: { read: textOf }, rule: { read: textOf, choices: RULES }, uncertainty_um: { read: numberOf }, coverage_factor: { read: numberOf },
-  inside_corner: { read: (text) => text === 'true', choices: ['true'], said: () => t('schema.yes') },
+  inside_corner: { read: (text) => ({ true: true, false: false })[text] ?? text, choices: ['true'], said: (word) => ({ true: t('schema.yes'), false: t('schema.no') })[word] ?? word },
   reaction: { read: textOf, area: true }, catalogue: { read: textOf, list: true }, picture: { read: textOf, list: true },
 };
 const OWN = ['name', 'gauge', ...Object.keys(MORE), ...LIMITS, 'feature', 'quantity'];
@@ -66,9 +66,9 @@ export class Characteristic {
     const input = (attributes = {}) => h('input', { type: 'text', autocomplete: 'off', spellcheck: 'false', ...attributes });
     const choice = (words, text) => h('select', words.map((value) => h('option', { value }, text(value))));
     const control = (name) => {
-      const { area, choices, list, said = (word) => t(`rule.${word}`) } = MORE[name];
+      const { area, choices, list, said = (word) => (has(`rule.${word}`) ? t(`rule.${word}`) : word) } = MORE[name];
       if (area) return h('textarea', { rows: 2 });
-      return choices ? choice(['', ...choices], (word) => (word ? said(word) : '–')) : input(list && { list: lists[name] });
+      return choices ? choice([...new Set(['', ...choices, this.#typed(name)])], (word) => (word ? said(word) : '–')) : input(list && { list: lists[name] });
     };
     this.limits = h('output.limits-said');
     this.aside = h('p.aside.said');

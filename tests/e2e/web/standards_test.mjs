@@ -160,4 +160,20 @@ describe('the numbers of other standards', () => {
     }
     page = await open(browser, daemon, '#/tables');
   });
+
+  it('of an inside corner stand in the form of a plan and in its table, where another word is refused', async () => {
+    await daemon.send('PUT', '/v1/plans/R-9', { characteristics: [{ name: 'groove', designation: 'R5 ISO 2768-m', inside_corner: true }] });
+    page = await open(browser, daemon, '#/plans/R-9');
+    await page.click('.characteristic .icon.more');
+    const corner = page.locator('.of-inside_corner select');
+    assert.equal(await corner.inputValue(), 'true');
+    await corner.selectOption('');
+    await page.click('.editor button[type="submit"]');
+    await page.waitForFunction(() => document.querySelector('.done')?.textContent.includes('Plan R-9 is stored'));
+    assert.deepEqual((await daemon.json('/v1/plans/R-9')).characteristics, [{ name: 'groove', designation: 'R5 ISO 2768-m' }]);
+    await page.setInputFiles('#plan-file', { name: 'more.csv', mimeType: '', buffer: Buffer.from('name;designation;inside_corner\nedge;R2 ISO 2768-m;true\nother;R3 ISO 2768-m;ja\n') });
+    await page.waitForFunction(() => document.querySelectorAll('.characteristics > li').length === 3);
+    await page.click('.editor button[type="submit"]');
+    await page.waitForFunction(() => document.querySelector('.characteristics > li:nth-child(3) .of-inside_corner .note')?.textContent.trim());
+  });
 });
