@@ -21,6 +21,17 @@ BUILT_ONLY = {ROOT / "README.md", *(ROOT / "docs/tutorial").glob("*.md")}
 LANGUAGES = {"sh", "console", "python", "json", "ini", "toml", "nginx", "mermaid", ""}
 
 
+def prose(path):
+    """The text of a page without its blocks of code."""
+    return re.sub(r"```.*?```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+
+
+def anchors(path):
+    """What a link can name in a page: its headings in small letters, without punctuation, with hyphens for blanks."""
+    return {re.sub(r"[^\w -]", "", re.sub(r"\]\([^)]*\)", "", heading).lower()).replace(" ", "-")
+            for heading in re.findall(r"^#+ +(.*?) *$", prose(path), re.MULTILINE)}
+
+
 class Reference(DaemonTest):
     def test_the_reference_pages_are_what_the_service_says(self):
         done = subprocess.run([sys.executable, ROOT / "scripts/docs", "--check", "--daemon", FITGAUGED],
@@ -86,11 +97,23 @@ class Commands(unittest.TestCase):
                 self.assertRegex(text, r"\A# [^\n]+\n\nFor [^.]+\.\s(?s:.{0,200}?)At\sthe\send\s", "its reader and result")
                 self.assertEqual(faults, 1)
 
-    def test_links_lead_to_files(self):
+    def test_links_lead_to_files_and_headings(self):
+        count = 0
         for path in [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "clients").glob("*/README.md")]:
-            text = re.sub(r"```.*?```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
-            for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", text):
-                self.assertTrue((path.parent / target).exists(), f"{path.name}: {target}")
+            for target, heading in re.findall(r"\]\(([^)#:]*)(?:#([^)]*))?\)", prose(path)):
+                there = path.parent / target if target else path
+                self.assertTrue(there.exists(), f"{path.name}: {target}")
+                if heading:
+                    self.assertIn(heading, anchors(there), f"{path.name}: {target}")
+                    count += 1
+        self.assertGreater(count, 30)
+
+    def test_each_integration_has_the_same_headings(self):
+        for name in ("webhooks", "mqtt", "sparkplug", "folders", "mtconnect", "controls"):
+            headings = re.findall(r"^## (.*)$", prose(ROOT / f"docs/guide/{name}.md"), re.MULTILINE)
+            with self.subTest(name):
+                self.assertEqual((headings[:3], headings[-1]), (["What you get", "Set it up", "Check that it works"],
+                                                                "If something goes wrong"))
 
     def test_drawings_are_shown_and_legible_in_both_modes(self):
         pages = "".join(path.read_text(encoding="utf-8") for path in DOCUMENTS)
