@@ -49,9 +49,10 @@ set(CPACK_PACKAGE_NAME fitgauge)
 set(CPACK_PACKAGE_CONTACT "${FITGAUGE_MAINTAINER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "ISO 286 limits, gauging verdicts and probe programs as a service")
 set(CPACK_PACKAGE_DESCRIPTION
-"fitgauged answers over HTTP what limits a designation such as 25 H7 has, judges
-measured diameters, keeps them durably in SQLite, and runs Klartext probe
-programs on a simulated machine. fitgauge is its command line.")
+"The service fitgauged looks up the limits of a designation such as 25 H7,
+judges measured diameters, stores them in SQLite, and runs HEIDENHAIN probe
+programs on a simulated machine. It has a REST API and a web page. fitgauge is
+its command line.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

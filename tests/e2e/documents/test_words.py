@@ -33,7 +33,7 @@ def literals(source):
 
 class Words(unittest.TestCase):
     def test_documents(self):
-        for path in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "clients").glob("*/README.md"),
+        for path in [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "clients").glob("*/README.md"),
                      *(ROOT / "docs/man").glob("*.[18]")]:
             if path.name not in LEFT_OUT and path.parent.name not in GENERATED:
                 with self.subTest(path.relative_to(ROOT)):
