@@ -3,7 +3,7 @@
 import { h, refill } from '../dom.js';
 import { number, t } from '../i18n.js';
 import { keepBreaks, keptBreaks, readBreaks, toggleBreak } from './breaks.js';
-import { fileName, readFile, relative } from './disk.js';
+import { fileName } from './disk.js';
 import { placeText } from './findings.js';
 import { Steps } from './steps.js';
 
@@ -27,7 +27,7 @@ export class StepPanel {
       this.note);
     this.showBreaks();
     this.#say();
-    this.#drawTimes().catch(() => {});
+    this.#drawTimes();
   }
 
   /** The block of a move. */
@@ -86,16 +86,13 @@ export class StepPanel {
     else this.goTo(found);
   }
 
-  /** How long each tool was in the spindle, by the programs as they are on the disk. */
-  async #drawTimes() {
-    const { programs } = this.steps.trace;
-    const texts = new Map(await Promise.all([...new Set(programs.concat(this.steps.blocks.map(({ program }) => program)))].map(async (path) =>
-      [path, ((await readFile(relative(path)).catch(() => ({}))).text ?? '').split(/\r?\n/)])));
-    const times = this.steps.toolTimes((path, line) => texts.get(path)?.[line - 1]);
+  /** How long each tool was in the spindle. */
+  #drawTimes() {
+    const times = this.steps.toolTimes();
     const seconds = (value) => `${number(value.toFixed(1))} s`;
     const kinds = ['rapid', 'feed', 'arc', 'probe'].filter((kind) => times.some((one) => one.seconds[kind] > 0));
     refill(this.times, h('div.wide', { tabindex: 0, role: 'region', 'aria-label': t('steps.times') }, h('table', h('caption', t('steps.times')),
       h('thead', h('tr', h('th', { scope: 'col' }, t('field.tool')), kinds.map((kind) => h('th.number', { scope: 'col' }, t(`programs.kind.${kind}`))), h('th.number', { scope: 'col' }, t('steps.total')))),
-      h('tbody', times.map((one) => h('tr', h('th', { scope: 'row' }, one.tool ?? '–'), kinds.map((kind) => h('td.number', seconds(one.seconds[kind]))), h('td.number', seconds(one.total))))))));
+      h('tbody', times.map((one) => h('tr', h('th', { scope: 'row' }, one.tool || '–'), kinds.map((kind) => h('td.number', seconds(one.seconds[kind]))), h('td.number', seconds(one.total))))))));
   }
 }

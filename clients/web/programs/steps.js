@@ -2,10 +2,6 @@
 
 import { KINDS } from '../figures/trace.js';
 
-const CALL = /^\s*(?:N?\d+\s+)?\/?\s*TOOL\s+CALL\s+("[^"]*"|Q[LRS]?\d+|\d+(?:\.\d+)?)/i;
-/** G51 and G99 name a tool without calling it: it is made ready, or defined. */
-const CALL_ISO = /^\s*(?:N?\d+\s+)?(?![^(;]*\bG(?:51|99)\b)[^(;]*?\bT(\d+)\b/i;
-
 /** The names of parameters in a text, each once, at most as many as a run watches. */
 export function parametersIn(text, most = 32) {
   return [...new Set([...text.replace(/;.*$/gm, '').matchAll(/\bQ[LRS]?\d+\b/gi)].map(([name]) => name.toUpperCase()))].slice(0, most);
@@ -39,15 +35,11 @@ export class Steps {
     return -1;
   }
 
-  /** [{tool, seconds: by kind of move, total}] in the order of their first use. @param lineOf the text of a line of a program, or undefined */
-  toolTimes(lineOf) {
+  /** [{tool, seconds: by kind of move, total}] in the order of their first use. */
+  toolTimes() {
     const tools = new Map();
-    let tool = null;
     let next = 0;
-    this.blocks.forEach(({ line, program, values }, i) => {
-      const text = lineOf(program, line) ?? '';
-      const called = (CALL.exec(text) ?? (/\.i$/i.test(program) && CALL_ISO.exec(text)) ?? [])[1];
-      if (called) tool = /^Q/i.test(called) ? String(values[called.toUpperCase()] ?? called) : called.replace(/^"|"$/g, '');
+    this.blocks.forEach(({ tool }, i) => {
       for (; next <= this.lastMove[i]; ++next) {
         const own = tools.get(tool) ?? { tool, seconds: Object.fromEntries(KINDS.map((kind) => [kind, 0])), total: 0 };
         const { kind, seconds } = this.trace.at(next);

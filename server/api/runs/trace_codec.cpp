@@ -80,7 +80,8 @@ void write_block(std::string& out, const app::TracePlace& place, std::size_t mov
                  std::span<const interpreter::ParameterValue> values) {
   JsonWriter json(out);
   json.begin_object().key("block").value(*place.block).member("line", place.line);
-  json.member("program", place.program).member("moves", moves).key("values");
+  json.member("program", place.program).member("moves", moves);
+  json.member("tool", place.tool).key("values");
   write_parameters(json, values);
   json.end_object();
 }
@@ -209,6 +210,8 @@ void add_trace_schema(Schemas& schemas) {
        {"line", schema::count(), ""},
        {"program", schema::text(), ""},
        {"moves", schema::count(), "Number of moves of the run after the block"},
+       {"tool", schema::count(),
+        "Number of the tool in the spindle after the block, 0 without one"},
        {"values", schema::map(R"({"type":["number","string"]})"),
         "Values of the watched parameters after the block; undefined ones are absent"}});
   schemas.push_back(

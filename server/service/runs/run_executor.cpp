@@ -62,7 +62,7 @@ class Follower final : public interpreter::RunObserver {
   /// The block, or the cycle, that commands the machine now.
   TracePlace place() const {
     if (place_.program == nullptr) return {};  // a move before the first block
-    return {place_.path(), place_.line(), place_.block(), cycle_};
+    return {place_.path(), place_.line(), place_.block(), cycle_, machine_->state().tool.number};
   }
 
  private:

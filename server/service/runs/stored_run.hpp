@@ -84,6 +84,7 @@ struct TracePlace {
   std::uint32_t line = 0;
   std::optional<std::uint32_t> block{};  ///< its number as written
   int cycle = 0;                         ///< that commands the machine, 0 for the block itself
+  int tool = 0;                          ///< in the spindle, 0 without one
 };
 
 /// Blocks of a watched run, as text.

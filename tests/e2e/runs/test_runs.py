@@ -244,6 +244,16 @@ class Runs(ControlTest):
         self.assertEqual([(e["pointer"], e["code"]) for e in refused["errors"]],
                          [("/watch/1", "field.invalid"), ("/watch/2", "field.type")])
 
+    def test_a_block_of_the_trace_has_the_tool_in_the_spindle(self):
+        self.upload("TOOLS.I", '%TOOLS G71 *\nN10 Q1 = 7 *\nN20 QS1 = "T8" *\nN30 T5 G17 S900 *\nN40 G62 T0.05 *\n'
+                    'N50 G51 T8 *\nN60 TQ1 G17 *\nN70 T"D10" G17 *\nN99999999 %TOOLS G71 *\n')
+        run = self.daemon.post("/v1/runs", {"program": "TNC:\\TOOLS.I", "watch": ["Q1"], "setup": {"machine": {"tools": [
+            {"number": number, "name": f"D{number + 2}", "length_mm": 80, "radius_mm": 4} for number in (5, 7, 8)]}}}).json
+        self.assertEqual(run["messages"], [])
+        blocks = self.daemon.get(f"/v1/runs/{run['id']}/trace").json["blocks"]
+        self.assertEqual([(each["block"], each["tool"]) for each in blocks],
+                         [(10, 0), (20, 0), (30, 5), (40, 5), (50, 5), (60, 7), (70, 8), (99999999, 8)])
+
     def test_blocks_of_a_long_watch_are_counted_beyond_4_mib(self):
         program = self.upload_program("long", "Q1 = 0", "LBL 1", "Q1 = Q1 + 1", "FN 12: IF +Q1 LT +50000 GOTO LBL 1")
         run = self.daemon.post("/v1/runs", {"program": program, "watch": ["Q1"]}).json

@@ -63,6 +63,7 @@ describe('breakpoints', () => {
   it('stop at a block, at a change, and when a condition becomes true', () => {
     assert.deepEqual(all('3'), [3]);
     assert.deepEqual(all('a.h:1, B.H:2'), [1]);
+    assert.deepEqual(all('MY SUB.H:1, a.h : 1'), [1]);
     assert.deepEqual(all('Q1 > 7.5'), [2]);
     assert.deepEqual(all('Q1 = 10'), [2, 4]);
     assert.deepEqual(all('QS1'), [0, 2]);
@@ -73,11 +74,10 @@ describe('breakpoints', () => {
 });
 
 describe('the time of a tool', () => {
-  it('begins with its call: in DIN/ISO, a tool that is defined or made ready is not called', () => {
-    const lines = ['N10 T5 G17 S900', 'N20 G00 X+0', 'N30 G51 T7', 'N40 G99 T8 L+0 R+5', 'N50 G01 X+9', 'N60 T7 G17', 'N70 G00 Z+0'];
-    const blocks = [0, 1, 1, 1, 2, 2, 3].map((moves, i) => ({ block: i, line: i + 1, program: 'TNC:\\A.I', moves, values: {} }));
+  it('is that of the moves of its blocks', () => {
+    const blocks = [[0, 5], [1, 5], [1, 5], [2, 5], [2, 7], [3, 7]].map(([moves, tool], i) => ({ block: i, line: i + 1, program: 'TNC:\\A.I', moves, tool, values: {} }));
     const steps = new Steps({ length: 3, blocks, at: () => ({ kind: 'rapid', seconds: 1 }) });
-    assert.deepEqual(steps.toolTimes((_, line) => lines[line - 1]).map(({ tool, total }) => [tool, total]), [['5', 2], ['7', 1]]);
+    assert.deepEqual(steps.toolTimes().map(({ tool, total }) => [tool, total]), [[5, 2], [7, 1]]);
   });
 });
 
