@@ -3,7 +3,7 @@
 import { readJson, store } from '../stored.js';
 import { fileName, relative } from './disk.js';
 
-const PLACE = /^(?:([^\s:]+)\s*:\s*)?(\d+)$/;
+const PLACE = /^(?:([^:]+?)\s*:\s*)?(\d+)$/;
 const CONDITION = /^(Q[LRS]?\d+)(?:\s*(<=|>=|<>|!=|==?|<|>)\s*(.+))?$/i;
 const COMPARE = {
   '<': (one, other) => one < other, '>': (one, other) => one > other, '<=': (one, other) => one <= other, '>=': (one, other) => one >= other,
