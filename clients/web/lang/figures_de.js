@@ -3,7 +3,7 @@ export default {
   'study.figure.xbar': 'Mittelwerte je Prüfer und Teil, mm',
   'study.figure.r': 'Spannweiten je Prüfer und Teil, mm',
   'study.averages': '{count} von {all} Mittelwerten liegen außerhalb der Grenzen: Das Messmittel unterscheidet Teile.',
-  'study.averages_few': '{count} von {all} Mittelwerten liegen außerhalb der Grenzen; die Hälfte ist gefordert.',
+  'study.averages_few': '{count} von {all} Mittelwerten liegen außerhalb der Grenzen; mindestens die Hälfte ist gefordert.',
   'study.ranges': 'Jede Spannweite liegt in ihren Grenzen: Die Prüfer messen gleich.',
   'study.ranges_out': '{count} Spannweiten liegen über der Grenze (Quadrate): Ursache klären und diese neu messen.',
   'study.chart_limits': 'Grenzen {lower} bis {upper} mm.',
@@ -40,5 +40,5 @@ export default {
   'offset.wear': 'Verschleiß je Teil',
   'offset.scatter': 'Streuung {um} µm',
   'offset.band': 'Totband',
-  'offset.how': 'Aus {count} Werten. Nur ein Vorschlag: Nichts wird verstellt.',
+  'offset.how': 'Aus {count} Werten. Nur ein Vorschlag: An der Maschine ändert sich nichts.',
 };

@@ -2,10 +2,10 @@
 export default {
   'study.figure.xbar': 'Averages by operator and part, mm',
   'study.figure.r': 'Ranges by operator and part, mm',
-  'study.averages': '{count} of {all} averages lie beyond the limits: the gauge tells parts apart.',
-  'study.averages_few': '{count} of {all} averages lie beyond the limits; half of them is asked for.',
-  'study.ranges': 'Every range lies within its limits: the operators measure alike.',
-  'study.ranges_out': '{count} ranges lie beyond the limit (squares): find out why, and measure those again.',
+  'study.averages': '{count} of {all} averages are beyond the limits: the gauge tells parts apart.',
+  'study.averages_few': '{count} of {all} averages are beyond the limits; at least half of them must be.',
+  'study.ranges': 'Every range is within its limits: the operators measure alike.',
+  'study.ranges_out': '{count} ranges are beyond the limit (squares): find the cause, and measure these again.',
   'study.chart_limits': 'Limits {lower} to {upper} mm.',
   'study.no_charts': 'The charts of averages and ranges need two trials or more, equally many of each part and operator.',
   'study.charts_failed': 'The charts of averages and ranges are missing: {reason}',
@@ -40,5 +40,5 @@ export default {
   'offset.wear': 'Wear a part',
   'offset.scatter': 'scatter {um} µm',
   'offset.band': 'Dead band',
-  'offset.how': 'From {count} values. A proposal only: nothing is moved.',
+  'offset.how': 'From {count} values. Only a proposal: it changes nothing on the machine.',
 };

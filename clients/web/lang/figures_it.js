@@ -3,7 +3,7 @@ export default {
   'study.figure.xbar': 'Medie per operatore e pezzo, mm',
   'study.figure.r': 'Escursioni per operatore e pezzo, mm',
   'study.averages': '{count} medie su {all} sono oltre i limiti: lo strumento distingue i pezzi.',
-  'study.averages_few': '{count} medie su {all} sono oltre i limiti; ne è richiesta la metà.',
+  'study.averages_few': '{count} medie su {all} sono oltre i limiti; ne è richiesta almeno la metà.',
   'study.ranges': 'Ogni escursione è nei suoi limiti: gli operatori misurano allo stesso modo.',
   'study.ranges_out': '{count} escursioni sono oltre il limite (quadrati): trovarne la causa e ripetere quelle misure.',
   'study.chart_limits': 'Limiti da {lower} a {upper} mm.',
@@ -40,5 +40,5 @@ export default {
   'offset.wear': 'Usura per pezzo',
   'offset.scatter': 'dispersione {um} µm',
   'offset.band': 'Banda morta',
-  'offset.how': 'Da {count} valori. Solo una proposta: nulla viene mosso.',
+  'offset.how': 'Da {count} valori. Solo una proposta: sulla macchina non cambia nulla.',
 };

@@ -3,7 +3,7 @@ export default {
   'study.figure.xbar': 'Gemiddelden per operator en onderdeel, mm',
   'study.figure.r': 'Spreidingsbreedten per operator en onderdeel, mm',
   'study.averages': '{count} van {all} gemiddelden liggen buiten de grenzen: het meetmiddel onderscheidt onderdelen.',
-  'study.averages_few': '{count} van {all} gemiddelden liggen buiten de grenzen; de helft wordt gevraagd.',
+  'study.averages_few': '{count} van {all} gemiddelden liggen buiten de grenzen; minstens de helft is vereist.',
   'study.ranges': 'Elke spreidingsbreedte ligt binnen haar grenzen: de operators meten gelijk.',
   'study.ranges_out': '{count} spreidingsbreedten liggen boven de grens (vierkanten): zoek de oorzaak en meet die opnieuw.',
   'study.chart_limits': 'Grenzen {lower} tot {upper} mm.',
@@ -40,5 +40,5 @@ export default {
   'offset.wear': 'Slijtage per onderdeel',
   'offset.scatter': 'spreiding {um} µm',
   'offset.band': 'Dode band',
-  'offset.how': 'Uit {count} waarden. Alleen een voorstel: er wordt niets versteld.',
+  'offset.how': 'Uit {count} waarden. Alleen een voorstel: aan de machine verandert niets.',
 };

@@ -126,9 +126,9 @@ describe('a part that is handled elsewhere', () => {
   it('says that nobody can ask about a part whose name a browser folds', async () => {
     await station('..');
     for (const value of ['25.01', '40.01', '120.1']) await line(value);
-    await page.waitForFunction(() => /GoodPart \.\.All 3 measuredNo browser can ask about part/.test(document.querySelector('.verdict[data-provisional]')?.textContent));
+    await page.waitForFunction(() => /GoodPart \.\.All 3 measuredNo browser can open an address with the part/.test(document.querySelector('.verdict[data-provisional]')?.textContent));
     await page.goto(`${daemon.url}/#/parts?part_id=..`);
-    await page.waitForFunction(() => /No browser can ask about part/.test(document.querySelector('.parts .note')?.textContent));
+    await page.waitForFunction(() => /No browser can open an address with the part/.test(document.querySelector('.parts .note')?.textContent));
     await close(page);
   });
 

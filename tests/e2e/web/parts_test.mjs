@@ -95,7 +95,7 @@ describe('the parts', () => {
     await picture(page, 'parts-verdicts');
     await page.click('.records a >> text=V-HALF');
     await page.waitForFunction(() => /V-HALF · Not complete/.test(document.querySelector('.part-verdict')?.textContent));
-    assert.match(await page.textContent('.part-verdict'), /1 measured · held against plan 4713-A.*Not measured yet: v-slot\..*Measure it/);
+    assert.match(await page.textContent('.part-verdict'), /1 measured · checked against plan 4713-A.*Not measured yet: v-slot\..*Measure it/);
     assert.deepEqual(await findings(page), []);
     await page.fill('[name="part_id"]', 'V-BAD');
     await page.press('[name="part_id"]', 'Enter');
@@ -132,7 +132,7 @@ describe('the parts', () => {
     for (const [characteristic, go_gauge] of [['h-bore', 'fails'], ['h-bore', undefined], ['h-pin', 'passes']]) await daemon.send('POST', '/v1/measurements', { designation: '25 H7(E)', measured_mm: '25.01', part_id: 'H-3', characteristic, go_gauge });
     page = await open(browser, daemon, '#/parts?part_id=H-3');
     await page.waitForFunction(() => document.querySelector('.part-verdict .headline')?.textContent === 'H-3 · Rework');
-    assert.deepEqual(await page.$$eval('.part-verdict p:not(.headline, .aside)', (all) => all.map(({ textContent }) => textContent)), ['2 measured · held against plan 4716-A', 'The GO gauge does not pass: h-bore.']);
+    assert.deepEqual(await page.$$eval('.part-verdict p:not(.headline, .aside)', (all) => all.map(({ textContent }) => textContent)), ['2 measured · checked against plan 4716-A', 'The GO gauge does not pass: h-bore.']);
   });
 
   it('show what is stored, corrected and noted elsewhere', async () => {
@@ -227,7 +227,7 @@ describe('the parts', () => {
     await page.fill('[name="part_id"]', 'F-1');
     await page.press('[name="part_id"]', 'Enter');
     await page.waitForFunction(() => document.querySelector('.part-verdict .headline')?.textContent === 'F-1');
-    assert.match(await page.textContent('.part-verdict'), /2 measured · not held against a plan/);
+    assert.match(await page.textContent('.part-verdict'), /2 measured · not checked against a plan/);
     assert.equal(await page.$('.part-verdict > .shape'), null);
   });
 

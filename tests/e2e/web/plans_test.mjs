@@ -467,7 +467,7 @@ describe('catalogues of causes and actions', () => {
     assert.equal(hashOf(page), '#/plans/C-2');
     await page.getByRole('button', { name: 'All plans' }).click();
     await storeIt();
-    await tell('Somebody else has changed catalogue c-two');
+    await tell('Somebody has changed catalogue c-two');
     assert.deepEqual((await catalogue('c-two')).causes, ['B']);
     await page.getByRole('button', { name: 'Read the stored catalogue' }).click();
     await page.waitForFunction(() => document.querySelector('.catalogues [aria-label="Causes"] input')?.value === 'B');

@@ -183,7 +183,7 @@ describe('a stored run', () => {
     await page.click('.run .of-more summary');
     await page.fill('[name="start_block"]', 'LBL 1');
     await page.click('.run button[type="submit"]');
-    await page.waitForFunction(() => /„LBL 1“ ist kein Satz/.test(document.querySelector('.run .note').textContent));
+    await page.waitForFunction(() => /„LBL 1“ ist keine Satznummer/.test(document.querySelector('.run .note').textContent));
     await page.fill('[name="start_block"]', '99');
     await page.click('.run button[type="submit"]');
     await page.waitForFunction(() => /\/start_block/.test(document.querySelector('.run .note').textContent));

@@ -77,8 +77,8 @@ describe('a gauge', () => {
     const near = (found, wanted) => assert.ok(Math.abs(found - wanted) < 1e-4, `${found}, not ${wanted}`);
     [mean - 1.023 * range, mean + 1.023 * range, 0, 2.574 * range].forEach((wanted, i) => near(limits.flat()[i], wanted));
     const out = means.filter((value) => Math.abs(value - mean) > 1.023 * range).length;
-    assert.match(said[0], new RegExp(`^${out} of 30 averages lie beyond`));
-    assert.match(said[1], /^Every range lies within/);
+    assert.match(said[0], new RegExp(`^${out} of 30 averages are beyond`));
+    assert.match(said[1], /^Every range is within/);
     assert.deepEqual(await page.$$eval('.study-figures figure:nth-child(2) svg text[text-anchor="middle"]', (all) => all.map((text) => text.textContent)), OPERATORS);
     assert.match(await page.textContent('.study-figures figure:nth-child(2) .mark title'), new RegExp(`Kim · P1: ${means[0].toFixed(4)} mm`));
     assert.deepEqual(await findings(page), []);
