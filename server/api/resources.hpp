@@ -91,7 +91,7 @@ void add_documents_routes(Routes& add);
 void add_plans_routes(Routes& add);
 /// GET /v1/parts/{part}: the verdict of a part.
 void add_parts_routes(Routes& add);
-/// The plan that a part is held against, if one alone fits, and its characteristics without a
+/// The plan that a part is checked against, if one alone fits, and its characteristics without a
 /// value.
 struct PlanOfPart {
   std::optional<std::string> plan{};

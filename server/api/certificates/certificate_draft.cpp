@@ -334,8 +334,8 @@ std::string CertificateDraft::pdf(Timestamp made_at, const std::string& checkpoi
     if (has_verdict()) paper.worst = line;
   }
   if (plan_) {
-    paper.summary.push_back(plan_->plan ? fmt::format("Held against plan {}.", *plan_->plan)
-                                        : "Not held against a plan.");
+    paper.summary.push_back(plan_->plan ? fmt::format("Checked against plan {}.", *plan_->plan)
+                                        : "Not checked against a plan.");
   }
   if (plan_ && !plan_->missing.empty()) {
     paper.summary.push_back(

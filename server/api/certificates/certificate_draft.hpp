@@ -48,7 +48,7 @@ class CertificateDraft {
                   const certificate::Letterhead& letterhead);
 
  private:
-  /// A value, as far as the verdict on all needs it.
+  /// Fields of a value that the verdict of the report needs.
   struct Counted {
     Candidate candidate{};
     std::string id{};

@@ -134,7 +134,7 @@ void add_certificates_routes(Routes& add) {
            "Every value of the order, the part or both, in storage order, with limits, verdict, "
            "rule, uncertainty, gauge, machine, operator and the signed head of the log that has "
            "them; before them the verdict of all and the worst value, of a part also its plan and "
-           "what is missing of it, or that it is held against no plan. A tagged PDF, or JSON by "
+           "what is missing of it, or that no plan was used. A tagged PDF, or JSON by "
            "Accept; at most 10,000 values, whose records have at most 16 MiB. Simulated values are "
            "refused.",
        .parameters = parameters(),

@@ -236,8 +236,8 @@ void add_measurement_schemas(Schemas& schemas) {
              "Ids of the values that do not count: of their characteristic of a part another was "
              "measured later",
              false},
-            {"plan", schema::text(), "Plan that the part is held against; absent if it is none",
-             false},
+            {"plan", schema::text(),
+             "Plan that the part is checked against; absent if there is none", false},
             {"missing", schema::array(schema::text()),
              "Characteristics of the plan without a value; absent without `part_id`", false},
             {"gauges", schema::array(gauge), "Gauges, as in the records"},

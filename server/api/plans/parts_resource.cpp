@@ -68,7 +68,7 @@ struct Part {
 };
 void members(auto& v, const Part& part) {
   v.member("part_id", part.part);
-  v.optional("plan", part.plan, "The plan it is held against");
+  v.optional("plan", part.plan, "Plan that the part is checked against");
   v.member("verdict", part.verdict, kVerdict,
            "Worst verdict; null if a value is missing or none has limits");
   v.member("missing", part.missing,

@@ -54,7 +54,7 @@ class Certificates(DaemonTest):
         sheet = lambda query: self.daemon.get(f"/v1/certificates?{query}", Accept="application/json").json
         measure("a-bore", "25 H7", "25.01")
         text = self.flat("part_id=M-1")
-        self.assertIn("Held against plan 7-A. Missing of the plan: a-seat, a-slot.", text)
+        self.assertIn("Checked against plan 7-A. Missing of the plan: a-seat, a-slot.", text)
         self.assertEqual(len(re.findall(r"\bgood\b", text)), 2)  # in the summary and in its line, not as the verdict of the part
         self.assertEqual([sheet("part_id=M-1").get(name) for name in ("plan", "missing", "verdict")], ["7-A", ["a-seat", "a-slot"], None])
         self.assertFalse({"plan", "missing"} & sheet("order=WO-M").keys())
@@ -69,7 +69,7 @@ class Certificates(DaemonTest):
             self.daemon.request("PUT", f"/v1/plans/{plan}", {"characteristics": [
                 {"name": "c-bore", "designation": "25 H7"}, {"name": f"only-{plan}", "designation": "30 k6"}]})
         self.daemon.measure({"designation": "25 H7", "measured_mm": "25.01", "part_id": "M-2", "characteristic": "c-bore"})
-        self.assertIn("Not held against a plan.", self.flat("part_id=M-2"))
+        self.assertIn("Not checked against a plan.", self.flat("part_id=M-2"))
         sheet = self.daemon.get("/v1/certificates?part_id=M-2", Accept="application/json").json
         self.assertEqual((sheet.get("plan"), sheet["missing"]), (None, []))
 
