@@ -161,7 +161,7 @@ std::string zsh_completion(const CLI::App& app) {
 void add_stored(CLI::App& app, Action& chosen, const StoredKind& kind) {
   CLI::App* stored = app.add_subcommand(std::string(kind.command), std::string(kind.help));
   stored->require_subcommand(1);
-  add_words(*stored, "ls", "List the stored names", chosen, {}, 0,
+  add_words(*stored, "ls", fmt::format("List the names of the {}", kind.command), chosen, {}, 0,
             [&kind](const Context& context, const Words&) { return run_stored_ls(context, kind); });
   add_words(*stored, "put", fmt::format("Store {}: {} put m3 m3.json", kind.what, kind.command),
             chosen, {"name", "file"}, 2, [&kind](const Context& context, const Words& words) {
