@@ -108,6 +108,13 @@ class Signing(unittest.TestCase):
         self.assertEqual(checked.returncode, 1)
         self.assertIn("the signature of SHA256SUMS is bad", checked.stderr)
 
+    def test_a_missing_signature_is_found_if_there_is_a_key(self):
+        dist = self.copy()
+        (dist / "SHA256SUMS.asc").unlink()
+        checked = self.check(dist)
+        self.assertEqual(checked.returncode, 1)
+        self.assertIn("SHA256SUMS.asc is missing", checked.stderr)
+
     def test_a_signature_of_another_key_is_refused(self):
         other = self.signed("other", self.keys[1])
         self.assertEqual((other / "SHA256SUMS.asc").exists(), True)
@@ -132,7 +139,8 @@ class Signing(unittest.TestCase):
 
     def test_without_a_key_nothing_is_signed(self):
         plain = self.signed("plain")
-        self.assertEqual(self.check(plain).returncode, 0)
+        checked = self.check(plain)
+        self.assertEqual((checked.returncode, checked.stdout), (0, "not signed\n"))
         self.assertEqual([path.name for path in plain.rglob("*") if path.suffix in (".asc", ".gpg") or path.name == "InRelease"], [])
 
 
