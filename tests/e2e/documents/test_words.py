@@ -11,6 +11,10 @@ BANNED = re.compile(r"\b(any more|no longer|whoever|whatever|(?:is|are) told|rej
                     r"inspection certificates?|own columns?|columns? of the shop)\b", re.IGNORECASE)
 # Help: half sentences. Errors: idioms in place of what is wrong.
 RIDDLES = re.compile(r"  Of .*|[a-z], else \d+|when absent")
+# Words of the verdicts, and pairs of words for one thing, that a language keeps out of all its other texts.
+FOREIGN = {"de": r"Abweichungen in µm|[Bb]erichtig|Prüfstation|Prüfzeugnis|horchen|Mittlere Abweichung|Kleinstes Spiel|Aufbau\b",
+           "it": r"(?i)scart|ripresa|collaudo|reticolo|angoli spaziali|scostamento medio",
+           "nl": r"(?i)onbeslist|opstelling|\bkeuren|\bdelen\b|gemiddelde afwijking"}
 SPOKEN = re.compile(r"^(?:Of|The same)\b|^an? \w+ takes|is no (?:number|length|date|key)\b|stands? (?:twice|before|behind)|goes on behind|put back|"
                     r"does not (?:say|tell)|says '|which holds$|of its own\b|the other way round")
 # The words themselves stand in the first two; the others are for developers.
@@ -43,6 +47,15 @@ class Words(unittest.TestCase):
         for name in ("server/base/error_codes.inc", *(f"clients/web/lang/{part}.js" for part in ("en", "desk_en", "plans_en", "figures_en"))):
             self.assertEqual(found((ROOT / name).read_text(encoding="utf-8")), [], name)
 
+    def test_translations(self):
+        for language, banned in FOREIGN.items():
+            files = [path for path in (ROOT / "clients/web/lang").iterdir() if language in path.stem.split("_")]
+            texts = [pair for path in files
+                     for pair in re.findall(r"^  '([\w.-]+)': '(.*)',$", path.read_text(encoding="utf-8"), re.MULTILINE)]
+            self.assertGreater(len(texts), 900)
+            self.assertEqual([(key, text) for key, text in texts if re.search(banned, text)
+                              and key not in ("verdict.reject", "arrived.reject")], [])
+
     def help_of(self, *command):
         """The help of a program or command, and of every command below it."""
         text = subprocess.run([*command, "--help"], capture_output=True, text=True, check=True).stdout
@@ -74,3 +87,4 @@ class Words(unittest.TestCase):
         self.assertEqual(list(literals('  // "no text of this"\nfail("a plan takes "\n  "one part");')), ["a plan takes one part"])
         self.assertTrue(SPOKEN.search("a plan takes one part"))
         self.assertTrue(SPOKEN.search("Of the part, to 1e-9"))
+        self.assertTrue(re.search(FOREIGN["it"], "Medie e scarti"))
