@@ -69,7 +69,7 @@ class Mqtt final : public Outlet {
 std::optional<std::string> Mqtt::connect(const std::stop_token& stop) {
   if (link_.is_up()) return std::nullopt;
   if (auto failure = link_.connect(stop)) return failure;
-  link_.client().publish({.topic = options_.status_topic, .payload = "online", .retain = true});
+  link_.client().send({.topic = options_.status_topic, .payload = "online", .retain = true});
   return std::nullopt;
 }
 
@@ -141,7 +141,7 @@ Delivery Mqtt::publish(const Items& items, const std::stop_token& stop, const Co
 
 Mqtt::~Mqtt() {
   if (!link_.is_up()) return;
-  link_.client().publish({.topic = options_.status_topic, .payload = "offline", .retain = true});
+  link_.client().send({.topic = options_.status_topic, .payload = "offline", .retain = true});
   link_.client().leave();
 }
 

@@ -77,6 +77,7 @@ class MqttClient::Loop {
   int carry_out(const Order& order);
   void read_the_rest();
   void settle(int mid, int reason);
+  void settled(Ticket ticket, int outcome);
   void end(std::string why);
   template <class Change>
   void change(const Change& what) {
@@ -162,7 +163,11 @@ void MqttClient::Loop::settle(int mid, int reason) {
   const Ticket ticket = found->second;
   tickets_.erase(found);
   // 1 to 127 mean success, such as "no matching subscribers".
-  change([&] { client_.settled_.emplace(ticket, reason >= 128 ? reason : 0); });
+  settled(ticket, reason >= 128 ? reason : 0);
+}
+
+void MqttClient::Loop::settled(Ticket ticket, int outcome) {
+  if (ticket != 0) change([&] { client_.settled_.emplace(ticket, outcome); });
 }
 
 int MqttClient::Loop::connect() {
@@ -208,7 +213,7 @@ int MqttClient::Loop::carry_out(const Order& order) {
   if (done == MOSQ_ERR_INVAL || done == MOSQ_ERR_PAYLOAD_SIZE || done == MOSQ_ERR_MALFORMED_UTF8 ||
       done == MOSQ_ERR_OVERSIZE_PACKET || done == MOSQ_ERR_QOS_NOT_SUPPORTED ||
       done == MOSQ_ERR_RETAIN_NOT_SUPPORTED) {
-    change([&] { client_.settled_.emplace(order.ticket, kCannotBeSent); });
+    settled(order.ticket, kCannotBeSent);
     return MOSQ_ERR_SUCCESS;
   }
   if (done != MOSQ_ERR_SUCCESS) return done;
@@ -352,16 +357,18 @@ std::string MqttClient::failure() const {
 }
 
 template <class What>
-MqttClient::Ticket MqttClient::order(What what) {
+MqttClient::Ticket MqttClient::order(What what, bool has_outcome) {
   const std::lock_guard lock(mutex_);
-  orders_.push_back({++last_ticket_, std::move(what)});
+  const Ticket ticket = has_outcome ? ++last_ticket_ : 0;
+  orders_.push_back({ticket, std::move(what)});
   eventfd_write(event_, 1);
-  return last_ticket_;
+  return ticket;
 }
 
 MqttClient::Ticket MqttClient::publish(MqttMessage message) {
   return order(Publish{std::move(message)});
 }
+void MqttClient::send(MqttMessage message) { order(Publish{std::move(message)}, false); }
 MqttClient::Ticket MqttClient::subscribe(std::string topic, int qos) {
   return order(Subscribe{std::move(topic), qos});
 }
@@ -387,7 +394,7 @@ std::optional<MqttMessage> MqttClient::take_arrived() {
 }
 
 void MqttClient::leave() {
-  order(Leave{});
+  order(Leave{}, false);
   std::unique_lock lock(mutex_);
   wait(lock, std::stop_token(), kLeaveTime, [this] { return state_ != State::Connected; });
 }

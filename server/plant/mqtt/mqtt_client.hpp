@@ -42,7 +42,7 @@ struct MqttMessage {
 /// connection stays lost: a new client begins without the unsettled messages. Thread-safe.
 class MqttClient {
  public:
-  using Ticket = std::uint64_t;  ///< of the sent messages, from 1
+  using Ticket = std::uint64_t;  ///< of the messages with an outcome, from 1
 
   /// Begins to connect.
   /// @param will message that the broker publishes if the connection ends without `leave`.
@@ -59,10 +59,13 @@ class MqttClient {
   /// Returns the reason why it was lost or never began.
   std::string failure() const;
 
-  /// Sends in this order. Messages on a lost connection are never settled.
-  Ticket publish(MqttMessage message);
-  Ticket subscribe(std::string topic, int qos);
-  Ticket unsubscribe(std::string topic);
+  /// Sends in this order. Messages on a lost connection are never settled. The outcome of each is
+  /// kept until wait_settled() takes it.
+  [[nodiscard]] Ticket publish(MqttMessage message);
+  [[nodiscard]] Ticket subscribe(std::string topic, int qos);
+  [[nodiscard]] Ticket unsubscribe(std::string topic);
+  /// Sends in the same order a message whose outcome nobody waits for.
+  void send(MqttMessage message);
 
   /// Waits until the broker has acknowledged it (QoS 0: it was sent). 0, a reason code of MQTT 5
   /// from 128 on, or kCannotBeSent. None: it was lost, the time is over, or a stop was requested.
@@ -89,7 +92,7 @@ class MqttClient {
   };
   struct Leave {};
   struct Order {
-    Ticket ticket;
+    Ticket ticket;  ///< 0: nobody waits
     std::variant<Publish, Subscribe, Unsubscribe, Leave> what;
   };
   class Loop;
@@ -97,7 +100,7 @@ class MqttClient {
   void run(const std::optional<MqttMessage>& will, const std::stop_token& stop);
   void wake() const noexcept;
   template <class What>
-  Ticket order(What what);
+  Ticket order(What what, bool has_outcome = true);
   template <class Until>
   bool wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop,
             std::chrono::milliseconds most, Until until) {

@@ -25,7 +25,7 @@ class Sparkplug final : public Outlet {
         options_(options),
         link_(options.broker),
         node_(options_, plant.clock,
-              [this](MqttMessage message) { link_.client().publish(std::move(message)); }) {}
+              [this](MqttMessage message) { link_.client().send(std::move(message)); }) {}
   ~Sparkplug() override { leave(); }
 
   void wake_by(std::function<void()> wake) override { link_.wake_by(std::move(wake)); }
@@ -94,7 +94,7 @@ bool Sparkplug::obey() {
 void Sparkplug::leave() {
   if (link_.is_up()) {
     // Without a birth, no death is declared, and the will is dropped with the rest.
-    if (is_born_) link_.client().publish(node_.death());
+    if (is_born_) link_.client().send(node_.death());
     link_.client().leave();
   }
   is_born_ = false;

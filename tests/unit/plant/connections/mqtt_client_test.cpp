@@ -1,15 +1,20 @@
 #include "plant/mqtt/mqtt_client.hpp"
 
 #include <doctest/doctest.h>
+#include <malloc.h>
 
 #include <array>
 #include <boost/asio.hpp>
+#include <cstddef>
 #include <future>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "base/thread.hpp"
+
+/// Of a sanitizer, which has a heap of its own.
+extern "C" __attribute__((weak)) std::size_t __sanitizer_get_current_allocated_bytes();
 
 namespace fitgauge::connections {
 namespace {
@@ -99,6 +104,32 @@ TEST_CASE("what a broker acknowledged before it went is settled, also where a wr
   CHECK_FALSE(client.wait_settled(lost, std::chrono::seconds(20), {}).has_value());
   CHECK(client.wait_settled(acknowledged, {}, {}) == 0);
   CHECK_FALSE(client.is_connected());
+}
+
+std::size_t heap_bytes() {
+  return __sanitizer_get_current_allocated_bytes != nullptr
+             ? __sanitizer_get_current_allocated_bytes()
+             : mallinfo2().uordblks;
+}
+
+TEST_CASE("messages whose outcome nobody waits for leave nothing behind") {
+  ScriptedBroker broker;
+  MqttClient client(broker.address(), {}, [] {});
+  broker.accept();
+  REQUIRE_FALSE(client.wait_connected({}).has_value());
+  const auto send = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      client.send({.topic = "a", .payload = "1", .qos = 0});
+      broker.take();
+    }
+    const auto last = client.publish({.topic = "a", .payload = "2"});
+    broker.say("\x40\x02"s + broker.take().substr(3, 2));
+    CHECK(client.wait_settled(last, std::chrono::seconds(20), {}) == 0);
+  };
+  send(100);
+  const std::size_t before = heap_bytes();
+  send(2000);
+  CHECK(heap_bytes() < before + 32'000);
 }
 
 }  // namespace
