@@ -3,12 +3,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <malloc.h>
+#include <openssl/crypto.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -27,6 +29,8 @@ constexpr int kLargeBlock = 1 << 20;
 /// Number of arenas that the C library allows by default. It would count the processors in the
 /// middle of a run, and open a file for that.
 constexpr long kArenasOfAProcessor = 8;
+constexpr std::size_t kPage = 4096;
+constexpr std::size_t kTlsRecord = 16'384;
 
 /// For the database with its readers, the listeners, timers and the log.
 constexpr rlim_t kOtherFiles = 256;
@@ -114,11 +118,22 @@ Result<void> write_key(const std::string& file, std::string_view token) {
                fmt::format("admin-key-out: cannot write {}: {}", file, std::strerror(cause))};
 }
 
+/// For OpenSSL: its buffers begin at a page.
+void* allocate(std::size_t size) {
+  const bool is_buffer = size == kPage || (size > kTlsRecord && size < 2 * kTlsRecord);
+  return is_buffer ? memalign(kPage, size) : std::malloc(size);
+}
+
 }  // namespace
 
-void give_large_blocks_back() {
+void set_up_allocation() {
   mallopt(M_MMAP_THRESHOLD, kLargeBlock);
   mallopt(M_ARENA_MAX, static_cast<int>(kArenasOfAProcessor * sysconf(_SC_NPROCESSORS_ONLN)));
+  CRYPTO_set_mem_functions([](std::size_t size, const char*, int) { return allocate(size); },
+                           [](void* block, std::size_t size, const char*, int) {
+                             return block == nullptr ? allocate(size) : std::realloc(block, size);
+                           },
+                           [](void* block, const char*, int) { std::free(block); });
 }
 
 std::int64_t allow_connections(std::int64_t connections) {

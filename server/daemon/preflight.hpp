@@ -21,8 +21,9 @@ namespace fitgauge::daemon {
 
 /// Makes the C library of the process map each large block and return it to the kernel when it is
 /// freed. By default it keeps later blocks of that size: a run of 48 MiB would leave them
-/// allocated.
-void give_large_blocks_back();
+/// allocated. Buffers of OpenSSL begin at a page: a handshake uses only some pages of them, and
+/// the others take no memory then. Called before anything uses OpenSSL.
+void set_up_allocation();
 
 /// Raises the soft limit of open files, to the hard limit at most, so that `connections` can be
 /// open in addition to the files of the database and the log. Shells and systemd begin with 1024.

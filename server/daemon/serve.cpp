@@ -142,7 +142,7 @@ void answer_together(const std::function<void()>& answer) {
 Result<void> serve_once(const Config& config, const std::string& port_file) {
   const auto addresses = TRY(listen_addresses(config));
   prepare_signals();
-  give_large_blocks_back();
+  set_up_allocation();
   report_bugs_to([](std::string_view place, std::string_view what) {
     log_error("bug", fmt::format("{}: {}", place, what));
   });

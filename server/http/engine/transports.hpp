@@ -22,7 +22,7 @@ namespace fitgauge::http {
 /// @errors ConfigInvalid with the file that cannot be used.
 Result<std::shared_ptr<asio::ssl::context>> load_tls(const TlsOptions& options);
 
-/// A connection over TLS 1.2 or later. It has no session of OpenSSL (43 KB) before the client's
+/// A connection over TLS 1.2 or later. It has no session of OpenSSL (37 KB) before the client's
 /// first record is whole. OpenSSL works on the socket itself: Asio's stream keeps 68 KB of buffers
 /// for each connection, also for one that never ends its handshake. The program must ignore
 /// SIGPIPE.
