@@ -24,7 +24,7 @@ constexpr std::int64_t kHour = 3600 * kSecond;
 }  // namespace
 
 Plant::Plant(const fs::path& folder, std::uint64_t seed, Counts& counts)
-    : folder_(folder), random_(seed), counts_(counts) {
+    : folder_(folder), random_{seed}, counts_(counts) {
   fs::remove_all(folder_);
   network() = {};
   for (int i = 0; i <= kStations; ++i) {

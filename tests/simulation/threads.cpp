@@ -1,13 +1,12 @@
 #include <dlfcn.h>
 #include <linux/futex.h>
 #include <pthread.h>
-#include <sched.h>
+#include <sys/single_threaded.h>
 #include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <climits>
 #include <cstdarg>
@@ -18,10 +17,12 @@
 #include <utility>
 #include <vector>
 
+#include "place.hpp"
 #include "world.hpp"
 
 // One thread runs at a time. Where it would wait it gives the turn to another, drawn by the seed
 // from those that can go on; when there is none, the time moves to the first that waits for it.
+// All are of one thread of the kernel: see place.hpp.
 
 namespace fitgauge::simulation {
 namespace {
@@ -31,26 +32,29 @@ constexpr std::int64_t kFirstDay = 1'800'000'000 * kSecond;  ///< of the clock o
 constexpr std::int64_t kGlance = 1'000;  ///< each reading of the time takes a microsecond
 constexpr std::uint64_t kYieldsOneIn = 32;
 
-struct Task {
+struct Task : Place {
   Machine* machine = nullptr;
-  std::atomic<int> turn{0};
   const void* waits_on = nullptr;
   std::int64_t wake_at = kNever;
   bool is_ready = true;
   bool has_ended = false;
   bool timed_out = false;
   pthread_t thread{};
+  int number = 0;  ///< of no other
   void* (*body)(void*) = nullptr;
   void* argument = nullptr;
+  void* result = nullptr;
+  std::vector<std::pair<void (*)(void*), void*>> at_exit{};
 };
 
 struct World {
   std::vector<Task*> tasks{};  ///< all but ended ones, the oldest first
   std::vector<Task*> ready{};
-  std::vector<Task*> ended{};
+  std::vector<Task*> to_join{};
   std::int64_t now = 0;
   std::int64_t first_wake = 0;  ///< no task that waits has an earlier time
   std::size_t lock_waiters = 0;
+  int created = 0;
   Random random{1};
   std::uint64_t digest = 14695981039346656037ULL;
 };
@@ -60,28 +64,11 @@ World& world() {
   return *the;
 }
 
-thread_local Task* self = nullptr;
+Task* self = nullptr;
 
 template <class Function>
 Function* real(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
-}
-
-long call_futex(std::atomic<int>& word, int operation, int value) {
-  static auto* const call = real<long(long, ...)>("syscall");
-  return call(SYS_futex, &word, operation, value, nullptr, nullptr, 0);
-}
-
-void give_turn(Task& to) {
-  to.turn.store(1, std::memory_order_release);
-  call_futex(to.turn, FUTEX_WAKE_PRIVATE, 1);
-}
-
-void await_turn(Task& own) {
-  while (own.turn.load(std::memory_order_acquire) == 0) {
-    call_futex(own.turn, FUTEX_WAIT_PRIVATE, 0);
-  }
-  own.turn.store(0, std::memory_order_relaxed);
 }
 
 void make_ready(Task& task, bool timed_out) {
@@ -125,8 +112,8 @@ void switch_away() {
   Task& own = *self;
   Task& next = next_task();
   if (&next == &own) return;
-  give_turn(next);
-  await_turn(own);
+  self = &next;
+  go(own, next);
 }
 
 /// @returns false when the time came first.
@@ -182,34 +169,60 @@ std::int64_t now_on(clockid_t clock) {
   }
 }
 
-int wait_for_condition(pthread_cond_t* condition, pthread_mutex_t* mutex, std::int64_t until) {
-  pthread_mutex_unlock(mutex);
-  const bool is_woken = wait_on(condition, until);
-  lock(mutex, [mutex] { return pthread_mutex_trylock(mutex); });
-  return is_woken ? 0 : ETIMEDOUT;
-}
-
-void* run_task(void* task) {
-  Task& own = *static_cast<Task*>(task);
-  self = &own;
-  await_turn(own);
-  void* const result = own.body(own.argument);
+void run_task() noexcept {
+  Task& own = *self;
+  own.result = own.body(own.argument);
+  for (auto& at_exit = own.at_exit; !at_exit.empty();) {
+    const auto [destroy, what] = at_exit.back();
+    at_exit.pop_back();
+    destroy(what);
+  }
   World& w = world();
   own.has_ended = true;
   std::erase(w.tasks, &own);
   wake(&own);
-  self = nullptr;  // what its end still destroys has the real calls
-  give_turn(next_task());
-  return result;
+  Task& next = next_task();
+  self = &next;
+  go_for_ever(own, next);
+}
+
+bool is_recursive(const pthread_mutex_t& mutex) {
+  return (mutex.__data.__kind & 3) == PTHREAD_MUTEX_RECURSIVE_NP;
+}
+
+/// The threads are one to the kernel, so who has a mutex is kept here, in its own fields.
+int try_lock(pthread_mutex_t& mutex) {
+  auto& state = mutex.__data;
+  if (state.__lock == 0) {
+    state.__lock = 1;
+    state.__owner = self->number;
+  } else if (!is_recursive(mutex) || state.__owner != self->number) {
+    return EBUSY;
+  }
+  ++state.__count;
+  return 0;
+}
+
+int unlock(pthread_mutex_t& mutex) {
+  auto& state = mutex.__data;
+  if (--state.__count > 0) return 0;
+  state.__lock = 0;
+  state.__owner = 0;
+  if (world().lock_waiters > 0) wake(&mutex, 1);
+  return 0;
+}
+
+int wait_for_condition(pthread_cond_t* condition, pthread_mutex_t* mutex, std::int64_t until) {
+  pthread_mutex_unlock(mutex);
+  const bool is_woken = wait_on(condition, until);
+  lock(mutex, [mutex] { return try_lock(*mutex); });
+  return is_woken ? 0 : ETIMEDOUT;
 }
 
 }  // namespace
 
 void begin_world() {
-  cpu_set_t one;
-  CPU_ZERO(&one);
-  CPU_SET(static_cast<std::size_t>(sched_getcpu()), &one);
-  sched_setaffinity(0, sizeof one, &one);  // a turn is given without waking another processor
+  __libc_single_threaded = 0;  // the library of C++ leaves out what only threads need
   auto* const first = new Task;
   first->thread = pthread_self();
   world().tasks.push_back(first);
@@ -218,7 +231,7 @@ void begin_world() {
 
 void seed_world(std::uint64_t seed) {
   World& w = world();
-  w.random.seed(seed);
+  w.random = {seed};
   w.digest = 14695981039346656037ULL;
 }
 
@@ -254,16 +267,13 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
   if (self == nullptr) return create(thread, attributes, body, argument);
   auto* const task = new Task;
   task->machine = self->machine;
+  task->number = ++world().created;
   task->body = body;
   task->argument = argument;
-  const int made = create(&task->thread, attributes, run_task, task);
-  if (made != 0) {
-    delete task;
-    return made;
-  }
-  *thread = task->thread;
+  begin_at(*task, run_task);
+  *thread = task->thread = reinterpret_cast<pthread_t>(task);
   world().tasks.push_back(task);
-  world().ended.push_back(task);
+  world().to_join.push_back(task);
   world().ready.push_back(task);
   return 0;
 }
@@ -271,7 +281,7 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
 int pthread_join(pthread_t thread, void** result) {
   static auto* const join = real<decltype(pthread_join)>("pthread_join");
   if (self == nullptr) return join(thread, result);
-  auto& known = world().ended;
+  auto& known = world().to_join;
   const auto found = std::find_if(known.begin(), known.end(), [thread](const Task* task) {
     return pthread_equal(task->thread, thread) != 0;
   });
@@ -279,22 +289,38 @@ int pthread_join(pthread_t thread, void** result) {
   Task* const task = *found;
   while (!task->has_ended) wait_on(task);
   std::erase(known, task);
-  const int joined = join(thread, result);
+  if (result != nullptr) *result = task->result;
   delete task;
-  return joined;
+  return 0;
+}
+
+pthread_t pthread_self() noexcept {
+  static auto* const get = real<decltype(pthread_self)>("pthread_self");
+  return self == nullptr ? get() : self->thread;
+}
+
+/// Names are for the kernel, which knows only one of the threads.
+int pthread_setname_np(pthread_t, const char*) noexcept { return 0; }
+
+int __cxa_thread_atexit(void (*destroy)(void*), void* what, void*) noexcept {
+  if (self != nullptr) self->at_exit.emplace_back(destroy, what);
+  return 0;
 }
 
 int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
   static auto* const lock_it = real<decltype(pthread_mutex_lock)>("pthread_mutex_lock");
   if (self == nullptr) return lock_it(mutex);
-  return lock(mutex, [mutex] { return pthread_mutex_trylock(mutex); });
+  return lock(mutex, [mutex] { return try_lock(*mutex); });
+}
+
+int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
+  static auto* const try_it = real<decltype(pthread_mutex_trylock)>("pthread_mutex_trylock");
+  return self == nullptr ? try_it(mutex) : try_lock(*mutex);
 }
 
 int pthread_mutex_unlock(pthread_mutex_t* mutex) noexcept {
-  static auto* const unlock = real<decltype(pthread_mutex_unlock)>("pthread_mutex_unlock");
-  const int done = unlock(mutex);
-  if (self != nullptr && world().lock_waiters > 0) wake(mutex, 1);
-  return done;
+  static auto* const unlock_it = real<decltype(pthread_mutex_unlock)>("pthread_mutex_unlock");
+  return self == nullptr ? unlock_it(mutex) : unlock(*mutex);
 }
 
 int pthread_rwlock_rdlock(pthread_rwlock_t* rw) noexcept {

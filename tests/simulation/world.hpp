@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
 #include <string>
 
 // The world that a simulation runs in: one thread at a time, chosen by the seed; a time that moves
@@ -30,7 +29,17 @@ void begin_world();
 /// From here on all is drawn from this seed, and the time begins anew.
 void seed_world(std::uint64_t seed);
 
-using Random = std::mt19937_64;
+/// SplitMix64.
+struct Random {
+  std::uint64_t state;
+
+  std::uint64_t operator()() {
+    std::uint64_t mixed = state += 0x9e3779b97f4a7c15ULL;
+    mixed = (mixed ^ mixed >> 30U) * 0xbf58476d1ce4e5b9ULL;
+    mixed = (mixed ^ mixed >> 27U) * 0x94d049bb133111ebULL;
+    return mixed ^ mixed >> 31U;
+  }
+};
 /// The choices of the scheduler and of the network.
 Random& world_random();
 /// In [0, below).

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <ucontext.h>
+
+#include <vector>
+
+namespace fitgauge::simulation {
+
+/// Where a thread of the world is while another runs. All are of one thread of the kernel, which
+/// goes from stack to stack and takes the variables of a thread along.
+struct Place {
+  ucontext_t context{};
+  void* stack = nullptr;
+  std::vector<char> locals{};
+  int error = 0;
+};
+
+/// It begins with a call that does not return, on a stack of its own.
+void begin_at(Place& place, void (*call)());
+void go(Place& from, const Place& to);
+/// Nobody comes back: its stack is free.
+[[noreturn]] void go_for_ever(Place& from, const Place& to);
+
+}  // namespace fitgauge::simulation
