@@ -14,9 +14,14 @@ namespace {
 
 using sql::Rows;
 
+/// Stored cells come sorted.
+void sort(auto& cells) {
+  if (!std::is_sorted(cells.begin(), cells.end())) std::sort(cells.begin(), cells.end());
+}
+
 void sort(TableContent& content) {
-  std::sort(content.cells.begin(), content.cells.end());
-  std::sort(content.custom.begin(), content.custom.end());
+  sort(content.cells);
+  sort(content.custom);
 }
 
 bool is_valid(const TableCell& cell) { return cell.over_nm >= 0 && cell.over_nm < cell.up_to_nm; }
