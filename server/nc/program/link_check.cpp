@@ -93,6 +93,22 @@ class BlockCheck {
     }
   }
 
+  /// The end that IPA gives must be the one that DR leads to.
+  void check_turn(const klartext::Motion& motion) {
+    for (const klartext::Word& word : program_.view(motion.words)) {
+      const auto* angle = std::get_if<double>(&word.value);
+      if (motion.path != klartext::Path::Cp || word.letter != klartext::Letter::Pa ||
+          !word.incremental || angle == nullptr || *angle == 0)
+        continue;
+      const bool is_left = motion.rotation != klartext::Rotation::Negative;
+      if ((*angle > 0) == is_left) continue;
+      report(Severity::Error, DiagnosticCode::OrderContradicts, block_.written,
+             fmt::format("IPA = {} and DR{} turn in opposite directions: write both with the same "
+                         "sign",
+                         *angle, is_left ? '+' : '-'));
+    }
+  }
+
   void check_part(const CyclePart& part) {
     if (!is_available(part.family, part.number, true)) warn_unavailable(part.family, part.number);
   }
@@ -257,6 +273,7 @@ void check_block(const klartext::Program& program, std::uint32_t index,
     if (part->part == 0) check.check_part(*part);
   } else if (const auto* motion = std::get_if<klartext::Motion>(&block.statement)) {
     check.check_words(motion->words);
+    check.check_turn(*motion);
   } else if (const auto* functions = std::get_if<klartext::MFunctions>(&block.statement)) {
     check.check_words(functions->words);
   } else if (const auto* stop = std::get_if<klartext::Stop>(&block.statement)) {

@@ -302,10 +302,13 @@ NcResult<Curve> Positioning::centre_arc(Vec2 end) {
                     std::abs(error), error > 0 ? "outside" : "inside", "XYZ"[plane_.first],
                     "XYZ"[plane_.second]));
   }
-  double turn = sweep(start_, end, centre, left_turn());
-  if (motion_.path == Path::Cp && words_.pa && words_.pa->incremental) {
-    const double angle = std::abs(words_.pa->value);
-    turn = left_turn() ? angle : -angle;
+  if (motion_.path != Path::Cp || !words_.pa || !words_.pa->incremental)
+    return Curve{start_, end, centre, sweep(start_, end, centre, left_turn())};
+  // A sweep of 0 turns neither way.
+  const double turn = words_.pa->value;
+  if (turn != 0 && (turn > 0) != left_turn()) {
+    return nc_error(1012, fmt::format("IPA = {} turns {}: DR must have the same sign", turn,
+                                      turn > 0 ? "counter-clockwise" : "clockwise"));
   }
   return Curve{start_, end, centre, turn};
 }
