@@ -92,6 +92,14 @@ class VectorPath {
 
 }  // namespace
 
+NcResult<void> check_scaling(const machine::MachineState& state, const WorkingPlane& plane,
+                             std::string_view what) {
+  const Vec3 factor = state.frames.scaling().factor;
+  if (factor[plane.first] == factor[plane.second]) return {};
+  return nc_error(
+      1108, fmt::format("{} not available in a plane whose axes are scaled differently", what));
+}
+
 double CutterPath::radius(const machine::Machine& machine) {
   return radius_in_plane(machine.state(), machine.state().tool_radius());
 }
@@ -101,6 +109,7 @@ NcResult<void> CutterPath::move(machine::Machine& machine, const Element& elemen
     return checked(machine.move({element.target, element.feed, element.system}));
   }
   const WorkingPlane& plane = element.plane;
+  TRY(check_scaling(machine.state(), plane, "an arc is"));
   machine::Vec3 end = plane.with(machine.position().linear, element.curve.end);
   const auto normal = machine::index(plane.normal);
   if (const auto& height = element.target.values[normal]) end[normal] = *height;
@@ -115,11 +124,7 @@ void CutterPath::begin(Vec2 centre, int side) {
 
 NcResult<void> CutterPath::add(machine::Machine& machine, const Element& next) {
   if (next.side == 0 && side_ == 0) return move(machine, next);
-  const machine::Vec3 factor = machine.state().frames.scaling().factor;
-  if (next.side != 0 && factor[next.plane.first] != factor[next.plane.second]) {
-    return nc_error(1108,
-                    "RL and RR are not available in a plane whose axes are scaled differently");
-  }
+  if (next.side != 0) TRY(check_scaling(machine.state(), next.plane, "RL and RR are"));
   if (!next.moves_in_plane() && next.side == side_) {
     Element beside = next;
     remove_plane_target(beside);

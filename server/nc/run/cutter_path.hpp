@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "nc/machine/machine.hpp"
@@ -35,6 +36,10 @@ inline double radius_in_plane(const machine::MachineState& state, double radius)
   const WorkingPlane plane = WorkingPlane::across(state.tool_axis());
   return radius / std::abs(state.frames.scaling().factor[plane.first]);
 }
+
+/// @errors 1108 in a plane whose axes are scaled differently (26), where arcs are ellipses.
+NcResult<void> check_scaling(const machine::MachineState& state, const WorkingPlane& plane,
+                             std::string_view what);
 
 inline void set_plane_target(Element& element, Vec2 point) {
   element.target.values[element.plane.first] = point.x;

@@ -74,6 +74,7 @@ NcResult<void> ToolMotion::to_point(Vec2 point, const machine::Feed& feed) {
 NcResult<void> ToolMotion::arc(Vec2 centre, Vec2 end, double sweep_deg, double height,
                                const machine::Feed& feed) {
   TRY(budget_.check());
+  TRY(check_scaling(state(), plane_, "an arc is"));
   machine::Vec3 target = plane_.with(machine_.position().linear, end);
   target[machine::index(plane_.normal)] = height;
   return checked(
@@ -125,9 +126,13 @@ NcResult<void> Machining::leave() {
 }
 
 NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition) {
+  const MachiningShape shape = definition.cycle->shape;
+  if (shape > MachiningShape::Tapping && shape != MachiningShape::Engraving)
+    TRY(check_scaling(channel.machine().state(), working_plane(channel.machine()),
+                      "milling cycles are"));
   Machining cycle({channel.machine(), channel.budget}, definition);
   if (auto noted = note_standing(channel, *definition.cycle); !noted) return noted;
-  switch (definition.cycle->shape) {
+  switch (shape) {
     case MachiningShape::Drilling: return drill(cycle);
     case MachiningShape::Boring: return bore(cycle);
     case MachiningShape::BackBoring: return bore_back(cycle);

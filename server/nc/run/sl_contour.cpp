@@ -178,6 +178,7 @@ NcResult<void> SlDrawing::add(const Element& element) {
     return {};
   }
   if (!element.moves_in_plane()) return {};
+  if (element.curve.is_arc()) TRY(check_scaling(machine_->state(), plane, "an arc is"));
   Curve curve{mapped(element.curve.start), mapped(element.curve.end), std::nullopt,
               element.curve.sweep_deg * hand};
   if (element.curve.centre) curve.centre = mapped(*element.curve.centre);

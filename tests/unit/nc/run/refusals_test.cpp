@@ -76,5 +76,34 @@ TEST_CASE("IPA and DR turn the same way, and the end is the start turned by the 
   CHECK(arcs_that_close(control) == 8);
 }
 
+TEST_CASE("where the axes of the plane are scaled differently there are no arcs") {
+  const std::string scaled =
+      "L X+9 Y+0 Z+5 R0 FMAX M3\nCYCL DEF 26.0 AXIS-SPEC. SCALING\nCYCL DEF 26.1 X2 Y1 CCX+0 "
+      "CCY+0\n";
+  const std::string pocket =
+      " Q215=0 Q218=40 Q219=30 Q223=30 Q222=40 Q335=20 Q368=0 Q207=500 Q201=-5 Q202=5 Q206=100 "
+      "Q200=2 Q203=0 Q204=50";
+  const auto cycle = [&](const std::string& numbers, const std::string& head) {
+    return scaled + head + numbers + "\nL X+20 Y+20 R0 FMAX M99";
+  };
+  for (const std::string& body :
+       {scaled + "CC X+0 Y+0\nCP IPA+60 DR+ F100", scaled + "CR X+0 Y+9 R+10 DR+ F100",
+        scaled + "L X+20 Y+0 F100\nRND R3\nL Y+20", scaled + "L X+20 Y+0 F100\nCT X+30 Y+10",
+        cycle(" Q215=0 Q218=40 Q219=30 Q220=0 Q207=500 Q201=-5 Q202=5 Q206=100", "CYCL DEF 251"),
+        cycle(" Q215=0 Q223=30 Q207=500 Q201=-5 Q202=5 Q206=100", "CYCL DEF 252"),
+        cycle(" Q223=30 Q222=40 Q207=500 Q201=-5 Q202=5 Q206=100", "CYCL DEF 257"),
+        cycle(" Q335=20 Q201=-5 Q206=100 Q334=1", "CYCL DEF 208"),
+        cycle(" Q389=2 Q225=0 Q226=0 Q227=0 Q386=-1 Q218=40 Q219=30 Q202=1 Q207=500",
+              "CYCL DEF 232")}) {
+    CAPTURE(body);
+    CHECK(fails(body, "Scaling factors not equal"));
+  }
+  // Lines, holes, and arcs in a plane that is scaled evenly.
+  CHECK(ended(scaled + "L X+20 Y+0 F100\nCHF 2\nL Y+20") == "completed");
+  CHECK(ended(cycle(" Q201=-5 Q206=100 Q202=5", "CYCL DEF 200 DRILLING")) == "completed");
+  CHECK(ended("CYCL DEF 26.0 AXIS-SPEC. SCALING\nCYCL DEF 26.1 X2 Y2 Z1 CCX+0 CCY+0\nCC X+0 "
+              "Y+0\nCP IPA+60 DR+ F100") == "completed");
+}
+
 }  // namespace
 }  // namespace fitgauge::interpreter
