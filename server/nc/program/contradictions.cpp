@@ -380,6 +380,16 @@ class Contradictions {
                               value(limit), is_tolerance ? "is too large for" : "is far from",
                               nominal, value(nominal)));
     }
+    const auto known = [&](int number) {
+      return values.contains(number) ? std::optional(value(number)) : std::nullopt;
+    };
+    const auto found =
+        is_probing ? std::nullopt : interpreter::contradiction(descriptor.number, known);
+    if (found) {
+      contradicts(
+          values[found->parameter], values[found->other],
+          fmt::format("{}: the run fails when it calls cycle {}", found->text, descriptor.number));
+    }
     if (!is_probing && values.contains(201) && value(201) > 0) {
       contradicts(values[201], values[201],
                   fmt::format("the depth Q201 = {} lies above the surface: write it with a minus",

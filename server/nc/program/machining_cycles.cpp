@@ -1,7 +1,10 @@
 #include "nc/program/machining_cycles.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "nc/probing/parameters.hpp"
 
@@ -377,7 +380,58 @@ constexpr MachiningCycle kCycles[] = {
     in_q(267, "OUTSIDE THREAD MLLNG", Shape::ThreadMilling, k267, kThreadText),
 };
 
+/// A value that must not stand in that relation to another one, or to 0.
+struct Rule {
+  int error;
+  int parameter;
+  std::string_view relation;
+  int other;
+  bool (*is_wrong)(double value, double other);
+  std::array<int, 11> cycles;  ///< none: all that have the parameter
+};
+
+constexpr auto kLess = [](double value, double other) { return value < other; };
+constexpr auto kMore = [](double value, double other) { return value > other; };
+constexpr auto kZero = [](double value, double) { return value == 0; };
+constexpr auto kReaches = [](double value, double depth) {
+  return value > 0 && depth != 0 && value >= std::abs(depth);
+};
+
+constexpr Rule kRules[] = {
+    {1016, 379, "reaches the depth", 201, kReaches, {205, 241}},
+    {1098, 424, "is less than", 218, kLess, {256}},
+    {1098, 425, "is less than", 219, kLess, {256}},
+    {1036, 222, "is less than", 223, kLess, {257}},
+    {1011, 218, "is less than", 219, kLess, {3, 253}},
+    {1016, 386, "lies above", 227, kMore, {232}},
+    {1042, 201, "", 201, kZero, {}},
+    {1042, 249, "", 249, kZero, {204}},
+    {1010, 206, "", 206, kZero, {200, 201, 202, 203, 205, 206, 208, 225, 240, 241}},
+    {1010, 206, "", 206, kZero, {251, 252, 253, 254, 256, 257}},
+    {1010, 207, "", 207, kZero, {251, 252, 253, 254, 256, 257, 262, 263, 264, 265, 267}},
+    {1011, 239, "", 239, kZero, {207, 209, 262, 263, 264, 265, 267}},
+    {1011, 334, "", 334, kZero, {208}},
+};
+
 }  // namespace
+
+std::optional<CycleContradiction> contradiction(
+    int cycle, const std::function<std::optional<double>(int)>& value) {
+  for (const Rule& rule : kRules) {
+    const bool is_for_all = rule.cycles.front() == 0;
+    if (!is_for_all && !std::ranges::count(rule.cycles, cycle)) continue;
+    // 240 may have the diameter instead.
+    if (is_for_all && cycle == 240 && value(343) != 0) continue;
+    const auto one = value(rule.parameter);
+    const auto other = value(rule.other);
+    if (!one || !other || !rule.is_wrong(*one, *other)) continue;
+    std::string text = fmt::format("Q{} = {}", rule.parameter, *one);
+    if (rule.other != rule.parameter)
+      text += fmt::format(" {} Q{} = {}", rule.relation, rule.other, *other);
+    return CycleContradiction{rule.error, rule.parameter, rule.other, std::move(text)};
+  }
+  return std::nullopt;
+}
 
 std::span<const MachiningCycle> machining_cycles() { return kCycles; }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <span>
+#include <string>
 
 #include "nc/klartext/statement.hpp"
 #include "nc/probing/cycle_descriptor.hpp"
@@ -40,6 +43,19 @@ struct MachiningCycle {
 
 /// All of them, by number.
 std::span<const MachiningCycle> machining_cycles();
+
+/// Values with which a cycle cannot run.
+struct CycleContradiction {
+  int error = 0;      ///< of the control's list
+  int parameter = 0;  ///< `Q424`
+  int other = 0;      ///< the parameter that it contradicts; itself if it is wrong alone
+  std::string text{};
+};
+
+/// The first contradiction between the known values of a cycle. @param value of a parameter, or
+/// nothing if it is unknown
+std::optional<CycleContradiction> contradiction(
+    int cycle, const std::function<std::optional<double>(int)>& value);
 
 /// `CYCL DEF` of that number, or null.
 const MachiningCycle* machining_cycle(int number);

@@ -222,7 +222,6 @@ NcResult<void> bore(Machining& cycle) {
 NcResult<void> bore_back(Machining& cycle) {
   const Heights& heights = cycle.heights;
   ToolMotion& motion = cycle.motion;
-  if (cycle.value(249) == 0) return nc_error(1042, "Q249 is 0");
   const double lower_edge = heights.surface - cycle.value(250) - cycle.value(252);
   const double below = lower_edge - cycle.value(200);
   const Vec2 centre = motion.point();

@@ -46,7 +46,6 @@ NcResult<void> mill_face(Machining& cycle) {
   const Heights& heights = cycle.heights;
   const double radius = motion.tool_radius();
   if (radius <= 0) return nc_error(1002, "a face is milled with a tool that has a radius");
-  if (heights.bottom > heights.surface) return nc_error(1016, "Q386 lies above Q227");
   if (heights.bottom == heights.surface) return {};  // the control does not run it
   const Lanes lanes = lanes_of(cycle, radius);
   const bool line_by_line = cycle.value(389) == 2;

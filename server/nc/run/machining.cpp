@@ -38,6 +38,18 @@ Heights heights_of(const MachiningDefinition& definition, const ToolMotion& moti
   return heights;
 }
 
+/// A rectangle has no larger corners than half of its shorter side.
+NcResult<void> note_corner(Channel& channel, const MachiningDefinition& definition) {
+  const MachiningShape shape = definition.cycle->shape;
+  const double most = std::min(definition.value(218), definition.value(219)) / 2;
+  const bool is_rectangle =
+      shape == MachiningShape::RectangularPocket || shape == MachiningShape::RectangularStud;
+  if (!is_rectangle || definition.value(220) <= most) return {};
+  return channel.note(fmt::format(
+      "the corner radius Q220 = {} is larger than half of the shorter side: {} mm is milled",
+      definition.value(220), most));
+}
+
 /// Tapping and 241 start the spindle themselves.
 NcResult<void> note_standing(Channel& channel, const MachiningCycle& cycle) {
   const int number = cycle.descriptor.number;
@@ -130,8 +142,14 @@ NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definit
   if (shape > MachiningShape::Tapping && shape != MachiningShape::Engraving)
     TRY(check_scaling(channel.machine().state(), working_plane(channel.machine()),
                       "milling cycles are"));
+  const auto found = contradiction(definition.cycle->descriptor.number, [&](int parameter) {
+    const auto at = definition.values.find(parameter);
+    return at == definition.values.end() ? std::nullopt : std::optional(at->second);
+  });
+  if (found) return nc_error(found->error, found->text);
   Machining cycle({channel.machine(), channel.budget}, definition);
   if (auto noted = note_standing(channel, *definition.cycle); !noted) return noted;
+  TRY(note_corner(channel, definition));
   switch (shape) {
     case MachiningShape::Drilling: return drill(cycle);
     case MachiningShape::Boring: return bore(cycle);

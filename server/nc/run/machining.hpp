@@ -89,7 +89,7 @@ NcResult<void> mill_circular_stud(Machining& cycle);
 NcResult<void> engrave(Machining& cycle);
 
 // face_milling.cpp
-/// 232. @errors 1002 the tool has no radius, 1016 the end point is above the starting point.
+/// 232. @errors 1002 the tool has no radius.
 NcResult<void> mill_face(Machining& cycle);
 
 // contour_pocket.cpp
@@ -102,7 +102,7 @@ NcResult<void> run_pattern(Channel& channel, const MachiningDefinition& pattern)
 /// CYCL CALL PAT.
 NcResult<void> run_points(Channel& channel);
 
-/// The cycle that M99 runs at the position of the tool.
+/// The cycle that M99 runs at the position of the tool. @errors those of contradiction(), 1108.
 NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definition);
 
 }  // namespace fitgauge::interpreter

@@ -207,7 +207,6 @@ NcResult<void> mill_bore(Machining& cycle) {
   const Heights& heights = cycle.heights;
   const double radius = cycle.value(335) / 2 - motion.tool_radius();
   if (radius < 0) return does_not_fit(1003, motion.tool_radius());
-  if (cycle.value(334) <= 0) return nc_error(1011, "Q334 is 0");
   TRY(check_depth(cycle));
   TRY(cycle.start());
   const Feed feed = cycle.feed(206);
@@ -259,7 +258,6 @@ NcResult<void> mill_slot(Machining& cycle) {
   const double radius = half_width - cycle.motion.tool_radius() - side_allowance(cycle);
   if (radius < 0) return does_not_fit(1028, cycle.motion.tool_radius());
   const double reach = half_length - half_width;  // of the end circles' centres
-  if (reach < 0) return nc_error(1011, "Q218 is less than Q219");
   constexpr std::array<double, 5> kEnds{0, 1, 1, -1, -1};
   const auto place = static_cast<std::size_t>(std::clamp(cycle.value(367), 0.0, 4.0));
   double along = kEnds[place] * (place == 2 || place == 3 ? reach : half_length);
@@ -317,7 +315,6 @@ NcResult<void> mill_thread(Machining& cycle) {
   const Heights& heights = cycle.heights;
   const int number = cycle.definition.cycle->descriptor.number;
   const double pitch = std::abs(cycle.value(239));
-  if (pitch == 0) return nc_error(1011, "the pitch Q239 is 0");
   const double nominal = cycle.value(335) / 2;
   const double radius =
       number == 267 ? nominal + motion.tool_radius() : nominal - motion.tool_radius();
@@ -353,8 +350,6 @@ NcResult<void> mill_rectangular_stud(Machining& cycle) {
   const double reach = cycle.motion.tool_radius() + left;
   const Vec2 half{cycle.value(218) / 2, cycle.value(219) / 2};
   const Vec2 excess = Vec2{cycle.value(424) / 2, cycle.value(425) / 2} - half;
-  if (excess.x < 0 || excess.y < 0)
-    return nc_error(1098, "Q424 is less than Q218, or Q425 than Q219");
   Outline outline{cycle.motion.point(), cycle.value(224)};
   outline.origin = outline.at(rectangle_centre(cycle, half.x, half.y));
   const auto sides = [&](double part) {
@@ -374,7 +369,6 @@ NcResult<void> mill_rectangular_stud(Machining& cycle) {
 }
 
 NcResult<void> mill_circular_stud(Machining& cycle) {
-  if (cycle.value(222) < cycle.value(223)) return nc_error(1036);
   const double left = stud_allowance(cycle);
   const double excess = std::max(0.0, (cycle.value(222) - cycle.value(223)) / 2 - left);
   const Vec2 centre = cycle.motion.point();

@@ -105,5 +105,57 @@ TEST_CASE("where the axes of the plane are scaled differently there are no arcs"
               "Y+0\nCP IPA+60 DR+ F100") == "completed");
 }
 
+TEST_CASE("values of a machining cycle that contradict each other end the run and are found") {
+  struct Case {
+    std::string cycle;
+    std::string values;
+    std::string message;
+  };
+  const std::string pocket = " Q207=500 Q201=-5 Q202=5 Q206=100";
+  const Case cases[] = {
+      {"205 ", "Q201=-80 Q202=5 Q206=100 Q379=200", "Q379 = 200"},
+      {"205 ", "Q201=-80 Q202=5 Q206=100 Q379=80", "Q379 = 80"},
+      {"241 ", "Q201=-80 Q206=100 Q379=90", "Q379 = 90"},
+      {"256 ", "Q218=60 Q424=59 Q219=40 Q425=40" + pocket, "Q424 = 59"},
+      {"256 ", "Q218=60 Q424=60 Q219=40 Q425=39" + pocket, "Q425 = 39"},
+      {"257 ", "Q223=40 Q222=39" + pocket, "Q222 = 39"},
+      {"253 ", "Q218=20 Q219=21" + pocket, "Q218 = 20"},
+      {"232 ", "Q389=2 Q225=0 Q226=0 Q227=0 Q386=1 Q218=40 Q219=30 Q202=1 Q207=500", "Q386 = 1"},
+      {"200 ", "Q201=0 Q206=100 Q202=5", "Q201 = 0"},
+      {"252 ", "Q223=30 Q207=500 Q201=0 Q202=5 Q206=100", "Q201 = 0"},
+      {"252 ", "Q223=30 Q207=0 Q201=-5 Q202=5 Q206=100", "Q207 = 0"},
+      {"200 ", "Q201=-5 Q206=0 Q202=5", "Q206 = 0"},
+      {"262 ", "Q335=20 Q239=0 Q201=-5 Q207=500", "Q239 = 0"},
+      {"208 ", "Q335=20 Q334=0 Q201=-5 Q206=100", "Q334 = 0"},
+  };
+  for (const auto& [cycle, values, message] : cases) {
+    CAPTURE(cycle);
+    CAPTURE(message);
+    const std::string body = "CYCL DEF " + cycle + values + "\nL X+20 Y+20 R0 FMAX M99";
+    CHECK(findings(body, message) == Found{"warning 2"});
+    CHECK(fails("L Z+50 R0 FMAX M3\n" + body, message));
+  }
+  const std::string deepened = "CYCL DEF 205 Q201=-80 Q202=5 Q206=100 Q379=79";
+  CHECK(findings(deepened, "Q379").empty());
+  CHECK(ended(deepened + "\nL X+20 Y+20 R0 FMAX M3 M99") == "completed");
+  // A diameter instead of the depth (240), a surface that is already milled (232).
+  CHECK(findings("CYCL DEF 240 Q343=1 Q201=0 Q344=-5 Q206=100", "Q201").empty());
+  CHECK(findings("CYCL DEF 232 Q227=0 Q386=0 Q218=40 Q219=30 Q207=500", "Q386").empty());
+}
+
+TEST_CASE("a corner radius beyond half of the shorter side leaves a note") {
+  const std::string values = " Q207=500 Q201=-5 Q202=5 Q206=100\nL X+100 Y+100 R0 FMAX M3 M99";
+  const auto notes = [](const std::string& body) {
+    Workshop control;
+    control.path(body);
+    return std::ranges::count_if(control.last.messages, [](const RunMessage& message) {
+      return message.text.find("Q220") != std::string::npos;
+    });
+  };
+  CHECK(notes("CYCL DEF 256 Q218=60 Q424=62 Q219=40 Q425=42 Q220=100" + values) == 1);
+  CHECK(notes("CYCL DEF 251 Q218=60 Q219=40 Q220=50" + values) == 1);
+  CHECK(notes("CYCL DEF 251 Q218=60 Q219=40 Q220=20" + values) == 0);
+}
+
 }  // namespace
 }  // namespace fitgauge::interpreter
