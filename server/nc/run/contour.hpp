@@ -57,7 +57,7 @@ class Contour {
   int lengthening() const { return lengthening_; }
 
   std::optional<Pole> pole;                ///< CC
-  Vec2 last_polar;                         ///< PR, PA of the last polar block, for IPR and IPA
+  std::optional<Vec2> last_polar;          ///< PR and PA of the last polar block since CC
   std::optional<machine::Vec3> direction;  ///< of travel at the end of the last element
   std::optional<machine::Feed> last_feed;  ///< of the last positioning block, FMAX among them
   double tool_feed = 0;                    ///< F AUTO: the feed of TOOL CALL

@@ -112,15 +112,23 @@ NcResult<Vec2> Positioning::end_point() {
                 words.values[plane_.second].value_or(start_.y)};
   }
   if (!contour().pole) return nc_error("polar coordinates need a pole: write CC before them");
-  Vec2& last = contour().last_polar;
+  if (motion_.path != Path::Cp && !words_.pr && !words_.pa) return start_;
+  auto& last = contour().last_polar;
   const Vec2 pole = contour().pole->point;
   const Vec2 from_pole = start_ - pole;
-  if (motion_.path == Path::Cp) {
-    last = {norm(from_pole), machine::degrees(std::atan2(from_pole.y, from_pole.x))};
+  // Increments count from the position. Where it is the last polar one, its angle is known better.
+  Vec2 here{norm(from_pole), machine::degrees(std::atan2(from_pole.y, from_pole.x))};
+  const bool is_there = last && norm(polar(last->x, last->y) - from_pole) < tolerance::kSamePoint;
+  if (is_there && motion_.path != Path::Cp) here = *last;
+  if (motion_.path != Path::Cp && !last && !(words_.pr && words_.pa)) {
+    return nc_error(1017, words_.pr ? "the polar angle PA is missing: no block since CC has it"
+                                    : "the polar radius PR is missing: no block since CC has it");
   }
-  if (words_.pr) last.x = resolved(*words_.pr, last.x);
-  if (words_.pa) last.y = resolved(*words_.pa, last.y);
-  return pole + polar(last.x, last.y);
+  Vec2 end = motion_.path == Path::Cp || !last ? here : *last;
+  if (words_.pr) end.x = resolved(*words_.pr, here.x);
+  if (words_.pa) end.y = resolved(*words_.pa, here.y);
+  last = end;
+  return pole + polar(end.x, end.y);
 }
 
 NcResult<Element> Positioning::element(const Curve& curve) {

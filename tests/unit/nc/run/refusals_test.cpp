@@ -157,5 +157,25 @@ TEST_CASE("a corner radius beyond half of the shorter side leaves a note") {
   CHECK(notes("CYCL DEF 251 Q218=60 Q219=40 Q220=20" + values) == 0);
 }
 
+TEST_CASE("a polar position needs a radius and an angle since its pole") {
+  const std::string start = "L X+9 Y+0 Z+5 R0 FMAX\n";
+  for (const char* block : {"LP IPA+60 F100", "LP PA+90 F100", "CTP PA+90 F100"}) {
+    CAPTURE(block);
+    CHECK(fails(start + "L X+9.5 F100\nCC X+0 Y+0\n" + block, "the polar radius PR is missing"));
+  }
+  CHECK(fails(start + "CC X+0 Y+0\nLP PR+9 F100", "the polar angle PA is missing"));
+  CHECK(fails(start + "CC X+0 Y+0\nLP PR+9 PA+5 F100\nCC X+1 Y+0\nLP PA+10", "PR is missing"));
+
+  Workshop control;
+  // From 5 degrees on a radius of 9: 14 mm from the pole at 25 degrees.
+  CHECK(control.path(start + "CC X+0 Y+0\nLP PR+9 PA+5 F100\nCC X+0 Y+0\nLP IPR+5 IPA+20").back() ==
+        "L X+12.6883 Y+5.9167 Z+5 F100");
+  // After a Cartesian block the angle and the radius count from the position: 10 at 90 degrees.
+  CHECK(control.path(start + "CC X+0 Y+0\nLP PR+9 PA+5 F100\nL X+0 Y+10\nLP IPR+2 IPA-90").back() ==
+        "L X+12 Y+0 Z+5 F100");
+  CHECK(control.path(start + "CC X+0 Y+0\nLP PR+9 PA+0 F100\nLP IPA+60\nLP PA+180").back() ==
+        "L X-9 Y+0 Z+5 F100");
+}
+
 }  // namespace
 }  // namespace fitgauge::interpreter
