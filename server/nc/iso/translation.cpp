@@ -193,10 +193,18 @@ class Translator {
       const Slice<char> here = place(text(begin, end));  // may be blank
       if (is_first) {
         line_.begin_block(place(trim(text(begin, end))), open(code));
+        const std::size_t first_line = out_.lines.size();
         line_.start_line();
         if (in_.accept_prefix("G")) {
           const CycleHead head = cycle_head(in_.digits(kLargestCycle, "the number of the cycle"));
-          line_.put(fmt::format("{} {}", head.family, head.number));
+          const std::string_view word = effective_word(rest());
+          if (!word.empty() && out_.unreadable.size() < kMostFindings) {
+            out_.unreadable.push_back(
+                {first_line, DiagnosticCode::SyntaxError, place(word),
+                 fmt::format("{} must not be in the block of a cycle: write it into another block",
+                             word)});
+          }
+          line_.put(word.empty() ? fmt::format("{} {}", head.family, head.number) : "%");
         }
         line_.put(rest());
       } else {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "nc/klartext/parser_rules.hpp"
 
 namespace fitgauge::iso {
 namespace {
@@ -163,6 +164,23 @@ BlockWords read_words(Lexer& in, Modes& modes) {
     block.words.push_back(std::move(word));
   }
   return block;
+}
+
+std::string_view effective_word(std::string_view title) {
+  const char* end = title.data() + title.size();
+  for (const char* at = title.data(); at != end && *at != ';' && *at != '~'; ++at) {
+    if (klartext::at_cycle_parameter(at, end)) break;
+    const bool begins = at == title.data() || klartext::is_blank(at[-1]);
+    if (!begins || std::string_view("GMTSFXYZABCUVW").find(ascii_upper(*at)) == title.npos)
+      continue;
+    const char* number = std::find_if(at + 1, end, [](char c) { return c != '+' && c != '-'; });
+    if (number == end || !(klartext::is_digit(*number) || *number == '.')) continue;
+    const auto is_next = [&](const char& c) {
+      return klartext::is_blank(c) || c == ';' || klartext::at_cycle_parameter(&c, end);
+    };
+    return {at, static_cast<std::size_t>(std::find_if(number, end, is_next) - at)};
+  }
+  return {};
 }
 
 }  // namespace fitgauge::iso

@@ -69,4 +69,8 @@ std::string_view read_value(klartext::Lexer& in);
 /// `1`, `"NAME"`, `QS1`.
 std::string_view read_label(klartext::Lexer& in);
 
+/// Returns the first word in the title of a cycle, before its parameters, that has an effect in a
+/// block: `G91`, `M5`, `X+10`.
+std::string_view effective_word(std::string_view title);
+
 }  // namespace fitgauge::iso

@@ -37,6 +37,20 @@ TEST_CASE("A finding stands at its place in the DIN/ISO text") {
   CHECK(finding("N10 G01 X+Q9999 *").starts_with("2:11 parameter.out_of_range"));
 }
 
+TEST_CASE("A word between the number of a cycle and its parameters is not a title") {
+  const auto refused = [](std::string_view word) {
+    return std::string(word) + " must not be in the block of a cycle: write it into another block";
+  };
+  CHECK(finding("N10 G247 M5 Q339=1 *") == "2:10 syntax.error: " + refused("M5"));
+  CHECK(finding("N10 G200 X+10 Q200=2 Q201=-5 *") == "2:10 syntax.error: " + refused("X+10"));
+  CHECK(finding("N10 G200 G91 ~\n Q200=2 ~\n Q201=-5 *") == "2:10 syntax.error: " + refused("G91"));
+  CHECK(finding("N10 G200 DRILLING F.5Q200=2") == "2:19 syntax.error: " + refused("F.5"));
+  CHECK(finding("N10 G00 Z+5 *\nN20 G421T5 *").starts_with("3:9 syntax.error: T5 must not"));
+  CHECK(finding("N10 G203 UNIVERSAL DRILLING ;M5 ~\n Q200=2 ;X+1 *").empty());
+  CHECK(finding("N10 G444 PROBING IN 3-D *").empty());
+  CHECK(finding("N10 G256 RECHTECKZAPFEN AUSSEN Q218=+5 *").empty());
+}
+
 TEST_CASE("A block says what is missing or does not belong to it") {
   CHECK(
       finding("N10 X+5 *") ==
