@@ -147,9 +147,9 @@ CycleResult<void> check_inclined(const Arguments& arguments) {
 }
 
 constinit const TouchProbeCycle kCycle1410 = object_cycle(
-    1410, "PROBING ON EDGE", k1410, kLineResults, {1016, 1042, 1081, 1100}, probe_edge);
+    1410, "PROBING ON EDGE", k1410, kLineResults, {1042, 1081, 1100}, probe_edge);
 constinit const TouchProbeCycle kCycle1412 =
-    object_cycle(1412, "INCLINED EDGE PROBING", k1412, kLineResults, {1004, 1016, 1042, 1081, 1100},
+    object_cycle(1412, "INCLINED EDGE PROBING", k1412, kLineResults, {1004, 1042, 1081, 1100},
                  probe_inclined, check_inclined);
 constinit const TouchProbeCycle kCycle1420 =
     object_cycle(1420, "PROBING IN PLANE", k1420, kPlaneResults, {1042, 1081}, probe_plane);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "log_templates.hpp"
+#include "nc/machine/tolerance.hpp"
 #include "nc/probing/alignment/rotation.hpp"
 #include "nc/probing/log/measuring_log.hpp"
 #include "nc/probing/measuring/measurement.hpp"
@@ -128,6 +129,13 @@ CycleResult<std::vector<Contact>> ObjectProbing::touch(
   std::vector<Touch> touches;
   std::vector<Contact> means;
   for (const std::vector<Touch>& object : objects) {
+    for (const Touch& touch : object) {
+      if (std::abs(dot(extrusion.step, touch.direction)) >
+          tolerance::kSquare * norm(extrusion.step))
+        return nc_error(1016,
+                        "cycle 1493 repeats the touch along its own probing direction: write an "
+                        "axis across it in Q372 of 1493");
+    }
     const bool is_first = touches.empty();
     for (std::size_t k = 0; k < object.size() * times; ++k) {
       Touch touch = object[k / times];

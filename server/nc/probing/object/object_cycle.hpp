@@ -48,7 +48,8 @@ struct ObjectFound {
 };
 
 /// One execution of such a cycle. @errors 1011 and 1097 of dimensions, 1014 nothing to touch, 1085
-/// the row of the preset is locked, 1016 and 1100 the table cannot turn so, a tolerance stop 1072.
+/// the row of the preset is locked, 1016 and 1100 the table cannot turn so, 1016 the extrusion is
+/// not square to a touch, a tolerance stop 1072.
 class ObjectProbing {
  public:
   /// @errors 1007, 1008, 1097 and those of ProbingMotion::begin.
@@ -157,7 +158,7 @@ constexpr TouchProbeCycle object_cycle(std::uint16_t number, std::string_view na
                                        CycleFunction run, ArgumentCheck check = check_dimensions) {
   TouchProbeCycle made =
       cycle(number, name, CycleKind::Measuring, parameters, results,
-            errors::kUnscaled | more | ErrorSet{1011, 1072, 1085, 1097}, run,
+            errors::kUnscaled | more | ErrorSet{1011, 1016, 1072, 1085, 1097}, run,
             "All other parameters. A dimension with a tolerance is probed at, compared with "
             "and transferred from the middle of it. A basic rotation stays active. Results "
             "are logged in TCHPRAUTO.html and transferred into the row of the active preset "
