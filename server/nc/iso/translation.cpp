@@ -179,7 +179,7 @@ class Translator {
     const Code* code = find_code(in_.digits(kLargestCycle, "the number of the cycle"));
     in_.skip_blanks();
     const bool is_cycle =
-        is_code ? code != nullptr && code->kind == CodeKind::Cycle : in_.peek() != '.';
+        in_.peek() != '.' && (!is_code || (code != nullptr && code->kind == CodeKind::Cycle));
     const bool failed = in_.failure().has_value();
     in_.move_to(begin);
     return is_cycle && !failed;
@@ -376,6 +376,7 @@ class Translator {
   void motion(BlockWords& words) {
     constexpr std::string_view kWithArguments[] = {"94",  "103", "118", "120", "124",
                                                    "128", "138", "140", "197"};
+    int axes = 0;
     bool has_coordinates = false;
     bool moves = words.has_path || !words.compensation.empty();
     for (const Word& word : words.words) {
@@ -384,6 +385,7 @@ class Translator {
           std::count(std::begin(kWithArguments), std::end(kWithArguments), word.value) != 0)
         break;
       if (word.used || word.name == "M") continue;
+      axes += word.is_axis() ? 1 : 0;
       has_coordinates = has_coordinates || word.is_axis() || word.name == "R" || word.name == "H";
       moves = true;
     }
@@ -395,6 +397,7 @@ class Translator {
     const Code* way = has_coordinates || words.has_path ? modes_.path : find_code(1);
     if (way == nullptr)
       return fail("the block has no path function: write G00 or G01 before its coordinates");
+    if (way->number == 7 && axes > 1) return fail("G07 moves one axis: write G01 for several");
     check_modes(has_coordinates && !words.has_path, words);
     std::string_view head = way->klartext;
     std::string_view addition = way->addition == "DR" ? modes_.direction : way->addition;

@@ -96,7 +96,7 @@ Slice<CycleParameter> parse_parameters(BlockReader& in) {
     parse_cycle_value(in, parameter);
     parameter.written = in.place(begin, in.at());
     const auto repeated = std::any_of(pool.begin() + first, pool.end(), [&](const auto& earlier) {
-      return earlier.parameter == parameter.parameter;
+      return earlier.parameter.number == parameter.parameter.number;  // Q330 and QS330 are one
     });
     if (repeated && !in.failure()) {
       in.fail(DiagnosticCode::CycleParameterRepeated, parameter.written,

@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <fstream>
 #include <string>
 #include <string_view>
 
+#include "nc/iso/codes.hpp"
 #include "nc/iso/parser.hpp"
 
 namespace fitgauge::iso {
@@ -49,6 +51,28 @@ TEST_CASE("A word between the number of a cycle and its parameters is not a titl
   CHECK(finding("N10 G203 UNIVERSAL DRILLING ;M5 ~\n Q200=2 ;X+1 *").empty());
   CHECK(finding("N10 G444 PROBING IN 3-D *").empty());
   CHECK(finding("N10 G256 RECHTECKZAPFEN AUSSEN Q218=+5 *").empty());
+}
+
+TEST_CASE("G07 moves one axis, and a dotted cycle is Klartext") {
+  CHECK(finding("N10 G07 X+5 Y+5 F100 *") ==
+        "2:1 syntax.error: G07 moves one axis: write G01 for several");
+  CHECK(finding("N10 G07 X+5 F100 *\nN20 Y+5 M118 X0.5 Y1 *").empty());
+  CHECK(finding("N10 G126.0 AXIS-SPECIFIC SCALING *").starts_with("2:"));
+  CHECK(finding("N10 CYCL DEF 26.0 SCALING *\nN20 CYCL DEF 26.1 X2 Y1 CCX+0 CCY+0 *").empty());
+}
+
+TEST_CASE("The table of the reference names the functions that have P01") {
+  std::ifstream in(std::string(FITGAUGE_SOURCE_DIR) + "/docs/reference/language.md");
+  std::string row;
+  while (std::getline(in, row) && row.find("with P01, P02") == row.npos) {
+  }
+  REQUIRE(row.starts_with("| D00 to D16, "));
+  for (unsigned number = 0; number < 39; ++number) {
+    CAPTURE(number);
+    const std::string name = (number < 10 ? "D0" : "D") + std::to_string(number);
+    const bool is_named = number <= 16 || row.find(name) != row.npos;
+    CHECK(is_named == !function_pattern(number).empty());
+  }
 }
 
 TEST_CASE("A block says what is missing or does not belong to it") {

@@ -157,6 +157,19 @@ TEST_CASE("a corner radius beyond half of the shorter side leaves a note") {
   CHECK(notes("CYCL DEF 251 Q218=60 Q219=40 Q220=20" + values) == 0);
 }
 
+TEST_CASE("a parameter of a cycle has a number or a text, not both") {
+  const std::string position =
+      "TCH PROBE 1400 Q1100=+30 Q1101=+40 Q1102=0 QS1102=\"0+0.1\" Q372=-3";
+  CHECK(findings(position, "this parameter is repeated in the cycle") == Found{"error 2"});
+}
+
+TEST_CASE("M104 is of the control: it leaves a note") {
+  Workshop control;
+  control.path("M104");
+  REQUIRE(outcome(control.last) == "completed");
+  CHECK(control.last.messages.back().text.starts_with("M104: "));
+}
+
 TEST_CASE("a polar position needs a radius and an angle since its pole") {
   const std::string start = "L X+9 Y+0 Z+5 R0 FMAX\n";
   for (const char* block : {"LP IPA+60 F100", "LP PA+90 F100", "CTP PA+90 F100"}) {
