@@ -114,6 +114,14 @@ Outcome<std::vector<Diagnostic>> found_there(const Context& context, const std::
 }  // namespace
 
 Outcome<Levels> read_levels(const std::vector<std::string>& written) {
+  using enum DiagnosticCode;
+  // Their programs do not run.
+  constexpr DiagnosticCode kErrors[] = {
+      SyntaxError,           BlockUnknown,      NumberMalformed,        NumberOutOfRange,
+      ParameterOutOfRange,   ParameterType,     StringUnterminated,     StringTooLong,
+      LabelMalformed,        ExpressionTooDeep, CycleParameterRepeated, ControlCharacter,
+      BeginMissing,          EndMissing,        LabelDuplicate,         CycleParameterUnknown,
+      CycleParameterInvalid, RunFailed};
   Levels levels;
   for (const std::string& level : written) {
     const std::size_t equals = level.find('=');
@@ -131,6 +139,9 @@ Outcome<Levels> read_levels(const std::vector<std::string>& written) {
     const std::string code = level.substr(0, equals);
     if (std::ranges::find(kCodes, code) == std::end(kCodes))
       return Failure{ExitCode::Usage, fmt::format("--level: unknown finding '{}'", code)};
+    if (std::ranges::find(kErrors, code, klartext::id) != std::end(kErrors))
+      return Failure{ExitCode::Usage,
+                     fmt::format("--level: '{}' is always an error: correct the program", code)};
     levels[code] = severity;
   }
   return levels;

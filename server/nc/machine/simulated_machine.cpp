@@ -124,8 +124,10 @@ MachineResult<double> SimulatedAxes::follow(const Path& path, const Motion& moti
   };
   const double part = motion.tool.is_probe ? free(workpiece_) : 1;
   const bool is_cutter = !motion.tool.is_probe && motion.tool.number != 0;
-  has_entered_part_ = is_cutter && (motion.feed.is_rapid || !motion.tool.turns) &&
-                      starts_free(path, motion.tool) && free(workpiece_) < 1;
+  const bool is_harmful = is_cutter && (motion.feed.is_rapid || !motion.tool.turns);
+  has_entered_part_ =
+      is_harmful && (starts_free(path, motion.tool) ? free(workpiece_) < 1
+                                                    : goes_on(path, motion) && !motion.is_retract);
   const double to_fixture = free(fixtures_);
   if (motion.allowance.found() != Allowance::Spent::Nothing) {
     return make_fault(FaultKind::Interrupted);
@@ -139,6 +141,27 @@ MachineResult<double> SimulatedAxes::follow(const Path& path, const Motion& moti
 bool SimulatedAxes::starts_free(const Path& path, const SpindleTool& known) const {
   const RealTool tool = real_tool(known);
   return workpiece_.clearance(ball_on_table(path.start, tool), tool.radius) > 0;
+}
+
+/// Whether a cutter that begins in the part is still in it one radius further, or at the end. Back
+/// along its axis it leaves the part.
+bool SimulatedAxes::goes_on(const Path& path, const Motion& motion) const {
+  const RealTool tool = real_tool(motion.tool);
+  const auto ball = [&](double part) {
+    return ball_on_table(part < 1 ? path.nose(part) : path.end, tool);
+  };
+  const auto is_inside = [&](const Vec3& centre) {
+    return workpiece_.clearance(centre, tool.radius) < -tolerance::kNanometre;
+  };
+  const Vec3 start = ball(0);
+  const Vec3 way = ball(1) - start;
+  const double length = norm(way);
+  const Vec3 back = real_table(path.start.rotary)
+                        .inverse()
+                        .direction(kinematics_.tool_direction(path.start.rotary, tool.axis));
+  const bool leaves = path.is_straight && dot(way, back) >= length * (1 - tolerance::kSquare);
+  if (leaves || !is_inside(start)) return false;
+  return is_inside(ball(path.is_straight && length > tool.radius ? tool.radius / length : 1));
 }
 
 /// The part of the path, 0 to 1, that the ball can go without touching.

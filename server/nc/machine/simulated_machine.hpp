@@ -40,6 +40,7 @@ class SimulatedAxes final : public Axes {
 
   void turn(const Vec3& rotary);
   bool starts_free(const Path& path, const SpindleTool& known) const;
+  bool goes_on(const Path& path, const Motion& motion) const;
   double free_part(const Workpiece& body, const Path& path, const RealTool& tool,
                    Allowance& allowance) const;
   RealTool real_tool(const SpindleTool& known) const;

@@ -6,6 +6,7 @@
 #include <bitset>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
@@ -104,6 +105,7 @@ class Contradictions {
 
   void check() {
     for (const Block& block : program_.blocks()) {
+      has_tool_ = has_tool_ || std::holds_alternative<klartext::ToolCall>(block.statement);
       if (const auto* label = std::get_if<klartext::LabelDefinition>(&block.statement))
         if (const auto* number = std::get_if<std::uint32_t>(&label->label))
           labels_.try_emplace(*number, &block);
@@ -271,6 +273,11 @@ class Contradictions {
                        "probes: TOOL CALL of the "
                        "touch probe is missing",
                        line_of(*cutter_), descriptor->number));
+    } else if (!calls_programs_ && !std::exchange(has_tool_, true)) {
+      warn(DiagnosticCode::StylusMissing, block_->written,
+           "the program has no TOOL CALL: it probes only if the touch probe is in the spindle "
+           "when it begins",
+           nullptr, Severity::Note);
     }
   }
 
@@ -420,6 +427,7 @@ class Contradictions {
   const Block* before_ = nullptr;
   const Block* spindle_ = nullptr;  ///< the block that has started the spindle
   const Block* cutter_ = nullptr;   ///< the block that machines with the tool in the spindle
+  bool has_tool_ = false;           ///< the program calls one
   bool calls_programs_ = false;
   std::map<std::uint32_t, const Block*> labels_;
   bool is_called_ = false;  ///< a subprogram is looked at for its call

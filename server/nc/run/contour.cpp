@@ -80,18 +80,25 @@ machine::Position Contour::position(const machine::Machine& machine) const {
   return position;
 }
 
+NcResult<void> Contour::move(machine::Machine& machine, const Element& element) {
+  auto done = CutterPath::move(machine, element);
+  has_entered_part = has_entered_part || machine.has_entered_part();
+  return done;
+}
+
 /// Passes an element to the cutter and stores the new end of the programmed path.
 NcResult<void> Contour::cut(machine::Machine& machine, const Element& element) {
   if (drawing_) return drawing_->add(element);
   const bool is_beside = element.side != 0 || cutter_.side() != 0;
   if (!is_beside && (is_shifted_ || element.shift != Vec3{})) return move_shifted(machine, element);
-  if (!is_beside) return CutterPath::move(machine, element);
+  if (!is_beside) return move(machine, element);
   machine::Position programmed = position(machine);
   for (const machine::Axis axis : machine::kAllAxes) {
     if (const auto& value = element.target[axis]) programmed[axis] = *value;
   }
   programmed.linear = element.plane.with(programmed.linear, element.curve.end);
   TRY(cutter_.add(machine, element));
+  has_entered_part = has_entered_part || machine.has_entered_part();
   beside_ = Beside{programmed, machine.position()};
   return {};
 }
@@ -105,7 +112,7 @@ NcResult<void> Contour::move_shifted(machine::Machine& machine, Element element)
   for (std::size_t axis = 0; axis < 3; ++axis) {
     element.target.values[axis] = programmed.linear[axis] + element.shift[axis];
   }
-  TRY(CutterPath::move(machine, element));
+  TRY(move(machine, element));
   beside_ = Beside{programmed, machine.position()};
   is_shifted_ = element.shift != Vec3{};
   return {};
@@ -115,7 +122,7 @@ NcResult<void> Contour::add(machine::Machine& machine, Element element, bool cor
   if (element.system != machine::CoordinateSystem::Input) {
     if (drawing_) return nc_error("M91 and M92 are not allowed in the contour of an SL cycle");
     TRY(finish(machine));
-    return CutterPath::move(machine, element);
+    return move(machine, element);
   }
   if (element.side != 0 && !(element.plane == working_plane(machine))) {
     return nc_error(
@@ -216,13 +223,13 @@ NcResult<void> Contour::approach(machine::Machine& machine, const Element& next)
   Element to_auxiliary = approach.to_start;
   to_auxiliary.feed = approach.before;
   set_plane_target(to_auxiliary, auxiliary);
-  TRY(CutterPath::move(machine, to_auxiliary));
+  TRY(move(machine, to_auxiliary));
   Curve to_first{auxiliary, first, std::nullopt, 0};
   if (is_arc) {
     to_first.centre = centre;
     to_first.sweep_deg = sweep(auxiliary, first, centre, turn > 0);
   }
-  TRY(CutterPath::move(machine, along(to_first, approach.to_start, approach.to_start.feed)));
+  TRY(move(machine, along(to_first, approach.to_start, approach.to_start.feed)));
   if (side != 0) cutter_.begin(first, side);
   return {};
 }

@@ -62,6 +62,7 @@ class Contour {
   std::optional<machine::Feed> last_feed;  ///< of the last positioning block, FMAX among them
   double tool_feed = 0;                    ///< F AUTO: the feed of TOOL CALL
   bool feed_per_revolution = false;        ///< M136
+  bool has_entered_part = false;           ///< a cutter has, in rapid or not turning: to be noted
 
  private:
   struct Corner {
@@ -75,6 +76,7 @@ class Contour {
     machine::Position tool;
   };
 
+  NcResult<void> move(machine::Machine& machine, const Element& element);
   NcResult<void> cut(machine::Machine& machine, const Element& element);
   NcResult<void> move_shifted(machine::Machine& machine, Element element);
   NcResult<void> turn_corner(machine::Machine& machine, Element& next);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "nc/run/channel.hpp"
 #include "nc/run/m_functions.hpp"
@@ -58,7 +59,7 @@ std::optional<machine::Axis> tool_axis(const std::optional<klartext::Axis>& axis
 using klartext::Motion;
 
 NcResult<void> note_entry(Channel& channel) {
-  if (!channel.machine().has_entered_part()) return {};
+  if (!std::exchange(channel.contour.has_entered_part, false)) return {};
   const auto& state = channel.machine().state();
   return channel.note(fmt::format(
       "tool {} enters the part {}", state.tool.number,

@@ -40,7 +40,7 @@ class Programs(ClientTest):
 
     def test_programs_are_checked_and_formatted_without_the_service(self):
         hole = ("BEGIN PGM A MM\nTCH PROBE 421 MEASURE BOSS ~\n Q273=+1 ~\n Q274=+1 ~\n Q262=+12 ~\n Q247=+90 ~\n Q261=-5 ~\n"
-                " Q260=+20 ~\n Q275=+12.1 ~\n Q276=+12\nEND PGM A MM\n")
+                " Q260=+20 ~\n Q275=+12.1 ~\n Q276=+12\nTOOL CALL 0 Z\nEND PGM A MM\n")
         self.client.write("a.h", hole)
         self.assertIn("warning", self.assert_runs(1, "nc", "check", "a.h"))
         code = "cycle.dialog_contradicts"
@@ -87,6 +87,12 @@ class Programs(ClientTest):
         self.assertEqual(notes("L Z-5 F200", "L X+60 F500"), [])  # at feed it works, and away from material it may go in rapid
         self.assertEqual(notes("L Z+0 FMAX", "L X+60 FMAX"), [])  # on the face, not in it
         self.assertEqual(notes("L Z-5 FMAX", "L Z+2 FMAX", "L Z-5 FMAX"), [(5, "note")])
+        # It goes on through the part in rapid, on a line or an arc; one radius aside it has left the part.
+        self.assertEqual(notes("L Z-5 F200", "L X+60 FMAX"), [(6, "note")])
+        self.assertEqual(notes("L Z-5 F200", "CC X+50 Y+60", "C DR+ FMAX"), [(7, "note")])
+        self.assertEqual(notes("L X-5 F500", "L Z-5 F200", "L X-20 FMAX"), [])
+        # An approach moves with the block that begins the contour.
+        self.assertEqual(notes("APPR LT X+10 Y+20 Z-5 LEN15 RR FMAX", "L X+40 F200"), [(6, "note")])
         # A standing spindle cuts nothing.
         self.assertEqual(notes("L Z-5 F200 M5", "L Z+2 FMAX", "L Z-5 F200"), [(7, "note")])
         self.assertEqual(notes("L Z-5 F200 M4", "L Z+2 FMAX M5", "L Z+1 F200", "TOOL CALL 5 Z", "L Z-5 F200 M3"), [])
@@ -153,6 +159,9 @@ END PGM HOLE MM
                 self.assert_runs(0, "nc", "format", "--in-place", name)
                 self.assertEqual((self.client.folder / name).read_bytes(), text.replace("  ", " ").encode(encoding))
         self.assertIn("unknown finding", self.assert_fails(4, "nc", "check", "t.h", "--level", "program.misssing=off"))
+        # A program with such a finding does not run, so that no level changes it.
+        for code in ("cycle.parameter_unknown", "syntax.error", "label.duplicate", "run.failed"):
+            self.assertIn("is always an error", self.assert_fails(4, "nc", "check", "t.h", "--level", f"{code}=off"))
 
     def test_programs_run_here_as_at_the_service(self):
         folder = EXAMPLES / "8255"

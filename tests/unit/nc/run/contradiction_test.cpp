@@ -28,7 +28,7 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
 /// `warning 3 cycle.order_contradicts` for each finding.
 std::vector<std::string> findings(std::string_view body) {
   Control control;
-  control.program(body);
+  control.program(std::string(body) + "\nTOOL CALL 0 Z");
   std::vector<std::string> found;
   for (const auto& each : control.diagnostics()) {
     found.push_back(std::string(word(each.severity)) + " " + std::to_string(each.range.begin.line) +
@@ -123,7 +123,7 @@ TEST_CASE("a contradiction is found at its line") {
 
 TEST_CASE("parameters of another cycle name that cycle") {
   Control control;
-  control.program(replaced(replaced(hole(), "Q275", "Q277"), "Q276", "Q278"));
+  control.program(replaced(replaced(hole(), "Q275", "Q277"), "Q276", "Q278") + "TOOL CALL 0 Z");
   const auto found = control.diagnostics();
   REQUIRE(!found.empty());
   CHECK(found[0].message.find("those of cycle 422 MEAS. CIRCLE OUTSIDE") != std::string::npos);

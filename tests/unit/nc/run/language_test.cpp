@@ -45,7 +45,7 @@ TEST_CASE("each construct of the language page is what the page says") {
   for (const Construct& row : all) {
     CAPTURE(row.example);
     Control control;
-    control.program(row.example + "\nLBL 1\nLBL \"NAME1\"");
+    control.program(row.example + "\nLBL 1\nLBL \"NAME1\"\nTOOL CALL 0 Z");
     if (row.example.starts_with("LBL")) control.program(row.example);
     const auto findings = control.diagnostics();
     const bool warned = !findings.empty();

@@ -84,7 +84,8 @@ TEST_CASE("a row and columns that the only open table lacks are found before the
 TEST_CASE("cycle parameters are checked before the run") {
   Control control;
   const auto code_of = [&](std::string_view parameters) {
-    control.program("TCH PROBE 427 MEASURE COORDINATE ~\n" + std::string(parameters));
+    control.program("TCH PROBE 427 MEASURE COORDINATE ~\n" + std::string(parameters) +
+                    "\nTOOL CALL 0 Z");
     const auto found = control.diagnostics();
     return found.empty() ? std::string("fine") : std::string(id(found[0].code));
   };

@@ -89,7 +89,7 @@ TEST_CASE("studs and faces name what cannot be milled") {
   CHECK(error("257 STUD Q223=30 Q222=30 Q370=1" + depth) == 0);
   CHECK(error("257 STUD Q223=30 Q222=29.9999 Q370=1" + depth) == 1036);
   CHECK(error("256 STUD Q218=60 Q424=60 Q219=40 Q425=39 Q370=1" + depth) == 1098);
-  CHECK(error("256 STUD Q218=60 Q424=60 Q219=40 Q425=40 Q370=1 Q207=500 Q201=+5") == 1012);
+  CHECK(error("256 STUD Q218=60 Q424=60 Q219=40 Q425=40 Q370=1 Q207=500 Q206=150 Q201=+5") == 1012);
   CHECK(error("232 FACE Q227=0 Q386=0 Q218=10 Q219=10") == 0);  // the control does not run it
   CHECK(error("232 FACE Q227=0 Q386=1 Q218=10 Q219=10") == 1016);
   mill.setup.machine.tools.back().row.r = 0;

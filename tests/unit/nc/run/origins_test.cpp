@@ -96,20 +96,20 @@ TEST_CASE("a finding of the check names what it contradicts") {
   CHECK(unset[0].notes[0].range.begin.line == 3);
   control.program(
       "Q1 = +30\nQ2 = +20\nTCH PROBE 427 MEASURE COORDINATE ~\n Q263=+0 ~\n Q264=+0 ~\n "
-      "Q261=+Q1 ~\n Q272=+3 ~\n Q267=-1 ~\n Q260=+Q2\n");
+      "Q261=+Q1 ~\n Q272=+3 ~\n Q267=-1 ~\n Q260=+Q2\nTOOL CALL 0 Z");
   auto found = control.diagnostics();
   REQUIRE(found.size() == 1);
   CHECK(found[0].range.begin.line == 3);
   REQUIRE(found[0].notes.size() == 1);
   CHECK(found[0].notes[0].range.begin.line == 2);
   const std::string ring = "TCH PROBE 462 CALIBRATION OF A TS IN A RING ~\n Q407=";
-  control.program(ring + "+50 ~\n Q320=+0 ~\n Q423=+8 ~\n Q380=+0\n", "main.h", true);
+  control.program(ring + "+50 ~\n Q320=+0 ~\n Q423=+8 ~\n Q380=+0\nTOOL CALL 0 Z", "main.h", true);
   found = control.diagnostics();
   REQUIRE(found.size() == 1);
   REQUIRE(found[0].notes.size() == 1);
   CHECK(found[0].notes[0].message == "the lengths are in INCH");
   CHECK(found[0].notes[0].range.begin.line == 1);
-  control.program(ring + "+500 ~\n Q320=+0 ~\n Q423=+8 ~\n Q380=+0\n", "main.h", true);
+  control.program(ring + "+500 ~\n Q320=+0 ~\n Q423=+8 ~\n Q380=+0\nTOOL CALL 0 Z", "main.h", true);
   found = control.diagnostics();
   REQUIRE(found.size() == 1);
   CHECK(found[0].notes.empty());

@@ -58,7 +58,7 @@ TEST_CASE("IPA and DR turn the same way, and the end is the start turned by the 
     CAPTURE(by);
     // Written as parameters, so that the check does not refuse the program before it runs.
     CHECK(fails("Q1 = " + by + "\n" + start + "CP IPA+Q1 " + against + " F100",
-                "line 6: Incorrect sign: IPA"));
+                "line 7: Incorrect sign: IPA"));
     CHECK(findings(start + "CP IPA" + by + " " + against + " F100", "IPA") == Found{"error 4"});
     CHECK(findings(start + "CP IPA" + by + " " + with + " F100", "IPA").empty());
 
@@ -168,6 +168,14 @@ TEST_CASE("M104 is of the control: it leaves a note") {
   control.path("M104");
   REQUIRE(outcome(control.last) == "completed");
   CHECK(control.last.messages.back().text.starts_with("M104: "));
+}
+
+TEST_CASE("a program that probes without a TOOL CALL gets one note") {
+  const std::string probe = "TCH PROBE 1400 Q1100=+30 Q1101=+40 Q1102=0 Q372=-3\n";
+  CHECK(findings(probe + probe, "no TOOL CALL") == Found{"note 2"});
+  CHECK(findings(probe + "TOOL CALL 30 Z", "no TOOL CALL").empty());
+  CHECK(findings("CALL PGM tool.h\n" + probe, "no TOOL CALL").empty());
+  CHECK(findings("Q1 = 5", "no TOOL CALL").empty());
 }
 
 TEST_CASE("a polar position needs a radius and an angle since its pole") {
