@@ -342,9 +342,16 @@ class Contradictions {
     if (is_called_ && (at.block == block_ || std::ranges::any_of(diagnostics_, is_same))) return;
     const std::size_t before = diagnostics_.size();
     warn(DiagnosticCode::OrderContradicts, at.place, std::move(message), at.block);
-    const SourceRange other = program_.range((&at == &a ? b : a).place);
-    if (before < diagnostics_.size() && other.begin.line != diagnostics_.back().range.begin.line)
-      diagnostics_.back().notes.push_back({"the other number", other});
+    if (before == diagnostics_.size()) return;
+    klartext::Diagnostic& found = diagnostics_.back();
+    const FollowedValue& behind = &at == &a ? b : a;
+    const SourceRange other = program_.range(behind.place);
+    if (other.begin.line != found.range.begin.line)
+      found.notes.push_back({"the other number", other, {}});
+    if (at.block != block_ && behind.block != block_)
+      found.notes.push_back({"the cycle that reads it",
+                             diagnose(program_, *block_, Severity::Note, found.code, {}).range,
+                             {}});
   }
 
   void check_order(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {

@@ -100,8 +100,10 @@ TEST_CASE("a finding of the check names what it contradicts") {
   auto found = control.diagnostics();
   REQUIRE(found.size() == 1);
   CHECK(found[0].range.begin.line == 3);
-  REQUIRE(found[0].notes.size() == 1);
+  REQUIRE(found[0].notes.size() == 2);
   CHECK(found[0].notes[0].range.begin.line == 2);
+  CHECK(found[0].notes[1].message == "the cycle that reads it");
+  CHECK(found[0].notes[1].range.begin.line == 4);
   const std::string ring = "TCH PROBE 462 CALIBRATION OF A TS IN A RING ~\n Q407=";
   control.program(ring + "+50 ~\n Q320=+0 ~\n Q423=+8 ~\n Q380=+0\nTOOL CALL 0 Z", "main.h", true);
   found = control.diagnostics();
