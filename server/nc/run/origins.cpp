@@ -53,28 +53,32 @@ std::vector<QRef> read_by(const Program& program, const Block& block, const std:
   return named.empty() ? all : named;
 }
 
-const probing::CycleDescriptor* descriptor_of(const Program& program, const Block& block) {
+const probing::CycleDescriptor* descriptor_of(const Block& block) {
   const auto* cycle = as<klartext::Cycle>(block);
-  return cycle == nullptr ? nullptr : bind_cycle(program, *cycle).descriptor();
+  if (cycle == nullptr) return nullptr;
+  if (const auto* probing = probing_cycle(cycle->family, cycle->number))
+    return &probing->descriptor;
+  const auto* machining = machining_cycle(cycle->number);
+  return machining == nullptr ? nullptr : &machining->descriptor;
 }
 
-bool sets(const Program& program, const Block& block, QRef parameter) {
+bool sets(const Program&, const Block& block, QRef parameter) {
   if (const auto* set = as<klartext::Assignment>(block)) return set->target == parameter;
   if (const auto* table = as<klartext::TableRead>(block)) return table->first == parameter;
-  const auto* known = descriptor_of(program, block);
+  const auto* known = descriptor_of(block);
   return known != nullptr && std::ranges::any_of(known->results, [&](const auto& each) {
            return parameter == QRef{klartext::QSpace::Q, each.q};
          });
 }
 
 /// Another datum or rotation, or other data of the probe and the axes.
-bool sets_datum(const Program& program, const Block& block) {
+bool sets_datum(const Program&, const Block& block) {
   if (as<klartext::Trans>(block) != nullptr || as<klartext::Plane>(block) != nullptr) return true;
   if (const auto* part = as<klartext::CyclePart>(block))
     return part->part > 0 && part->family == klartext::CycleFamily::CyclDef &&
            is_dotted_cycle(part->number) && part->number != 9 && part->number != 32;
   using enum probing::CycleKind;
-  const auto* known = descriptor_of(program, block);
+  const auto* known = descriptor_of(block);
   return known != nullptr &&
          (known->number >= 1400 || (known->kind >= Preset && known->kind <= Kinematics));
 }
@@ -100,6 +104,49 @@ bool moves(const Block& block, const std::string& error) {
          as<klartext::Cycle>(block) != nullptr || as<klartext::CyclePart>(block) != nullptr;
 }
 
+/// Whether the block calls the machining cycle that is defined.
+bool calls_cycle(const Program& program, const Block& block) {
+  return as<klartext::CycleCall>(block) != nullptr ||
+         std::ranges::any_of(words_of(program, block), [](const Word& word) {
+           return word.letter == Letter::M &&
+                  (word.value == klartext::Expr(99.0) || word.value == klartext::Expr(89.0));
+         });
+}
+
+/// Whether the block itself says where an axis goes.
+bool names_axis(const Program& program, const Block& block, Letter axis) {
+  const auto* part = as<klartext::CyclePart>(block);
+  const bool probes = part != nullptr && part->family == klartext::CycleFamily::TchProbe;
+  return (probes || as<klartext::Motion>(block) != nullptr ||
+          as<klartext::CycleCall>(block) != nullptr) &&
+         std::ranges::any_of(words_of(program, block), [=](const Word& word) {
+           const bool is_polar = word.letter == Letter::Pr || word.letter == Letter::Pa;
+           return (word.letter == axis && !word.argument) || (is_polar && axis != Letter::Z);
+         });
+}
+
+/// Whether the block leaves an axis elsewhere; a cycle that probes or machines moves all of them.
+bool moves_axis(const Program& program, const Block& block, Letter axis) {
+  if (const auto* known = descriptor_of(block))
+    return known->family == probing::CycleFamily::TchProbe && known->errors.contains(1093);
+  return names_axis(program, block, axis) || calls_cycle(program, block);
+}
+
+bool defines_cycle(const Program&, const Block& block) {
+  const auto* known = descriptor_of(block);
+  return known != nullptr && known->kind == probing::CycleKind::Machining;
+}
+
+/// CYCL DEF 247, whose datum another cycle may have written.
+bool activates_preset(const Program&, const Block& block) {
+  const auto* known = descriptor_of(block);
+  return known != nullptr && known->number == 247;
+}
+bool writes_preset(const Program&, const Block& block) {
+  const auto* known = descriptor_of(block);
+  return known != nullptr && known->kind == probing::CycleKind::Preset && known->number != 247;
+}
+
 /// Whether it reads data of the control, such as FN 18 of a position.
 bool reads_control(const Program& program, const Block& block) {
   const auto* set = as<klartext::Assignment>(block);
@@ -111,10 +158,11 @@ class Origins {
  public:
   explicit Origins(std::span<const Place> chain) : chain_(chain) {}
 
-  /// A block of the chain, or of the program that it is in.
+  /// A block of the chain, of the program that it is in, or of a subprogram called there.
   struct Position {
     std::size_t at = 0;
     std::uint32_t index = 0;
+    std::vector<std::uint32_t> calls{};  ///< that have led there from the part of the chain
   };
   const Program& program(const Position& position) const {
     return chain_[position.at].program->program();
@@ -123,18 +171,14 @@ class Origins {
     return program(position).blocks()[position.index];
   }
 
-  /// Notes the nearest block before `from` that sets something. @returns it
-  std::optional<Position> find(const std::string& what, const Position& from, const auto& sets) {
-    for (std::size_t at = from.at; at < chain_.size(); ++at) {
-      const Program& program = chain_[at].program->program();
-      const auto* call = at + 1 < chain_.size() ? call_before(program, chain_[at + 1]) : nullptr;
-      const std::uint32_t first = at == from.at ? from.index : chain_[at].index;
-      for (std::uint32_t i = first; i-- > 0 && left_ > 0; --left_) {
-        const Block& block = program.blocks()[i];
-        if (sets(program, block)) return note(what, {chain_[at].program, i}), Position{at, i};
-        if (begins_part(program, block, call)) break;
-      }
-    }
+  /// Notes the block that has run last before a position and sets something, as far as calls of
+  /// subprograms tell that. @returns it
+  std::optional<Position> find(const std::string& what, Position at, const auto& sets) {
+    do {
+      if (!search(at, sets)) continue;
+      note(what, {chain_[at.at].program, at.index});
+      return at;
+    } while (left_ > 0 && leave_part(at));
     return std::nullopt;
   }
   void note(const std::string& what, const Place& place) {
@@ -149,13 +193,67 @@ class Origins {
   std::vector<klartext::DiagnosticNote> notes;
 
  private:
-  /// @returns the call of a label of this program that stands before the place, or null
-  const klartext::LabelCall* call_before(const Program& program, const Place& place) {
-    if (&place.program->program() != &program) return nullptr;
-    const klartext::LabelCall* call = nullptr;
-    for (std::uint32_t i = place.index; i-- > 0 && call == nullptr && left_ > 0; --left_)
-      call = as<klartext::LabelCall>(program.blocks()[i]);
-    return call;
+  /// Goes back to the nearest block of the part that sets something, or of a subprogram that it has
+  /// called. @returns whether there is one; else the position is at the begin of the part
+  bool search(Position& at, const auto& sets) {
+    constexpr std::size_t kDeepest = 4;
+    const Program& program = this->program(at);
+    auto call = call_of(at);
+    while (at.index > 0 && left_ > 0) {
+      --left_;
+      const Block& block = program.blocks()[--at.index];
+      if (sets(program, block)) return true;
+      if (begins_part(program, block, call)) return false;
+      const auto end = at.calls.size() < kDeepest ? end_of_call(at, block) : std::nullopt;
+      if (!end) continue;
+      at.calls.push_back(std::exchange(at.index, *end));
+      call = call_of(at);
+    }
+    return false;
+  }
+  /// Goes to the call that has led to the part. @returns whether there is one
+  bool leave_part(Position& at) const {
+    if (!at.calls.empty()) {
+      at.index = at.calls.back();
+      at.calls.pop_back();
+      return true;
+    }
+    if (++at.at == chain_.size()) return false;
+    const bool is_same = chain_[at.at].program == chain_[at.at - 1].program;
+    at.index = (is_same ? call_before(at.at) : std::nullopt).value_or(chain_[at.at].index);
+    return true;
+  }
+  /// The call that has led to the part, or null.
+  const klartext::LabelCall* call_of(const Position& at) const {
+    const auto blocks = program(at).blocks();
+    if (!at.calls.empty()) return as<klartext::LabelCall>(blocks[at.calls.back()]);
+    const std::size_t caller = at.at + 1;
+    if (caller == chain_.size() || chain_[caller].program != chain_[at.at].program) return nullptr;
+    const auto call = call_before(caller);
+    return call ? as<klartext::LabelCall>(blocks[*call]) : nullptr;
+  }
+  /// The LBL 0 of the subprogram that a block calls by its number.
+  std::optional<std::uint32_t> end_of_call(const Position& at, const Block& block) {
+    const auto* call = as<klartext::LabelCall>(block);
+    const auto* number = call != nullptr && klartext::is_absent(call->repeat)
+                             ? std::get_if<0>(&call->label)
+                             : nullptr;
+    const LinkedProgram& linked = *chain_[at.at].program;
+    const auto first = number != nullptr ? linked.label(*number) : std::nullopt;
+    if (!first) return std::nullopt;
+    const auto blocks = linked.program().blocks();
+    for (std::uint32_t i = linked.block_of(*first); i < blocks.size() && left_ > 0; ++i, --left_) {
+      const auto* label = as<klartext::LabelDefinition>(blocks[i]);
+      if (label != nullptr && label->label == klartext::Label(0U)) return i;
+    }
+    return std::nullopt;
+  }
+  /// The call of a label that stands before a place of the chain.
+  std::optional<std::uint32_t> call_before(std::size_t at) const {
+    const auto blocks = chain_[at].program->program().blocks();
+    for (std::uint32_t i = chain_[at].index; i-- > 0;)
+      if (as<klartext::LabelCall>(blocks[i]) != nullptr) return i;
+    return std::nullopt;
   }
 
   std::span<const Place> chain_;
@@ -172,8 +270,9 @@ std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
   const auto calls_tool = [](const auto&, const Block& each) {
     return as<klartext::ToolCall>(each) != nullptr;
   };
-  // Tool axis is missing, tool not defined, no touch probe.
-  if (error.number == 1001 || error.number == 1092 || error.number == 1093) {
+  // Tool axis is missing, tool not defined, no touch probe, no teeth.
+  if (error.number == 1001 || error.number == 1092 || error.number == 1093 ||
+      error.number == 1109) {
     origins.find("tool", failed, calls_tool);
     return std::move(origins.notes);
   }
@@ -200,17 +299,19 @@ std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
   }
   if (reads_control(origins.program(failed), block)) origins.find("datum", failed, sets_datum);
   if (error.number == 1004 || !moved) return std::move(origins.notes);
+  bool has_cycle = false;
   for (const Letter axis : {Letter::X, Letter::Y, Letter::Z}) {
+    if (names_axis(origins.program(*moved), origins.block(*moved), axis)) continue;
     const auto moves = [=](const Program& in, const Block& each) {
-      return (as<klartext::Motion>(each) != nullptr || as<klartext::CycleCall>(each) != nullptr) &&
-             std::ranges::any_of(words_of(in, each), [=](const Word& word) {
-               return word.letter == axis && !word.argument;
-             });
+      return moves_axis(in, each, axis);
     };
-    if (!moves(origins.program(*moved), origins.block(*moved)))
-      origins.find(std::string(spelling(axis)), *moved, moves);
+    const auto mover = origins.find(std::string(spelling(axis)), *moved, moves);
+    if (mover && !has_cycle && calls_cycle(origins.program(*mover), origins.block(*mover)))
+      has_cycle = origins.find("cycle", *mover, defines_cycle).has_value();
   }
-  origins.find("datum", *moved, sets_datum);
+  const auto datum = origins.find("datum", *moved, sets_datum);
+  if (datum && activates_preset(origins.program(*datum), origins.block(*datum)))
+    origins.find("preset", *datum, writes_preset);
   if (chain.front().program->is_inch())
     origins.notes.push_back(inch_note(chain.front().program->program()));
   return std::move(origins.notes);

@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include "run_fixture.hpp"
 
 namespace fitgauge::interpreter {
@@ -44,6 +46,11 @@ TEST_CASE("an error names the blocks that it comes from") {
     bool is_inch = false;
   };
   const std::string jump = "FN 9: IF +1 EQU +2 GOTO LBL 9\n";
+  const std::string height = "FN 18: SYSREAD Q1 = ID270 NR1 IDX3\nFN 9: IF +Q1 EQU +";
+  const std::string jump_behind = " GOTO LBL 9\nM30\nLBL 9\nFN 14: ERROR = 1000";
+  const std::string drilling =
+      "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-10 ~\n Q206=+150 ~\n Q202=+5 ~\n Q210=+0 ~\n "
+      "Q203=+0 ~\n Q204=+20 ~\n Q211=+0\n";
   const std::string call = "CALL LBL 1\nM30\nLBL 1\n" + kFace + "LBL 0";
   const Case cases[] = {
       // A value of a parameter: the one that the error names, from the call.
@@ -71,6 +78,29 @@ TEST_CASE("an error names the blocks that it comes from") {
        "LBL 0\nLBL 9\nFN 14: ERROR = 1000",
        {"14", "11: condition set here", "10: Q2 set here", "6: Q2 set here", "4: Q1 set here",
         "2: tool set here", "3: Y, X set here"}},
+      // A subprogram that was called before: what it has left.
+      {"TOOL CALL 30 Z\nL X+20 Y+30 Z+50 FMAX\nCALL LBL 1\nL Z-5 FMAX\nM30\nLBL 1\nL X+50 FMAX\n"
+       "Q1 = 2\nLBL 0",
+       {"5", "8: X set here", "3: Y set here"}},
+      {"TOOL CALL 30 Z\nQ1 = 1\nCALL LBL 1\nL X+20 Y+30 FMAX\nQ2 = 1 / Q1\nM30\nLBL 1\nQ1 = 0\n"
+       "LBL 0",
+       {"6", "9: Q1 set here"}},
+      // A cycle that leaves the axes elsewhere: called, or probing.
+      {"TOOL DEF 5 L+50 R+4\nTOOL CALL 5 Z S1000 F100\n" + drilling +
+           "L X+20 Y+130 Z+60 FMAX M3\nL X+30 FMAX M99\n" + height + "20" + jump_behind,
+       {"19", "16: condition set here", "15: Q1 set here", "3: tool set here",
+        "14: Z, Y, X set here", "4: cycle set here"}},
+      {"TOOL CALL 30 Z\nL X+20 Y+30 FMAX\nQL1 = 50\nQL3 = 3\n" + kFace + height + "20" +
+           jump_behind,
+       {"23", "20: condition set here", "19: Q1 set here", "2: tool set here",
+        "6: Z, Y, X set here"}},
+      // A datum of the preset table: what has written its row.
+      {"TOOL CALL 30 Z\nL X+20 Y+30 Z+50 FMAX\nTCH PROBE 417 DATUM IN TS AXIS ~\n Q263=+20 ~\n "
+       "Q264=+20 ~\n Q294=+0 ~\n Q320=+0 ~\n Q260=+50 ~\n Q305=+5 ~\n Q333=+3 ~\n Q303=+1\n"
+       "CYCL DEF 247 DATUM SETTING ~\n Q339=+5\nL Z+53 FMAX\n" +
+           height + "53" + jump_behind,
+       {"20", "17: condition set here", "16: Q1 set here", "2: tool set here",
+        "4: preset, Y, X set here", "15: Z set here", "13: datum set here"}},
       // An error that comes from no position.
       {"TOOL CALL 30 Z\nL X+20 Y+30 Z+50 FMAX\nCALL PGM GONE", {"4"}},
       {"TOOL CALL 30 Z\nL X+20 Y+30 Z+50 FMAX\nL X+10 F100 M999", {"4"}},
@@ -82,7 +112,9 @@ TEST_CASE("an error names the blocks that it comes from") {
   };
   for (const Case& each : cases) {
     CAPTURE(each.body);
-    CHECK(origins(each.body, each.is_inch) == each.found);
+    const Lines found = origins(each.body, each.is_inch);
+    CAPTURE(fmt::format("{}", fmt::join(found, ", ")));
+    CHECK(found == each.found);
   }
 }
 
