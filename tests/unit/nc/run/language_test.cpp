@@ -11,7 +11,7 @@ namespace fitgauge::interpreter {
 namespace {
 
 std::string page() {
-  std::ifstream in(std::string(FITGAUGE_SOURCE_DIR) + "/docs/reference/language.md");
+  std::ifstream in(FITGAUGE_SOURCE_DIR "/docs/reference/language.md");
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
