@@ -23,7 +23,8 @@ class Follower final : public interpreter::RunObserver {
       : trial_(trial), path_(std::move(path)), watched_(std::move(watched)) {}
   bool follows_every_block() const override { return true; }
   void begins(const interpreter::RunFiles& /*files*/,
-              const interpreter::QParameters& parameters) override {
+              const interpreter::QParameters& parameters,
+              const interpreter::CallStack& /*calls*/) override {
     parameters_ = &parameters;
   }
   void entered(const interpreter::Place& place) override {

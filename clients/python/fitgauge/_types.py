@@ -438,6 +438,16 @@ class RunMeasurementsForm(_RunMeasurementsForm, total=False):
     residual_mm: Decimal
 
 
+class _RunMeasurementsOrigins(TypedDict):
+    message: str
+    line: int
+    column: int
+
+
+class RunMeasurementsOrigins(_RunMeasurementsOrigins, total=False):
+    program: str
+
+
 class _RunMeasurements(TypedDict):
     cycle: int
     program: str
@@ -449,6 +459,7 @@ class _RunMeasurements(TypedDict):
 
 class RunMeasurements(_RunMeasurements, total=False):
     form: RunMeasurementsForm
+    origins: List[RunMeasurementsOrigins]
 
 
 class RunPresets(TypedDict):

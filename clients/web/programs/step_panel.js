@@ -51,7 +51,8 @@ export class StepPanel {
     const block = this.steps.blocks[this.at];
     this.said.textContent = [t('steps.of', { at: this.at + 1, count: this.steps.length }), `${fileName(block.program)} ${placeText(block)}`].join(' · ');
     const changes = this.steps.changesAt(this.at);
-    refill(this.changed, changes.length ? h('dl.parameters', changes.map(([name, before, after]) => h('div', h('dt', name), h('dd', before === undefined ? text(after) : `${text(before)} → ${text(after)}`)))) : h('p.aside', t('steps.unchanged')));
+    const origins = (block.origins ?? []).map((each) => h('p.aside', `${fileName(each.program)} ${placeText(each)}: `, h('span', { lang: 'en' }, each.message)));
+    refill(this.changed, changes.length ? h('dl.parameters', changes.map(([name, before, after]) => h('div', h('dt', name), h('dd', before === undefined ? text(after) : `${text(before)} → ${text(after)}`)))) : h('p.aside', t('steps.unchanged')), origins);
     this.all.hidden = !Object.keys(block.values).length;
     refill(this.all, Object.entries(block.values).map(([name, value]) => h('div', h('dt', name), h('dd', text(value)))));
   }

@@ -109,6 +109,14 @@ void members(auto& v, const probing::Form& form) {
              "Root mean square of the points from the circle");
 }
 
+void members(auto& v, const klartext::DiagnosticNote& note) {
+  v.member("message", note.message);
+  v.optional("program", note.program.empty() ? nullptr : &note.program,
+             "The file it is in; absent: that of the finding");
+  v.member("line", note.range.begin.line, "Number, from 1");
+  v.member("column", note.range.begin.column, "Number, from 1");
+}
+
 void members(auto& v, const interpreter::Measurement& measurement) {
   const probing::MeasuringRecord& record = measurement.record;
   v.member("cycle", record.cycle, "Number of the cycle");
@@ -118,14 +126,8 @@ void members(auto& v, const interpreter::Measurement& measurement) {
   v.member("verdict", record.verdict, kVerdict, "null without limits");
   v.member("sizes", record.sizes);
   v.optional("form", record.form, "Form of a circular feature");
-}
-
-void members(auto& v, const klartext::DiagnosticNote& note) {
-  v.member("message", note.message);
-  v.optional("program", note.program.empty() ? nullptr : &note.program,
-             "The file it is in; absent: that of the finding");
-  v.member("line", note.range.begin.line, "Number, from 1");
-  v.member("column", note.range.begin.column, "Number, from 1");
+  v.optional("origins", measurement.origins.empty() ? nullptr : &measurement.origins,
+             "Blocks that its parameters and its datum come from");
 }
 
 void members(auto& v, const klartext::Diagnostic& found) {

@@ -77,12 +77,19 @@ void write_move(std::string& out, const machine::TracedMove& move, const app::Tr
 }
 
 void write_block(std::string& out, const app::TracePlace& place, std::size_t moves,
-                 std::span<const interpreter::ParameterValue> values) {
+                 std::span<const interpreter::ParameterValue> values,
+                 std::span<const klartext::DiagnosticNote> origins) {
   JsonWriter json(out);
   json.begin_object().key("block").value(*place.block).member("line", place.line);
   json.member("program", place.program).member("moves", moves);
   json.member("tool", place.tool).key("values");
   write_parameters(json, values);
+  if (!origins.empty()) json.key("origins").begin_array();
+  for (const klartext::DiagnosticNote& each : origins) {
+    json.begin_object().member("message", each.message).member("line", each.range.begin.line);
+    json.member("program", each.program.empty() ? place.program : each.program).end_object();
+  }
+  if (!origins.empty()) json.end_array();
   json.end_object();
 }
 
@@ -213,7 +220,12 @@ void add_trace_schema(Schemas& schemas) {
        {"tool", schema::count(),
         "Number of the tool in the spindle after the block, 0 without one"},
        {"values", schema::map(R"({"type":["number","string"]})"),
-        "Values of the watched parameters after the block; undefined ones are absent"}});
+        "Values of the watched parameters after the block; undefined ones are absent"},
+       {"origins",
+        schema::array(schema::object({{"message", schema::text(), ""},
+                                      {"line", schema::count(), ""},
+                                      {"program", schema::text(), ""}})),
+        "Blocks that the values of a measuring cycle or of FN 18 come from", false}});
   schemas.push_back(
       {"Trace", schema::object(
                     {{"moves", schema::array(move), "Moves in order of time"},

@@ -65,7 +65,7 @@ void ChannelCycleHost::show_and_stop(std::string_view text) {
 }
 
 void ChannelCycleHost::record(const probing::MeasuringRecord& record) {
-  keep(channel_.log.record(record, channel_.place()));
+  keep(channel_.log.record(record, channel_.chain()));
 }
 
 void ChannelCycleHost::touched(const machine::ContactPoint& contact) {

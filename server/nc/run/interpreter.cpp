@@ -42,7 +42,7 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   Allowance own(options.limits.time, options.limits.memory_bytes, std::move(stop));
   Allowance& allowance = environment.allowance != nullptr ? *environment.allowance : own;
   Channel channel(std::move(main), environment, options, allowance);
-  environment.observer.begins(channel.files, channel.parameters);
+  environment.observer.begins(channel.files, channel.parameters, channel.calls);
   channel.parameters.enter(channel.linked());
   Ending ending;
   auto ready = preset(channel.parameters, options.parameters);
@@ -62,10 +62,13 @@ RunResult run(std::shared_ptr<const LinkedProgram> main, const RunEnvironment& e
   result.blocks_executed = ending.blocks_executed;
   if (ending.error) {
     result.status = status_of(ending.error->kind);
-    const bool is_error = ending.error->kind == NcErrorKind::Error;
-    channel.log.finish(*ending.error, last,
-                       is_error ? origins_of(channel.chain(), *ending.error)
-                                : std::vector<klartext::DiagnosticNote>());
+    std::vector<klartext::DiagnosticNote> origins;
+    if (ending.error->kind == NcErrorKind::Error) {
+      origins = origins_of(channel.chain(), *ending.error);
+    } else if (ending.error->kind == NcErrorKind::Stop && ending.error->number != 0) {
+      origins = origins_of_values(channel.chain());
+    }
+    channel.log.finish(*ending.error, last, std::move(origins));
   }
   environment.observer.ends();
   // Reports the QL of the main program, even if the run ended in another program.

@@ -156,7 +156,8 @@ bool reads_control(const Program& program, const Block& block) {
 
 class Origins {
  public:
-  explicit Origins(std::span<const Place> chain) : chain_(chain) {}
+  /// @param most blocks that all searches together look at
+  Origins(std::span<const Place> chain, std::uint32_t most) : chain_(chain), left_(most) {}
 
   /// A block of the chain, of the program that it is in, or of a subprogram called there.
   struct Position {
@@ -257,33 +258,40 @@ class Origins {
   }
 
   std::span<const Place> chain_;
-  std::uint32_t left_ = 1'000'000;  ///< blocks that all searches together may still look at
+  std::uint32_t left_;
 };
 
-}  // namespace
-
-std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
-                                                 const NcError& error) {
-  Origins origins(chain);
+/// @param error null for values
+std::vector<klartext::DiagnosticNote> find_origins(std::span<const Place> chain,
+                                                   const NcError* error) {
+  constexpr std::uint32_t kMostForError = 1'000'000;
+  constexpr std::uint32_t kMostForValues = 5'000;  // there may be many of them
+  Origins origins(chain, error != nullptr ? kMostForError : kMostForValues);
   const Origins::Position failed{0, chain.front().index};
   const Block& block = origins.block(failed);
+  const std::string text = error != nullptr ? error->text : "";
+  const int number = error != nullptr ? error->number : 0;
   const auto calls_tool = [](const auto&, const Block& each) {
     return as<klartext::ToolCall>(each) != nullptr;
   };
   // Tool axis is missing, tool not defined, no touch probe, no teeth.
-  if (error.number == 1001 || error.number == 1092 || error.number == 1093 ||
-      error.number == 1109) {
+  if (number == 1001 || number == 1092 || number == 1093 || number == 1109) {
     origins.find("tool", failed, calls_tool);
     return std::move(origins.notes);
   }
   if (as<klartext::ConditionalJump>(block) != nullptr) origins.note("condition", chain.front());
   std::optional<Origins::Position> moved;
-  if (moves(block, error.text)) moved = failed;
+  if (moves(block, text)) moved = failed;
   constexpr std::size_t kMostFollowed = 24;
   std::vector<std::pair<QRef, Origins::Position>> read;
   const auto follow = [&](const Origins::Position& reader) {
-    for (const QRef each : read_by(origins.program(reader), origins.block(reader), error.text))
+    for (const QRef each : read_by(origins.program(reader), origins.block(reader), text))
       if (read.size() < kMostFollowed) read.emplace_back(each, reader);
+  };
+  const auto read_control = [&](const Origins::Position& reader) {
+    if (!reads_control(origins.program(reader), origins.block(reader))) return;
+    moved = reader;
+    origins.find("tool", reader, calls_tool);
   };
   follow(failed);
   for (std::size_t i = 0; i < read.size(); ++i) {
@@ -293,14 +301,17 @@ std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
         [parameter](const auto& in, const Block& each) { return sets(in, each, parameter); });
     if (!setter) continue;
     if (as<klartext::Assignment>(origins.block(*setter)) != nullptr) follow(*setter);
-    if (!reads_control(origins.program(*setter), origins.block(*setter))) continue;
-    moved = setter;
-    origins.find("tool", *setter, calls_tool);
+    read_control(*setter);
   }
-  if (reads_control(origins.program(failed), block)) origins.find("datum", failed, sets_datum);
-  if (error.number == 1004 || !moved) return std::move(origins.notes);
+  if (error == nullptr) read_control(failed);
+  if (error != nullptr && reads_control(origins.program(failed), block))
+    origins.find("datum", failed, sets_datum);
+  if (number == 1004 || !moved) return std::move(origins.notes);
+  // A cycle in Q parameters measures where these say.
+  const bool is_cycle = as<klartext::Cycle>(origins.block(*moved)) != nullptr;
   bool has_cycle = false;
   for (const Letter axis : {Letter::X, Letter::Y, Letter::Z}) {
+    if (error == nullptr && is_cycle) break;
     if (names_axis(origins.program(*moved), origins.block(*moved), axis)) continue;
     const auto moves = [=](const Program& in, const Block& each) {
       return moves_axis(in, each, axis);
@@ -315,6 +326,24 @@ std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
   if (chain.front().program->is_inch())
     origins.notes.push_back(inch_note(chain.front().program->program()));
   return std::move(origins.notes);
+}
+
+}  // namespace
+
+std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
+                                                 const NcError& error) {
+  return find_origins(chain, &error);
+}
+
+std::vector<klartext::DiagnosticNote> origins_of_values(std::span<const Place> chain) {
+  const Program& program = chain.front().program->program();
+  const Block& block = chain.front().source();
+  const auto* known = descriptor_of(block);
+  const auto* part = as<klartext::CyclePart>(block);
+  const bool measures = (known != nullptr && !known->results.empty()) ||
+                        (part != nullptr && part->family == klartext::CycleFamily::TchProbe);
+  if (!measures && !reads_control(program, block)) return {};
+  return find_origins(chain, nullptr);
 }
 
 }  // namespace fitgauge::interpreter

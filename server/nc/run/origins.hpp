@@ -17,4 +17,7 @@ namespace fitgauge::interpreter {
 std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
                                                  const NcError& error);
 
+/// The blocks that the values of a block depend on, if it measures or reads data of the control.
+std::vector<klartext::DiagnosticNote> origins_of_values(std::span<const Place> chain);
+
 }  // namespace fitgauge::interpreter

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "nc/klartext/lexer.hpp"
 #include "nc/program/diagnose.hpp"
+#include "nc/run/origins.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -27,13 +28,13 @@ std::vector<klartext::Diagnostic> findings_of(const RunResult& result) {
     if (found.size() >= kMostFindings) return;
     found.push_back(
         {severity, code, std::move(text), at.program, {{at.line, 1}, {at.line, 1}}, at.block});
-    if constexpr (requires { at.source; }) {
-      found.back().source = at.source;
-      found.back().notes = at.origins;
-    }
+    found.back().notes = at.origins;
+    if constexpr (requires { at.source; }) found.back().source = at.source;
   };
   for (const RunMessage& message : result.messages) {
-    const bool is_note = message.kind == MessageKind::Note;
+    // A stop with a number is that of a cycle at a limit.
+    const bool is_note = message.kind == MessageKind::Note ||
+                         (message.kind == MessageKind::Stop && message.number != 0);
     if (!is_note && message.kind != MessageKind::Error && message.kind != MessageKind::Limit)
       continue;
     add(message, is_note ? klartext::Severity::Note : klartext::Severity::Error,
@@ -110,13 +111,17 @@ void RunLog::add(MessageKind kind, int number, std::string text, const Place& pl
   observer_.reported(messages_.back());
 }
 
-NcResult<void> RunLog::record(probing::MeasuringRecord record, const Place& place) {
+NcResult<void> RunLog::record(probing::MeasuringRecord record, std::span<const Place> chain) {
   probing::judge_by_uncertainty(record);
+  const Place& place = chain.front();
+  std::vector<klartext::DiagnosticNote> origins;
+  if (measurements_.size() < kMostFindings) origins = origins_of_values(chain);
   const std::size_t size = sizeof(Measurement) + place.path().size() +
-                           record.sizes.size() * sizeof(probing::MeasuredSize);
+                           record.sizes.size() * sizeof(probing::MeasuredSize) +
+                           origins.size() * sizeof(klartext::DiagnosticNote);
   TRY(budget_.charge(size));
-  measurements_.push_back(
-      {std::move(record), std::string(place.path()), place.line(), place.block()});
+  measurements_.push_back({std::move(record), std::string(place.path()), place.line(),
+                           place.block(), std::move(origins)});
   return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,8 @@ class RunLog {
   /// The message of the error that ends the run; not charged, so that it is always there.
   void finish(const NcError& error, const Place& place,
               std::vector<klartext::DiagnosticNote> origins);
-  NcResult<void> record(probing::MeasuringRecord record, const Place& place);
+  /// @param chain as of origins_of_values. @errors limit.
+  NcResult<void> record(probing::MeasuringRecord record, std::span<const Place> chain);
 
   void take(RunResult& result);
 

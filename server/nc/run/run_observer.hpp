@@ -8,6 +8,7 @@
 
 namespace fitgauge::interpreter {
 
+class CallStack;
 class QParameters;
 class RunFiles;
 
@@ -32,9 +33,9 @@ class RunObserver {
   /// Asked once at the start: true if `entered` is needed for every block, false if only for blocks
   /// that may command the machine or print.
   virtual bool follows_every_block() const { return false; }
-  /// Called once before the first block with the run's files and parameters, which may be read in
-  /// the calls below.
-  virtual void begins(const RunFiles&, const QParameters&) {}
+  /// Called once before the first block with the run's files, parameters and calls, which may be
+  /// read in the calls below.
+  virtual void begins(const RunFiles&, const QParameters&, const CallStack&) {}
   /// Called before a block: machine commands until the next call belong to it.
   virtual void entered(const Place&) {}
   /// The cycle that commands the machine from now on; 0: the blocks themselves.

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "nc/machine/simulated_machine.hpp"
+#include "nc/run/call_stack.hpp"
+#include "nc/run/origins.hpp"
 #include "nc/run/q_parameters.hpp"
 #include "nc/run/run_files.hpp"
 
@@ -34,10 +36,11 @@ class Follower final : public interpreter::RunObserver {
   }
 
   bool follows_every_block() const override { return !watched_.empty(); }
-  void begins(const interpreter::RunFiles& files,
-              const interpreter::QParameters& parameters) override {
+  void begins(const interpreter::RunFiles& files, const interpreter::QParameters& parameters,
+              const interpreter::CallStack& calls) override {
     files_ = &files;
     parameters_ = &parameters;
+    calls_ = &calls;
   }
   void entered(const interpreter::Place& place) override {
     leave_block();
@@ -77,7 +80,14 @@ class Follower final : public interpreter::RunObserver {
         values.push_back({name, *number});
       }
     }
-    trace_->add(place(), values);
+    std::vector<klartext::DiagnosticNote> origins;
+    if (left_ > 0) {
+      auto chain = calls_->behind_calls();
+      chain.insert(chain.begin(), place_);
+      origins = interpreter::origins_of_values(chain);
+      if (!origins.empty()) --left_;
+    }
+    trace_->add(place(), values, origins);
   }
 
   void answer_look() {
@@ -121,6 +131,8 @@ class Follower final : public interpreter::RunObserver {
   const machine::Machine* machine_ = nullptr;
   const interpreter::RunFiles* files_ = nullptr;
   const interpreter::QParameters* parameters_ = nullptr;
+  const interpreter::CallStack* calls_ = nullptr;
+  std::size_t left_ = 1'000;  ///< blocks that may still name their origins
   TraceWriter* trace_ = nullptr;
   std::span<const klartext::QRef> watched_;
   std::vector<interpreter::RunMessage> errors_;

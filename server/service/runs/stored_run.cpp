@@ -69,14 +69,14 @@ void TraceWriter::add(const machine::TracedMove& move, const TracePlace& place) 
   packed_.add(text_);
 }
 
-void TraceWriter::add(const TracePlace& place,
-                      std::span<const interpreter::ParameterValue> values) {
+void TraceWriter::add(const TracePlace& place, std::span<const interpreter::ParameterValue> values,
+                      std::span<const klartext::DiagnosticNote> origins) {
   if (!blocks_) blocks_.emplace();
   std::string& text = blocks_->text;
   const std::size_t before = text.size();
   if (blocks_->dropped == 0) {
     if (before != 0) text += ',';
-    format_.block(text, place, moves_, values);
+    format_.block(text, place, moves_, values, origins);
   }
   if (blocks_->dropped == 0 && text.size() <= WatchedBlocks::kLongest) return;
   text.resize(before);

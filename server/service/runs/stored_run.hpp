@@ -104,8 +104,10 @@ struct TraceFormat {
       move{};
   /// A block that has run, with the defined watched parameters.
   /// @param moves of the run until then
+  /// @param origins blocks that its values come from
   std::function<void(std::string& out, const TracePlace&, std::size_t moves,
-                     std::span<const interpreter::ParameterValue> values)>
+                     std::span<const interpreter::ParameterValue> values,
+                     std::span<const klartext::DiagnosticNote> origins)>
       block{};
   /// @param dropped moves that came after the longest trace was full
   /// @param blocks of a run that is watched, with commas between them
@@ -164,7 +166,8 @@ class TraceWriter {
 
   void add(const machine::TracedMove& move, const TracePlace& place);
   /// A block of a run that is watched.
-  void add(const TracePlace& place, std::span<const interpreter::ParameterValue> values);
+  void add(const TracePlace& place, std::span<const interpreter::ParameterValue> values,
+           std::span<const klartext::DiagnosticNote> origins);
   /// Returns the whole trace, for TraceReader. Then nothing can be added.
   std::string finish(std::size_t dropped);
 

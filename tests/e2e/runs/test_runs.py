@@ -254,6 +254,21 @@ class Runs(ControlTest):
         self.assertEqual([(each["block"], each["tool"]) for each in blocks],
                          [(10, 0), (20, 0), (30, 5), (40, 5), (50, 5), (60, 7), (70, 8), (99999999, 8)])
 
+    def test_measured_and_read_values_name_the_blocks_they_come_from(self):
+        hole = "TCH PROBE 421 MEASURE HOLE Q273=+50 Q274=+40 Q262=+Q5 Q247=+90 Q261=-5 Q260=+20"
+        program = self.upload_program("origins", "TOOL CALL 30 Z", "Q5 = 25", "CALL LBL 1", "L X+20 FMAX",
+                                      "FN 18: SYSREAD Q2 = ID270 NR1 IDX1", "M30", "LBL 1", hole, "LBL 0")
+        bore = {"type": "bore", "center_mm": [50, 40], "top_mm": 0, "depth_mm": 30, "diameter_mm": 25.013}
+        block = {"type": "block", "min_mm": [0, 0, -40], "max_mm": [100, 80, 0]}
+        run = self.run_program(program, {"workpiece": {"features": [block, bore]}}, watch=["Q2"])
+        self.assertEqual([[(each["line"], each["message"]) for each in one["origins"]] for one in run["measurements"]],
+                         [[(3, "Q5 set here")]])
+        trace = self.daemon.get(f"/v1/runs/{run['id']}/trace").json
+        self.assertEqual([(b["line"], [(each["line"], each["program"], each["message"]) for each in b["origins"]])
+                          for b in trace["blocks"] if "origins" in b],
+                         [(9, [(3, program, "Q5 set here")]),
+                          (6, [(2, program, "tool set here"), (5, program, "X set here"), (9, program, "Z, Y set here")])])
+
     def test_blocks_of_a_long_watch_are_counted_beyond_4_mib(self):
         program = self.upload_program("long", "Q1 = 0", "LBL 1", "Q1 = Q1 + 1", "FN 12: IF +Q1 LT +50000 GOTO LBL 1")
         run = self.daemon.post("/v1/runs", {"program": program, "watch": ["Q1"]}).json

@@ -81,7 +81,8 @@ class Service {
          .trace = {.move = [](std::string& out, const machine::TracedMove&, const TracePlace&,
                               std::span<const machine::Axis>) { out += "a move, "; },
                    .block = [](std::string&, const TracePlace&, std::size_t,
-                               std::span<const interpreter::ParameterValue>) {},
+                               std::span<const interpreter::ParameterValue>,
+                               std::span<const klartext::DiagnosticNote>) {},
                    .tail =
                        [](std::size_t, const std::optional<WatchedBlocks>&) {
                          return std::string("the end");

@@ -19,9 +19,10 @@ const std::string kFace =
     "Q330=+0\n";
 
 /// The line of the error, then each place that it names: `5`, `2: QL3 set here`.
-Lines origins(std::string_view body, bool is_inch = false) {
+Lines origins(std::string_view body, bool is_inch = false, bool has_bore = false) {
   Control control;
   control.setup.features.push_back(machine::Block{{0, 0, -40}, {100, 80, 0}});
+  if (has_bore) control.setup.features.push_back(machine::Bore{{50.1, 40}, 0, 30, 30});
   control.program("L X+Q9 FMAX", "other.h");
   control.program("Q8 = 1", "quiet.h");
   control.program(body, "main.h", is_inch);
@@ -116,6 +117,21 @@ TEST_CASE("an error names the blocks that it comes from") {
     CAPTURE(fmt::format("{}", fmt::join(found, ", ")));
     CHECK(found == each.found);
   }
+}
+
+TEST_CASE(
+    "a size far from its nominal, and a stop at a limit, name where the cycle has its values") {
+  const auto hole = [](const std::string& nominal, const std::string& stops) {
+    return "TOOL CALL 30 Z\nQL1 = " + nominal +
+           "\nQL2 = 0.001\nCALL LBL 1\nM30\nLBL 1\nTCH PROBE 421 MEASURE HOLE ~\n Q273=+50 ~\n "
+           "Q274=+40 ~\n Q262=+QL1 ~\n Q325=+0 ~\n Q247=+90 ~\n Q261=-5 ~\n Q320=+2 ~\n Q260=+20 "
+           "~\n Q301=+0 ~\n Q275=+0 ~\n Q276=+0 ~\n Q279=+QL2 ~\n Q280=+QL2 ~\n Q281=+0 ~\n "
+           "Q309=" +
+           stops + " ~\n Q330=+0\nLBL 0";
+  };
+  CHECK(origins(hole("30", "+0"), false, true) == Lines{});
+  CHECK(origins(hole("31", "+0"), false, true) == Lines{"8", "3: QL1 set here", "4: QL2 set here"});
+  CHECK(origins(hole("30", "+1"), false, true) == Lines{"8", "3: QL1 set here", "4: QL2 set here"});
 }
 
 TEST_CASE("a finding of the check names what it contradicts") {
