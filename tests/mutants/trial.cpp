@@ -9,11 +9,15 @@
 
 #include "nc/klartext/diagnostic.hpp"
 #include "nc/program/parameter.hpp"
+#include "nc/run/call_stack.hpp"
+#include "nc/run/origins.hpp"
 #include "nc/run/q_parameters.hpp"
+#include "nc/run/run_files.hpp"
 
 namespace fitgauge::mutants {
 namespace {
 
+using interpreter::ControlPath;
 using interpreter::golden::Case;
 
 /// Follows the lines of one file.
@@ -22,13 +26,15 @@ class Follower final : public interpreter::RunObserver {
   Follower(const Case& trial, std::string path, std::vector<std::string> watched = {})
       : trial_(trial), path_(std::move(path)), watched_(std::move(watched)) {}
   bool follows_every_block() const override { return true; }
-  void begins(const interpreter::RunFiles& /*files*/,
-              const interpreter::QParameters& parameters,
-              const interpreter::CallStack& /*calls*/) override {
+  void begins(const interpreter::RunFiles& files, const interpreter::QParameters& parameters,
+              const interpreter::CallStack& calls) override {
+    files_ = &files;
     parameters_ = &parameters;
+    calls_ = &calls;
   }
   void entered(const interpreter::Place& place) override {
     leave_block();
+    place_ = place;
     line_ = ascii_iequals(place.path(), path_) ? place.line() : 0;
     if (line_ > 0) lines.insert(line_);
     line_of_command_.resize(trial_.commands(), before_);
@@ -40,11 +46,11 @@ class Follower final : public interpreter::RunObserver {
   std::uint32_t line_of(std::size_t command) const {
     return command < line_of_command_.size() ? line_of_command_[command] : before_;
   }
-  /// The block that has set the parameter which has not changed for longest.
-  std::uint32_t settled_first() const {
+  /// The block that has written what has not changed for longest.
+  Finding settled_first() const {
     const auto first =
         std::ranges::min_element(last_, {}, [](const auto& each) { return each.second.block; });
-    return first == last_.end() ? 0 : first->second.line;
+    return first == last_.end() ? Finding{} : first->second.at;
   }
 
   std::set<std::uint32_t> lines;
@@ -53,27 +59,43 @@ class Follower final : public interpreter::RunObserver {
  private:
   struct Last {
     std::string value{};
-    std::uint32_t line = 0;
     std::size_t block = 0;
+    Finding at{};
   };
   void leave_block() {
     ++blocks_;
     if (watched_.empty() || parameters_ == nullptr) return;
+    for (const std::string& name : watched_) {
+      if (const auto path = ControlPath::parse(name); path && name.find(':') != name.npos)
+        keep(name, files_->revision(*path).value_or(""));
+    }
     for (const auto& each : parameters_->all()) {
       const std::string name = interpreter::name(each.parameter);
       if (std::ranges::find(watched_, name) == watched_.end()) continue;
       const auto* number = std::get_if<double>(&each.value);
-      std::string value =
-          number != nullptr ? fmt::format("{}", *number) : std::get<std::string>(each.value);
-      Last& last = last_[name];
-      if (last.value != value) last = {std::move(value), line_, blocks_};
+      keep(name,
+           number != nullptr ? fmt::format("{}", *number) : std::get<std::string>(each.value));
     }
+  }
+  void keep(const std::string& name, const std::string& value) {
+    if (value.empty()) return;
+    Last& last = last_[name];
+    if (last.value == value) return;
+    last = {value, blocks_, {name, line_, {}}};
+    if (line_ == 0) return;
+    auto chain = calls_->behind_calls();
+    chain.insert(chain.begin(), place_);
+    for (const auto& origin : interpreter::origins_of_values(chain))
+      if (origin.program.empty()) last.at.notes.push_back(origin.range.begin.line);
   }
 
   const Case& trial_;
   const std::string path_;
   const std::vector<std::string> watched_;
+  const interpreter::RunFiles* files_ = nullptr;
   const interpreter::QParameters* parameters_ = nullptr;
+  const interpreter::CallStack* calls_ = nullptr;
+  interpreter::Place place_;
   std::uint32_t line_ = 0;
   std::uint32_t before_ = 0;
   std::size_t blocks_ = 0;
@@ -86,12 +108,16 @@ bool is_in(std::string_view program, std::string_view file) {
   return ascii_iequals(program.substr(program.find_last_of("\\/") + 1), file);
 }
 
-Finding placed(std::string text, const klartext::Diagnostic& found, std::string_view file) {
-  Finding finding{std::move(text), is_in(found.program, file) ? found.range.begin.line : 0, {}};
-  for (const auto& note : found.notes)
-    if (is_in(note.program.empty() ? found.program : note.program, file))
+Finding placed(std::string text, const std::string& program, std::uint32_t line,
+               const std::vector<klartext::DiagnosticNote>& notes, std::string_view file) {
+  Finding finding{std::move(text), is_in(program, file) ? line : 0, {}};
+  for (const auto& note : notes)
+    if (is_in(note.program.empty() ? program : note.program, file))
       finding.notes.push_back(note.range.begin.line);
   return finding;
+}
+Finding placed(std::string text, const klartext::Diagnostic& found, std::string_view file) {
+  return placed(std::move(text), found.program, found.range.begin.line, found.notes, file);
 }
 
 /// The faces of a feature with how far a point lies off each, in mm.
@@ -182,30 +208,29 @@ void add(Outcome& outcome, const interpreter::RunResult& result, std::string_vie
   outcome.end.text = word(result.status);
   for (const auto& message : result.messages) {
     if (message.kind == interpreter::MessageKind::Note) continue;
-    outcome.end.text += fmt::format("; {} {}", message.number, message.text);
-    outcome.end.line = is_in(message.program, file) ? message.line : 0;
+    outcome.end = placed(outcome.end.text + fmt::format("; {} {}", message.number, message.text),
+                         message.program, message.line, message.origins, file);
   }
   for (const auto& found : interpreter::findings_of(result)) {
-    if (found.severity == klartext::Severity::Note) continue;
     if (found.severity == klartext::Severity::Warning)
       outcome.alarms.push_back(placed(found.message, found, file));
-    else
-      outcome.end = placed(outcome.end.text, found, file);
   }
   for (const auto& measured : result.measurements) {
     const auto& record = measured.record;
-    const std::uint32_t line = is_in(measured.program, file) ? measured.line : 0;
+    const auto at = [&](std::string text) {
+      return placed(std::move(text), measured.program, measured.line, measured.origins, file);
+    };
     const std::string cycle = fmt::format("cycle {}", record.cycle);
     const auto verdict = record.verdict ? gauging::word(*record.verdict) : "none";
-    outcome.verdicts.push_back({fmt::format("{} {}", cycle, verdict), line});
+    outcome.verdicts.push_back(at(fmt::format("{} {}", cycle, verdict)));
     for (const auto& size : record.sizes) {
       outcome.values.push_back(
-          {fmt::format("{} {} = {}", cycle, size.characteristic, size.measured.count()), line});
+          at(fmt::format("{} {} = {}", cycle, size.characteristic, size.measured.count())));
       std::string limits =
           fmt::format("{} {} {}", cycle, size.characteristic, size.nominal.count());
       if (size.limits)
         limits += fmt::format(" {} {}", size.limits->lower.count(), size.limits->upper.count());
-      outcome.records.push_back({std::move(limits), line});
+      outcome.records.push_back(at(std::move(limits)));
     }
   }
   if (result.verdict) outcome.verdicts.push_back({std::string(gauging::word(*result.verdict))});
@@ -219,18 +244,33 @@ void add(Outcome& outcome, const interpreter::RunResult& result, std::string_vie
   outcome.written.push_back({fmt::format("preset {} active", result.active_preset)});
   for (const auto& parameter : result.parameters)
     outcome.parameters[interpreter::name(parameter.parameter)] = text_of(parameter);
-  for (const auto& written : result.files)
-    outcome.files += written.path.text() + "\n" + written.bytes;
+  for (const auto& written : result.files) outcome.files[written.path.text()] = written.bytes;
 }
 
-/// The first finding of one that the other lacks at its place.
+/// The first finding of one that the other lacks at its place; of one that is gone, the block that
+/// has made it in the original.
 const Finding* first_difference(const std::vector<Finding>& original,
                                 const std::vector<Finding>& mutant) {
-  for (std::size_t i = 0; i < mutant.size(); ++i)
-    if (i >= original.size() || mutant[i].text != original[i].text) return &mutant[i];
-  if (mutant.size() == original.size()) return nullptr;
-  static const Finding kFewer{"fewer"};
-  return mutant.empty() ? &kFewer : &mutant.back();
+  for (std::size_t i = 0; i < std::max(original.size(), mutant.size()); ++i) {
+    if (i >= original.size()) return &mutant[i];
+    if (i < mutant.size() && mutant[i].text == original[i].text) continue;
+    const bool is_gone =
+        mutant.size() < original.size() &&
+        std::ranges::find(mutant, original[i].text, &Finding::text) == mutant.end();
+    return is_gone || i >= mutant.size() ? &original[i] : &mutant[i];
+  }
+  return nullptr;
+}
+
+/// The names whose values differ.
+std::vector<std::string> differing(const std::map<std::string, std::string>& original,
+                                   const std::map<std::string, std::string>& mutant) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : original) {
+    const auto here = mutant.find(name);
+    if (here == mutant.end() || here->second != value) names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -291,25 +331,30 @@ Judgement compare(const Outcome& original, const Outcome& mutant, const std::str
         std::ranges::count_if(original.alarms, is_same))
       return {Found::Check, alarm};
   }
-  if (mutant.end.text != original.end.text) return {Found::Run, mutant.end};
+  if (mutant.end.text != original.end.text) {
+    const bool is_gone = mutant.end.line == 0 && mutant.end.notes.empty();
+    Finding end = is_gone ? original.end : mutant.end;
+    end.text = mutant.end.text;
+    return {Found::Run, std::move(end)};
+  }
   if (const auto* found = first_difference(original.verdicts, mutant.verdicts))
     return {Found::Verdict, *found};
   if (const auto* found = first_difference(original.values, mutant.values))
     return {Found::Value, *found};
   if (const auto* found = first_difference(original.written, mutant.written))
     return {Found::Value, *found};
-  Judgement judgement{Found::Value};
-  for (const auto& [name, value] : original.parameters) {
-    const auto here = mutant.parameters.find(name);
-    if (name == target || (here != mutant.parameters.end() && here->second == value)) continue;
-    judgement.parameters.push_back(name);
-    if (judgement.at.text.empty())
-      judgement.at.text = name + " = " + (here == mutant.parameters.end() ? "" : here->second);
+  Judgement judgement{Found::Value, {}, differing(original.parameters, mutant.parameters)};
+  std::erase(judgement.differing, target);
+  if (!judgement.differing.empty()) {
+    const auto here = mutant.parameters.find(judgement.differing.front());
+    judgement.at.text =
+        judgement.differing.front() + " = " + (here == mutant.parameters.end() ? "" : here->second);
+    return judgement;
   }
-  if (!judgement.parameters.empty()) return judgement;
   if (const auto* found = first_difference(original.records, mutant.records))
     return {Found::Record, *found};
-  if (original.files != mutant.files) return {Found::Record, {"files"}};
+  if (original.files != mutant.files)
+    return {Found::Record, {"files"}, differing(original.files, mutant.files)};
   if (const auto* found = first_difference(original.faces, mutant.faces))
     return {Found::Faces, *found};
   if (const auto* found = first_difference(original.commands, mutant.commands))
@@ -317,12 +362,12 @@ Judgement compare(const Outcome& original, const Outcome& mutant, const std::str
   return {Found::Equivalent};
 }
 
-std::uint32_t line_of_last(const Subject& subject, const std::string& text,
-                           const std::vector<std::string>& parameters) {
+Finding place_of_last(const Subject& subject, const std::string& text,
+                      const std::vector<std::string>& names) {
   Case trial(subject.folder, subject.setup);
   trial.add(subject.file, text);
   trial.setup().options.limits.blocks = 20'000;
-  Follower follower(trial, Case::path(subject.file).text(), parameters);
+  Follower follower(trial, Case::path(subject.file).text(), names);
   trial.execute(subject.main, follower);
   return follower.settled_first();
 }

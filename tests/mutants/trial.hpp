@@ -37,7 +37,7 @@ struct Outcome {
   std::vector<Finding> written;   ///< at the block that has written it last: presets, tool data,
                                   ///< screen: what the program leaves behind
   std::map<std::string, std::string> parameters;
-  std::string files;
+  std::map<std::string, std::string> files;
   std::vector<Finding> commands;  ///< to the machine, but for rapid traverse and probing
   std::vector<Finding> faces;     ///< of the part, one for each touch, sorted
   std::set<std::uint32_t> lines;  ///< of the file that is mutated, entered by the run
@@ -61,16 +61,17 @@ std::string_view word(Found found);
 
 struct Judgement {
   Found found{};
-  Finding at{};                           ///< what shows, where; of the mutant
-  std::vector<std::string> parameters{};  ///< that have another value, where nothing else shows
+  Finding at{};                          ///< what shows, where; of the mutant
+  std::vector<std::string> differing{};  ///< parameters or files, where nothing else shows
 };
 
 /// What a mutant does that its original does not.
 /// @param target the parameter that the mutated block sets, which differs anyway
 Judgement compare(const Outcome& original, const Outcome& mutant, const std::string& target);
 
-/// The block that sets one of the parameters last; that of the parameter which is settled first.
-std::uint32_t line_of_last(const Subject& subject, const std::string& text,
-                           const std::vector<std::string>& parameters);
+/// The block that writes one of the parameters or files last, with the places that the product says
+/// its values come from; that of the one which is settled first.
+Finding place_of_last(const Subject& subject, const std::string& text,
+                      const std::vector<std::string>& names);
 
 }  // namespace fitgauge::mutants
