@@ -93,6 +93,26 @@ Result<std::optional<app::Answer>> kept_answer(app::MeasurementService& measurem
       [&](auto done) { measurements.find_answer(scope, std::move(done)); });
 }
 
+/// As RFC 9162, 2.1.3.2, has it computed from an inclusion proof; none: it is too short or long.
+std::optional<tlog::Hash> root_by(const app::LogService::Proof& proof) {
+  tlog::TreeHasher hasher;
+  tlog::Hash root = proof.leaf;
+  std::uint64_t node = proof.index;
+  std::uint64_t last = proof.head->checkpoint.size - 1;
+  for (const tlog::Hash& beside : proof.path) {
+    if (last == 0) return std::nullopt;
+    const bool is_left = node % 2 == 0 && node != last;
+    root = is_left ? hasher.node(root, beside) : hasher.node(beside, root);
+    while (!is_left && node % 2 == 0 && node != 0) {
+      node /= 2;
+      last /= 2;
+    }
+    node /= 2;
+    last /= 2;
+  }
+  return last == 0 ? std::optional(root) : std::nullopt;
+}
+
 std::string parameter(std::string_view query, std::string_view name) {
   const std::string key = fmt::format("{}=", name);
   const std::size_t at = query.find(key);
@@ -319,6 +339,16 @@ bool Node::backup(const std::filesystem::path& file) {
 }
 
 std::string Node::head() { return up_->app->log().head()->note; }
+
+std::string Node::prove(const std::string& id) {
+  const On on(&machine);
+  const auto name = up_->app->measurements().parse_id(id);
+  if (!name) return name.error().message;
+  const auto proof = wait_for_result<app::LogService::Proof>(
+      [&](auto done) { up_->app->log().prove(*name, std::move(done)); });
+  if (!proof) return proof.error().message;
+  return root_by(*proof) == proof->head->checkpoint.root ? "" : "it is of another root";
+}
 
 std::vector<std::string> Node::verify(const std::map<std::string, std::string>& notes) {
   const On on(&machine);

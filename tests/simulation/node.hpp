@@ -54,6 +54,8 @@ class Node {
   bool backup(const std::filesystem::path& file);
   /// The newest signed head.
   std::string head();
+  /// Why its proof that it has this record does not hold; empty: it holds.
+  std::string prove(const std::string& id);
   /// The findings of verify. @param notes heads that it has to cover
   std::vector<std::string> verify(const std::map<std::string, std::string>& notes);
   /// Nothing waits to go out, and nothing has failed.

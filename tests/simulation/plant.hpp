@@ -51,6 +51,8 @@ class Plant {
   /// A day of work and harm, and then of rest in which all has to come right.
   /// @throws Broken
   void day();
+  /// The proofs of all, from the first record on. @throws Broken
+  void verify();
   /// The logs of the machines, for a run that is broken.
   std::string story() const;
 
@@ -77,7 +79,7 @@ class Plant {
     bool is_station = true;
     std::vector<Post> posts{};
     std::vector<Copy> copies{};
-    std::map<std::string, std::string> notes{};     ///< signed heads since the last restore
+    std::map<std::string, std::string> notes{};     ///< signed heads that verify has not seen
     std::map<std::string, std::string> received{};  ///< of its webhook: part by id
     std::uint64_t repeats = 0;
     std::string cursor{};  ///< of a reader that lists what is new
@@ -98,9 +100,12 @@ class Plant {
   void read(Site& site);
   void settle();
   void check();
-  void check_site(Site& site);
+  void check_site(Site& site, const std::vector<Listed>& listed);
+  void check_proofs(Site& site, const std::vector<Listed>& listed);
+  void verify(Site& site);
   void check_notes(const Site& site, Node& at);
-  void check_centre(const Site& station, const std::map<std::string, Listed>& centre);
+  void check_centre(const Site& station, const std::vector<Listed>& here,
+                    const std::map<std::string, Listed>& centre);
   void sleep_till_morning();
   /// A record was seen: its id is of this part, for ever.
   void sees(const Site& site, const std::string& who, const std::string& id,
