@@ -62,8 +62,9 @@ class Examples {
       order.setup.features.emplace_back(machine::Boss{{}, 30, 30, diameter.to_mm()});
     }
     const auto set = [&order](std::string_view name, auto value) {
-      order.options.parameters.push_back(
-          {interpreter::parse_parameter_name(name).value(), std::move(value)});
+      auto& parameter = order.options.parameters.emplace_back();
+      parameter.parameter = interpreter::parse_parameter_name(name).value();
+      parameter.value = std::move(value);
     };
     set("Q1", limits.nominal_size.length().to_mm());
     set("QS1", std::string(tables().class_name(limits.class_id)));
