@@ -336,8 +336,9 @@ class Lost(Sparkplug):
         for end in (kill, self.broker.stop, kill):
             told = count()
             wait_for(lambda: count() > told + 30, self.state)
+            failures = self.state()["failures"]
             end()
-            time.sleep(0.5)
+            wait_for(lambda: self.state()["failures"] > failures, self.state)
             self.broker.start()
         told = count()
         wait_for(lambda: count() > told + 30, self.state)

@@ -13,7 +13,7 @@
 import assert from 'node:assert/strict';
 import { before, beforeEach, describe, it } from 'node:test';
 
-import { close, findings, open, openIn, picture } from './support/browser.mjs';
+import { close, findings, open, openIn, picture, timer } from './support/browser.mjs';
 import { eventually } from './support/eventually.mjs';
 import { hold } from './support/hold.mjs';
 import { known, scan } from './support/scanner.mjs';
@@ -189,7 +189,7 @@ describe('what a value demands', () => {
     for (const value of ['25.012', '40.01', '120.9']) await line(value);
     await verdict('rework', '[data-provisional="away"]');
     await says('ReworkPart SN-6002 · length Rework');
-    await page.waitForTimeout(200); // and a wait for the answer shows the value alone no longer than that
+    await timer(page, 200); // and a wait for the answer shows the value alone no longer than that
     assert.match(await page.textContent('.verdict'), /Part SN-6002/);
     await daemon.start();
     await isUp();

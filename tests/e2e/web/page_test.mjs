@@ -11,9 +11,9 @@ import http from 'node:http';
 import path from 'node:path';
 import { before, describe, it } from 'node:test';
 
-import { browserName, close, findings, launch, open, picture } from './support/browser.mjs';
+import { browserName, close, findings, launch, open, picture, timer } from './support/browser.mjs';
 import { untilPoints } from './support/chart.mjs';
-import { Daemon, sleep } from './support/daemon.mjs';
+import { Daemon } from './support/daemon.mjs';
 
 const FOLDER = 'clients/web';
 /** Asked of the station; and of it with the two views that are opened from it most. */
@@ -326,9 +326,12 @@ describe('the page', () => {
     await page.waitForSelector('.echo .figures');
     await page.keyboard.type('25.0131\n');
     await page.waitForSelector('dialog');
+    const asked = [];
+    page.on('request', (request) => { if (request.method() === 'POST') asked.push(request.url()); });
     await page.keyboard.press('Escape');
-    await sleep(1000); // who wants no key is not asked again and again, but with the next value
+    await timer(page, 1000); // who wants no key is not asked again and again, but with the next value
     assert.equal(await page.$('dialog'), null);
+    assert.deepEqual(asked, []);
     await page.focus('#value');
     await page.keyboard.type('25.0132\n');
     await page.fill('dialog input', 'fg_wrong');

@@ -30,8 +30,9 @@
 import assert from 'node:assert/strict';
 import { afterEach, describe, it } from 'node:test';
 
-import { close, findings, open, openIn } from './support/browser.mjs';
+import { close, findings, open, openIn, timer } from './support/browser.mjs';
 import { Daemon, sleep } from './support/daemon.mjs';
+import { eventually } from './support/eventually.mjs';
 import { Gate } from './support/gate.mjs';
 import { hold, patient } from './support/hold.mjs';
 import { known, PAIR_MS, scan as scanInto, scanUnasked, typeSlowly } from './support/scanner.mjs';
@@ -165,7 +166,7 @@ describe('an answer that comes late', () => {
     await slow('25.011');
     await scan('SN-2');
     assert.equal(await said(), 'Measure SN-2');
-    await page.waitForTimeout(200); // longer than a value waits before it is said that it does
+    await timer(page, 200); // longer than a value waits before it is said that it does
     assert.equal(await said(), 'Measure SN-2');
     await answer();
     await storedRows(1);
@@ -430,7 +431,9 @@ describe('an outage', () => {
     await page.waitForSelector('.verdict[data-verdict="reject"][data-provisional="away"]');
     await scan('30k6'); // never asked for
     await notes(/Not stored/);
-    await sleep(3000);
+    const answered = { GET: 0, POST: 0 };
+    page.on('response', (answer) => { answered[answer.request().method()] += answer.status() === 502; });
+    await eventually(() => assert.ok(answered.GET > 2 && answered.POST > 2, JSON.stringify(answered)));
     assert.equal(await page.getAttribute('#link', 'data-state'), 'away');
     assert.ok(changes <= 2, `it went and came ${changes} times`);
     await own.start();

@@ -316,10 +316,14 @@ describe('a station in an unfriendly browser', () => {
       const now = Date.now.bind(Date);
       Date.now = () => now() + 3 * 3600e3;
     });
-    await context.route('**/livez', async (route) => { await sleep(1500); await route.continue(); });
+    let go;
+    const told = new Promise((resolve) => { go = resolve; });
+    await context.route('**/livez', async (route) => { await told; await route.continue().catch(() => {}); });
     const page = await openIn(context, daemon, '#/gauge/25H7');
     await page.waitForSelector('.echo .figures');
     await page.keyboard.type('25.0131\n');
+    await page.waitForSelector('.verdict[data-verdict="good"][data-provisional]');
+    go();
     await page.waitForSelector('.verdict[data-verdict="good"]:not([data-provisional])');
     const [record] = await storedSince();
     assert.ok(Math.abs(Date.parse(record.measured_at) - Date.parse(record.received_at)) < 1800e3, record.measured_at);

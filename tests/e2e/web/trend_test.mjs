@@ -13,9 +13,8 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, describe, it } from 'node:test';
 
-import { close, hashOf, open, openIn, picture } from './support/browser.mjs';
+import { close, drawn, hashOf, open, openIn, picture } from './support/browser.mjs';
 import { marksOf, untilPoints } from './support/chart.mjs';
-import { sleep } from './support/daemon.mjs';
 import { eventually } from './support/eventually.mjs';
 import { Gate } from './support/gate.mjs';
 import { holdAll, waits } from './support/hold.mjs';
@@ -28,31 +27,37 @@ afterEach(() => close(page));
 const hash = () => hashOf(page);
 
 describe('answers that come late', () => {
+  /** Until a question there has been answered or given up, and a frame has been drawn since. */
+  const ended = async (where) => {
+    const isIt = (request) => request.url().includes(where);
+    await Promise.race(['requestfinished', 'requestfailed'].map((event) => page.waitForEvent(event, isIt)));
+    await drawn(page);
+  };
+
   it('never overwrite a newer one, nor the next view', async () => {
     page = await open(browser, daemon, '#/fit/25H7/g6');
     await page.waitForSelector('.fit .headline');
-    await page.route('**/v1/fits/25H7/s6', async (route) => {
-      await new Promise((resolve) => setTimeout(resolve, 300));
-      await route.continue().catch(() => {});
-    });
+    let go = await holdAll(page, '**/v1/fits/25H7/s6');
+    let over = ended('/v1/fits/25H7/s6');
     await page.click('.preferred button:has-text("H7/s6")');
     await page.click('.preferred button:has-text("H7/h6")');
     await page.waitForFunction(() => decodeURIComponent(location.hash).startsWith('#/fit/25H7/h6'));
-    await page.waitForTimeout(600);
+    await page.waitForFunction(() => document.querySelector('.fit .headline')?.textContent === 'Clearance fit');
+    go();
+    await over;
     assert.equal(await page.textContent('.fit .headline'), 'Clearance fit');
     await page.fill('#fit', 'nonsense');
     await page.press('#fit', 'Enter');
     assert.equal(await page.$('.fit .headline'), null);
 
-    await page.route('**/v1/measurements?**', async (route) => {
-      await new Promise((resolve) => setTimeout(resolve, 300));
-      await route.continue().catch(() => {});
-    });
+    go = await holdAll(page, '**/v1/measurements?**');
+    over = ended('/v1/measurements?');
     await page.evaluate(() => { location.hash = '#/trend'; });
     await page.waitForSelector('.trend');
     await page.evaluate(() => { location.hash = '#/gauge/25H7'; });
     await page.waitForSelector('.entry');
-    await page.waitForTimeout(600);
+    go();
+    await over;
     assert.ok(hash().startsWith('#/gauge/25H7'), hash());
   });
 });
@@ -152,13 +157,19 @@ describe('the trend', () => {
     const post = (text) => daemon.send('POST', '/v1/measurements', { designation: '25 H7', measured_mm: text, characteristic: 'slow-list' });
     await post('25.001');
     page = await open(browser, daemon, '#/parts');
+    await page.evaluate(() => {
+      globalThis.heard = 0;
+      const { set } = Object.getOwnPropertyDescriptor(MessagePort.prototype, 'onmessage');
+      Object.defineProperty(MessagePort.prototype, 'onmessage', { set(take) { set.call(this, (message) => { take(message); globalThis.heard += 1; }); } });
+    });
     let asked = 0;
     // Each answer of the list is older than a value that was stored before it came: the first time before the
     // page follows the events, the second time while it does.
     await page.route('**/v1/measurements?*sort=newest*', async (route) => {
       const answer = await route.fetch();
+      const before = await page.evaluate(() => globalThis.heard);
       await post(`25.00${++asked + 1}`);
-      await sleep(200);
+      if (asked > 1) await page.waitForFunction((count) => globalThis.heard > count, before);
       await route.fulfill({ response: answer });
     });
     const points = (count) => untilPoints(page, count);
@@ -177,10 +188,8 @@ describe('the trend', () => {
     const measure = (designation, measured) => daemon.send('POST', '/v1/measurements', { designation, measured_mm: measured, characteristic: 'hops' });
     await measure('25 H7', '25.0115');
     await points(3); // from here on it follows the events
-    for (const [designation, measured] of [['40 H7', '40.01'], ['25 H7', '25.012'], ['25 H7', '25.013'], ['40 H7', '40.011']]) await measure(designation, measured);
-    await points(5);
-    await sleep(200); // what came last is drawn by then
-    await points(5);
+    for (const [designation, measured] of [['40 H7', '40.01'], ['25 H7', '25.012'], ['25 H7', '25.013'], ['40 H7', '40.011'], ['25 H7', '25.014']]) await measure(designation, measured);
+    await points(6); // events come in their order: all of them
     assert.equal(await page.inputValue('#trend-designation'), '25 H7');
     assert.deepEqual(await page.$$eval('#trend-designation option', (all) => all.map(({ value }) => value)), ['25 H7', '40 H7']);
   });

@@ -143,6 +143,9 @@ export async function openIn(context, daemon, fragment = '') {
 /** Until what changes with the window, the colours or the paper is drawn anew: a frame sees the change, and the next one has drawn it. */
 export const drawn = (page) => page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(resolve))); }));
 
+/** Until a timer of the page has rung: whatever the page put off for a shorter time has come before. */
+export const timer = (page, milliseconds) => page.evaluate((wait) => new Promise((resolve) => { setTimeout(resolve, wait); }), milliseconds);
+
 /** The state that a page's address names. */
 export const hashOf = (page) => decodeURIComponent(new URL(page.url()).hash);
 

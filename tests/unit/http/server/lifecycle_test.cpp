@@ -184,13 +184,13 @@ TEST_CASE("a client that sends its last request and its end at once is answered 
 
 TEST_CASE("stop finishes the request in flight, closes idle connections and accepts no more") {
   Worker worker;
-  std::promise<void> entered;
+  std::promise<void> entered, goes_on;
   TestServer server({{.pattern = "/slow",
                       .handler =
                           [&](const Request&, Responder responder) {
                             entered.set_value();
-                            worker.run([responder = std::move(responder)]() mutable {
-                              std::this_thread::sleep_for(100ms);
+                            worker.run([&, responder = std::move(responder)]() mutable {
+                              goes_on.get_future().wait();
                               responder.answer(Response(200, "text/plain", std::string("done")));
                             });
                           },
@@ -201,14 +201,16 @@ TEST_CASE("stop finishes the request in flight, closes idle connections and acce
   Client busy = server.connect();
   busy.send(get("/slow"));
   entered.get_future().wait();
-  server.server().stop();
+  std::thread stop([&] { server.server().stop(); });
+  CHECK(idle.is_closed_by_server());
+  goes_on.set_value();
+  stop.join();
   CHECK(server.server().counters().connections_open == 0);
   const auto answer = busy.read();
   REQUIRE(answer);
   CHECK(answer->body == "done");
   CHECK(answer->field("Connection") == "close");
   CHECK(busy.is_closed_by_server());
-  CHECK(idle.is_closed_by_server());
   CHECK_THROWS(server.connect());
 }
 
@@ -259,12 +261,14 @@ TEST_CASE("a handler has its request's body until it answers, also when the serv
 }
 
 TEST_CASE("a client that goes away while its answer is made harms nobody") {
+  std::promise<void> left;
+  const std::shared_future<void> all_left(left.get_future());
   Worker worker;
   TestServer server({{.pattern = "/slow",
                       .handler =
                           [&](const Request& request, Responder responder) {
-                            worker.run([&request, responder = std::move(responder)]() mutable {
-                              std::this_thread::sleep_for(20ms);
+                            worker.run([&, responder = std::move(responder)]() mutable {
+                              all_left.wait();
                               responder.answer(
                                   Response(200, "text/plain", std::string(request.path())));
                             });
@@ -272,6 +276,7 @@ TEST_CASE("a client that goes away while its answer is made harms nobody") {
                      echo(Method::Get, "/a")});
   for (int i = 0; i < 5; ++i) server.connect().send(get("/slow"));
   CHECK(server.ask(get("/a")).status == 200);
+  left.set_value();
   CHECK(comes_true([&] { return server.server().counters().connections_open == 0; }));
 }
 
