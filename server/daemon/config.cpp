@@ -116,7 +116,7 @@ const std::vector<Setting>& settings() {
        "PostgreSQL database that services share, as postgresql://host/name; empty: a file in data",
        &Config::database},
       {"origin-name", "NAME",
-       "Name of the measurement log of a new data folder, such as plant-3/press-7",
+       "Name of the measurement log, such as plant-3/press-7; accepted while the log is empty",
        &Config::origin_name},
       {"auth",
        "WORD",

@@ -75,7 +75,7 @@ struct ApplicationOptions {
   /// Asks the centre for the state of this log; see LogOptions.
   std::function<std::optional<AtCentre>(std::string_view digits)> ask_centre{};
   bool has_centre = false;              ///< documents of a centre can only be changed there
-  std::string origin_name = "station";  ///< of the log of a new data folder
+  std::string origin_name = "station";  ///< of the log; see LogOptions
   /// Wraps, on the writer thread, the calls of every `done` after a commit; must call its argument.
   std::function<void(const std::function<void()>&)> around_outcomes{};
   /// Time for the expiry of runs and idempotency keys; without it, the clock itself.

@@ -40,7 +40,7 @@ struct AtCentre {
 
 struct LogOptions {
   std::filesystem::path directory;  ///< of the database, with the key and the newest checkpoint
-  std::string name = "station";     ///< of the log, if this is its first start
+  std::string name = "station";     ///< of the log, as long as it is empty
   bool shares = false;              ///< several daemons sign this log
   bool attach = false;              ///< next to a running daemon: nothing is signed or written
   /// Returns the centre's state of the history with these digits; none if it does not respond.

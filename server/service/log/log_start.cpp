@@ -26,6 +26,17 @@ std::string name_of(std::string_view name, std::string_view digits) {
   return fmt::format("fitgauge/{}/{}", name, digits.substr(0, kDigitsInName));
 }
 
+/// NAME of fitgauge/NAME/DIGITS.
+std::string_view middle_of(std::string_view name) {
+  const std::size_t first = name.find('/') + 1;
+  return name.substr(first, name.rfind('/') - first);
+}
+
+/// Whether the options give the log another name. The default name leaves a log its own.
+bool is_renamed(std::string_view name, const LogOptions& options) {
+  return options.name != LogOptions().name && options.name != middle_of(name);
+}
+
 }  // namespace
 
 /// The state of the log in the database.
@@ -39,6 +50,12 @@ struct LogService::Loaded {
   std::optional<std::string> forked{};
   std::optional<std::string> centre{};
   std::vector<store::OriginsStore::Origin> origins{};
+
+  /// Whether the log takes the name of the options: no measurement has named the current one, and
+  /// neither a station nor another daemon relies on it.
+  bool takes_name(const LogOptions& options) const {
+    return is_renamed(*state.name, options) && rows == 0 && origins.empty() && !options.shares;
+  }
 };
 
 Result<LogService::Loaded> LogService::read() const {
@@ -86,6 +103,12 @@ Result<void> LogService::load() {
   frontier_ = *frontier;
   name_ = loaded->state.name.value_or(name_of(options_.name, origin()));
   histories_.push_back({.digits = std::string(origin()), .name = name_, .begin = begin});
+  if (is_renamed(name_, options_)) {
+    tell("log_name_kept",
+         fmt::format("the measurement log is {} and stays so: origin-name {} is for an empty log; "
+                     "remove the setting, or start with an empty data folder",
+                     name_, options_.name));
+  }
   TRY(load_keys(loaded->keys));
   if (loaded->forked) {
     forked_.set(std::make_shared<const std::string>(*loaded->forked));
@@ -199,6 +222,7 @@ std::optional<std::string> LogService::told_by_checkpoint(const Loaded& loaded) 
 std::optional<std::string> LogService::why_to_branch(const Loaded& loaded) {
   if (!loaded.state.name) return std::nullopt;  // the first start
   if (auto told = told_by_checkpoint(loaded)) return told;
+  if (loaded.takes_name(options_)) return fmt::format("origin-name is {}", options_.name);
   if (loaded.is_copy) return "the database is a copy that `backup` made";
   if (!options_.ask_centre) return std::nullopt;
   const auto there = options_.ask_centre(digits_of_origin(loaded.state.origin));
@@ -217,9 +241,8 @@ Result<void> LogService::branch(const Loaded& loaded, const std::string& why) {
   std::random_device random;
   for (std::uint8_t& byte : origin) byte = static_cast<std::uint8_t>(random());
   const std::string& before = *loaded.state.name;
-  const std::size_t first = before.find('/') + 1;
-  const std::string name =
-      name_of(before.substr(first, before.rfind('/') - first), digits_of_origin(origin));
+  const std::string name = name_of(loaded.takes_name(options_) ? options_.name : middle_of(before),
+                                   digits_of_origin(origin));
   const auto begun = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
     // Another daemon may have been first.
     if (stores.log.state().origin != loaded.state.origin) return false;

@@ -346,6 +346,44 @@ class Tamperings(StorageTest):
             shutil.rmtree(data)
 
 
+class Names(StorageTest):
+    """A package starts its service before anybody can name the station."""
+
+    def name_of(self, daemon):
+        return daemon.get("/v1/log/checkpoint").text.split("\n")[0]
+
+    def test_an_empty_log_takes_another_name(self):
+        daemon = self.make_daemon()
+        daemon.start()
+        bore = {"name": "bore", "designation": "25 H7"}
+        self.assertEqual(daemon.request("PUT", "/v1/plans/4711", {"characteristics": [bore]}).status, 201)
+        first = self.name_of(daemon)
+        self.assertRegex(first, "^fitgauge/station/[0-9a-f]{8}$")
+        self.assertEqual(daemon.stop(), 0)
+        daemon.flags = ["--origin-name", "plant-3/press-7"]
+        daemon.start()
+        name = self.name_of(daemon)
+        self.assertRegex(name, "^fitgauge/plant-3/press-7/[0-9a-f]{8}$")
+        self.assertIn(f"{first} continues as {name}", daemon.log)
+        self.assertEqual(daemon.measure(PART).json["id"].split("-")[1][:8], name[-8:])
+        self.assertEqual(daemon.stop(), 0)
+        self.assertNotIn("log_name_kept", daemon.log)
+        self.assertEqual(daemon.command("verify").returncode, 0)
+
+    def test_a_log_with_measurements_keeps_its_name_and_logs_so(self):
+        daemon = self.stopped_with(1)
+        daemon.flags = ["--origin-name", "press-8"]
+        daemon.start()
+        name = self.name_of(daemon)
+        self.assertRegex(name, "^fitgauge/station/")
+        daemon.wait_for_log(f"the measurement log is {name} and stays so: origin-name press-8 is for an empty log")
+        self.assertEqual(daemon.stop(), 0)
+        daemon.flags = []
+        daemon.start()
+        self.assertEqual(daemon.stop(), 0)
+        self.assertEqual(daemon.log.count('"event":"log_name_kept"'), 1, daemon.log)
+
+
 class Keys(StorageTest):
     def test_a_lost_key(self):
         daemon = self.stopped_with(3)
