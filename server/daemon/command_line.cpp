@@ -28,6 +28,7 @@ constexpr milliseconds kBetweenGlances{100};
 constexpr seconds kBetweenLines{2};
 constexpr seconds kCentrePatience{60};
 
+constexpr seconds kRefusalPatience{5};
 /// Writes the service's log lines to the terminal.
 void print(std::string_view event, const std::string& detail) {
   std::cerr << fmt::format("fitgauged: {}: {}\n", event, detail);
@@ -49,6 +50,7 @@ Result<int> run_forward_all(const Config& config) {
   auto told = Steady::now();
   auto went_on = told;
   std::int64_t fewest = -1;
+  auto held = told;  // a centre knows a new key after two seconds
   while (true) {
     const auto state = forwarder->state();
     const auto now = Steady::now();
@@ -57,7 +59,8 @@ Result<int> run_forward_all(const Config& config) {
       went_on = now;
     }
     if (state.rows == 0 && state.failure.empty() && !state.sends) break;
-    if (state.is_refused || now > went_on + kCentrePatience) {
+    if (!state.is_refused) held = now;
+    if (now > held + kRefusalPatience || now > went_on + kCentrePatience) {
       std::cout << fmt::format("{} measurements have not reached {}: {}\n", state.rows,
                                config.forward_to, state.failure);
       return 1;

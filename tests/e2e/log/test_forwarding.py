@@ -286,6 +286,25 @@ class Forwarding(unittest.TestCase):
         key_file.write_text(tokens["station"] + "\n")
         wait_for(lambda: metric(station, "fitgauge_outbox_rows") == 0, "an empty outbox")
 
+    def test_a_key_that_the_centre_does_not_know_yet_is_sent_again(self):
+        folder = self.made().start()
+        folder.measure(PART)
+        folder.stop()
+        proxy = CuttingProxy(self.centre.port, SEED, cuts=False)
+        self.addCleanup(proxy.close)
+        proxy.refusals = 2
+        forward = ("forward", "--all", "--data", folder.data, "--forward-to", f"http://127.0.0.1:{proxy.port}")
+        done = command(*forward)
+        self.assertEqual((done.returncode, proxy.refusals), (0, 0), done.stdout + done.stderr)
+        self.assertEqual(len(records_of(self.centre)), 1)
+        proxy.refusals = 1_000_000
+        folder.start()
+        folder.measure(PART)
+        folder.stop()
+        refused = command(*forward)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("401", refused.stdout)
+
     def test_settings_that_would_send_in_the_clear_are_refused(self):
         for flags, word in {("--forward-to", "http://centre.example"): "forward-insecure",
                             ("--forward-to", "centre.example"): "https://host",

@@ -14,6 +14,7 @@ class CuttingProxy:
         self.cuts = cuts
         self.cut = 0  # connections that were
         self.passed = 0  # bytes, both ways
+        self.refusals = 0  # connections that still get a 401
         self.hold_after = None  # bytes from clients
         self.held = threading.Event()
         self.going = threading.Event()
@@ -53,6 +54,12 @@ class CuttingProxy:
             threading.Thread(target=self.serve, args=(client,), daemon=True).start()
 
     def serve(self, client):
+        if self.refusals:
+            self.refusals -= 1
+            client.recv(65536)
+            client.sendall(b"HTTP/1.1 401 Unauthorized\r\nContent-Length: 0\r\nConnection: close\r\n\r\n")
+            client.close()
+            return
         try:
             server = socket.create_connection(("127.0.0.1", self.port_behind), timeout=10)
         except OSError:
