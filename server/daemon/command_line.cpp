@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <map>
@@ -27,8 +28,8 @@ using std::chrono::seconds;
 constexpr milliseconds kBetweenGlances{100};
 constexpr seconds kBetweenLines{2};
 constexpr seconds kCentrePatience{60};
-
 constexpr seconds kRefusalPatience{5};
+
 /// Writes the service's log lines to the terminal.
 void print(std::string_view event, const std::string& detail) {
   std::cerr << fmt::format("fitgauged: {}: {}\n", event, detail);
@@ -49,8 +50,8 @@ Result<int> run_forward_all(const Config& config) {
 
   auto told = Steady::now();
   auto went_on = told;
-  std::int64_t fewest = -1;
   auto held = told;  // a centre knows a new key after two seconds
+  std::int64_t fewest = -1;
   while (true) {
     const auto state = forwarder->state();
     const auto now = Steady::now();
@@ -102,15 +103,26 @@ std::vector<std::string> environment() {
   return variables;
 }
 
-/// Suggests a spelling for the first unknown option.
-std::string spelling_hint(const CLI::App& app) {
-  for (const std::string& word : app.remaining(true)) {
-    if (!word.starts_with("--")) continue;
-    SpellingHint hint(word.substr(0, word.find('=')));
-    for (const CLI::Option* known : app.get_options()) hint.consider(known->get_name());
-    return hint.text();
+/// Names the first word that is no option or command, and the nearest known one; `fallback` if
+/// another error applies.
+std::string usage_text(const CLI::App& app, std::string fallback) {
+  const std::vector<std::string> words = app.remaining(true);
+  const auto option = std::find_if(words.begin(), words.end(),
+                                   [](const auto& word) { return word.starts_with('-'); });
+  if (words.empty()) return fallback + ';';
+  const bool is_option = option != words.end();
+  const std::string word = is_option ? option->substr(0, option->find('=')) : words.front();
+  SpellingHint hint(word);
+  if (!is_option) {
+    for (const CLI::App* known : app.get_subcommands({})) hint.consider(known->get_name());
   }
-  return {};
+  for (const CLI::App* each = &app; is_option && each != nullptr;) {
+    for (const CLI::Option* known : each->get_options()) hint.consider(known->get_name());
+    each = each->get_subcommands().empty() ? nullptr : each->get_subcommands().front();
+  }
+  const std::string nearest = hint.text();
+  return fmt::format("unknown {} '{}'{}", is_option ? "option" : "command", word,
+                     nearest.empty() ? ";" : nearest);
 }
 
 void add_options(CLI::App& app, Arguments& arguments) {
@@ -269,9 +281,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    const std::string hint = spelling_hint(app);
-    std::cerr << "fitgauged: " << error.what() << (hint.empty() ? ";" : hint)
-              << " see fitgauged --help\n";
+    std::cerr << "fitgauged: " << usage_text(app, error.what()) << " see fitgauged --help\n";
     return kUsage;
   }
   try {

@@ -236,6 +236,10 @@ Result<void> read_toml(const std::string& path, Config& config) {
   try {
     file = toml::parse_file(path);
   } catch (const toml::parse_error& error) {
+    if (!error.source().begin) {
+      return invalid(fmt::format(
+          "cannot read {}: check that the file is there and that this user may read it", path));
+    }
     return invalid(fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
   }
   for (const auto& [key, node] : file) {

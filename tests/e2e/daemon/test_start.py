@@ -64,6 +64,16 @@ class CheckConfig(unittest.TestCase):
                 self.assertIn(checked.returncode, (1, 2))
                 self.assertNotEqual(self.start(*flags).returncode, 0)
 
+    def test_a_wrong_word_or_file_of_the_command_line_is_named(self):
+        for flags, error in ((("--log-levl", "info"), "unknown option '--log-levl'; did you mean --log-level? see fitgauged --help"),
+                             (("key", "create", "--rol", "x"), "unknown option '--rol'; did you mean --role? see fitgauged --help"),
+                             (("verifi",), "unknown command 'verifi'; did you mean verify? see fitgauged --help"),
+                             (("--zzzzzz=1",), "unknown option '--zzzzzz'; see fitgauged --help"),
+                             (("--config", self.folder / "none.toml"),
+                              f"cannot read {self.folder}/none.toml: check that the file is there and that this user may read it")):
+            done = command("--check-config", *flags)
+            self.assertEqual((done.returncode, done.stderr), (2, f"fitgauged: {error}\n"))
+
     def test_it_allows_what_starts_and_changes_nothing(self):
         folders = self.folder / "made" / "by" / "the" / "start"
         allowed = self.check("--data", folders, "--listen", "127.0.0.1:0", "--admin-key-file",
