@@ -1,5 +1,7 @@
 #include "api/service/guard.hpp"
 
+#include <fmt/format.h>
+
 #include "api/wire/response_cache.hpp"
 #include "base/text.hpp"
 
@@ -129,9 +131,9 @@ Result<std::optional<http::Response>> Guard::operator()(http::Request& request,
   }
   const app::Role needed = role_for(access);
   if (!app::may(caller->role, needed)) {
-    return Error{ErrorCode::Forbidden, "the key " + caller->name + " is of a " +
-                                           std::string(app::word(caller->role)) + ", this needs " +
-                                           std::string(app::word(needed))};
+    return Error{ErrorCode::Forbidden,
+                 fmt::format("the key {} has the role {}; this needs the role {}", caller->name,
+                             app::word(caller->role), app::word(needed))};
   }
   return std::optional<http::Response>();
 }

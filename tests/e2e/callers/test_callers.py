@@ -175,6 +175,7 @@ class Keys(Callers):
                 with self.subTest(role=role, method=method, path=path):
                     if order.index(role) < order.index(needed):
                         self.assert_problem(answer, 403, "auth.forbidden")
+                        self.assertEqual(answer.json["detail"], f"the key {role}-1 has the role {role}; this needs the role {needed}")
                     elif role == needed:
                         self.assertIn(answer.status, (200, 201, 204), answer)
                     else:
