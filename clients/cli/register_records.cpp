@@ -82,8 +82,8 @@ void add_listed(CLI::App& app, Action& chosen) {
                                chosen, said, run_note);
   note->add_option("id", said->id, "Id of the measurement")->required();
   note->add_option("--cause", said->cause, "Cause of the value");
-  note->add_option("--action", said->measure, "Action that was taken");
-  note->add_option("--measure", said->measure, "Another name of --action");
+  CLI::Option* action = note->add_option("--action", said->measure, "Action that was taken");
+  note->add_option("--measure", said->measure, "Another name of --action")->excludes(action);
   note->add_option("--text", said->text, "Free text");
   note->add_option("--operator", said->operator_name, "Author of the note");
 }

@@ -253,6 +253,13 @@ class Records(ClientTest):
         self.assert_fails(4, "correct", wrong, "x", "--reason", "again")
         self.assert_fails(4, "correct", wrong, "25.003")
 
+    def test_an_action_is_given_by_one_of_its_names(self):
+        record = self.daemon.measure({"designation": "25 H7", "measured_mm": 25.03}).json["id"]
+        self.assert_fails(4, "note", record, "--action", "b", "--measure", "a")
+        self.assertEqual(self.daemon.get(f"/v1/measurements/{record}/notes").json["notes"], [])
+        self.assert_runs(0, "note", record, "--measure", "a")
+        self.assertEqual(self.daemon.get(f"/v1/measurements/{record}/notes").json["notes"][0]["measure"], "a")
+
     def test_the_limits_of_a_drawing(self):
         limits = ("--feature", "shaft", "--upper-um", "0", "--lower-um", "-9", "--record")
         self.assertIn("GOOD  7.9955 mm  8 (7.991 to 8 mm)", self.assert_runs(0, "gauge", "8", "7,9955", *limits))
