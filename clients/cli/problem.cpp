@@ -21,12 +21,12 @@ ExitCode exit_code_of(const Answer& answer) {
   return ExitCode::Refused;
 }
 
+/// The detail, or the list of the fields, which has the detail with its place.
 std::string sentence(const Problem& problem) {
-  std::string text = problem.title;
-  // The detail repeats the first field, which the list has with its place.
-  if (!problem.detail.empty() && problem.fields.empty()) text += ": " + problem.detail;
+  if (problem.fields.empty()) return problem.detail.empty() ? problem.title : problem.detail;
+  std::string text;
   for (const FieldProblem& field : problem.fields) {
-    text += fmt::format("; {}: {}", field.pointer, field.detail);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", field.pointer, field.detail);
   }
   return text;
 }

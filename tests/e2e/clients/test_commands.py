@@ -260,6 +260,12 @@ class Records(ClientTest):
         self.assert_runs(0, "note", record, "--measure", "a")
         self.assertEqual(self.daemon.get(f"/v1/measurements/{record}/notes").json["notes"][0]["measure"], "a")
 
+    def test_a_refusal_is_printed_once(self):
+        detail = self.daemon.get("/v1/limits/25H99").json["detail"]
+        self.assertEqual(self.assert_fails(7, "limits", "25H99"), f"fitgauge: {detail}\n")
+        self.assertEqual(self.assert_fails(7, "gauge", "25H7", "25", "--record", "--rule", "x"),
+                         "fitgauge: /rule: rule must be one of: simple, guard_band, conformance\n")
+
     def test_the_limits_of_a_drawing(self):
         limits = ("--feature", "shaft", "--upper-um", "0", "--lower-um", "-9", "--record")
         self.assertIn("GOOD  7.9955 mm  8 (7.991 to 8 mm)", self.assert_runs(0, "gauge", "8", "7,9955", *limits))
