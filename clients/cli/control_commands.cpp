@@ -25,6 +25,7 @@ using control_link::Transfer;
 constexpr std::size_t kMostEntries = 100'000;
 constexpr std::size_t kMostBytes = std::size_t{256} << 20;
 constexpr std::size_t kMostErrors = 100;
+constexpr std::uint32_t kNothingTouched = 1014;  ///< a probing move without contact
 constexpr std::chrono::milliseconds kStateInterval{200};
 
 Failure failure_of(const LinkFailure& failure) {
@@ -315,8 +316,14 @@ Outcome<ExitCode> run_control_run(const Context& context, const std::string& add
   const auto errors = TRY(read_errors(control));
   for (const auto& error : errors) context.note(fmt::format("{}: {}", error.number, error.text));
   if (state != ProgramState::Finished) {
-    return Failure{ExitCode::ProgramFailed,
-                   fmt::format("{} ended with status {}", path, name_of(state))};
+    const bool is_missed = std::ranges::any_of(
+        errors, [](const auto& error) { return error.number == kNothingTouched; });
+    return Failure{
+        ExitCode::ProgramFailed,
+        fmt::format("{} ended with status {}{}", path, name_of(state),
+                    is_missed ? ": if the machine has no workpiece, start fitgauged with a setup "
+                                "(--control-setup)"
+                              : "")};
   }
   if (!context.json) context.print("{} {}\n", path, name_of(state));
   return ExitCode::Good;

@@ -66,7 +66,14 @@ class Commands(ClientTest):
         self.assertEqual(done.returncode, 9)
         self.assertIn("tool 99", done.stderr_text)
         self.assertIn("bad.h ended with status failed", done.stderr_text)
+        self.assertNotIn("--control-setup", done.stderr_text)
         self.assert_fails(7, "control", "run", self.control, "TNC:\\nc_prog\\none.h")
+
+    def test_a_probe_that_touches_nothing_names_the_setting_of_the_workpiece(self):
+        done = self.client.run("control", "run", self.control, "TNC:\\nc_prog\\8255\\8255.h")
+        self.assertEqual(done.returncode, 9)
+        self.assertIn("8255.h ended with status failed: if the machine has no workpiece, start fitgauged with a setup (--control-setup)",
+                      done.stderr_text)
 
     def test_the_state_of_what_runs_is_told(self):
         self.daemon.request("PUT", "/v1/files/nc_prog/loop.h", LOOP.encode())
