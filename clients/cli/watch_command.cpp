@@ -1,5 +1,6 @@
 #include "cli/watch_command.hpp"
 
+#include <regex>
 #include <thread>
 
 #include "base/text.hpp"
@@ -149,6 +150,14 @@ std::string format_event(const Event& event, const Terminal& terminal) {
 }
 
 Outcome<ExitCode> run_watch(const Context& context, const WatchOptions& options) {
+  static const std::regex kId(R"(m\d{1,19}r?\.e\d{1,19}(-[0-9a-f]+)?)");
+  if (!options.after.empty() && !std::regex_match(options.after, kId)) {
+    return Failure{
+        ExitCode::Usage,
+        fmt::format("--after must be the id of an event, such as m17.e3-5f0c9a3e77d21b40; "
+                    "got '{}'",
+                    options.after)};
+  }
   return Watch(context, options).run();
 }
 

@@ -35,6 +35,8 @@ class Watching(unittest.TestCase):
                 daemon.start()
         self.assertEqual(client.end(watch).returncode, 0)
         self.assertEqual(client.run("watch", "--source", "none").returncode, 4)
+        for malformed in ("zz", "m1", "m1.e2-", "m1.e2-x", "1", "m1.e2-0 "):
+            self.assertEqual(client.run("watch", "--count", "1", "--after", malformed).returncode, 4, malformed)
         daemon.stop()
         self.assertEqual(client.run("watch").returncode, 6)
 
