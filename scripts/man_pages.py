@@ -36,7 +36,8 @@ def entry(left: str, text: str) -> Entry:
     if span:
         text = re.sub(r"(?= \(default|$)", ", " + span.replace(" - ", " to "), text, count=1)
     if " ..." in rest:
-        head, text = (head, text + "; may be repeated") if head.startswith("Fl") else (head + " ...", text)
+        is_option = head.startswith("Fl")
+        head, text = (head, re.sub(r"(?= \(default: |$)", "; may be repeated", text, count=1)) if is_option else (head + " ...", text)
     return Entry(head, text, "REQUIRED" in rest)
 
 

@@ -161,17 +161,20 @@ std::string zsh_completion(const CLI::App& app) {
 void add_stored(CLI::App& app, Action& chosen, const StoredKind& kind) {
   CLI::App* stored = app.add_subcommand(std::string(kind.command), std::string(kind.help));
   stored->require_subcommand(1);
+  const Word name{"name", fmt::format("Name of {}", kind.what)};
   add_words(*stored, "ls", fmt::format("List the names of the {}", kind.command), chosen, {}, 0,
             [&kind](const Context& context, const Words&) { return run_stored_ls(context, kind); });
   add_words(*stored, "put", fmt::format("Store {}: {} put m3 m3.json", kind.what, kind.command),
-            chosen, {"name", "file"}, 2, [&kind](const Context& context, const Words& words) {
+            chosen, {name, {"file", "JSON file; - is standard input"}}, 2,
+            [&kind](const Context& context, const Words& words) {
               return run_stored_put(context, kind, words[0], words[1]);
             });
   add_words(*stored, "get", fmt::format("Print {}, or write it to a file", kind.what), chosen,
-            {"name", "file"}, 1, [&kind](const Context& context, const Words& words) {
+            {name, {"file", "File to write (default: standard output)"}}, 1,
+            [&kind](const Context& context, const Words& words) {
               return run_stored_get(context, kind, words[0], words[1]);
             });
-  add_words(*stored, "rm", fmt::format("Delete {}", kind.what), chosen, {"name"}, 1,
+  add_words(*stored, "rm", fmt::format("Delete {}", kind.what), chosen, {name}, 1,
             [&kind](const Context& context, const Words& words) {
               return run_stored_rm(context, kind, words[0]);
             });
@@ -198,15 +201,17 @@ void add_tables(CLI::App& app, Action& chosen) {
         "", "", "", feature == "hole" ? "/v1/tables/hole/classes" : "/v1/tables/shaft/classes", ""};
   };
   const auto of_feature = CLI::IsMember({"hole", "shaft"});
+  const Word feature{"feature", "Table: hole or shaft"};
+  const Word name{"name", "Name of the custom tolerance class"};
   add_words(*tables, "set", "Store a custom tolerance class: tables set hole PRESS press.json",
-            chosen, {"feature", "name", "file"}, 3,
+            chosen, {feature, name, {"file", "JSON file; - is standard input"}}, 3,
             [classes](const Context& context, const Words& words) {
               return run_stored_put(context, classes(words[0]), words[1], words[2]);
             })
       ->get_option("feature")
       ->check(of_feature);
   add_words(*tables, "reset", "Delete a custom tolerance class: the standard applies again", chosen,
-            {"feature", "name"}, 2,
+            {feature, name}, 2,
             [classes](const Context& context, const Words& words) {
               return run_stored_rm(context, classes(words[0]), words[1]);
             })

@@ -115,14 +115,16 @@ void add_runs(CLI::App& app, Action& chosen) {
   list->add_option("--limit", query->limit, "Maximum number of runs (default: 100)")
       ->check(CLI::Range(1, 1000));
   list->add_option("--after", query->after, "Cursor that the previous page printed");
+  const Word id{"id", "Id of the run"};
   add_words(
-      *runs, "show", "Print screen, messages and files of a run", chosen, {"id"}, 1,
+      *runs, "show", "Print screen, messages and files of a run", chosen, {id}, 1,
       [](const Context& context, const Words& words) { return run_runs_show(context, words[0]); });
-  add_words(*runs, "get", "Print a file that a run wrote", chosen, {"id", "name", "file"}, 2,
-            [](const Context& context, const Words& words) {
+  add_words(*runs, "get", "Print a file that a run wrote", chosen,
+            {id, {"name", "Name of the file"}, {"file", "Local file (default: standard output)"}},
+            2, [](const Context& context, const Words& words) {
               return run_runs_get(context, words[0], words[1], words[2]);
             });
-  add_words(*runs, "cancel", "Cancel a queued or running run", chosen, {"id"}, 1,
+  add_words(*runs, "cancel", "Cancel a queued or running run", chosen, {id}, 1,
             [](const Context& context, const Words& words) {
               return run_runs_cancel(context, words[0]);
             });
@@ -131,14 +133,16 @@ void add_runs(CLI::App& app, Action& chosen) {
 void add_control(CLI::App& app, Action& chosen) {
   CLI::App* control = app.add_subcommand("control", "A HEIDENHAIN control over LSV-2");
   control->require_subcommand(1);
-  add_words(*control, "ls", "List a folder of a control", chosen, {"address", "directory"}, 1,
+  const Word address{"address", "The control: HOST or HOST:PORT"};
+  add_words(*control, "ls", "List a folder of a control", chosen,
+            {address, {"directory", "Folder on the control (default: TNC:)"}}, 1,
             [](const Context& context, const Words& words) {
               return run_control_ls(context, words[0], words[1]);
             });
   const auto got = std::make_shared<ControlGetOptions>();
   CLI::App* get = add_command(*control, "get", "Fetch a file: control get tnc TNC:/log.txt", chosen,
                               got, run_control_get);
-  get->add_option("address", got->address, "The control: HOST or HOST:PORT")->required();
+  get->add_option("address", got->address, address.help)->required();
   get->add_option("path", got->path, "Path on the control")->required();
   get->add_option("file", got->file, "Local file (default: the same name); - is standard output");
   get->add_flag("--force", got->force, "Replace an existing file");
@@ -150,12 +154,13 @@ void add_control(CLI::App& app, Action& chosen) {
       ->required()
       ->expected(3, CLI::detail::expected_max_vector_size);
   send->add_flag("--force", put->force, "Replace an existing file on the control");
-  add_words(*control, "run", "Run a program of a virtual control", chosen, {"address", "program"},
-            2, [](const Context& context, const Words& words) {
+  add_words(*control, "run", "Run a program of a virtual control", chosen,
+            {address, {"program", "Path of the program on the control"}}, 2,
+            [](const Context& context, const Words& words) {
               return run_control_run(context, words[0], words[1]);
             });
   add_words(*control, "state", "Print mode, program, axes and errors of a control", chosen,
-            {"address"}, 1, [](const Context& context, const Words& words) {
+            {address}, 1, [](const Context& context, const Words& words) {
               return run_control_state(context, words[0]);
             });
 }

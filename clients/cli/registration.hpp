@@ -35,14 +35,21 @@ std::string option_name(std::string_view field);
 
 using Words = std::vector<std::string>;
 
+/// A word after a command, and its help.
+struct Word {
+  std::string name{};
+  std::string help{};
+};
+
 /// Registers a command of up to three words, the last of which may be left out.
 template <class Run>
 CLI::App* add_words(CLI::App& parent, const std::string& name, const std::string& help,
-                    Action& chosen, const Words& words, std::size_t required, const Run& run) {
+                    Action& chosen, const std::vector<Word>& words, std::size_t required,
+                    const Run& run) {
   const auto values = std::make_shared<Words>(words.size());
   CLI::App* command = parent.add_subcommand(name, help);
   for (std::size_t i = 0; i < words.size(); ++i) {
-    command->add_option(words[i], values->at(i))->required(i < required);
+    command->add_option(words[i].name, values->at(i), words[i].help)->required(i < required);
   }
   command->callback([&chosen, values, run] {
     chosen = [values, run](const Context& context) { return run(context, *values); };

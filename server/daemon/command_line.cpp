@@ -136,7 +136,11 @@ void add_options(CLI::App& app, Arguments& arguments) {
           "--" + std::string(setting.name), [&values] { values = {"true"}; }, help_text(setting));
       continue;
     }
-    auto* option = app.add_option("--" + std::string(setting.name), values, help_text(setting))
+    std::string help = help_text(setting);
+    if (const auto value = default_text(setting); !value.empty()) {
+      help += fmt::format(" (default: {})", value);
+    }
+    auto* option = app.add_option("--" + std::string(setting.name), values, help)
                        ->type_name(std::string(setting.kind));
     if (setting.texts == nullptr) option->expected(1);
   }

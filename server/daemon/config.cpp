@@ -120,7 +120,7 @@ const std::vector<Setting>& settings() {
        &Config::origin_name},
       {"auth",
        "WORD",
-       "Requests that need a key; default: open on loopback addresses, else read-open",
+       "Requests that need a key; default chooses open on loopback addresses, else read-open",
        &Config::auth,
        {"default", "open", "read-open", "keys"}},
       {"allow-origin", "URL",
@@ -195,6 +195,14 @@ const std::vector<Setting>& settings() {
        &Config::forward_insecure},
   };
   return kSettings;
+}
+
+std::string default_text(const Setting& setting) {
+  static const Config kDefaults{};
+  if (setting.integer != nullptr) return std::to_string(kDefaults.*setting.integer);
+  if (setting.flag != nullptr) return kDefaults.*setting.flag ? "true" : "";
+  if (setting.texts == nullptr) return kDefaults.*setting.text;
+  return fmt::format("{}", fmt::join(kDefaults.*setting.texts, ", "));
 }
 
 std::string help_text(const Setting& setting) {

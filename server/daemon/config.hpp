@@ -78,6 +78,9 @@ struct Setting {
 
 const std::vector<Setting>& settings();
 
+/// The default of a setting in words; empty if it has none, or is off.
+std::string default_text(const Setting& setting);
+
 /// The help of a setting with its range or words: `… (1 to 64)`, `… (group, each, off)`.
 std::string help_text(const Setting& setting);
 

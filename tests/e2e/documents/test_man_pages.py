@@ -73,6 +73,22 @@ class Manual(unittest.TestCase):
         self.assertRegex(subprocess.run([FITGAUGE, "list", "--help"], capture_output=True, text=True, check=True).stdout,
                          r"--limit NUMBER.*1.*1000")
 
+    def test_every_argument_has_a_text(self):
+        arguments = [(command.words, each) for program in (FITGAUGE, FITGAUGED) for command in man_pages.commands(program)
+                     for each in command.arguments]
+        self.assertGreater(len(arguments), 50)
+        self.assertEqual([words for words, each in arguments if not each.text], [])
+
+    def test_help_ends_with_the_default_of_a_setting(self):
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("FITGAUGE_")}
+        def printed(flag):
+            return subprocess.run([FITGAUGED, flag], capture_output=True, text=True, check=True, env=environment).stdout
+        defaults = {key: value.strip('[]"') for key, value in re.findall(r"^(\w+) = (.+)$", printed("--print-config"), re.MULTILINE)
+                    if value not in ("false", "[]", '""')}
+        self.assertGreater(len(defaults), 12)
+        told = dict(re.findall(r"^  --([\w-]+) \S+(?: \.\.\.)?\s+.* \(default: ([^\n]*)\)$", printed("--help"), re.MULTILINE))
+        self.assertEqual(told, {key.replace("_", "-"): value for key, value in defaults.items()})
+
     def test_every_exit_code_is_in_the_manual(self):
         source = (ROOT / "clients/cli/outcome.hpp").read_text(encoding="utf-8")
         codes = re.findall(r"^  \w+ = (\d+),", source, re.MULTILINE)
