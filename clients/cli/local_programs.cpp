@@ -134,7 +134,8 @@ Outcome<Levels> read_levels(const std::vector<std::string>& written) {
     if (!severity && said != "off") {
       return Failure{
           ExitCode::Usage,
-          fmt::format("--level must be CODE=off, note, warning or error; got '{}'", level)};
+          fmt::format("--level must be CODE= and one of: off, note, warning, error; got '{}'",
+                      level)};
     }
     const std::string code = level.substr(0, equals);
     if (std::ranges::find(kCodes, code) == std::end(kCodes))

@@ -95,15 +95,16 @@ void MeasurementRowReader::assign(std::size_t field, const RawValue& value) {
       if (const auto given_word = text(field, value)) {
         draft_.feature = iso286::feature_from_word(*given_word);
         if (!draft_.feature)
-          report(field, {ErrorCode::FieldInvalid, "feature must be hole or shaft"});
+          report(field, {ErrorCode::FieldInvalid, "feature must be one of: hole, shaft"});
       }
       break;
     case RowField::Quantity:
       if (const auto given_word = text(field, value)) {
         draft_.quantity = gauging::quantity_from_word(*given_word);
         if (!draft_.quantity) {
-          report(field, {ErrorCode::FieldInvalid,
-                         fmt::format("quantity is {}", fmt::join(gauging::kQuantityWords, ", "))});
+          report(field,
+                 {ErrorCode::FieldInvalid, fmt::format("quantity must be one of: {}",
+                                                       fmt::join(gauging::kQuantityWords, ", "))});
         }
       }
       break;
@@ -356,10 +357,10 @@ void MeasurementRowReader::apply_size() {
     report(ErrorCode::FieldInvalid, "size_operator", "size_operator must not be empty");
   }
   if (m.envelope && m.envelope != app::kEnvelopeRequired) {
-    report(ErrorCode::FieldInvalid, "envelope", "envelope must be required or absent");
+    report(ErrorCode::FieldInvalid, "envelope", "envelope must be 'required', or be left out");
   }
   if (m.go_gauge && m.go_gauge != app::kGoPasses && m.go_gauge != app::kGoFails) {
-    report(ErrorCode::FieldInvalid, "go_gauge", "go_gauge must be passes or fails");
+    report(ErrorCode::FieldInvalid, "go_gauge", "go_gauge must be one of: passes, fails");
   } else if (m.go_gauge && !m.envelope) {
     report(ErrorCode::FieldMissing, "envelope",
            "go_gauge needs an envelope: give envelope required, or a designation with (E)");

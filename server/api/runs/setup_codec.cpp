@@ -123,7 +123,7 @@ struct FeatureForm {
     std::string words;
     bool is_known = false;
     each_kind_of_feature([&](const FeatureKind& kind, auto feature) {
-      words.append(words.empty() ? "" : " ").append(kind.word);
+      words.append(words.empty() ? "" : ", ").append(kind.word);
       if (kind.word != word) return;
       is_known = true;
       members(v, feature);
@@ -132,7 +132,7 @@ struct FeatureForm {
     });
     if (is_known || errors.has(pointer) || errors.has(pointer_to(pointer, "type"))) return;
     errors.add(ErrorCode::FieldInvalid, pointer_to(pointer, "type"),
-               fmt::format("type must be one of: {}", listed(words)));
+               fmt::format("type must be one of: {}", words));
   }
 };
 

@@ -89,9 +89,8 @@ std::optional<std::size_t> find_listed(FieldReader& fields, std::string_view nam
   if (!given) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *given);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  fields.report(
-      ErrorCode::FieldInvalid, name,
-      fmt::format("{} must be one of: {}", name, listed(fmt::format("{}", fmt::join(words, " ")))));
+  fields.report(ErrorCode::FieldInvalid, name,
+                fmt::format("{} must be one of: {}", name, fmt::join(words, ", ")));
   return std::nullopt;
 }
 

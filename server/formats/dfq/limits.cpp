@@ -139,8 +139,9 @@ Result<Toleranced> ToleranceReader::read(std::optional<LengthUnit> fallback,
                                             "K2142, or set length_unit",
                                             characteristic_.index))
                : wrong(unit,
-                       fmt::format("has the unit '{}', which must be mm, \xC2\xB5m, cm, m or inch",
-                                   first_characters(unit->text, 40)));
+                       fmt::format(
+                           "has the unit '{}', which must be one of: mm, \xC2\xB5m, cm, m, inch",
+                           first_characters(unit->text, 40)));
   }
   read_.unit = *known;
   const auto nominal = TRY(length(k::kNominal));

@@ -301,7 +301,8 @@ std::optional<Refusal> Exchange::check_body() {
         media && std::find(types.begin(), types.end(), media->type) != types.end();
     if (!is_known) {
       return Refusal{415, ErrorCode::MediaTypeUnsupported,
-                     fmt::format("Content-Type must be {}", fmt::join(types, ", "))};
+                     fmt::format("Content-Type must be {}{}", types.size() > 1 ? "one of: " : "",
+                                 fmt::join(types, ", "))};
     }
     if (!media->charset.empty() && media->charset != "utf-8") {
       return Refusal{415, ErrorCode::MediaTypeUnsupported, "charset of Content-Type must be UTF-8"};

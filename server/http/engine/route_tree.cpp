@@ -99,7 +99,7 @@ struct Reader {
   Result<ArgumentValue> operator()(const Words& type) const {
     const auto found = std::find(type.words.begin(), type.words.end(), text);
     if (found == type.words.end()) {
-      return refuse(fmt::format("one of {}", fmt::join(type.words, ", ")));
+      return refuse(fmt::format("one of: {}", fmt::join(type.words, ", ")));
     }
     return ArgumentValue(std::string_view(*found));
   }

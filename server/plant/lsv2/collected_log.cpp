@@ -154,7 +154,7 @@ Result<void> judge_by_drawing(Measurement& measurement, const Fields& fields) {
   size.limits = TRY(drawn_limits(fields, size.nominal.value_or(measurement.measured)));
   const std::string_view feature = fields.text("feature");
   if (!feature.empty() && feature != "hole" && feature != "shaft") {
-    return field_error(fmt::format("feature must be hole or shaft; got '{}'", feature));
+    return field_error(fmt::format("feature must be one of: hole, shaft; got '{}'", feature));
   }
   if (feature == "shaft") size.feature = iso286::Feature::Shaft;
   judge_size(measurement, size);

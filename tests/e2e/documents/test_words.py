@@ -5,12 +5,14 @@ import subprocess
 import unittest
 
 from support.cli import FITGAUGE
-from support.daemon import FITGAUGED, ROOT
+from support.daemon import FITGAUGED, ROOT, DaemonTest
 
 BANNED = re.compile(r"\b(any more|no longer|whoever|whatever|(?:is|are) told|rejected requests?|daemons?|the one before|"
                     r"inspection certificates?|own columns?|columns? of the shop)\b", re.IGNORECASE)
 # Help: half sentences. Errors: idioms in place of what is wrong.
 RIDDLES = re.compile(r"  Of .*|[a-z], else \d+|when absent")
+# A choice has one form: FIELD must be one of: a, b, c.
+CHOICES = re.compile(r"must be one of(?!: )|\bone of \{\}|must be (?!true or false)[\w{}']+(?:, [\w']+)* or (?!more)[\w']+(?:;.*)?$|^\w+ is \{\}$")
 # Words of the verdicts, and pairs of words for one thing, that a language keeps out of all its other texts.
 FOREIGN = {"de": r"Abweichungen in µm|[Bb]erichtig|Prüfstation|Prüfzeugnis|horchen|Mittlere Abweichung|Kleinstes Spiel|Aufbau\b",
            "it": r"(?i)scart|ripresa|collaudo|reticolo|angoli spaziali|scostamento medio",
@@ -77,7 +79,7 @@ class Words(unittest.TestCase):
             for path in [*(ROOT / folder).rglob("*.[ch]pp"), *(ROOT / folder).rglob("*.inc")]:
                 for text in literals(path.read_text(encoding="utf-8")):
                     checked += 1
-                    self.assertEqual(found(text) + SPOKEN.findall(text), [], f"{path.relative_to(ROOT)}: {text}")
+                    self.assertEqual(found(text) + SPOKEN.findall(text) + CHOICES.findall(text), [], f"{path.relative_to(ROOT)}: {text}")
         self.assertGreater(checked, 3000)
 
     def test_a_banned_word_is_found(self):
@@ -87,4 +89,18 @@ class Words(unittest.TestCase):
         self.assertEqual(list(literals('  // "no text of this"\nfail("a plan takes "\n  "one part");')), ["a plan takes one part"])
         self.assertTrue(SPOKEN.search("a plan takes one part"))
         self.assertTrue(SPOKEN.search("Of the part, to 1e-9"))
+        for wrong in ("feature must be hole or shaft", "x must be a, b or c; got {}", "must be one of {}", "one of {}", "quantity is {}"):
+            self.assertTrue(CHOICES.search(wrong), wrong)
+        for right in ("x must be one of: a, b, c; got {}", "x must be 0 or more", "x must be true or false", "a is in {}"):
+            self.assertFalse(CHOICES.search(right), right)
         self.assertTrue(re.search(FOREIGN["it"], "Medie e scarti"))
+
+
+class Api(DaemonTest):
+    def test_a_refused_choice_lists_the_words(self):
+        post = self.daemon.post
+        for answer in (post("/v1/measurements", {"quantity": "x"}), post("/v1/measurements", {"feature": "x"}),
+                       post("/v1/measurements", {"designation": "25 H7", "measured_mm": 25, "envelope": "required", "go_gauge": "x"}), self.daemon.get("/v1/measurements?verdict=x"),
+                       post("/v1/statistics/chart", {"kind": "x", "values": [1, 2, 3]}),
+                       self.daemon.request("POST", "/v1/measurements", "x", {"Content-Type": "text/x"})):
+            self.assertRegex(answer.json["detail"], r"^[\w -]+ must be one of: [\w./-]+(?:, [\w./-]+)+(?: \(and \d+ more\)|; got 'x')?$")

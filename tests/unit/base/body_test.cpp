@@ -100,7 +100,7 @@ TEST_CASE("a body is read with its defaults") {
 
 TEST_CASE("every bad member of a body is reported at its place") {
   CHECK(refusals(R"({"colour":"pink","share":1,"spare":{"weight":10,"x":1},"parts":[1]})") ==
-        "/colour: colour must be one of: red, green or blue\n"
+        "/colour: colour must be one of: red, green, blue\n"
         "/share: share must be between 0 and 1\n"
         "/spare/name: name is required\n"
         "/spare/weight: weight must be a whole number from 1 to 9\n"
