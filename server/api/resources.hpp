@@ -65,7 +65,7 @@ void add_verdicts_routes(Routes& add);
 void add_measurements_routes(Routes& add);
 /// /v1/measurements/{id}/notes: causes and actions of a measurement.
 void add_notes_routes(Routes& add);
-/// /v1/catalogues: lists of causes and measures to choose from.
+/// /v1/catalogues: lists of causes and actions to choose from.
 void add_catalogues_routes(Routes& add);
 /// /v1/log and the proof of a measurement.
 void add_log_routes(Routes& add);

@@ -45,7 +45,7 @@ class ServiceCalls(Transport):
         self._perform(Request("DELETE", path_of("plans", part)))
 
     def catalogues(self) -> list[dict[str, Any]]:
-        """`name` and `modified_at` of each catalogue of causes and measures."""
+        """`name` and `modified_at` of each catalogue of causes and actions."""
         return self._get("/v1/catalogues")["catalogues"]
 
     def catalogue(self, name: str) -> dict[str, Any]:

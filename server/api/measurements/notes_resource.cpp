@@ -36,7 +36,7 @@ Result<app::Note> read_note(std::string_view text) {
   NoteOrder order;
   read_body(body, "", errors, order);
   if (errors.empty() && !order.note.says_something()) {
-    errors.add(ErrorCode::FieldMissing, "/cause", "a note must have a cause, a measure or a text");
+    errors.add(ErrorCode::FieldMissing, "/cause", "a note must have a cause, an action or a text");
   }
   if (auto error = errors.take()) return *std::move(error);
   return std::move(order.note);
@@ -118,8 +118,8 @@ Result<CheckedDocument> check_catalogue(const Services&, const std::string&,
 constexpr KindOfDocument kCatalogues{.kind = app::DocumentKind::Catalogue,
                                      .path = "/v1/catalogues",
                                      .one = "a catalogue",
-                                     .contents = "causes and measures to choose from",
-                                     .many = "catalogues of causes and measures",
+                                     .contents = "causes and actions to choose from",
+                                     .many = "catalogues of causes and actions",
                                      .member = "catalogues",
                                      .operation = "Catalogue",
                                      .operations = "Catalogues",

@@ -136,7 +136,7 @@ Fields characteristic_fields() {
              {"picture", schema::text(200), "A file of /v1/files"},
              {"reaction", schema::text(2000), "What to do if a value is not good"},
              {"catalogue", schema::text(200),
-              "A value that is not good waits for a cause and a measure of this catalogue"},
+              "A value that is not good waits for a cause and an action of this catalogue"},
          });
 }
 

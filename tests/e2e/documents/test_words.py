@@ -8,7 +8,7 @@ from support.cli import FITGAUGE
 from support.daemon import FITGAUGED, ROOT, DaemonTest
 
 BANNED = re.compile(r"\b(any more|no longer|whoever|whatever|(?:is|are) told|rejected requests?|daemons?|the one before|"
-                    r"inspection certificates?|own columns?|columns? of the shop)\b", re.IGNORECASE)
+                    r"inspection certificates?|own columns?|columns? of the shop|causes? and (?:a )?measures?)\b", re.IGNORECASE)
 # Help: half sentences. Errors: idioms in place of what is wrong.
 RIDDLES = re.compile(r"  Of .*|[a-z], else \d+|when absent")
 # A choice has one form: FIELD must be one of: a, b, c.
