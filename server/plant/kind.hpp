@@ -19,18 +19,18 @@ void event_members(V& v, FollowerOptions& options) {
   v.optional("events", options.events,
              SomeOf{{kRecorded, "run.finished", "table.changed", "note.added", api::kOffsetChanged,
                      api::kOffsetFailed}},
-             "Events that are sent; measurement.recorded when absent");
+             "Events that are sent (default: measurement.recorded)");
 }
 
 /// Describes the settings of every outgoing connection. Call it after event_members().
 template <class V>
 void follower_members(V& v, FollowerOptions& options) {
   v.optional("filter", options.filter, FilterForm{},
-             "Measurements that are sent; all measurements of gauges when absent");
+             "Measurements that are sent (default: all measurements of gauges)");
   v.optional("start", options.from_beginning, Choice{"now", "beginning"},
-             "Start of a new connection; now when absent");
+             "Start of a new connection (default: now)");
   v.optional("longest_wait_s", options.longest_wait, Within{1, 3600},
-             "Longest time between two attempts; 300 when absent");
+             "Longest time between two attempts (default: 300)");
   v.check([&](const auto&) {
     if (options.events.erase(std::string(kRecorded)) == 0) options.filter.verdicts.clear();
   });

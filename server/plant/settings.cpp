@@ -121,7 +121,8 @@ void members(V& v, LogFilter& filter) {
   v.optional("verdict", filter.verdicts,
              SomeOf{{"good", "rework", "reject", "indeterminate", "unjudged"}},
              "One of these verdicts");
-  v.optional("source", filter.from, Choice{"gauge", "simulation", "all"}, "gauge when absent");
+  v.optional("source", filter.from, Choice{"gauge", "simulation", "all"},
+             "Source of the measurements (default: gauge)");
 }
 
 bool LogFilter::takes(const app::Measurement& measurement) const {

@@ -88,7 +88,7 @@ class ServiceCalls(Transport):
                            "text/xml").decode()
 
     def live(self) -> bool:
-        """The process answers."""
+        """The process responds."""
         return bool(self._get("/livez")["status"] == "live")
 
     def ready(self) -> dict[str, Any]:

@@ -116,10 +116,12 @@ std::vector<http::Parameter> parameters() {
   const std::vector<http::Parameter> others = {
       {.name = "title",
        .type = http::Text{200},
-       .description = "First line of the report; Inspection report when absent"},
+       .description = "First line of the report (default: Inspection report)"},
       {.name = "company", .type = http::Text{200}, .description = "Company that issues the report"},
       {.name = "customer", .type = http::Text{200}, .description = "Customer on the report"},
-      {.name = "paper", .type = http::Words{{"a4", "letter"}}, .description = "a4 when absent"},
+      {.name = "paper",
+       .type = http::Words{{"a4", "letter"}},
+       .description = "Size of the sheets (default: a4)"},
   };
   all.insert(all.end(), others.begin(), others.end());
   return all;

@@ -238,7 +238,7 @@ void add_fits_routes(Routes& add) {
                        .description = "Greatest clearance allowed"},
                       {.name = "limit",
                        .type = http::Integer{.min = 1, .max = 1000},
-                       .description = "Most fits in the answer, 1 to 1000; 100 when absent"},
+                       .description = "Maximum number of fits, 1 to 1000 (default: 100)"},
                       revision_parameter()},
        .outcomes = {{.meaning = "The fits found", .schema = "FoundFits"}},
        .refusals = {422}});

@@ -150,8 +150,8 @@ void add_standards(Schemas& schemas) {
       {"edition", schema::text(), "ISO 2768-1:1989"},
       {"title", schema::text(), ""},
       {"revision", schema::text(), "The table_revision of what is judged by it"},
-      {"designation", schema::text(), "An example; absent where it has none for limits", false},
-      {"left_out", schema::text(), "Parts of the standard that are not here, with the reason",
+      {"designation", schema::text(), "An example; absent if the standard has no limits", false},
+      {"left_out", schema::text(), "Parts of the standard that are not available, with the reason",
        false}};
   const std::string standard =
       schema::object(identity + schema::Fields{
@@ -174,7 +174,7 @@ void add_standards(Schemas& schemas) {
       schema::Fields{{"table", schema::text(), ""},
                      {"limits", schema::map(item), "Limits by item"}} +
       schema::optional({{"over_mm", schema::number(), "Exclusive"},
-                        {"up_to_mm", schema::number(), "Inclusive; absent: without end"},
+                        {"up_to_mm", schema::number(), "Inclusive; absent if the range has no end"},
                         {"pitch_mm", schema::number(), ""},
                         {"diameter_mm", schema::number(), ""}}));
   schemas.push_back(
@@ -211,10 +211,10 @@ void add_limits_schemas(Schemas& schemas) {
   add_gauges_schemas(schemas);
   const schema::Fields rule = schema::optional({
       {"corrected_mm", schema::number(),
-       "The size at 20 °C, which decides, where an expansion is given"},
+       "The size at 20 °C, which decides if an expansion is given"},
       {"added_uncertainty_um", schema::number(),
-       "Standard uncertainty that the correction adds to uncertainty_um, where one of a "
-       "temperature or expansion is given; the rule decides with both"},
+       "Standard uncertainty that the correction adds to uncertainty_um, if an uncertainty of a "
+       "temperature or expansion is given; the rule uses both"},
       {"rule", rule_words(), "Decision rule if it is not simple"},
       {"uncertainty_um", schema::number(), "Standard uncertainty u of the rule"},
       {"degrees_of_freedom", schema::number(),
@@ -226,7 +226,7 @@ void add_limits_schemas(Schemas& schemas) {
        "Probability that the part conforms, to 1e-9"},
       {"guard_band_um", schema::number(), "Guard band inside both limits (rule conformance)"},
       {"envelope", schema::words({app::kEnvelopeRequired}), "Present if the designation has (E)"},
-      {"envelope_result", schema::words({"not_verified"}), "No GO gauge verifies it here"},
+      {"envelope_result", schema::words({"not_verified"}), "Not verified by a GO gauge"},
   });
   schemas.push_back(
       {"Verdict", schema::object(limits_fields() + verdict_fields() + rule + warnings_field())});

@@ -155,7 +155,7 @@ struct Pressed {
 void members(auto& v, const Pressed& pressed) {
   v.member("interference_um", pressed.interference, Finite{});
   v.member("effective_interference_um", pressed.made.effective_um, Finite{},
-           "Interference without the part that the roughness takes");
+           "Interference minus the loss by roughness");
   v.member("pressure_mpa", pressed.made.pressure_mpa, Finite{}, "Pressure in the joint");
   v.member("hub_stress_mpa", pressed.made.hub_stress_mpa, Finite{},
            "Equivalent stress in the bore (von Mises)");

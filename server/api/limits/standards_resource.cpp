@@ -141,7 +141,7 @@ Result<http::Response> rows(const http::Request& request, const iso286::Toleranc
 
 void add_standards_routes(Routes& add) {
   add("GET /v1/standards listStandards open", ResponseCache::cached(add.cache, list),
-      {.summary = "The standards beside ISO 286 that there are numbers of",
+      {.summary = "The standards other than ISO 286 that the service has tables of",
        .description = "Their editions, tables and what the numbers were compared with.",
        .outcomes = {{.meaning = "The standards", .schema = "Standards"}}});
   add("GET /v1/standards/{name} getStandard open", ResponseCache::cached(add.cache, rows),

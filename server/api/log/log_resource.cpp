@@ -95,9 +95,8 @@ void add_tree_routes(Routes& add) {
                             "and `after_sha256`, of the texts, in their place."
                           : "As C2SP tlog-tiles name them: `0/000`, `1/x001/067.p/3`, and "
                             "`entries/000` for the records themselves.",
-       .parameters = {path_parameter("path",
-                                     "Level or `entries`, index, and `.p/` with its width where it "
-                                     "is not full")},
+       .parameters = {path_parameter(
+           "path", "Level or `entries`, index, and `.p/` with its width if it is not full")},
        .response_types = {},
        .outcomes = {{.meaning = "Hashes, or entries with their lengths, as bytes",
                      .media_types = {"application/octet-stream"}}},
@@ -143,7 +142,7 @@ void add_log_routes(Routes& add) {
   add_tree_routes<false>(add);
   add_tree_routes<true>(add);
   add("GET /v1/measurements/{id}/proof getProof viewer", prove,
-      {.summary = "The proof that a measurement stands in the log",
+      {.summary = "The proof that a measurement is in the log",
        .description = "Waits up to 1.1 s for a checkpoint that covers the measurement.",
        .parameters = {path_parameter("id", "Id of the record")},
        .outcomes = {{.meaning = "The path from its leaf to the root of a signed checkpoint",
@@ -188,7 +187,8 @@ void add_changes_routes(Routes& add) {
             {.name = "to", .type = http::Time{}, .description = "Changes before this time"},
             {.name = "limit",
              .type = http::Integer{1, 1000},
-             .description = "Changes of a page, fewer of long ones; 100 when absent"},
+             .description =
+                 "Maximum number of changes of a page, fewer if they are long (default: 100)"},
             {.name = "after", .description = "`next` or `last` of an earlier page"}},
        .outcomes = {{.meaning = "A page, oldest first", .schema = "Changes"}}});
 }

@@ -122,8 +122,8 @@ Result<std::string> make_bytes(Download& download) {
 std::vector<http::Parameter> download_parameters() {
   return {
       {.name = "time_zone",
-       .description = "Time zone of times in dfq and xlsx, such as Europe/Berlin; UTC when absent"},
-      {.name = "part_number", .description = "K1001 of a dfq where none travels with a value"},
+       .description = "Time zone of times in dfq and xlsx, such as Europe/Berlin (default: UTC)"},
+      {.name = "part_number", .description = "K1001 of a dfq, for values without one"},
       {.name = "part_description", .description = "K1002, likewise"},
   };
 }

@@ -192,7 +192,7 @@ std::vector<http::Parameter> measurement_filter_parameters(std::string_view pref
        .description = "Only this verdict"},
       {.name = "source",
        .type = http::Words{{"gauge", "simulation", "all"}},
-       .description = "gauge when absent"},
+       .description = "Source of the measurements (default: gauge)"},
       {.name = "from", .type = http::Time{}, .description = "measured_at from this time on"},
       {.name = "to", .type = http::Time{}, .description = "measured_at before this time"},
       {.name = "received_from",
@@ -208,11 +208,12 @@ std::vector<http::Parameter> measurement_filter_parameters(std::string_view pref
        .description = "Values with a note received before this time"},
       {.name = "confirmed",
        .type = http::Words{{"true", "false"}},
-       .description = "false leaves out values that a person confirmed although they were called "
-                      "far outside; true shows these alone"},
+       .description = "false leaves out values that a person confirmed although they are far "
+                      "outside; true shows only these values"},
       {.name = "set_aside",
        .type = http::Words{{"true", "false"}},
-       .description = "false leaves out values that a note sets aside; true shows these alone"},
+       .description =
+           "false leaves out values that a note sets aside; true shows only these values"},
       {.name = "history",
        .type = http::Words{{"current", "all"}},
        .description = "all shows corrected rows too"},

@@ -64,8 +64,8 @@ schema::Fields record_fields() {
       {"corrected_mm", schema::number(),
        "Size at 20 °C if an expansion is given; the verdict uses it"},
       {"added_uncertainty_um", schema::number(),
-       "Standard uncertainty that the correction adds to uncertainty_um, where one of a "
-       "temperature or expansion is given; the rule decides with both"},
+       "Standard uncertainty that the correction adds to uncertainty_um, if an uncertainty of a "
+       "temperature or expansion is given; the rule uses both"},
       {"conformance_probability", schema::number(0, 1),
        "Figure of rule conformance, exact to 1e-9"},
       {"guard_band_um", schema::number(), "Figure of rule conformance, exact to 1e-9"},
@@ -94,9 +94,9 @@ schema::Fields record_fields() {
       {"correction_of", schema::text(), "The id of the record it corrects"},
       {"reason", schema::text(), "Reason for the correction"},
       {"corrected_by", schema::text(),
-       "The id of its correction; shown where one record is asked for"},
+       "The id of its correction; shown if one record is requested"},
       {"conflict", schema::boolean(),
-       "Another correction of the same record was made apart from this one; the later one stands"},
+       "Another correction of the record was made independently; the later correction counts"},
   });
   schema::Fields limits = limits_fields();
   for (schema::Field& field : limits) {
@@ -152,7 +152,7 @@ void add_measurement_schemas(Schemas& schemas) {
   add_request_schemas(schemas);
   const schema::Fields notes = {
       {"notes", schema::array(schema::ref("Note")), "Notes, in lists with notes=shown", false},
-      {"set_aside", schema::boolean(), "true if the notes set the value aside; beside `notes`",
+      {"set_aside", schema::boolean(), "true if the notes set the value aside; given with `notes`",
        false}};
   schemas.push_back({"Measurement", schema::object(record_fields() + notes + warnings_field())});
   schemas.push_back(
@@ -161,7 +161,7 @@ void add_measurement_schemas(Schemas& schemas) {
                        {"size", schema::count(), "Size of the tree in the checkpoint"},
                        {"leaf", schema::text(), "SHA-256(0x00, the record in its RFC 8785 form)"},
                        {"hashes", schema::array(schema::text()),
-                        "Hashes beside the path to the root, from the leaf up (RFC 6962)"},
+                        "Hashes of the path to the root, from the leaf up (RFC 6962)"},
                        {"checkpoint", schema::text(), "A signed note"}})});
   schemas.push_back(
       {"LogHead", schema::object({{"size", schema::count(), "Records of the origin that are here"},
@@ -200,7 +200,7 @@ void add_measurement_schemas(Schemas& schemas) {
                   {"token_sha256", schema::text(), "SHA-256 of a key's token, in hexadecimal",
                    false},
                   {"place", schema::count(), "Place of a correction in the centre's log", false},
-                  {"record", schema::text(), "Record of a correction, as answered", false}})),
+                  {"record", schema::text(), "Record of a correction, as returned", false}})),
              "Sorted by number; of each document the newest revision"}})});
   schemas.push_back({"VerdictCounts", verdict_counts()});
   const std::string gauge = schema::object(

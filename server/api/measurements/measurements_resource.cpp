@@ -47,15 +47,15 @@ std::vector<http::Parameter> list_parameters() {
   auto parameters = measurement_filter_parameters();
   parameters.push_back({.name = "limit",
                         .type = http::Integer{.min = 1, .max = 1000},
-                        .description = "Most rows of a page; 100 when absent"});
+                        .description = "Maximum number of rows of a page (default: 100)"});
   parameters.push_back({.name = "after", .description = "The cursor `next` of the page before"});
   parameters.push_back({.name = "sort",
                         .type = http::Words{{"oldest", "newest"}},
-                        .description = "Order by the time of storing; oldest first when absent"});
+                        .description = "Order by the time of storing (default: oldest first)"});
   parameters.push_back({.name = "notes",
                         .type = http::Words{{"shown", "only"}},
-                        .description = "shown puts its `notes` into each record of JSON and "
-                                       "NDJSON that has some; only lists these alone"});
+                        .description = "shown adds `notes` to the records in JSON and NDJSON; only "
+                                       "lists only records with notes"});
   parameters.push_back(
       {.name = "last",
        .type = http::Integer{.min = 1, .max = 1000},

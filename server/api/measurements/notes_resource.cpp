@@ -27,7 +27,7 @@ struct NotesAnswer {
 };
 void members(auto& v, const NotesAnswer& answer) {
   v.member("notes", answer.notes, List<app::Note>{{"Note"}}, "Oldest first");
-  v.member("set_aside", app::sets_aside(answer.notes), "Whether they set the value aside");
+  v.member("set_aside", app::sets_aside(answer.notes), "true if the notes set the value aside");
 }
 
 Result<app::Note> read_note(std::string_view text) {
@@ -141,15 +141,15 @@ void add_note_schemas(Schemas& schemas) {
 
 void add_notes_routes(Routes& add) {
   add("POST /v1/measurements/{id}/notes addNote operator", post_note,
-      {.summary = "Add a note beside a measurement: its cause, what was done, a text",
-       .description = "Notes are never changed, and are no part of the record. An Idempotency-Key "
+      {.summary = "Add a note to a measurement: its cause, the action, a text",
+       .description = "Notes are never changed and are not part of the record. An Idempotency-Key "
                       "makes repeats safe.",
        .parameters = {measurement_parameter(), idempotency_parameter()},
        .body = json_body("NewNote"),
        .outcomes = {{.status = 201, .meaning = "Stored for good", .schema = "Note"}},
        .refusals = {404, 409}});
   add("GET /v1/measurements/{id}/notes listNotes viewer", list_notes,
-      {.summary = "The notes beside a measurement",
+      {.summary = "The notes on a measurement",
        .parameters = {measurement_parameter()},
        .outcomes = {{.meaning = "Oldest first", .schema = "Notes"}},
        .refusals = {404}});

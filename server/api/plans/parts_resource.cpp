@@ -54,7 +54,7 @@ struct Reaction {
 };
 void members(auto& v, const Reaction& open) {
   v.member("characteristic", open.characteristic);
-  v.optional("reaction", open.reaction, "Absent if the plan names a catalogue alone");
+  v.optional("reaction", open.reaction, "Absent if the plan names only a catalogue");
   v.member("measurement_id", open.measurement, "The record that is not good");
 }
 
@@ -222,13 +222,12 @@ void add_parts_schemas(Schemas& schemas) { schemas.push_back(answer_schema<Part>
 void add_parts_routes(Routes& add) {
   add("GET /v1/parts/{part*} getPart viewer", get_part,
       {.summary = "A part: its verdict, what is missing, its values and open reactions",
-       .description =
-           "The value of each characteristic that was measured last, with corrections; the verdict "
-           "is the worst of them. A value without a characteristic stands alone, and one without "
-           "limits takes no other's place. A value whose GO gauge failed also counts until this "
-           "gauge passes. Without `plan` the plan with the name of the part is "
-           "used, or the only plan that has every measured characteristic; without a plan nothing "
-           "is missing.",
+       .description = "The value of each characteristic that was measured last, with corrections; "
+                      "the verdict is the worst of them. A value without a characteristic is "
+                      "listed by itself; a value without limits replaces no other value. A value "
+                      "whose GO gauge failed also counts until this gauge passes. Without `plan` "
+                      "the plan with the name of the part is used, or the only plan that has every "
+                      "measured characteristic; without a plan nothing is missing.",
        .parameters = {path_parameter("part", "part_id of its measurements"),
                       {.name = "plan",
                        .description = "Part number of the plan to hold it against"}},

@@ -75,10 +75,10 @@ void members(auto& v, const TableAnswer& table) {
 void members(auto& v, const RunMessage& message) {
   const bool has_column = message.column != 0;
   v.member("kind", message.kind, Words{interpreter::MessageKind::Note},
-           "A note says what the simulation leaves out");
+           "A note names the effects that the simulation does not have");
   v.member("number", message.number, "Number of the control's message; 0 if it has none");
   v.member("text", message.text, "Text of the message");
-  v.member("program", message.program, "Where");
+  v.member("program", message.program, "Program that sent it");
   v.member("line", message.line, "Line, from 1");
   v.member("block", message.block, "Block number, as written");
   v.optional("column", has_column ? &message.column : nullptr, "Column of the wrong word, from 1");
@@ -102,7 +102,7 @@ void members(auto& v, const probing::MeasuredSize& size) {
 }
 
 void members(auto& v, const probing::Form& form) {
-  v.member("assessable", form.assessable, "Whether there are enough points to judge it");
+  v.member("assessable", form.assessable, "true if there are enough points to judge it");
   v.optional("reason", form.reason.empty() ? nullptr : &form.reason,
              "Reason if it is not assessable");
   v.optional("residual_mm", form.residual_mm, Digits{},
@@ -112,7 +112,7 @@ void members(auto& v, const probing::Form& form) {
 void members(auto& v, const klartext::DiagnosticNote& note) {
   v.member("message", note.message);
   v.optional("program", note.program.empty() ? nullptr : &note.program,
-             "The file it is in; absent: that of the finding");
+             "The file that it is in; absent: the file of the finding");
   v.member("line", note.range.begin.line, "Number, from 1");
   v.member("column", note.range.begin.column, "Number, from 1");
 }
@@ -134,11 +134,11 @@ void members(auto& v, const klartext::Diagnostic& found) {
   v.member("severity", found.severity, OneOf<3>{"note", "warning", "error"},
            "An error refuses a run");
   v.member("code", id(found.code), "Stable code");
-  v.member("message", found.message, "What is wrong and what to do");
+  v.member("message", found.message, "The fault and its remedy");
   v.member("program", found.program, "The file it is in");
   v.member("line", found.range.begin.line, "Number, from 1");
   v.member("column", found.range.begin.column, "Number, from 1");
-  v.member("block", found.block, "The block number, where there is one");
+  v.member("block", found.block, "The block number, if there is one");
   v.member("source", found.source, "The line as written");
   v.optional("notes", found.notes.empty() ? nullptr : &found.notes,
              "Other places of the same finding");

@@ -211,13 +211,13 @@ void members(auto& v, RunOrderBody& order) {
              "Q, QL and QR numbers and QS strings, as if an earlier program had left them");
   v.optional("limits", options.limits, "Limits; beyond them the run ends with limit_exceeded");
   v.optional("contacts_mm", order.contacts, Contacts{},
-             "What a real machine touched: the ball's centre in the active system for each probing "
-             "move in order, null where a move touched nothing. They stand for the setup's "
-             "workpiece");
+             "Contacts of a real machine: the ball's centre in the active system for each probing "
+             "move in order, null if a move touched nothing. They replace the setup's workpiece");
   v.optional("on_stop", options.on_stop, OneOf<2>{"continue", "end"},
              "At STOP, M0 and Q281=2: continue as after NC Start, or end");
-  v.optional("unreadable", options.keeps_unreadable, OneOf<2>{"refuse", "error_block"},
-             "Lines that are no Klartext: refuse the program, or fail where one is reached");
+  v.optional(
+      "unreadable", options.keeps_unreadable, OneOf<2>{"refuse", "error_block"},
+      "Lines that are not Klartext: refuse the program, or fail when such a line is reached");
   v.optional("block_skip", options.block_skip, "Skip blocks that begin with /");
   v.optional("start_block", options.start_block, Integer{0, kMostBlocks},
              "The first block that runs, by its number, as after GOTO on a control: nothing before "

@@ -179,7 +179,7 @@ void add_reading_routes(Routes& add) {
                            "Only this program: TNC:\\nc_prog\\8255.h, or nc_prog/8255.h"},
                       {.name = "limit",
                        .type = http::Integer{.min = 1, .max = 1000},
-                       .description = "Most runs of a page; 100 when absent"},
+                       .description = "Maximum number of runs of a page (default: 100)"},
                       {.name = "after", .description = "The cursor `next` of the page before"}},
        .outcomes = {{.meaning = "A page", .schema = "RunList"}}});
   add("GET /v1/runs/{id} getRun viewer", get_run,

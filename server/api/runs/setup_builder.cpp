@@ -164,7 +164,7 @@ bool DiskFile::read(FieldReader& fields, std::string_view name, std::string& to)
 
 std::string builder_actions_schema() {
   const std::string call = schema::object(
-      {{"call", schema::text(), "The program that stands for it"}}, schema::Others::Refused);
+      {{"call", schema::text(), "The program that replaces it"}}, schema::Others::Refused);
   return schema::map(schema::any_of({schema::words({"ignore"}), call}));
 }
 

@@ -162,7 +162,7 @@ void check(const machine::Setup& setup, const std::string& pointer, FieldErrors&
 void members(auto& v, machine::Setup& setup) {
   v.optional("machine", setup.machine, Object<machine::MachineSetup>{"Machine"},
              "Axes, tools, touch probes and presets");
-  v.optional("workpiece", setup, kWorkpieceForm, "What lies on the table; nothing when absent");
+  v.optional("workpiece", setup, kWorkpieceForm, "Workpiece on the table (default: none)");
   builder_members(v);
   printing_members(v);
   v.optional("seed", setup.seed, Integer{},

@@ -123,13 +123,13 @@ void builder_members(auto& v) {
 void printing_members(auto& v) {
   std::nullptr_t elsewhere{};
   v.optional("decimal_separator", elsewhere, Elsewhere{decimal_separator_schema()},
-             "Decimal separator of FN 15; comma when absent");
+             "Decimal separator of FN 15 (default: comma)");
   v.optional("fn16_default_path", elsewhere, Elsewhere{schema::text()},
-             "fn16DefaultPath: the folder, such as `TNC:\\logs`, of logs and of files that "
-             "FN 16 names without a folder; that of the program when absent");
-  v.optional("active_datum_table", elsewhere, Elsewhere{schema::text()},
-             "The datum table that is active at the start, such as `TNC:\\table\\zero.d`; none "
-             "when absent");
+             "fn16DefaultPath: the folder, such as `TNC:\\logs`, of logs and of files that FN 16 "
+             "names without a folder (default: the folder of the program)");
+  v.optional(
+      "active_datum_table", elsewhere, Elsewhere{schema::text()},
+      "The datum table that is active at the start, such as `TNC:\\table\\zero.d` (default: none)");
 }
 
 /// The part of a setup that belongs to the run and not to the machine: `m_functions` and `cycles`

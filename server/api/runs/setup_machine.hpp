@@ -27,7 +27,8 @@ void rotary_axis_members(auto& v, machine::AxisSetup& setup) {
              "Real angle at the indicated angle 0");
   v.optional("backlash_deg", setup.backlash_deg, Number{},
              "Lost motion when the direction of turning changes");
-  v.optional("scatter_um", setup.scatter_um, Um{}, "Standard deviation of where it comes to rest");
+  v.optional("scatter_um", setup.scatter_um, Um{},
+             "Standard deviation of the position where it comes to rest");
 }
 
 void linear_axis_members(auto& v, machine::AxisSetup& setup) {
@@ -46,9 +47,9 @@ void members(auto& v, machine::ToolSetup& tool) {
   v.optional("delta_mm", delta, Mm3{}, "DL, DR and DR2: wear");
   std::tie(row.dl, row.dr, row.dr2) = std::tie(delta[0], delta[1], delta[2]);
   v.optional("actual_length_mm", tool.actual_length, Mm{},
-             "Real length of the tool; L + DL when absent");
+             "Real length of the tool (default: L + DL)");
   v.optional("actual_radius_mm", tool.actual_radius, Mm{},
-             "Real radius of the tool; R + DR when absent");
+             "Real radius of the tool (default: R + DR)");
   v.optional("length_tolerance_mm", row.l_tolerance, Mm{}, "LTOL: wear beyond it locks the tool");
   v.optional("radius_tolerance_mm", row.r_tolerance, Mm{}, "RTOL: wear beyond it locks the tool");
   v.optional("length_breakage_mm", row.l_breakage, Mm{},
@@ -97,9 +98,10 @@ void members(auto& v, machine::Preset& preset) {
 void members(auto& v, machine::AxisWords& start) {
   for (const machine::Axis axis : machine::kAllAxes) {
     if (is_rotary(axis)) {
-      v.optional(name(axis), start[axis], Number{}, "Angle in degrees; 0 when absent");
+      v.optional(name(axis), start[axis], Number{}, "Angle in degrees (default: 0)");
     } else {
-      v.optional(name(axis), start[axis], Mm{}, "0 when absent, the tool axis at its maximum");
+      v.optional(name(axis), start[axis], Mm{},
+                 "Position in mm (default: 0, the tool axis at its maximum)");
     }
   }
 }
@@ -111,8 +113,8 @@ void members(auto& v, machine::ToolTouchProbeSetup& tt) {
              "Radius of the disc, or half the side of the cube");
   v.optional("shape", tt.shape, OneOf<2>{"disc", "cube"},
              "Shape of the contact plate; a cube lies along X and Y");
-  v.optional("actual_center_mm", tt.actual_centre, Mm3{}, "Real centre; the known one when absent");
-  v.optional("actual_radius_mm", tt.actual_radius, Mm{}, "Real radius; the known one when absent");
+  v.optional("actual_center_mm", tt.actual_centre, Mm3{}, "Real centre (default: the known one)");
+  v.optional("actual_radius_mm", tt.actual_radius, Mm{}, "Real radius (default: the known one)");
   v.optional("repeatability_um", tt.repeatability_um, Um{},
              "Standard deviation of a contact along the probing direction");
 }
@@ -130,7 +132,7 @@ void members(auto& v, machine::Boss& boss) { cylinder_members(v, boss); }
 void members(auto& v, machine::CalibrationRing& ring) {
   cylinder_members(v, ring);
   v.optional("outer_diameter_mm", ring.outer_diameter, Mm{},
-             "40 mm more than the hole when absent");
+             "Outer diameter (default: 40 mm more than the hole)");
 }
 
 void members(auto& v, machine::CalibrationSphere& sphere) {
@@ -148,8 +150,8 @@ void kinematics_members(auto& v, machine::KinematicsOptions& options) {
   v.optional("max_calibration_ball_deviation_mm", options.max_ball_deviation, Mm{},
              "maxDevCalBall: largest deviation of the sphere's radius");
   v.optional("insignificant_corrections", options.notes_insignificant, OneOf<2>{"refuse", "note"},
-             "What becomes of a correction below twice its uncertainty: left out, with 1102 when "
-             "none is left, or made with a note");
+             "Corrections below twice their uncertainty: left out, with 1102 if none remains, or "
+             "made with a note");
 }
 
 /// The form of an axis, whose members and defaults depend on which it is.
@@ -176,15 +178,15 @@ inline constexpr Nested kPresetForm{"Preset", [](auto& v, machine::Preset& prese
 
 void members(auto& v, machine::MachineSetup& machine) {
   v.optional("axes", machine.axes, kAxesForm,
-             "X, Y and Z are always there, A, B and C where they are named");
+             "X, Y and Z are always given; A, B and C if they are named");
   v.optional("start_mm", machine.start, Object<machine::AxisWords>{"StartPosition"},
              "Start position of the spindle nose");
   v.optional("rapid_mm_min", machine.rapid_mm_min, Number{}, "Rapid traverse");
   kinematics_members(v, machine.kinematics_options);
   v.optional("tools", machine.tools, List<machine::ToolSetup>{{"Tool"}},
-             "Rows of the tool table; number 30, a touch probe, when absent");
+             "Rows of the tool table (default: number 30, a touch probe)");
   v.optional("probes", machine.probes, List<machine::ProbeSetup>{{"Probe"}},
-             "Rows of the touch-probe table; number 1 when absent");
+             "Rows of the touch-probe table (default: number 1)");
   v.optional("tt", machine.tt, Object<machine::ToolTouchProbeSetup>{"ToolTouchProbe"},
              "The tool touch probe");
   v.optional("calibration_ring", machine.calibration_ring,
@@ -195,7 +197,7 @@ void members(auto& v, machine::MachineSetup& machine) {
              Object<machine::CalibrationSphere>{"CalibrationSphere"},
              "A calibration sphere, for cycles 451 to 453 and 460");
   v.optional("presets", machine.presets, List<machine::Preset, decltype(kPresetForm)>{kPresetForm},
-             "Rows of the preset table; number 1, all zero, when absent");
+             "Rows of the preset table (default: number 1, all zero)");
   v.optional("active_preset", machine.active_preset, Integer{0, kHighestNumber},
              "The row that is active at the start");
   builder_members(v);

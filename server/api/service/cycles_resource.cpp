@@ -49,7 +49,7 @@ void members(auto& v, const CycleDescriptor& cycle) {
   v.member("kind", word(cycle.kind), "Purpose of the cycle");
   v.member("parameters", cycle.parameters, List<CycleParameter>{});
   v.member("results", cycle.results, List<probing::CycleOutput>{}, "Results in Q parameters");
-  v.member("simulated", cycle.simulated, "What the simulation does");
+  v.member("simulated", cycle.simulated, "The effect in the simulation");
   v.member("not_simulated", cycle.not_simulated, "Parameters without effect in the simulation");
 }
 

@@ -103,7 +103,7 @@ void add_events_routes(Routes& add) {
            "that some are gone.",
        .parameters = {{.name = "source",
                        .type = http::Words{{"gauge", "simulation", "all"}},
-                       .description = "Source of the measurements; gauge when absent"}},
+                       .description = "Source of the measurements (default: gauge)"}},
        .response_types = {std::string(kEventStreamType)},
        .outcomes = {{.meaning = "Events without an end", .schema = "Event"}}});
   add_last_event_id(add.all.back().parameters);

@@ -144,7 +144,7 @@ constexpr DescribedHeader kHeaders[] = {
            route.method == http::Method::Put && route.pattern.starts_with("/v1/files");
        return is_file || (is_once && (status == 201 || status == 202));
      }},
-    {"Idempotency-Replayed", "true: the answer to an earlier request with this key",
+    {"Idempotency-Replayed", "true: the response to an earlier request with this key",
      [](const auto& route, int) { return takes(route, "Idempotency-Key"); }},
     {"Link", "The next page, rel=\"next\"",
      [](const auto& route, int) { return is_get(route) && takes(route, "after"); }},
@@ -255,9 +255,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTags = 
     {"tables", "The tolerance tables and custom tolerance classes"},
     {"measurements", "Judged measurements, stored for good"},
     {"log", "Signed proof of what was stored"},
-    {"plans", "What is measured at a part, in order"},
+    {"plans", "The characteristics of a part, in the order of measuring"},
     {"files", "The control's disk: programs, masks and tables"},
-    {"setups", "Machines with what lies on their tables"},
+    {"setups", "Machines with their workpieces"},
     {"runs", "Programs on a simulated machine"},
     {"cycles", "The touch-probe cycles"},
     {"connections", "Controls, folders and receivers outside, and how each does"},
@@ -274,7 +274,7 @@ void write_info(JsonWriter& json) {
   json.key("license").begin_object().member("name", "Apache License 2.0");
   json.member("identifier", "Apache-2.0").end_object().end_object();
   json.key("servers").begin_array().begin_object().member("url", "/");
-  json.member("description", "The service that answered this").end_object().end_array();
+  json.member("description", "The service that sent this response").end_object().end_array();
   json.key("tags").begin_array();
   for (const auto& [name, description] : kTags) {
     json.begin_object().member("name", name).member("description", description).end_object();
@@ -288,7 +288,7 @@ std::string refusal_response(std::string_view name, std::string_view type, std::
   std::string headers = R"("X-Request-Id":{"$ref":"#/components/headers/X-Request-Id"})";
   if (!header.empty()) headers += fmt::format(R"(,"{}":{{"schema":{}}})", header, schema::text());
   return fmt::format(
-      R"("{}":{{"description":"What is wrong","headers":{{{}}},"content":{{"{}":{{"schema":{}}}}}}})",
+      R"("{}":{{"description":"The fault","headers":{{{}}},"content":{{"{}":{{"schema":{}}}}}}})",
       name, headers, type, schema);
 }
 

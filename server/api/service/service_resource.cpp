@@ -49,7 +49,7 @@ void add_service_schemas(Schemas& schemas) {
   schemas.push_back(
       {"TableChanged",
        schema::object({{"feature", feature_words(), "Table: hole or shaft"},
-                       {"tolerance_class", schema::text(), "The column that changed"},
+                       {"tolerance_class", schema::text(), "The tolerance class that changed"},
                        {"table_revision", schema::text(), "Revision in force from now on"}})});
   schemas.push_back(
       {"Event",
@@ -72,7 +72,7 @@ void add_service_schemas(Schemas& schemas) {
       {"pointer", schema::text(), "The place in the body (RFC 6901); rows count from 0"},
       {"line", schema::count(), "Line of CSV and NDJSON, from 1", false},
       {"code", schema::text(), "Stable code"},
-      {"detail", schema::text(), "What is wrong and what to do"},
+      {"detail", schema::text(), "The fault and its remedy"},
   });
   schemas.push_back(
       {"Problem",
@@ -80,10 +80,10 @@ void add_service_schemas(Schemas& schemas) {
            {"type", schema::text(), "urn:fitgauge:problem: and the code"},
            {"title", schema::text(), "Meaning of the code; does not depend on the request"},
            {"status", schema::integer(400, 599), "HTTP status code"},
-           {"detail", schema::text(), "What is wrong and what to do"},
+           {"detail", schema::text(), "The fault and its remedy"},
            {"instance", schema::text(), "Id of this request in the log"},
            {"code", schema::text(), "Stable; reference/errors.md lists all"},
-           {"where", schema::text(), "The parameter or the place, where it is one", false},
+           {"where", schema::text(), "The parameter or the place, if there is one", false},
            {"errors", schema::array(entry), "Every field that cannot be accepted", false},
            {"diagnostics", schema::array(schema::ref("Diagnostic")),
             "Every finding, for program.invalid", false},
@@ -103,8 +103,8 @@ void add_service_schemas(Schemas& schemas) {
 void add_service_routes(Routes& add) {
   add("GET /livez live public",
       [](const http::Request&) -> Result<http::Response> { return live(); },
-      {.summary = "The process answers",
-       .outcomes = {{.meaning = "The process answers", .schema = "Live"}}});
+      {.summary = "The process responds",
+       .outcomes = {{.meaning = "The process responds", .schema = "Live"}}});
   add("GET /readyz ready public",
       [&services = add.services](const http::Request&) { return ready(services); },
       {.summary = "The service may be used: database, schema and tables are in order",

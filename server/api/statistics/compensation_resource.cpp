@@ -233,13 +233,15 @@ void OffsetOrder::find_news(app::MeasurementService& measurements, const GaugesI
 
 void add_compensation_routes(Routes& add) {
   auto parameters = measurement_filter_parameters();
-  parameters.push_back({.name = "target_mm",
-                        .type = http::LengthIn{},
-                        .description = "The middle of the limits when absent"});
-  parameters.push_back({.name = "cost",
-                        .type = http::Decimal{.scale = 6, .min = 1, .max = 1'000'000'000},
-                        .description = "Cost of a correction in parts; 0.1 when absent. A larger "
-                                       "cost gives fewer corrections"});
+  parameters.push_back(
+      {.name = "target_mm",
+       .type = http::LengthIn{},
+       .description = "Value to aim at in mm (default: the middle of the limits)"});
+  parameters.push_back(
+      {.name = "cost",
+       .type = http::Decimal{.scale = 6, .min = 1, .max = 1'000'000'000},
+       .description =
+           "Cost of a correction in parts (default: 0.1); a larger cost gives fewer corrections"});
   add("GET /v1/measurements/compensation proposeOffset viewer", propose,
       {.summary = "The next offset of a machine",
        .description = "A proposal from the newest 500 values that match; nothing moves a machine. "

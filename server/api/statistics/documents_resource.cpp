@@ -223,7 +223,7 @@ struct StudyAnswer {
 void members(auto& v, const StudyAnswer& study) {
   study_members(v, study.order);
   v.member("result", study.result, FigureText{"Type1Study", "GaugeStudy"},
-           "What was computed of the input when it was stored");
+           "The result that was computed when the input was stored");
 }
 
 Result<CheckedDocument> check_study(const Services&, const std::string&, std::string_view text) {
@@ -312,8 +312,8 @@ void add_documents_routes(Routes& add) {
   const http::Parameter name = path_parameter("name", "Name of the gauge in use");
   add("POST /v1/gauges-in-use/{name}/calibrations recordCalibration admin", record_calibration,
       {.summary = "Record a calibration of a gauge in use, or that it is blocked",
-       .description = "It counts for what is measured from its beginning to that of the next. One "
-                      "with the same beginning takes its place.",
+       .description = "A condition is in force from its beginning to the beginning of the next "
+                      "one. A condition with the same beginning replaces it.",
        .parameters = {name},
        .body = json_body("NewCalibration"),
        .outcomes = {{.meaning = "Replaced a calibration with the same `from`",

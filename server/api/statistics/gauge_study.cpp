@@ -52,7 +52,7 @@ void choice_members(auto& v, StudyChoices& choices, std::string_view method, boo
     if (choices.model != StudyModel::Auto) fields.refuse_not_applicable(kMembers, "method", method);
   });
   v.optional("tolerance", choices.tolerance, kTolerance,
-             has_models ? "Tolerance, for the percentages of it" : kUnused);
+             has_models ? "Tolerance, for percentages of the tolerance" : kUnused);
 }
 
 struct VariationOrder {

@@ -68,7 +68,7 @@ void members(auto& v, CapabilityOrder& order) {
   data_members(v, order.data);
   v.optional("lower", order.limits.lower, "Lower limit; give lower, upper or both");
   v.optional("upper", order.limits.upper);
-  v.optional("target", order.limits.target, "Target of cpm; the middle of the limits when absent");
+  v.optional("target", order.limits.target, "Target of cpm (default: the middle of the limits)");
   v.check([](FieldReader& fields) {
     if (!fields.has("lower") && !fields.has("upper")) {
       fields.report(ErrorCode::FieldMissing, "upper", "give lower, upper or both");
@@ -114,7 +114,7 @@ void members(auto& v, ChartOrder& order) {
   constexpr double kLeast = 1e-6;
   v.member("kind", plan.kind, Words{metrology::ChartKind::Cusum});
   data_members(v, order.data);
-  v.optional("rules", plan.rules, Rules{}, "Rules; none when absent");
+  v.optional("rules", plan.rules, Rules{}, "Rules (default: none)");
   v.optional("phase1", plan.phase1, "The points the limits are taken from");
   v.optional("centre", plan.centre, "Known centre");
   v.optional("standard_deviation", plan.standard_deviation,

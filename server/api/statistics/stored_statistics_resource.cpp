@@ -171,19 +171,19 @@ std::vector<http::Parameter> chart_parameters() {
   return with_stored_filters({
       {.name = "kind",
        .type = http::Words{{"i_mr", "xbar_r", "xbar_s", "ewma", "cusum"}},
-       .description = "xbar_r where the values name subgroups, else i_mr, when absent"},
-      {.name = "rules", .description = "Rules of Western Electric 1956: 1,2,3,4; none when absent"},
-      number("lambda", 1'000, 1, "Weight of ewma; 0.2 when absent"),
+       .description = "Kind of chart (default: xbar_r with subgroups, else i_mr)"},
+      {.name = "rules", .description = "Rules of Western Electric 1956: 1,2,3,4 (default: none)"},
+      number("lambda", 1'000, 1, "Weight of ewma (default: 0.2)"),
       number("reference_value", 1, 10,
-             "Reference value k of cusum, in standard deviations; 0.5 when absent"),
+             "Reference value k of cusum, in standard deviations (default: 0.5)"),
       number("decision_interval", 1, 20,
-             "Decision interval h of cusum, in standard deviations; 5 when absent"),
+             "Decision interval h of cusum, in standard deviations (default: 5)"),
       {.name = "phase1_from",
        .type = http::Integer{.min = 0, .max = kMost},
-       .description = "First point the limits are taken from; 0 when absent"},
+       .description = "First point the limits are taken from (default: 0)"},
       {.name = "phase1_to",
        .type = http::Integer{.min = 0, .max = kMost},
-       .description = "End of these points, exclusive; all when absent"},
+       .description = "End of these points, exclusive (default: all)"},
   });
 }
 
@@ -196,10 +196,10 @@ void add_stored_statistics_routes(Routes& add) {
        .parameters = with_stored_filters(
            {{.name = "target_mm",
              .type = http::LengthIn{},
-             .description = "Target of cpm; the middle of the limits when absent"},
+             .description = "Target of cpm (default: the middle of the limits)"},
             {.name = "confidence",
              .type = http::Decimal{.scale = kScale, .min = 1, .max = 999'999},
-             .description = "Confidence of the intervals; 0.95 when absent"}}),
+             .description = "Confidence of the intervals (default: 0.95)"}}),
        .outcomes = {{.meaning = "Computed figures", .schema = "StoredCapability"}},
        .refusals = {422}});
   add("GET /v1/measurements/chart makeStoredControlChart viewer", find_chart,

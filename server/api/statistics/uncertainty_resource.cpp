@@ -122,11 +122,10 @@ void add_uncertainty_schemas(Schemas& schemas) {
 }
 
 void add_uncertainty_routes(Routes& add) {
-  add_computation(add,
-                  {"/v1/uncertainty combineUncertainties", compute_uncertainty, "UncertaintyBudget",
-                   "Uncertainty", "Uncertainty budget: u_c, degrees of freedom, k, U",
-                   "By propagation, of a `model` with its derivatives, and "
-                   "by Monte Carlo where it is asked for."});
+  add_computation(
+      add, {"/v1/uncertainty combineUncertainties", compute_uncertainty, "UncertaintyBudget",
+            "Uncertainty", "Uncertainty budget: u_c, degrees of freedom, k, U",
+            "By propagation, with the derivatives of a `model`, and on request by Monte Carlo."});
 }
 
 }  // namespace fitgauge::api

@@ -229,8 +229,7 @@ http::Parameter subgroups_parameter() {
   return {.name = "subgroups",
           .type = http::Words{{"use", "ignore"}},
           .description =
-              "use when absent: by `subgroup` where the values name one; ignore takes "
-              "them one by one"};
+              "use: by `subgroup` if the values name one; ignore: one by one (default: use)"};
 }
 
 bool ignores_subgroups(const http::Request& request) {

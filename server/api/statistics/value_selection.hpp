@@ -125,7 +125,7 @@ struct SelectionAnswer {
 };
 void members(auto& v, const SelectionAnswer& selection) {
   v.member("count", selection.count, "Number of values");
-  v.member("subgroups", selection.subgroups, "0 where the values are taken one by one");
+  v.member("subgroups", selection.subgroups, "0 if the values are single values");
   v.member("first_id", selection.first_id, "The first of them in storage order");
   v.member("last_id", selection.last_id);
   v.member("as_of", selection.as_of, "The newest measurement there was");

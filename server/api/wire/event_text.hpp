@@ -45,8 +45,9 @@ inline http::Response event_response(std::shared_ptr<http::BodyStream> source) {
 
 /// Adds the parameters by which a reader names its last event when it reconnects.
 inline void add_last_event_id(std::vector<http::Parameter>& parameters) {
-  parameters.push_back({.name = "last_event_id",
-                        .description = "The id of the last event, where the header cannot be set"});
+  parameters.push_back(
+      {.name = "last_event_id",
+       .description = "The id of the last event, for clients that cannot set the header"});
   parameters.push_back({.name = "Last-Event-ID",
                         .place = http::ParameterPlace::Header,
                         .description = "The id of the last event that was read"});

@@ -145,7 +145,7 @@ TextPrecondition text_precondition_of(const http::Request& request) {
 http::Parameter idempotency_parameter() {
   return {.name = "Idempotency-Key",
           .place = http::ParameterPlace::Header,
-          .description = "Makes a repeat answer what the first was answered"};
+          .description = "Idempotency key: a repeated request returns the first response"};
 }
 
 SharedPosting begin_posting(const Services& services, const http::Request& request,

@@ -65,7 +65,7 @@ void members(auto& v, const DrawnSize& size) {
   v.member("name", size.name, "Name of the callout, else of the kind; unique in the drawing");
   v.member("nominal_mm", size.nominal, api::Millimetres{}, "");
   v.optional("tolerance_class", size.tolerance_class,
-             "Tolerance class; deviations are absent then");
+             "Tolerance class; then deviations are absent");
   v.optional("upper_um", size.upper, api::Micrometres{}, "Upper deviation");
   v.optional("lower_um", size.lower, api::Micrometres{}, "Lower deviation");
   v.optional("feature", size.feature, api::Words{iso286::Feature::Shaft},
@@ -75,8 +75,7 @@ void members(auto& v, const DrawnSize& size) {
   v.member("entity", size.entity, "Instance in the file: #120");
   v.member("modifiers", size.modifiers, api::List<std::string, api::Text>{},
            "Modifiers as written in the file");
-  v.member("remarks", size.remarks, api::List<std::string, api::Text>{},
-           "What to check before use");
+  v.member("remarks", size.remarks, api::List<std::string, api::Text>{}, "Checks before use");
 }
 void members(auto& v, const NotRead& other) {
   v.member("entity", other.entity, "Instance in the file");

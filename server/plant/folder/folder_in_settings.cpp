@@ -103,15 +103,15 @@ void members(V& v, FolderInOptions& options) {
   v.optional("time_zone", options.csv.zone, By{0, sheet::TimeZone::load},
              "Time zone of times without an offset, such as Europe/Berlin");
   v.optional("encoding", options.csv.encoding, By{0, read_encoding},
-             "auto, utf-8, utf-16, windows-1252; auto when absent");
+             "Encoding: auto, utf-8, utf-16 or windows-1252 (default: auto)");
   v.optional("other_columns", options.csv.leaves_out_others, Choice{"refuse", "leave_out"},
-             "refuse when absent");
+             "Columns without a field: refuse the file, or leave_out (default: refuse)");
   v.optional("length_unit", options.length_unit, By{0, read_unit},
              "Unit of a DFQ without a unit: mm, inch");
   v.optional("interval_s", options.interval, Within{1, 3600},
-             "Seconds between two scans of the folder; 10 when absent");
+             "Seconds between two scans of the folder (default: 10)");
   v.optional("rest_s", options.rest, Within{1, 3600},
-             "Seconds without a change of a file's size and time; 2 when absent");
+             "Seconds without a change of a file's size and time (default: 2)");
 }
 
 Kind folder_in_kind() { return kind_of<FolderInOptions>("folder_in"); }

@@ -162,16 +162,17 @@ template <class V>
 void members(V& v, FolderOutOptions& options) {
   v.member("folder", options.folder, path_for(v), "Absolute path on this machine");
   v.optional("time_zone", options.dfq.zone, By{0, sheet::TimeZone::load},
-             "Time zone of times in a DFQ; UTC when absent");
-  v.optional("format", options.format, Choice{"csv", "ndjson", "dfq", "qif"}, "csv when absent");
+             "Time zone of times in a DFQ (default: UTC)");
+  v.optional("format", options.format, Choice{"csv", "ndjson", "dfq", "qif"},
+             "Format of the files (default: csv)");
   v.optional("part_number", options.dfq.part_number, part_text(30, aqdef::k::kPartNumber),
-             "K1001 of a DFQ; - when absent");
+             "K1001 of a DFQ (default: -)");
   v.optional("part_description", options.dfq.part_description,
-             part_text(80, aqdef::k::kPartDescription), "K1002 of a DFQ; - when absent");
+             part_text(80, aqdef::k::kPartDescription), "K1002 of a DFQ (default: -)");
   v.optional("split", options.split, Choice{"none", "part_id", "order"},
-             "Field that separates files, one value for each file; none when absent");
+             "Field that separates files, one value for each file (default: none)");
   v.optional("every_s", options.follower.gather, Within{1, 86'400},
-             "Seconds that new measurements wait for more; 60 when absent");
+             "Seconds that new measurements wait for more (default: 60)");
   follower_members(v, options.follower);
 }
 

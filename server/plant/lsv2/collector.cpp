@@ -258,9 +258,9 @@ void members(V& v, MachineOptions& machine) {
                 api::schema::text(), read_watched},
            "Watched paths: TNC:\\nc_prog\\TCHPR*.TXT");
   v.optional("machine", machine.machine, api::Text{200},
-             "Machine of the measurements; the name of the connection when absent");
+             "Machine of the measurements (default: the name of the connection)");
   v.optional("interval_s", machine.interval, Within{1, 86'400},
-             "Time between two attempts; 60 when absent");
+             "Time between two attempts (default: 60)");
   v.optional("patterns", machine.patterns, Patterns{}, "Pattern for files of FN 16");
 }
 

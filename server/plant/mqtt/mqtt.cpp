@@ -163,13 +163,13 @@ void members(V& v, MqttOptions& options) {
   v.member("topic", options.topic, By{kLongestTopic, TopicTemplate::parse},
            "plant/{machine}/{characteristic}");
   v.optional("version", options.broker.version_5, Choice{"3.1.1", "5"},
-             "Version of MQTT; 3.1.1 when absent");
+             "Version of MQTT (default: 3.1.1)");
   v.optional("status_topic", options.status_topic, plain_topic("status_topic"),
-             "Topic of online and offline; client_id/status when absent");
+             "Topic of online and offline (default: client_id/status)");
   v.optional("events_topic", options.events_topic, plain_topic("events_topic"),
-             "Topic before the type of an event; client_id/events when absent");
+             "Topic before the type of an event (default: client_id/events)");
   v.optional("retain", options.retain, Truth{},
-             "The broker keeps the last message of each topic; true when absent");
+             "The broker keeps the last message of each topic (default: true)");
   event_members(v, options.follower);
   follower_members(v, options.follower);
 }

@@ -99,11 +99,11 @@ void broker_members(V& v, Broker& broker) {
   v.optional("user", broker.user, short_text("user"), "Client id of the service at the broker");
   v.optional(
       "ca_file", broker.ca_file, path_for(v),
-      "File of authorities for the broker's certificate; the system's authorities when absent");
+      "File of authorities for the broker's certificate (default: the system's authorities)");
   v.optional("client_id", broker.client_id, By{kLongestClientId, read_client_id},
-             "fitgauge-, digits of the data folder and the name when absent");
+             "Name at the broker (default: fitgauge-, digits of the data folder and the name)");
   v.optional("password", broker.password, short_text("password"),
-             "Password; the stored one when absent, for the same broker, user and ca_file");
+             "Password (default: the stored one, if broker, user and ca_file are unchanged)");
   v.check([&](api::FieldReader& fields) {
     if (!broker.password.empty() && broker.user.empty()) {
       fields.report(ErrorCode::FieldMissing, "user", "password needs user");

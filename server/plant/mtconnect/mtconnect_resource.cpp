@@ -257,7 +257,7 @@ void add_mtconnect_routes(Routes& add) {
   add_refusal(add, "`from` is beyond the log");
   for (const std::string_view head : {"assets listMtconnectAssets", "asset listMtconnectAsset"}) {
     add_route(add, head, assets, "MTConnectAssets 2.4: QIF results of the newest 100 measurements",
-              {{.name = "type", .description = "Type of the assets: QIFDocumentWrapper alone"}});
+              {{.name = "type", .description = "Type of the assets: only QIFDocumentWrapper"}});
   }
   add_route(add, "asset/{id} getMtconnectAsset", asset, "MTConnectAssets 2.4: the asset of that id",
             {{.name = "id",

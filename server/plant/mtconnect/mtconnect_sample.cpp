@@ -194,18 +194,18 @@ std::vector<http::Parameter> sample_parameters() {
   return {
       {.name = "from",
        .type = http::Integer{.min = 1, .max = kMostSequence},
-       .description = "The sequence to begin with; 1 when absent"},
+       .description = "First sequence (default: 1)"},
       {.name = "count",
        .type = http::Integer{.min = -kMostObservations, .max = kMostObservations},
-       .description = "Most observations of a document, 100 when absent; below 0 they go "
-                      "backwards, from the last when `from` is absent"},
+       .description = "Maximum number of observations in a document; below 0 they go backwards, "
+                      "from the last if `from` is absent (default: 100)"},
       {.name = "path", .description = "XPath of the data items: `//DataItem[@type=\"PART_ID\"]`"},
       {.name = "interval",
        .type = http::Integer{.min = 0, .max = kMostMilliseconds},
        .description = "A stream of documents, at most one in so many milliseconds"},
       {.name = "heartbeat",
        .type = http::Integer{.min = 1, .max = kMostMilliseconds},
-       .description = "An empty document after so many milliseconds; 10000 when absent"}};
+       .description = "Milliseconds after which an empty document is sent (default: 10000)"}};
 }
 
 void sample_mtconnect(const Services& services, const OpenStreams& open,

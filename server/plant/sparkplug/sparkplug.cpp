@@ -181,11 +181,11 @@ void members(V& v, SparkplugOptions& options) {
   v.member("group", options.group, level_id("group"), "Id of the Sparkplug group");
   v.member("node", options.node, level_id("node"), "Id of the edge node");
   v.optional("device", options.device, By{500, TopicTemplate::parse_level},
-             "{machine}:{characteristic} when absent");
+             "Name of a device (default: {machine}:{characteristic})");
   v.optional("primary_host", options.primary_host, level_id("primary_host"),
              "Primary host; nothing is sent while it is offline");
   v.optional("most_devices", options.most_devices, Within{1, 1000},
-             "Largest number of devices; 1000 when absent");
+             "Largest number of devices (default: 1000)");
   follower_members(v, options.follower);
 }
 

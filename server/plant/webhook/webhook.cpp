@@ -129,18 +129,18 @@ struct BodyForm {
 template <class V>
 void members(V& v, WebhookOptions& options) {
   v.member("url", options.url, By{kLongestUrl, read_url}, "https://host/path");
-  v.optional("timeout_s", options.timeout, Within{1, 30}, "Timeout of a request; 15 when absent");
+  v.optional("timeout_s", options.timeout, Within{1, 30}, "Timeout of a request (default: 15)");
   v.optional("headers", options.headers, HeadersForm{},
              "Headers of each request, as Authorization. Values are not shown; null keeps the "
              "stored value "
              "while the url stays, as leaving headers out does");
   v.optional("body", options.body, BodyForm{},
-             "JSON with {{field}} of the event; the whole event when absent");
+             "JSON with {{field}} of the event (default: the whole event)");
   event_members(v, options.follower);
   follower_members(v, options.follower);
   v.optional("secrets", options.keys, Each{1, kMostKeys, "secrets", api::schema::text(), read_key},
-             "1 to 4 secrets, each whsec_ and 24 to 64 bytes in base64; each signs. The stored "
-             "secrets when absent");
+             "1 to 4 secrets, each whsec_ and 24 to 64 bytes in base64; each signs (default: the "
+             "stored secrets)");
   v.check([](api::FieldReader& fields) {
     if (!fields.has("secrets")) static_cast<void>(fields.array("secrets"));
   });

@@ -111,13 +111,13 @@ void members(auto& v, ContributionOrder& c) {
   v.optional("limits_half_width", c.limits_half_width, Magnitude{},
              "Half width of the range of each limit (JCGM 101, 6.4.3)");
   v.optional("distribution", c.distribution, Words{Distribution::T},
-             "rectangular with a half width, else normal");
+             "Distribution (default: rectangular with a half width, normal without)");
   v.check([&c](FieldReader& fields) { check_width(c, fields); });
   v.optional("value", c.value, Magnitude{-Magnitude::kMost}, "The estimate, with a model");
   v.optional("sensitivity", c.sensitivity, Magnitude{-Magnitude::kMost},
-             "1 when absent; with a model its derivative");
+             "Sensitivity (default: 1; with a model, its derivative)");
   v.optional("degrees_of_freedom", c.degrees_of_freedom, kPositive,
-             "Degrees of freedom; infinite when absent");
+             "Degrees of freedom (default: infinite)");
   v.check([&c](FieldReader& fields) {
     if (c.shape() == Distribution::T && !fields.has("degrees_of_freedom")) {
       fields.report(ErrorCode::FieldMissing, "degrees_of_freedom",

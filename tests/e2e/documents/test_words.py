@@ -11,6 +11,8 @@ BANNED = re.compile(r"\b(any more|no longer|whoever|whatever|(?:is|are) told|rej
                     r"inspection certificates?|own columns?|columns? of the shop|causes? and (?:a )?measures?)\b", re.IGNORECASE)
 # Help: half sentences. Errors: idioms in place of what is wrong.
 RIDDLES = re.compile(r"  Of .*|[a-z], else \d+|when absent")
+# Descriptions of the HTTP API, which are sentences, or nouns with what is true of them.
+API_RIDDLES = re.compile(r"when absent|[a-z], else \d+|^(?:Makes|Most|What|Where|Whether) .*|\bthat are no\b|\b(?:alone|beside)\b")
 # A choice has one form: FIELD must be one of: a, b, c.
 CHOICES = re.compile(r"must be one of(?!: )|\bone of \{\}|must be (?!true or false)[\w{}']+(?:, [\w']+)* or (?!more)[\w']+(?:;.*)?$|^\w+ is \{\}$")
 # Words of the verdicts, and pairs of words for one thing, that a language keeps out of all its other texts.
@@ -97,6 +99,19 @@ class Words(unittest.TestCase):
 
 
 class Api(DaemonTest):
+    def described(self, value):
+        """All summaries and descriptions in a document."""
+        for name, below in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
+            if name in ("description", "summary") and isinstance(below, str):
+                yield below
+            else:
+                yield from self.described(below)
+
+    def test_descriptions(self):
+        texts = set(self.described(self.daemon.get("/openapi.json").json))
+        self.assertGreater(len(texts), 1000)
+        self.assertEqual([text for text in sorted(texts) if found(text) or API_RIDDLES.search(text)], [])
+
     def test_a_refused_choice_lists_the_words(self):
         post = self.daemon.post
         for answer in (post("/v1/measurements", {"quantity": "x"}), post("/v1/measurements", {"feature": "x"}),
