@@ -35,7 +35,8 @@ def query(system: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
 
 def field(system: Path, name: str, which: str) -> str:
     found = query(system, "-W", "-f", f"${{{which}}}", name)
-    return found.stdout if found.returncode == 0 else sys.exit(f"release_sbom.py: {name} is not in {system}")
+    # A package that others only name has no fields.
+    return found.stdout or sys.exit(f"release_sbom.py: {name} is not in {system}")
 
 
 def owner(system: Path, file: Path) -> str:
@@ -66,9 +67,9 @@ def of_page() -> list[Package]:
 
 
 def document(root: Path, system: Path, version: str, architecture: str) -> dict[str, object]:
-    def installed(name: str) -> Package:
-        number, plain = field(system, name, "Version"), name.split(":")[0]
-        return package(plain, number, f"pkg:deb/debian/{plain}@{number}?arch={field(system, name, 'Architecture')}")
+    def installed(name: str, of: Path = system) -> Package:
+        number, plain = field(of, name, "Version"), name.split(":")[0]
+        return package(plain, number, f"pkg:deb/debian/{plain}@{number}?arch={field(of, name, 'Architecture')}")
 
     product = package("fitgauge", version, f"pkg:generic/fitgauge@{version}?arch={architecture}", "Apache-2.0")
     loaded = libraries(sorted(root.glob("usr/bin/*")), system, TRIPLETS[architecture])
@@ -78,7 +79,8 @@ def document(root: Path, system: Path, version: str, architecture: str) -> dict[
     parts += [(installed(name), "STATIC_LINK") for name in compiled_in()
               if field(system, name, "source:Package") not in sources]
     parts += [(part, "CONTAINS") for part in of_page()]
-    parts += [(installed(name), "CONTAINS") for name in ("ca-certificates", "tzdata")]  # in the image
+    # The image has those of this machine.
+    parts += [(installed(name, Path("/")), "CONTAINS") for name in ("ca-certificates", "tzdata")]
     identity = f"fitgauge-{version}-{architecture}-{EPOCH}"
     return {
         "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
