@@ -132,7 +132,7 @@ TEST_CASE("Cycles stand in one line or in several") {
          {"N10 G421 MEASURE HOLE ~\n Q273=+50 ;CENTRE~\n Q274=+Q5 *", probe},
          {"N10 G421 MEASURE HOLE\nQ273=+50 ;CENTRE\n  Q274=+Q5 * ;", probe},
          {"N10 G421 MEASURE HOLE\n  Q273=+50  ;CENTRE\n  Q274=+Q5\nN20 G00 X+1",
-          std::string(probe) + "\n20 L X+1 FMAX"},
+          std::string(probe).append("\n20 L X+1 FMAX")},
          {"N10 G444 Q263=+0 QS400=\"0.4;-0.1\" *",
           "10 TCH PROBE 444 ~\n    Q263=+0 ~\n    QS400=\"0.4;-0.1\""},
          {"N10 G200 Q200=2 *\nQ5 = 1 *", "10 CYCL DEF 200 ~\n    Q200=+2\nQ5 = 1"},
