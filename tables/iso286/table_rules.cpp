@@ -174,7 +174,7 @@ void check_custom_columns(const TableData& data, Findings& findings) {
     }
     if (!names.insert(column.name).second) {
       findings.push_back(
-          {ErrorCode::TablesInconsistent, "column '" + column.name + "' is there twice", where});
+          {ErrorCode::TablesInconsistent, "column '" + column.name + "' is repeated", where});
     }
   }
 }
@@ -244,7 +244,8 @@ Result<void> check_custom_column(const CustomColumn& column) {
          "the name must not be NR or BEREICH: these are columns of the control's table", "/name"});
   }
   if (column.rows.empty()) {
-    findings.push_back({ErrorCode::TableRowsInvalid, "a column needs at least one row", "/rows"});
+    findings.push_back(
+        {ErrorCode::TableRowsInvalid, "a custom tolerance class needs at least one row", "/rows"});
   }
   for (std::size_t i = 0; i < column.rows.size(); ++i) check_row(column, i, findings);
   if (findings.empty()) return {};

@@ -174,7 +174,7 @@ class Reader {
       columns.push_back(described == descriptions.end() ? TabColumn{.name = name}
                                                         : described->second);
       if (!names_.insert(name).second) {
-        return malformed(next_, "column " + name + " is there twice");
+        return malformed(next_, "column " + name + " is repeated");
       }
       const std::string written = name + columns.back().type;
       if (std::any_of(written.begin(), written.end(), ends_a_word)) {

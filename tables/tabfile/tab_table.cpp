@@ -96,7 +96,7 @@ Result<void> TabTable::append_row(const std::vector<std::string_view>& cells) {
   }
   if (const auto number = count == 0 ? std::nullopt : to_number<std::int64_t>(cells.front())) {
     if (find_row(*number)) {
-      return Error{ErrorCode::TableFileMalformed, fmt::format("row {} is there twice", *number)};
+      return Error{ErrorCode::TableFileMalformed, fmt::format("row {} is repeated", *number)};
     }
     if (ascending_.empty() || *number > number_of(ascending_.back()))
       ascending_.push_back(static_cast<std::uint32_t>(rows_.size()));

@@ -321,7 +321,7 @@ Result<std::string> stability(const JsonValue& body) {
   for (const auto& group : groups) {
     if (group.size() != groups.front().size()) {
       return at_member("measurements", {ErrorCode::StatisticsUnbalanced,
-                                        "every time must have an equal number of readings"});
+                                        "each time must have the same number of readings"});
     }
     counts.insert(counts.end(), group.begin(), group.end());
   }

@@ -96,7 +96,7 @@ struct Rules {
     for (const JsonValue& item : array->items) {
       const int rule = item.text.size() == 1 ? item.text[0] - '0' : 0;
       if (!item.is(JsonValue::Kind::Number) || rule < 1 || rule > metrology::ZoneRules::kCount) {
-        fields.report(ErrorCode::FieldInvalid, name, "rules must be of 1, 2, 3 and 4");
+        fields.report(ErrorCode::FieldInvalid, name, "rules must contain only 1, 2, 3 and 4");
         return false;
       }
       to.add(rule);

@@ -78,7 +78,7 @@ Result<metrology::ZoneRules> parse_rules(std::string_view text) {
     const bool is_digit = i % 2 == 0;
     const bool fits = is_digit ? text[i] >= '1' && text[i] <= '4' : text[i] == ',';
     if (!fits || text.size() % 2 == 0) {
-      return invalid("rules", "rules must be of 1, 2, 3 and 4, with commas: rules=1,2");
+      return invalid("rules", "rules must contain only 1, 2, 3 and 4, with commas: rules=1,2");
     }
     if (is_digit) rules.add(text[i] - '0');
   }

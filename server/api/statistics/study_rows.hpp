@@ -57,7 +57,7 @@ struct StudyRows {
     const JsonValue* array = fields.array(name);
     if (array == nullptr) return false;
     if (array->items.empty()) {
-      fields.report(ErrorCode::StatisticsTooFew, name, "there is no measurement");
+      fields.report(ErrorCode::StatisticsTooFew, name, "a study needs at least one measurement");
     }
     for (std::size_t i = 0; i < array->items.size(); ++i) {
       BodyReader row(array->items[i], pointer_to(fields.at(name), i), fields.errors());

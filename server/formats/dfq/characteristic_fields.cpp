@@ -144,8 +144,8 @@ Result<const MeasurementCsv::Prepared*> MeasurementCsv::prepared(std::uint32_t i
     for (const CarriedField& field : made.carried) prepared_bytes_ += field.text.size();
     if (prepared_bytes_ > kMostBytes) {
       return Error{kMalformed,
-                   fmt::format("The texts of its characteristics, with those of their parts, have "
-                               "more than {} MiB: shorten them, or cut the file into several",
+                   fmt::format("the texts of the characteristics and parts have more than {} MiB: "
+                               "shorten them, or split the file",
                                kMostBytes >> 20)};
     }
     prepared_[index] = std::move(made);

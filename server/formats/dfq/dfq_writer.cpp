@@ -118,7 +118,7 @@ Result<void> check_text(int number, std::string_view text) {
   const std::size_t count = characters_of(text);
   if (count <= static_cast<std::size_t>(info->longest)) return {};
   return Error{ErrorCode::FieldTooLong,
-               fmt::format("{} holds {} characters, and '{}' has {}", name, info->longest,
+               fmt::format("{} must have at most {} characters; '{}' has {}", name, info->longest,
                            first_characters(text, 60), count)};
 }
 

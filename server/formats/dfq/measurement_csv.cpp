@@ -225,12 +225,12 @@ Result<void> MeasurementCsv::check() const {
   if (!has_values_ && has_left_out_) {
     return Error{
         kMalformed,
-        "All values were left out: no characteristic of the file is a length with a nominal "
+        "all values were left out: no characteristic of the file is a length with a nominal "
         "size and limits"};
   }
   if (!has_values_) {
     return Error{kMalformed,
-                 "The file has no measured value. A DFD is read together with its DFX, of the same "
+                 "the file has no measured value; a DFD is read together with its DFX, of the same "
                  "name"};
   }
   return {};

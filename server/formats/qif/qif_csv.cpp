@@ -251,7 +251,7 @@ Result<bool> QifRows::append(std::string& rows, std::vector<std::uint32_t>& line
 
 Result<void> QifRows::check() const {
   if (converter_->has_rows()) return {};
-  return Error{aqdef::kMalformed, "The document has no measured size"};
+  return Error{aqdef::kMalformed, "the document has no measured size"};
 }
 
 bool is_qif(std::string_view file_name) { return ascii_lower(file_name).ends_with(".qif"); }

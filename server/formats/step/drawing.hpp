@@ -62,7 +62,7 @@ struct Drawing {
 };
 
 void members(auto& v, const DrawnSize& size) {
-  v.member("name", size.name, "Name of the callout, else of the kind; unique in the drawing");
+  v.member("name", size.name, "Name of the callout (default: of the kind); unique in the drawing");
   v.member("nominal_mm", size.nominal, api::Millimetres{}, "");
   v.optional("tolerance_class", size.tolerance_class,
              "Tolerance class; then deviations are absent");
@@ -79,7 +79,7 @@ void members(auto& v, const DrawnSize& size) {
 }
 void members(auto& v, const NotRead& other) {
   v.member("entity", other.entity, "Instance in the file");
-  v.member("name", other.name, "Name of the callout, else of the entity");
+  v.member("name", other.name, "Name of the callout (default: of the entity)");
   v.member("why", other.why, "Reason, and what to do");
 }
 void members(auto& v, const ChangedLimits& change) {

@@ -200,7 +200,7 @@ class Part21Scanner {
     Parameter name;
     if (!lexer_.parameter(name, 1)) return false;
     if (!name.is(Parameter::Kind::Reference) || !lexer_.take('=')) {
-      return lexer_.fail("an instance is #number=NAME(…);");
+      return lexer_.fail("an instance must be #number=NAME(…);");
     }
     if (file_.instances_.size() == most_) {
       return lexer_.fail(

@@ -129,7 +129,7 @@ bool Lexer::parameter(Parameter& to, int deep) {
     keyword();
     std::size_t count = 0;
     is_read = list(deep, [&count](const Parameter&) { return ++count > 0; }) &&
-              (count == 1 || fail("a typed parameter has one value"));
+              (count == 1 || fail("a typed parameter must have one value"));
   } else if (first == '$' || first == '*') {
     ++at_;
   } else if (is_digit(first) || first == '+' || first == '-') {

@@ -51,10 +51,10 @@ constexpr double kEpochDay = 25'569;
 constexpr double kFirstDay = 61;
 
 Error cannot_write(std::string_view why) {
-  return {
-      ErrorCode::StorageUnavailable,
-      fmt::format(
-          "the workbook cannot be written: {}; check the free space of TMPDIR, else of /tmp", why)};
+  return {ErrorCode::StorageUnavailable,
+          fmt::format(
+              "the workbook cannot be written: {}; check the free space of TMPDIR (default: /tmp)",
+              why)};
 }
 
 }  // namespace

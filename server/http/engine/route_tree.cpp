@@ -202,7 +202,7 @@ void RouteTree::add(Route& route, std::int16_t index) {
     if (more) pattern.remove_prefix(slash + 1);
     std::unique_ptr<Node>* next = nullptr;
     if (segment.starts_with('{') && segment.ends_with("*}")) {
-      if (more) fail("goes on after the rest of the path");
+      if (more) fail("has a segment after the rest of the path");
       capture(segment.substr(1, segment.size() - 3), true);
       next = &node->rest;
     } else if (segment.starts_with('{') && segment.ends_with('}')) {
@@ -221,7 +221,7 @@ void RouteTree::add(Route& route, std::int16_t index) {
   }
 
   std::int16_t& slot = node->resource.routes[static_cast<std::size_t>(route.method)];
-  if (slot != Resource::kNone) fail("is there twice");
+  if (slot != Resource::kNone) fail("is repeated");
   slot = index;
   node->is_resource = true;
   for (const Parameter& parameter : route.parameters) {

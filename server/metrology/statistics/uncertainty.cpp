@@ -221,7 +221,8 @@ Result<MonteCarloResult> simulate(const Budget& budget, const Simulation& simula
   for (const Correlation& c : budget.correlations) {
     for (const std::size_t i : {c.a, c.b}) {
       if (budget.contributions[i].distribution != Distribution::Normal) {
-        return Error{ErrorCode::FieldInvalid, "only normal contributions can be drawn correlated"};
+        return Error{ErrorCode::FieldInvalid,
+                     "only normal contributions can have correlations in a simulation"};
       }
     }
   }

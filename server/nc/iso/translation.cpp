@@ -250,7 +250,8 @@ class Translator {
     const std::size_t unit_at = text.find_last_of(" \t") + 1;
     const bool inch = ascii_iequals(text.substr(unit_at), "G70");
     const bool is_frame = inch || ascii_iequals(text.substr(unit_at), "G71");
-    if (!begun_ && !is_frame) return fail("the first line is %NAME G71 *, or %NAME G70 * for inch");
+    if (!begun_ && !is_frame)
+      return fail("the first line must be %NAME G71 *, or %NAME G70 * for inch");
     line_.start_line();
     if (!is_frame) {
       line_.put("CALL PGM ").put(text);

@@ -192,8 +192,7 @@ double Lexer::number() {
   const auto error = std::from_chars(text.data(), text.data() + text.size(), value).ec;
   if (error != std::errc() || value >= kLargestNumber) {
     fail(DiagnosticCode::NumberOutOfRange, place(begin, at_),
-         fmt::format("{} is too large: the control takes up to nine digits before the point",
-                     excerpt(text)));
+         fmt::format("{} is too large: use at most nine digits before the point", excerpt(text)));
   }
   return value;
 }

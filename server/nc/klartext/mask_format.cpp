@@ -179,7 +179,7 @@ bool shows_text(MaskConversion conversion) {
 void bind(Lexer& in, MaskPlaceholder& placeholder, const Argument& argument) {
   if (shows_text(placeholder.conversion) != argument.text) {
     in.fail(DiagnosticCode::MaskValueType, argument.place,
-            argument.text ? "a text is shown by %S or %RS" : "a number is shown by %F or %D");
+            argument.text ? "a text needs %S or %RS" : "a number needs %F or %D");
   }
   placeholder.value = argument.value;
 }

@@ -19,7 +19,7 @@ Expr parse_embedded_parameter(BlockReader& in, const char* at, std::string_view 
   const QRef parameter = in.parameter();
   if (!in.failure() && !parameter.is_string()) {
     in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
-            "a file name comes from a QS parameter");
+            "a file name must come from a QS parameter");
   }
   for (const char c : close) in.expect(c);
   return parameter;

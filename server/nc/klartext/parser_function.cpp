@@ -91,7 +91,7 @@ Statement parse_conditional_jump(BlockReader& in, unsigned fn) {
     const bool ordered = comparison.op == Operator::Greater || comparison.op == Operator::Less;
     if (!in.failure() && (texts != in.is_string(right) || (texts && ordered))) {
       in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
-              "two numbers can be compared, or with EQU and NE two texts");
+              "both sides must be numbers, or both texts with EQU or NE");
     }
     condition = in.add_node(comparison.op, {left, right});
   }
@@ -127,7 +127,7 @@ Statement parse_declare(BlockReader& in) {
   const QRef target = in.parameter();
   if (!in.failure() && !target.is_string()) {
     in.fail(DiagnosticCode::ParameterType, in.place(begin, in.at()),
-            "DECLARE STRING takes a QS parameter");
+            "DECLARE STRING needs a QS parameter");
   }
   return parse_formula_of(in, target, AssignmentForm::DeclareString);
 }

@@ -64,13 +64,12 @@ class RecordReader {
         machine::kAllAxes, [&](Axis candidate) { return machine::name(candidate) == part; });
     const std::string_view mount = text(row, "ON");
     if (axis == machine::kAllAxes.end() || !machine::is_rotary(*axis))
-      return fail("AXIS is A, B, C or TOOL");
-    if (mount != kOnTable && mount != kOnHead) return fail("ON is TABLE or HEAD");
+      return fail("AXIS must be one of: A, B, C, TOOL");
+    if (mount != kOnTable && mount != kOnHead) return fail("ON must be TABLE or HEAD");
     std::vector<RotaryAxis>& axes = found_[name].axes;
-    if (std::ranges::count(axes, *axis, &RotaryAxis::axis) > 0)
-      return fail("the axis is there twice");
+    if (std::ranges::count(axes, *axis, &RotaryAxis::axis) > 0) return fail("the axis is repeated");
     const Vec3 direction = vector(row, {"I", "J", "K"});
-    if (direction == Vec3{}) return fail("the direction is zero");
+    if (direction == Vec3{}) return fail("the direction must not be zero");
     // Records of older versions, without zeros, lack this column.
     const double zero = table_.find_column(kZero) ? number(row, kZero) : 0;
     axes.push_back(

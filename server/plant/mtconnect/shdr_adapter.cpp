@@ -80,7 +80,7 @@ class ShdrAdapter::Loop final : public app::CommitListener,
   Result<void> open() {
     const auto failed = [&](const error_code& error) {
       return Error{ErrorCode::ListenFailed,
-                   fmt::format("Cannot listen on {} port {} for SHDR: {}.", options_.listen.host,
+                   fmt::format("cannot listen on {} port {} for SHDR: {}", options_.listen.host,
                                options_.listen.port, error.message())};
     };
     error_code error;

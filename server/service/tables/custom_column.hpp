@@ -28,7 +28,8 @@ void members(auto& v, Column& column) {
   v.member("rows", column.rows, "At least one, contiguous, by size");
   v.check([&column](FieldReader& fields) {
     if (!column.rows.empty() || fields.errors().has(fields.at("rows"))) return;
-    fields.report(ErrorCode::FieldInvalid, "rows", "a column needs at least one row");
+    fields.report(ErrorCode::FieldInvalid, "rows",
+                  "a custom tolerance class needs at least one row");
   });
 }
 

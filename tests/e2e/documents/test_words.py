@@ -20,7 +20,7 @@ FOREIGN = {"de": r"Abweichungen in µm|[Bb]erichtig|Prüfstation|Prüfzeugnis|ho
            "it": r"(?i)scart|ripresa|collaudo|reticolo|angoli spaziali|scostamento medio",
            "nl": r"(?i)onbeslist|opstelling|\bkeuren|\bdelen\b|gemiddelde afwijking"}
 SPOKEN = re.compile(r"^(?:Of|The same)\b|^an? \w+ takes|is no (?:number|length|date|key)\b|stands? (?:twice|before|behind)|goes on behind|put back|"
-                    r"does not (?:say|tell)|says '|which holds$|of its own\b|the other way round")
+                    r"does not (?:say|tell)|says '|which holds$|of its own\b|the other way round|is there twice|takes up to\b|, else of\b")
 # The words themselves stand in the first two; the others are for developers.
 LEFT_OUT = {"STYLE.md", "glossary.md", "ARCHITECTURE.md", "api.md", "cycles.md"}
 GENERATED = {"api", "cycles"}  # folders; their texts are those of the program

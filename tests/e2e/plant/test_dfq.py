@@ -139,7 +139,7 @@ class Dfq(Folders):
             "type": (dfq(HEAD.replace("K2004/1 0", "K2004/1 1"), VALUES), "which is not a measurement: it is of type 1 (K2004)"),
             "nul": (whole.replace(b"first", b"fi\0st"), "line 29 has a byte 0"),
             "long": (dfq(HEAD) + b"1" * 30_000_000, "line 26 is in a value of more than 1024 KiB"),
-            "none": (dfq(HEAD), "The file has no measured value"),
+            "none": (dfq(HEAD), "the file has no measured value"),
             "empty": (b"", "The file has no K0100"),
             "csv": (b"designation;measured_mm\n25 H7;25\n", "neither a field nor a value"),
         }
@@ -283,7 +283,7 @@ class Out(Folders):
         self.assertEqual([value["K0053"] for _, value in values], ["WO-1", "WO-2"])
         self.wait(lambda: daemon.get("/v1/connections/caq").json.get("dead_letters"))
         state = daemon.get("/v1/connections/caq").json
-        self.assertIn("K0053, the order number, holds 20 characters", state["dead_letters"][0]["reason"])
+        self.assertIn("K0053, the order number, must have at most 20 characters", state["dead_letters"][0]["reason"])
         problem = daemon.request("PUT", "/v1/connections/x", {"kind": "folder_out", "folder": str(self.root), "format": "dfq",
                                                               "time_zone": "Mars/Base", "part_number": "x" * 31}).json
         self.assertEqual(sorted(error["pointer"] for error in problem["errors"]), ["/part_number", "/time_zone"])

@@ -72,7 +72,7 @@ constexpr auto kAcceptPause = std::chrono::milliseconds(100);
 
 Error cannot_listen(const LinkServerOptions& options, std::string_view reason) {
   return {ErrorCode::ListenFailed,
-          fmt::format("Cannot listen on {} port {}: {}.", options.host, options.port, reason)};
+          fmt::format("cannot listen on {} port {}: {}", options.host, options.port, reason)};
 }
 
 std::string address_of(const sockaddr_storage& peer, socklen_t length) {

@@ -162,13 +162,17 @@ TEST_CASE("a text that does not fit its field is told, and nothing is added") {
     std::string_view said;
   };
   const std::vector<Case> cases = {
-      {&OutgoingValue::order, std::string(21, 'x'), "K0053, the order number, holds 20 characters"},
-      {&OutgoingValue::part_id, std::string(41, 'x'), "K0014, the part ident, holds 40 characters"},
-      {&OutgoingValue::comment, std::string(256, 'x'), "K0009, the text, holds 255 characters"},
+      {&OutgoingValue::order, std::string(21, 'x'),
+       "K0053, the order number, must have at most 20 characters"},
+      {&OutgoingValue::part_id, std::string(41, 'x'),
+       "K0014, the part ident, must have at most 40 characters"},
+      {&OutgoingValue::comment, std::string(256, 'x'),
+       "K0009, the text, must have at most 255 characters"},
       {&OutgoingValue::comment, "a\nb", "K0009, the text, cannot hold a line end"},
-      {&OutgoingValue::subgroup, std::string(15, 'x'), "K0006, the batch number, holds 14"},
+      {&OutgoingValue::subgroup, std::string(15, 'x'),
+       "K0006, the batch number, must have at most 14"},
       {&OutgoingValue::machine, std::string(41, 'x'),
-       "K4062, the machine of the catalogue, holds 40"},
+       "K4062, the machine of the catalogue, must have at most 40"},
       {&OutgoingValue::gauge, "a\x14", "K4072, the gage of the catalogue, cannot hold"},
       {&OutgoingValue::operator_name, std::string(51, 'x'), "K4092"},
       {&OutgoingValue::characteristic, std::string(81, 'x'), "K2002"},

@@ -172,7 +172,7 @@ TEST_CASE("what no measurement can hold may be left out") {
                        "0.02\n")
             .find("leave_out stores the other characteristics") != std::string::npos);
   CHECK(rows_of("K0100 1\nK2002/1 Flatness\nK2101/1 0\nK2111/1 0.1\nK2142/1 mm\n0.02\n", how) ==
-        "error: All values were left out: no characteristic of the file is a length with a nominal "
+        "error: all values were left out: no characteristic of the file is a length with a nominal "
         "size and limits");
 }
 
@@ -186,7 +186,7 @@ TEST_CASE("attributes") {
   CHECK(rows_of(file(kH7,
                      "\x14"
                      "255\n")) ==
-        "error: The file has no measured value. A DFD is read together with its DFX, of the same "
+        "error: the file has no measured value; a DFD is read together with its DFX, of the same "
         "name");
   CHECK(rows_of(file(kH7,
                      "25.01\x14"
@@ -215,8 +215,8 @@ TEST_CASE("times") {
   CHECK(at("1.2.2026/8:05").find("measured_at=2026-02-01T07:05:00Z") != std::string::npos);
   CHECK(at("29.03.2026/02:30:00").find("error: line 9 has the time '29.03.2026/02:30:00', and") ==
         0);
-  CHECK(at("07/20/2026 08:00:00").find("error: line 9 has the time '07/20/2026 08:00:00', which must be such as") ==
-        0);
+  CHECK(at("07/20/2026 08:00:00")
+            .find("error: line 9 has the time '07/20/2026 08:00:00', which must be such as") == 0);
   CHECK(at("20.07.2026/08:00:00", false).find("without an offset: name the time zone") !=
         std::string::npos);
 }
@@ -304,7 +304,7 @@ TEST_CASE("texts that all values share are bounded, and a line of values comes i
     CHECK(rows.size() - before < 100'000);
   }
   CAPTURE(said);
-  CHECK(said.starts_with("The texts of its characteristics"));
+  CHECK(said.starts_with("the texts of the characteristics"));
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ TEST_CASE("A program has a first and a last line") {
     const auto parsed = parse_program(std::move(text), "t.i");
     return parsed.diagnostics.empty() ? std::string() : parsed.diagnostics.front().message;
   };
-  CHECK(first("%T *\nN99999999 %T G71 *").starts_with("the first line is %NAME G71 *"));
+  CHECK(first("%T *\nN99999999 %T G71 *").starts_with("the first line must be %NAME G71 *"));
   CHECK(first("%T G71 *\nN10 M3 *") ==
         "the program ends with N99999999 %NAME G71 *, or G70 for inch");
   CHECK(first("N10 M3 *\n%T G71 *\nN99999999 %T G71 *") ==

@@ -146,8 +146,8 @@ TEST_CASE("a file that cannot be trusted is refused with its line") {
         "line 2: #STRUCTBEGIN has no #STRUCTEND");
   CHECK(refusal("BEGIN A\nTableDescription (\nNR X\n0  1\n[END]\n") ==
         "line 2: TableDescription is not closed");
-  CHECK(refusal("BEGIN A\nNR X X\n[END]\n") == "line 2: column X is there twice");
-  CHECK(refusal("BEGIN A\nNR X\n0  1\n0  2\n[END]\n") == "line 4: row 0 is there twice");
+  CHECK(refusal("BEGIN A\nNR X X\n[END]\n") == "line 2: column X is repeated");
+  CHECK(refusal("BEGIN A\nNR X\n0  1\n0  2\n[END]\n") == "line 4: row 0 is repeated");
   CHECK(refusal("BEGIN A\nNR X   Y\n0  12345 2\n[END]\n") ==
         "line 3: the cell of column 2 runs into the next one");
   CHECK(refusal("BEGIN A\n  NR X\n0 1 2\n[END]\n") == "line 3: text before the first column");
@@ -192,7 +192,7 @@ TEST_CASE("rows are found in any order of their numbers") {
   CHECK(*points.text(9, "X") == "d");
   CHECK(*points.text(-4, "X") == "e");
   CHECK(points.find_row(4).error().code == ErrorCode::TableRowMissing);
-  CHECK(refusal("BEGIN A\nNR X\n5\n3\n9\n3\n[END]\n") == "line 6: row 3 is there twice");
+  CHECK(refusal("BEGIN A\nNR X\n5\n3\n9\n3\n[END]\n") == "line 6: row 3 is repeated");
 }
 
 TEST_CASE("what is written reads back") {
