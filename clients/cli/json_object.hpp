@@ -7,7 +7,7 @@
 
 namespace fitgauge::cli {
 
-/// An answer of the service, or a file that it wrote, with any number of values.
+/// A response of the service, or a file that it wrote, with any number of values.
 Result<JsonValue> parse_document(std::string_view text);
 
 /// `text` as a JSON string with its quotes. It must be UTF-8.

@@ -37,10 +37,10 @@ Failure failure_of(const Answer& answer, const std::string& url);
 /// or still at work.
 bool is_temporary(const Answer& answer);
 
-/// The answer, if it is a good one. @errors as failure_of().
+/// Returns a response that is a success. @errors as failure_of().
 Outcome<Answer> expect_ok(Outcome<Answer> answer, const std::string& url);
 
-/// The document of a good answer. @errors NoAnswer when it is not JSON.
+/// Returns the document of a successful response. @errors NoAnswer if it is not JSON.
 Outcome<JsonValue> read_document(const Answer& answer, const std::string& url);
 
 }  // namespace fitgauge::cli

@@ -41,7 +41,7 @@ class IndexNodes {
   /// @returns none if there is no such node
   std::optional<Found> find(const IndexNode& node, const MeasurementFilter& filter);
 
-  /// Whether it is known that no current row of the kinds asked for has all these values.
+  /// Returns true if surely no current row of the wanted kinds has all these values.
   /// @pre node.level > 0
   bool lacks(const IndexNode& node, std::span<const FieldValue> values,
              const MeasurementFilter& filter);
@@ -67,12 +67,12 @@ class IndexNodes {
   std::vector<std::uint8_t> matching_;  ///< tuples
 };
 
-/// The part of the index that tells how values of two fields meet: the columns of a block
-/// (store::BlockColumns), and above blocks the statistics of the values of one field by those of
-/// another (store::PairStatistics), where they are few enough, and by those of many together
-/// (store::TupleSums). Of these each field's column stands where its pair with no field would.
-/// Their sums stand where pairs of no field would: those of kTuplesTogether by 0, of the next by 1
-/// and so on. Where there are none, 0 is empty.
+/// Index of the values of several fields. A block has its columns (store::BlockColumns). A node
+/// above blocks has the statistics of one field by the values of another (store::PairStatistics),
+/// if the values are few, or by the values of many fields together (store::TupleSums). Tuples are
+/// stored like pairs: the column of a field at the key of the field and no field, and the sums at
+/// the keys of no field and a number: 0 for the first kTuplesTogether, 1 for the next, and so on.
+/// Without tuples 0 is empty.
 class PairIndex {
  public:
   /// The stored parts of a node.

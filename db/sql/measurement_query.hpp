@@ -32,8 +32,8 @@ struct AggregatedValue {
   explicit AggregatedValue(const sql::Connection& connection);
 };
 
-/// Conditions that no correction replaces a row `m`. No correction names it. No rival, which names
-/// the same record, is later than it or than a correction it goes back to.
+/// Conditions for a row `m` that no correction replaces: no correction names the row, and no later
+/// correction names the same record as the row or as a correction that the row goes back to.
 /// @param last the last id that counts, or a parameter; occurs once in each condition.
 struct CurrentCondition {
   std::string is_not_corrected;

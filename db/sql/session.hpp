@@ -58,7 +58,7 @@ class Session {
 
   virtual Stores& stores() = 0;
 
-  /// All that follows sees the state of the first statement.
+  /// Begins a transaction in which all statements see the state of the first one.
   virtual void begin_reading() = 0;
   /// Locks out other writers until the commit: reads stay valid, and ids follow the order of
   /// commits.

@@ -31,7 +31,7 @@ inline constexpr auto kBlockRows = static_cast<std::size_t>(kBlock);
 /// Kinds (8 * source + verdict) are below.
 inline constexpr int kKinds = 32;
 
-/// A column with more values in a block is left out: rows with one value are few.
+/// A column with more different values in a block is left out: too few rows share a value.
 inline constexpr std::size_t kMostColumnValues = 256;
 
 /// Writes the columns, row after row: each text of a row, then add().

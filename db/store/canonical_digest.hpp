@@ -19,7 +19,7 @@ namespace fitgauge::store {
 ///   integer  10 to 18: so many bytes less 10 follow, the shortest big-endian two's complement
 ///            (enumerations by their code)
 ///   text     01, the number of bytes as an integer, the bytes
-///   digest   its 32 bytes; where one stands is fixed
+///   digest   its 32 bytes, at fixed places of the list
 /// Not thread-safe.
 class CanonicalDigest {
  public:

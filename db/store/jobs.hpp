@@ -31,7 +31,7 @@ class Job {
   virtual void refuse(Error error) = 0;
 };
 
-/// Delivers the outcome to a job. An exception of its completion is a bug of only that completion.
+/// Delivers the outcome to a job. An exception of its completion is reported and goes no further.
 template <class Stores>
 void tell(Job<Stores>& job, std::optional<Error> error) noexcept {
   guarded("a storage job's completion", [&] {

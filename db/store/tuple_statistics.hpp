@@ -88,7 +88,7 @@ class TupleWriter {
   std::vector<ExactStatistics> statistics_;
 };
 
-/// The values of a field, and of each tuple the number of its value, a byte.
+/// The values of a field, and a byte for each tuple: the number of its value.
 struct TupleColumn {
   std::vector<std::optional<std::string_view>> values{};
   std::string_view numbers{};

@@ -33,7 +33,7 @@ Result<Timestamp> parse_rfc3339(std::string_view text);
 std::string format_rfc3339(Timestamp time);
 
 inline constexpr std::size_t kRfc3339Room = 32;
-/// Writes the same text to a buffer with enough room. @returns the end of the text.
+/// Writes the text of format_rfc3339 to a buffer with enough room. @returns its end.
 char* write_rfc3339(char* to, Timestamp time);
 
 /// The calendar date and time of day in UTC.

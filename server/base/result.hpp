@@ -63,8 +63,8 @@ using Result = boost::system::result<T, Error>;
 
 }  // namespace fitgauge
 
-/// The value of a result; an error is returned from the function at once. A statement, or all that
-/// stands right of a `=`: `const auto limits = TRY(read_limits(text));`.
+/// Gives the value of a result, or returns its error from the function. Use it as a statement or as
+/// the whole right side of a `=`: `const auto limits = TRY(read_limits(text));`.
 #define TRY(...)                                   \
   __extension__({                                  \
     auto tried_ = (__VA_ARGS__);                   \

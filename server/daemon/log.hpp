@@ -57,7 +57,7 @@ class LogQueue {
 
   static constexpr std::chrono::milliseconds kPatience{1000};
 
-  /// Request lines are many; other lines have the last quarter of the room for themselves.
+  /// Only lines other than request lines may use the last quarter of the room.
   enum class Kind { Request, Other };
   /// Queues `line`, which ends with a line feed, or counts it as lost.
   void push(std::string_view line, Kind kind);

@@ -94,8 +94,8 @@ class Outlet {
   Outlet& operator=(const Outlet&) = delete;
   virtual ~Outlet() = default;
 
-  /// Delivers some of them in order, at least one or a failure; blocks, and ends soon after a stop.
-  /// The rest is delivered again.
+  /// Delivers at least one measurement, in order, or returns a failure. The next call gets the
+  /// rest. Blocks, and ends soon after a stop.
   virtual Delivery deliver(std::span<const Outgoing> measurements, const std::stop_token& stop) = 0;
 
   /// Delivers events, for outlets whose options ask for some.
@@ -130,10 +130,10 @@ struct FollowerOptions {
 /// those of storage.
 Result<Progress> begin_progress(const FollowerOptions& options, const Plant& plant);
 
-/// Follows the log of measurements and gives what passes the filter to an outlet, in order and at
-/// least once. How far it came is in the database at most a second later. An attempt in vain is
-/// repeated after 1 s, 2 s, 4 s and so on, the first one after a success at once. Never waited for
-/// by a writer.
+/// Follows the log of measurements and gives measurements that pass the filter to an outlet, in
+/// order and at least once. Stores its position in the database at most a second later. Repeats a
+/// failed attempt after 1 s, 2 s, 4 s and so on, the first failure after a success at once. A
+/// writer never waits for it.
 class LogFollower final : public Worker {
  public:
   /// Reads its start from the storage; blocks. @param plant must outlive it.

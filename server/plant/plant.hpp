@@ -134,7 +134,7 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
   virtual ~Worker() = default;
 
-  /// Begins to end. Call it for many before you wait. Thread-safe.
+  /// Requests a stop. To end many workers, call this for all before you wait. Thread-safe.
   virtual void request_stop() = 0;
   /// The counts of the connection, without its definition. Thread-safe.
   ConnectionState state() const {
@@ -148,7 +148,7 @@ class Worker {
     const std::lock_guard lock(mutex_);
     what(state_);
   }
-  /// An attempt begins, or its next step, which may wait for the other side.
+  /// Reports the begin of an attempt, or of its next step, which may wait for the other side.
   void begin_attempt();
   /// Counts an ended attempt. Logs the first failure and the first success after it.
   /// @param why reason of the failure; none: success. @param delivered something before it failed

@@ -89,7 +89,7 @@ class Origins {
     const auto [at, is_new] = digits_.try_emplace(number, digits);
     if (is_new) numbers_.emplace(at->second, number);
   }
-  /// Adds an ended history; the oldest comes first.
+  /// Adds an ended history. Call it for the oldest history first.
   void remember(Ended ended) {
     const std::lock_guard lock(mutex_);
     ended_.push_back(std::move(ended));

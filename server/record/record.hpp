@@ -62,11 +62,11 @@ inline std::optional<Digest> digest_from_hex(std::string_view hex) {
   return digest;
 }
 
-/// Reads the record of a measurement, as RecordWriter writes it, back into the measurement: what it
-/// corrects is named by `correction_of` and the digits of `corrected_elsewhere`. Members that
-/// follow from others are skipped: whoever wants to know that the text was read whole writes it
-/// again.
-/// @param texts keeps what the measurement has views of.
+/// Reads a record of RecordWriter back into a measurement. `correction_of` and the digits of
+/// `corrected_elsewhere` name the corrected measurement. Members that follow from others are
+/// skipped. To check that a text was read completely, write the measurement again and compare the
+/// two texts.
+/// @param texts owns the texts that the measurement refers to.
 /// @errors LogRecordInvalid.
 Result<app::Measurement> read_record(const JsonValue& record, TextArena& texts);
 

@@ -48,8 +48,8 @@ struct Table {
   std::vector<Row> rows;
 };
 
-/// Reads a file of tables/data/standards: the first columns say what a row holds for (`over_mm`,
-/// `up_to_mm`, `pitch_mm`, `diameter_mm`), each other one is an item and what it says of it, as in
+/// Reads a file of tables/data/standards. The first columns are the range of a row (`over_mm`,
+/// `up_to_mm`, `pitch_mm`, `diameter_mm`). Each other column is an item with its quantity, as in
 /// `hub_depth_mm`, `P6_lower_um`, `m_plus_minus_um`, `f_plus_minus_arcmin`,
 /// `external_6_tolerance_um`, `G_deviation_um`. An empty cell: the standard has no number there.
 /// @errors TablesInconsistent with the line: an unknown column, a cell that is no number, limits

@@ -113,7 +113,7 @@ std::string write_tab(const TabTable& table);
 
 /// Reads a table file in any form of the controls: columns described by #STRUCTBEGIN, by
 /// TableDescription or not at all, comment lines before the column names, LF or CRLF. The names in
-/// the column line stand where their columns begin; every row is cut there. A file may hold up to
+/// the column line begin where their columns begin; every row is cut there. A file may hold up to
 /// 4096 columns, a million cells and a million lines.
 /// @param text valid UTF-8, a byte order mark allowed
 /// @errors TableFileMalformed, `where` names the line: no BEGIN, an unfinished description, no

@@ -29,9 +29,9 @@ void record(const SharedPosting& posting, MeasurementBatch batch);
 void post_measurements(const Services& services, const http::Request& request,
                        http::Responder responder);
 
-/// Reasons for care that do not keep a value from the store: an acceptance zone that is empty, an
-/// uncertainty above a tenth of the tolerance that the simple rule does not see, a gauge that is
-/// not registered while others are, is blocked, or is overdue for calibration.
+/// Returns warnings for a value that is stored anyway: an empty acceptance zone; an uncertainty
+/// above a tenth of the tolerance with the simple rule, which ignores it; a gauge that is blocked,
+/// overdue for calibration, or not registered although others are.
 std::vector<Warning> warnings_of(const app::Measurement& measurement);
 
 /// The 201 for stored measurements, in the form that the client prefers: one record, all records,

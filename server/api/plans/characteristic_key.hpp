@@ -11,7 +11,7 @@
 
 namespace fitgauge::api {
 
-/// Two values with one key are of one characteristic of one part.
+/// Identifies one characteristic of one part.
 struct CharacteristicKey {
   std::string part{};  ///< empty: the value stands alone, under its id
   std::string name{};
@@ -19,7 +19,7 @@ struct CharacteristicKey {
   friend auto operator<=>(const CharacteristicKey&, const CharacteristicKey&) = default;
 };
 
-/// A value that names no characteristic stands alone: three bores of one size are three.
+/// Returns the key of a value. Without part or characteristic the key is the value's id.
 inline CharacteristicKey key_of(const app::Measurement& m) {
   if (!m.part_id || !m.characteristic) {
     return {.name = app::measurement_id_text(m.id, m.origin)};
@@ -27,7 +27,7 @@ inline CharacteristicKey key_of(const app::Measurement& m) {
   return {.part = std::string(*m.part_id), .name = std::string(*m.characteristic)};
 }
 
-/// A value as far as it says which values of its characteristic count.
+/// Fields of a value that decide if it counts for its characteristic.
 struct Candidate {
   CharacteristicKey key{};
   bool is_judged = false;
@@ -35,7 +35,7 @@ struct Candidate {
   std::optional<bool> go_passes{};  ///< absent: no GO gauge was used, or no limits
   bool counts = false;              ///< after choose()
 
-  /// A value with a verdict stands before one without, then the one measured last.
+  /// Returns the rank: values with a verdict rank above values without one, then later ones.
   auto standing() const { return std::pair(is_judged, measured_at); }
 };
 
@@ -45,9 +45,9 @@ inline Candidate candidate_of(const app::Measurement& m) {
   return one;
 }
 
-/// Marks the value of each characteristic that stands first, and with it a failure of the GO gauge:
-/// a later reading without this gauge does not show that it enters.
-/// @param values in storage order, each with a candidate; of two that stand equal the later counts
+/// Sets `counts` of the highest value of each characteristic, and of a failure of the GO gauge: a
+/// later reading without this gauge does not show that it enters.
+/// @param values in storage order, each with a candidate; of two equal ranks the later one counts
 template <class Value>
 void choose(std::vector<Value>& values) {
   std::map<std::pair<CharacteristicKey, bool>, Candidate*> first;

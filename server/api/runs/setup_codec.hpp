@@ -67,7 +67,7 @@ struct DiskFile {
   bool read(FieldReader& fields, std::string_view name, std::string& to) const;
 };
 
-/// A list of some words: whether each is there.
+/// List of words; the variables show for each word if the list has it.
 template <std::size_t size>
 struct SomeOf : std::array<std::string_view, size> {
   std::string schema(Side) const {

@@ -18,7 +18,7 @@ namespace fitgauge::api {
 void add_exact(const JsonValue& value, const std::string& pointer, metrology::Decimals& to,
                FieldErrors& errors);
 
-/// A decimal of an order, and the nearest figure in an answer.
+/// An exact decimal in a request; in a response the nearest figure.
 struct ExactNumber {
   std::string schema(Side side) const {
     return side == Side::Order ? schema::exact() : schema::null_or(schema::number());

@@ -113,7 +113,7 @@ class ValueSelection {
 http::Parameter subgroups_parameter();
 bool ignores_subgroups(const http::Request& request);
 
-/// The measurements a figure is of, in an answer.
+/// The measurements of a figure, in a response.
 struct SelectionAnswer {
   std::size_t count = 0;
   std::size_t subgroups = 0;

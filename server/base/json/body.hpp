@@ -24,7 +24,7 @@
 
 namespace fitgauge::api {
 
-/// An order is read and refuses members it does not know; an answer is written and may grow.
+/// A body that is read refuses unknown members; a body that is written may get new members.
 enum class Side : std::uint8_t { Order, Answer };
 
 /// Form of a type if the description has none; specialised next to the form.
@@ -88,7 +88,7 @@ class BodySchema {
     fields_.push_back({std::string(name), std::move(json), std::string(meaning_of(more...)), true});
   }
 
-  /// A member that may be left out: without it the variable keeps its value, the default.
+  /// Describes an optional member. If it is absent, the variable keeps its value, the default.
   template <class T, class... More>
   void optional(std::string_view name, const T& value, const More&... more) {
     const auto& form = form_of<T>(more...);

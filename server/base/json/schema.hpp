@@ -53,7 +53,7 @@ std::string object(const Fields& fields, Others others = Others::Allowed);
 /// The schema of a value that fits at least one of `schemas`.
 std::string any_of(const std::vector<std::string>& schemas);
 std::string ref(std::string_view name);
-/// Adds the value that absence stands for, in JSON. The key is `x-default`, because client
+/// Adds the value of an absent member, in JSON. The key is `x-default`, because client
 /// generators treat a member with `default` as always present.
 std::string with_default(std::string json, std::string_view value);
 /// Fields that may be left out.

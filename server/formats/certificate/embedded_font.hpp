@@ -9,7 +9,7 @@
 
 namespace fitgauge::certificate {
 
-/// Returns the character at `at`, and moves `at` behind it. @pre at < text.size()
+/// Returns the character at `at`, and moves `at` after it. @pre at < text.size()
 char32_t next_character(std::string_view text, std::size_t& at);
 
 /// The compiled-in font (TrueType) for one document. Characters get codes from 1 in the order of

@@ -33,9 +33,9 @@ struct PatternReading {
 ///     PART {part_id}
 ///     DIAMETER {measured_mm} MM
 ///
-/// Above `---` stand fields that every result has; below it the lines of a result in their order,
-/// `{field}` where one is printed, `{}` where something is passed over. Runs of blanks are one
-/// blank; other lines between them are passed over. Immutable.
+/// Above `---` are fields that every result has, below it the lines of a result in their order.
+/// `{field}` reads a text, `{}` skips a text. Several blanks count as one blank. Other lines
+/// between the lines of the pattern are skipped. Immutable.
 class Pattern {
  public:
   /// @errors ConfigInvalid with the line: an unknown or doubled field, two fields with nothing

@@ -51,8 +51,8 @@ Result<std::string> to_utf8(std::string_view bytes, Encoding encoding);
 /// to its end.
 Result<Encoding> detected_encoding(const Read& read);
 
-/// A text of any size as UTF-8 without a byte-order mark, piece by piece. Not thread-safe; of no
-/// more use after an error.
+/// A text of any size as UTF-8 without a byte-order mark, piece by piece. Not thread-safe;
+/// unusable after an error.
 class Utf8Input {
  public:
   /// @param first, again two readers of one text: `first` is read first, only to detect the

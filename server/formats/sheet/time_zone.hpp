@@ -19,7 +19,7 @@ struct WallTime {
 };
 
 /// `2026-11-20 08:00:00`, `2026-11-20T08:00`, `20.11.2026 08:00:00.25`, `20.11.2026/08:00:00`: the
-/// year in four digits, a fraction behind a point or a comma, a leading zero nowhere needed.
+/// year in four digits, a fraction after a point or a comma, leading zeros optional.
 /// Nothing for any other text, such as one with an offset, or for a day that is not in the
 /// calendar.
 std::optional<WallTime> parse_wall_time(std::string_view text);

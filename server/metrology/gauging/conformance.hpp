@@ -30,7 +30,7 @@ struct ConformanceLimits {
 /// The degrees of freedom of an uncertainty that is known exactly.
 inline constexpr double kExactly = std::numeric_limits<double>::infinity();
 
-/// A standard uncertainty above 0, and how well it is known itself.
+/// A standard uncertainty above 0 with its degrees of freedom.
 struct KnownUncertainty {
   Length u;
   double degrees_of_freedom = kExactly;
@@ -97,9 +97,9 @@ inline constexpr std::int64_t kHottest = 10'000'000'000;
 /// @pre 0 <= expansion <= kLargestExpansion and kColdest <= temperature <= kHottest, of both
 Length size_at_20_degrees(Length reading, const ThermalBody& part, const ThermalBody& scale);
 
-/// The standard uncertainty that the temperatures and expansions add to a size at 20 °C, in pm: of
-/// first order and as if none knew of another (JCGM 100:2008, 5.1.2), to a temperature with the
-/// sensitivity L α / (1 + α(t - 20)), to an expansion with L (t - 20) / (1 + α(t - 20)).
+/// Returns the standard uncertainty in pm that temperatures and expansions add to a size at 20 °C:
+/// of first order, for independent quantities (JCGM 100:2008, 5.1.2). The sensitivity to a
+/// temperature is L α / (1 + α(t - 20)), to an expansion L (t - 20) / (1 + α(t - 20)).
 /// @param corrected as of size_at_20_degrees
 std::int64_t added_uncertainty(Length corrected, const ThermalBody& part, const ThermalBody& scale);
 

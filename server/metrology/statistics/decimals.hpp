@@ -36,7 +36,7 @@ constexpr bool is_short(Wide value) {
   return -kShort < value && value < kShort;
 }
 
-/// A sum that never overflows: 128 bits while they reach, then any number.
+/// A sum that never overflows: 128 bits, and any number of digits when these are too few.
 class ExactSum {
  public:
   void add(Wide value) {

@@ -86,7 +86,7 @@ Summary summarise(const Decimals& values);
 long double normal_below(long double z);
 inline double normal_below(double z) { return std::erfc(-z / std::sqrt(2.0)) / 2; }
 inline double normal_density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * M_PI); }
-/// The z with that probability below it.
+/// Returns the z that a normal value is below with probability `p`.
 long double normal_quantile(long double p);
 
 /// The probability of a value above f; 0 for an infinite f.

@@ -77,8 +77,8 @@ class ZoneHistory {
         static_cast<std::uint8_t>(unsigned{outside} | completed(now) | completed(now >> kSide)));
   }
 
-  /// Forgets the points that no later pattern of `rules` needs. Histories that are then equal have
-  /// one future.
+  /// Forgets the points that no later pattern of `rules` needs. Two histories that are equal after
+  /// this call give the same signals.
   void reduce(ZoneRules rules);
 
   friend constexpr auto operator<=>(const ZoneHistory&, const ZoneHistory&) = default;

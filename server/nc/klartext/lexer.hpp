@@ -176,8 +176,8 @@ class Lexer {
 /// Code without its wraps: each is a blank.
 std::string unwrapped(std::string_view code);
 
-/// Code that ends its block, without its wraps and without blanks or `~` at its end, so that no
-/// wrap comes into being when it is printed.
+/// Returns the code at the end of a block without its wraps, and without blanks or `~` at the end,
+/// which would be a wrap when the block is printed.
 std::string free_text(std::string_view code);
 
 /// Returns the text of a comment. The control wraps comments in the middle of words.

@@ -52,7 +52,7 @@ class BoxTree {
   BoxTree(const std::vector<Box>& boxes, std::vector<std::uint32_t>& order);
 
   bool is_empty() const { return nodes_.empty(); }
-  /// The box of all. @pre not empty.
+  /// Bounds of all triangles. @pre not empty.
   const Box& all() const { return nodes_.front().box; }
 
   /// Calls visit(begin, end) for leaves with boxes nearer than the root of `squared`, which it may

@@ -24,7 +24,7 @@ struct Feed {
   }
 };
 
-/// The way of the spindle nose during one move, by a part from 0 to 1.
+/// Path of the spindle nose during one move, for a parameter from 0 to 1.
 struct Path {
   std::function<Position(double part)> nose;
   Position start;

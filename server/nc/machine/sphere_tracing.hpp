@@ -16,12 +16,12 @@ inline double least_step(double radius) {
   return std::sqrt(8 * std::max(radius, kSmallest) * tolerance::kSamePoint);
 }
 
-/// The first zero of `value` on [0, longest], to a value of kContact.
-/// `value` must not change faster than its argument (a distance along a path): then a step of the
-/// value's own length never passes a zero. Where such steps get nowhere, beside a wall or at a
-/// slant, they are lengthened to `step_at_least`; a dip below zero narrower than that may be
-/// passed. Beside a wall that is many steps: once `allowance` is spent the search leaves off, and
-/// what it gives means nothing.
+/// Returns the first zero of `value` on [0, longest], to a value of kContact.
+/// @pre `value` changes no faster than its argument, a distance along a path: then a step of the
+/// length of the value never passes a zero. Next to a wall or at a slant such steps become short.
+/// They are lengthened to `step_at_least`, so the search may miss a narrower dip below zero.
+/// @param allowance ends a search of too many steps, as along a wall. The result is then not
+/// valid.
 template <class Value>
 std::optional<double> first_zero(const Value& value, double longest, double step_at_least,
                                  Allowance& allowance) {

@@ -2,8 +2,8 @@
 
 /// Tolerances of equality, by what is compared: the one place for machine, cycles and interpreter.
 /// Results are written in whole nanometres (decision 21), and a double keeps 1e-13 mm at one metre;
-/// what is decided lies between. Where a search begins, steps and ends is no decision about a part
-/// and stands at the search.
+/// all decisions are between these two. Begin, step and end of a search are not decisions about a
+/// part: their constants are at the search.
 namespace fitgauge::tolerance {
 
 // Lengths in mm.

@@ -68,9 +68,9 @@ struct MeasuringRecord {
   std::optional<Form> form{};                 ///< of circular features
 };
 
-/// Where the setup states the uncertainty of a touch, that of the diameter decides on it, and the
-/// worst verdict is that of the cycle. The control knows no uncertainty: its parameters and its log
-/// stay.
+/// Judges the diameter with its uncertainty, if the setup states the uncertainty of a touch. The
+/// worst verdict becomes the verdict of the cycle. The control knows no uncertainty: its parameters
+/// and its log do not change.
 void judge_by_uncertainty(MeasuringRecord& record);
 
 }  // namespace fitgauge::probing

@@ -13,7 +13,7 @@ namespace fitgauge::interpreter {
 /// plain jumps.
 class ExecutorSteps {
  protected:
-  /// @param announces the loop notifies the observer of every block itself
+  /// @param announces whether the loop itself notifies the observer of each block
   ExecutorSteps(Channel& channel, bool announces)
       : channel_(channel), depth_(channel.calls.depth()), announces_(announces) {}
 

@@ -9,11 +9,11 @@
 
 namespace fitgauge::interpreter {
 
-/// The blocks that a failing block depends on, each with what it sets: the parameters that it
-/// reads, those that they were computed from, and, as far as the error can come from them, the axes
-/// that it leaves alone, the datum, the tool and the unit INCH. Of each the block that has run last
-/// before it, as far as the calls of subprograms tell that.
-/// @param chain the failing block, then the blocks behind the calls that lead to it
+/// Returns the blocks that a failing block depends on, each with its effect: on the parameters that
+/// the failing block reads, on the parameters these were computed from, and, if the error can come
+/// from them, on axes that it does not move, datum, tool and unit INCH. Names for each the block
+/// that ran last before it, as far as the calls of subprograms tell this.
+/// @param chain the failing block, then the blocks after the calls that lead to it
 std::vector<klartext::DiagnosticNote> origins_of(std::span<const Place> chain,
                                                  const NcError& error);
 

@@ -51,7 +51,7 @@ Result<Selection> select(std::string_view path);
 
 // MTConnect 2.4: a device `Gauge` whose observations are the measurements of the log.
 
-/// Sequence 1 is that the gauge is there; measurement n of the log has two: its part and itself.
+/// Sequence 1 is the availability of the gauge. Measurement n has two: its part and its value.
 constexpr std::uint64_t part_sequence(std::int64_t id) {
   return 2 * static_cast<std::uint64_t>(id);
 }

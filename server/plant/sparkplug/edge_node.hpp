@@ -121,7 +121,7 @@ class EdgeNode {
   std::map<std::string, Devices::iterator> by_id_;
 };
 
-/// Whether the primary host is there, by the STATE messages that have come.
+/// State of the primary host, from the received STATE messages.
 class HostState {
  public:
   /// Reads a STATE message. An older one, or another payload, changes nothing.

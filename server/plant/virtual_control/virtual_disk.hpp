@@ -65,7 +65,7 @@ class VirtualDisk {
   Answer<DiskEntry> find(const Path& path);
   /// @errors NoFile.
   Answer<std::shared_ptr<const std::string>> read(const Path& path);
-  /// New or in the place of another. @errors NoDirectory, NoSpace.
+  /// Writes a new file or replaces one. @errors NoDirectory, NoSpace.
   Answer<void> write(const Path& path, std::string_view bytes);
   /// @errors NoFile.
   Answer<void> remove(const Path& path);

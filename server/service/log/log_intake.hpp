@@ -34,7 +34,7 @@ struct ForwardedBatch {
     std::string_view record;  ///< its text, which is the leaf
   };
   std::string origin;  ///< 16 hexadecimal digits
-  /// The log below this branch and its number of rows there; no digits: it is not a branch.
+  /// The log that the branch continues, and the number of its rows; no digits: no branch.
   struct Base {
     std::string origin{};
     std::int64_t size = 0;

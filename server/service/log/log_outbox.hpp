@@ -30,7 +30,7 @@ class LogOutbox {
 
   struct Batch {
     std::string_view origin{};  ///< the digits of the history that its records are of
-    /// The history below that one, and the number of its rows; no digits: there is none.
+    /// The earlier history that it continues, and the number of its rows; no digits: none.
     std::string_view base{};
     std::int64_t base_size = 0;
     /// Set if the key of the history was lost: nothing is signed, the history ends here, and the
@@ -53,7 +53,7 @@ class LogOutbox {
   Result<Batch> next(std::int64_t after, std::int64_t most,
                      std::optional<std::int64_t> noted) const;
 
-  /// Whether the first `size` records of this folder have that root; none while it has fewer.
+  /// Compares the root of the first `size` records here; none if there are fewer records.
   Result<std::optional<bool>> begins_with(std::int64_t size, const tlog::Hash& root) const;
 
   /// Number of records that this centre has confirmed. @errors those of storage.

@@ -6,8 +6,8 @@
 
 namespace fitgauge::app {
 
-/// A value to move: before the value that was read as number `to`, which is at most `from`. Both
-/// count from 0, in the order of reading.
+/// A move of the value that was read as number `from`: to the place before the value that was read
+/// as number `to`. Both count from 0, and `to` is at most `from`.
 struct MovedValue {
   std::size_t from = 0;
   std::size_t to = 0;

@@ -17,7 +17,7 @@ store::TableContent to_store(const iso286::TableData& data);
 /// @errors TablesInconsistent for a table or column the standard does not know.
 Result<iso286::TableData> from_store(const store::TableContent& content);
 
-/// @pre it has the number of its revision, if it names one
+/// @pre a measurement with a table revision also has the number of this revision
 store::MeasurementRow to_store(const Measurement& measurement);
 
 /// Outside names of the numbers in a row; valid as long as the catalog and the origins.

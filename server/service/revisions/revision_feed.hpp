@@ -56,7 +56,7 @@ struct RevisionPage {
   bool more = false;
   std::string origin{};   ///< of the centre: 16 hexadecimal digits
   std::int64_t size = 0;  ///< records of the station's log that are at the centre
-  /// Number in the id of the station's newest note that is there; none: it accepts no notes.
+  /// Number of the station's newest note at the centre; none: the centre accepts no notes.
   std::optional<std::int64_t> notes{};
   std::vector<Revision> revisions{};
 };

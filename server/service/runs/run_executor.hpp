@@ -31,9 +31,9 @@ ExecutedRun execute(const RunSurroundings& surroundings, ActiveRun& active);
 interpreter::RunResult unstarted(interpreter::RunStatus status, interpreter::MessageKind kind,
                                  std::string text, std::string program);
 
-/// The records of a run (decision 27): one for each value that a cycle judged by limits of its
-/// block, so the cycle's verdict is among them. A cycle that judged nothing leaves its first value,
-/// indeterminate, with the widest limits there are; 0 and 1 leave none. The texts are views of the
+/// Returns the measurements of a run (decision 27): one for each value that a cycle judged by
+/// limits of its block, so the verdict of the cycle is among them. A cycle without a judged value
+/// gives its first value without a verdict; cycles 0 and 1 give none. The texts are views of the
 /// report and the order.
 std::vector<Measurement> measurements_of(const RunReport& report,
                                          const std::optional<std::string>& caller);

@@ -44,7 +44,7 @@ class RunService {
   using Done = std::function<void(Result<T>)>;
 
   /// @param origins outlive the service, as the pool does.
-  /// @param orders the pool on which the functions below that block are called
+  /// @param orders pool for calls of the functions that block
   RunService(store::Database& database, const TableCatalog& tables, const Clock& clock,
              const Origins& origins, JobPool& orders, RunServiceOptions options);
   RunService& operator=(RunService&&) = delete;  // neither copied nor moved
@@ -106,8 +106,8 @@ class RunService {
     return parse_own_run_id(text, origins_);
   }
 
-  /// The run while it is queued or under way; null from when its end is being stored, as the store
-  /// then knows more.
+  /// Returns a queued or running run. Null as soon as the end of the run is being stored: read the
+  /// run from the store then.
   std::shared_ptr<ActiveRun> active(std::int64_t id) const;
 
   /// Queued runs, as `queued run r7`, whose order names something.

@@ -109,7 +109,7 @@ struct TraceFormat {
                      std::span<const interpreter::ParameterValue> values,
                      std::span<const klartext::DiagnosticNote> origins)>
       block{};
-  /// @param dropped moves that came after the longest trace was full
+  /// @param dropped number of moves that were left out, because the trace was full
   /// @param blocks of a run that is watched, with commas between them
   std::function<std::string(std::size_t dropped, const std::optional<WatchedBlocks>& blocks)>
       tail{};

@@ -69,7 +69,7 @@ class TableCatalog {
   using Condition = std::function<bool(std::string_view revision, bool exists)>;
   /// Stores the column in a new revision, which every reader then sees, and the event
   /// `table.changed`.
-  /// @param caller of the change.
+  /// @param caller key name of the sender of the change.
   /// @errors TableRowsInvalid, PreconditionFailed, Forbidden (the centre's), StorageUnavailable,
   ///   StorageBusy.
   void put_column(iso286::CustomColumn column, Condition condition,

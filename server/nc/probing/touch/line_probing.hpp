@@ -21,9 +21,10 @@ struct ProbedLine {
   };
   std::array<Coordinate, 2> coordinates{};
 
-  /// The angle of the line: to the main axis when it lies in the plane, in -90 < angle <= 90 for
-  /// one along the main axis and in 0 < angle <= 180 for one across it, so that neither jumps near
-  /// its nominal value; touched in the probe axis, its slope along `across`.
+  /// Returns the angle of the line to the main axis if the line is in the plane: -90 < angle <= 90
+  /// for a line along the main axis and 0 < angle <= 180 for a line across it, so that neither
+  /// jumps near its nominal value. For a line touched in the probe axis, returns its slope along
+  /// `across`.
   double angle_deg() const;
   Vec3 direction() const { return second - first; }
 };
