@@ -110,6 +110,8 @@ Allowance::Spent Allowance::look() {
     spent_ = Spent::Memory;
   } else if (std::chrono::steady_clock::now() > deadline_) {
     spent_ = Spent::Time;
+  } else if (looks_ != 0 && --looks_ == 0) {
+    spent_ = at_look_;
   }
   return spent_;
 }

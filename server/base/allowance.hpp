@@ -35,6 +35,9 @@ class Allowance {
   Spent look();
   bool is_spent() { return look() != Spent::Nothing; }
 
+  /// Spends it at that look from now, whatever the clock says: the same work ends at the same step.
+  void spend_at_look(std::uint64_t count, Spent found) { looks_ = count, at_look_ = found; }
+
   /// Lets loops of the calling thread find an allowance by of_thread() while it lives.
   class OfThread {
    public:
@@ -65,6 +68,8 @@ class Allowance {
   std::stop_token stop_;
   std::int64_t baseline_ = 0;
   Spent spent_ = Spent::Nothing;
+  Spent at_look_ = Spent::Nothing;
+  std::uint64_t looks_ = 0;  ///< until at_look_; 0: none
 };
 
 }  // namespace fitgauge

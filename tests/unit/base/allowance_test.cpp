@@ -76,6 +76,13 @@ TEST_CASE("an allowance is spent by time, by memory or by a stop, and stays so")
   CHECK(stopped.look() == Spent::Nothing);
   source.request_stop();
   CHECK(stopped.look() == Spent::Stop);
+
+  Allowance counted(std::chrono::hours(1), 1 << 20, {});
+  counted.spend_at_look(3, Spent::Time);
+  CHECK(counted.look() == Spent::Nothing);
+  CHECK(counted.look() == Spent::Nothing);
+  CHECK(counted.look() == Spent::Time);
+  CHECK(counted.look() == Spent::Time);
 }
 
 TEST_CASE("a shared thing counts as what it is said to hold, and a cache's not at all") {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "nc/machine/simulated_machine.hpp"
@@ -53,6 +54,7 @@ class Control {
     }
     traced.clear();
     allowance.emplace(options.limits.time, options.limits.memory_bytes, std::move(stop));
+    if (spent_at) allowance->spend_at_look(spent_at->first, spent_at->second);
     machine = std::make_unique<machine::SimulatedMachine>(setup, &*allowance);
     tracing = std::make_unique<machine::TracingMachine>(
         *machine, machine::TraceOptions{
@@ -77,6 +79,7 @@ class Control {
   RunOptions options;
   machine::Setup setup;
   std::optional<Allowance> allowance;
+  std::optional<std::pair<std::uint64_t, Allowance::Spent>> spent_at;  ///< the look, and how
   std::unique_ptr<machine::SimulatedMachine> machine;
   std::unique_ptr<machine::TracingMachine> tracing;
   std::vector<machine::TracedMove> traced;  ///< of the last run
