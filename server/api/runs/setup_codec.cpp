@@ -182,6 +182,7 @@ void add_setup_schemas(Schemas& schemas) {
   add_nested(axis_form(machine::Axis::A), machine::AxisSetup{});
   add_nested(kAxesForm, machine::MachineSetup{}.axes);
   schemas.push_back(order_schema<machine::AxisWords>("StartPosition"));
+  schemas.push_back(order_schema<machine::LatheTool>("LatheTool"));
   schemas.push_back(order_schema<machine::ToolSetup>("Tool"));
   schemas.push_back(order_schema<machine::ProbeSetup>("Probe"));
   schemas.push_back(order_schema<machine::ToolTouchProbeSetup>("ToolTouchProbe"));

@@ -36,6 +36,16 @@ void linear_axis_members(auto& v, machine::AxisSetup& setup) {
   v.optional("max_mm", setup.max, Mm{}, "Upper end of the spindle nose's range");
 }
 
+void members(auto& v, machine::LatheTool& lathe) {
+  v.member("zl_mm", lathe.zl, Mm{}, "ZL: spindle nose to the tip, along the tool");
+  v.member("xl_mm", lathe.xl, Mm{}, "XL: spindle axis to the tip, along X at ORI");
+  v.optional("dzl_mm", lathe.dzl, Mm{}, "DZL: wear of ZL");
+  v.optional("dxl_mm", lathe.dxl, Mm{}, "DXL: wear of XL");
+  v.optional("rs_mm", lathe.rs, Mm{}, "RS: radius of the cutting edge");
+  v.optional("to", lathe.orientation, Integer{0, 9}, "TO: where the tip points");
+  v.optional("ori_deg", lathe.ori, Number{}, "ORI: angle of the spindle");
+}
+
 void members(auto& v, machine::ToolSetup& tool) {
   machine::Tool& row = tool.row;
   v.member("number", row.number, Integer{1, kHighestNumber}, "T of the tool table");
@@ -47,7 +57,7 @@ void members(auto& v, machine::ToolSetup& tool) {
   v.optional("delta_mm", delta, Mm3{}, "DL, DR and DR2: wear");
   std::tie(row.dl, row.dr, row.dr2) = std::tie(delta[0], delta[1], delta[2]);
   v.optional("actual_length_mm", tool.actual_length, Mm{},
-             "Real length of the tool (default: L + DL)");
+             "Real length of the tool, ZL of a lathe tool (default: L + DL)");
   v.optional("actual_radius_mm", tool.actual_radius, Mm{},
              "Real radius of the tool (default: R + DR)");
   v.optional("length_tolerance_mm", row.l_tolerance, Mm{}, "LTOL: wear beyond it locks the tool");
@@ -62,6 +72,9 @@ void members(auto& v, machine::ToolSetup& tool) {
   v.optional("locked", row.locked, "TL: the tool is locked");
   v.optional("probe", row.probe, Integer{0, kHighestNumber},
              "TP_NO: its row of the touch-probe table; 0: no touch probe");
+  v.optional("lathe", row.lathe, Object<machine::LatheTool>{"LatheTool"},
+             "A lathe tool: its row of the turning-tool table");
+  v.optional("actual_xl_mm", tool.actual_xl, Mm{}, "Real XL of a lathe tool; XL + DXL when absent");
 }
 
 void members(auto& v, machine::ProbeSetup& probe) {
@@ -111,7 +124,7 @@ void members(auto& v, machine::ToolTouchProbeSetup& tt) {
              "Centre of the contact plate's top as the control knows it");
   v.optional("radius_mm", tt.known.radius, Mm{},
              "Radius of the disc, or half the side of the cube");
-  v.optional("shape", tt.shape, OneOf<2>{"disc", "cube"},
+  v.optional("shape", tt.known.shape, OneOf<2>{"disc", "cube"},
              "Shape of the contact plate; a cube lies along X and Y");
   v.optional("actual_center_mm", tt.actual_centre, Mm3{}, "Real centre (default: the known one)");
   v.optional("actual_radius_mm", tt.actual_radius, Mm{}, "Real radius (default: the known one)");

@@ -47,6 +47,7 @@ struct ToolSetup {
   Tool row;
   std::optional<double> actual_length;  ///< actual_length_mm: nose to tip; default L + DL
   std::optional<double> actual_radius;  ///< actual_radius_mm: default R + DR
+  std::optional<double> actual_xl{};    ///< actual_xl_mm, of a lathe tool: default XL + DXL
 };
 
 /// A row of tchprobe.tp together with the real probe.
@@ -59,14 +60,11 @@ struct ProbeSetup {
   std::array<double, 2> centre_offset{};
 };
 
-enum class ContactPlate : std::uint8_t { Disc, Cube };
-
 /// The tool touch probe as the control's parameters have it, together with the real one.
 struct ToolTouchProbeSetup {
-  ToolTouchProbe known;                     ///< center_mm, radius_mm
-  ContactPlate shape = ContactPlate::Disc;  ///< the edges of a cube are along X and Y
-  std::optional<Vec3> actual_centre;        ///< actual_center_mm; default: as known
-  std::optional<double> actual_radius;      ///< actual_radius_mm; default: as known
+  ToolTouchProbe known;                 ///< center_mm, radius_mm, shape
+  std::optional<Vec3> actual_centre;    ///< actual_center_mm; default: as known
+  std::optional<double> actual_radius;  ///< actual_radius_mm; default: as known
   double repeatability_um = 0;  ///< standard deviation of a contact along the probing direction
 };
 

@@ -4,7 +4,8 @@ namespace fitgauge::machine {
 
 double MachineState::tool_length() const {
   const Tool* row = active_tool();
-  return row == nullptr ? 0 : row->l + row->dl + tool.dl;
+  if (row == nullptr) return 0;
+  return (row->lathe ? row->lathe->zl + row->lathe->dzl : row->l + row->dl) + tool.dl;
 }
 
 double MachineState::tool_radius() const {

@@ -96,7 +96,7 @@ class MachineState {
   Axis tool_axis() const { return tool.axis.value_or(Axis::Z); }
   /// The row of the tool in the spindle, or null.
   const Tool* active_tool() const { return tools.find(tool.number); }
-  /// L + DL + DL of the call, in mm; 0 with an empty spindle: Q114.
+  /// L + DL (ZL + DZL of a lathe tool) + DL of the call, in mm; 0 with an empty spindle: Q114.
   double tool_length() const;
   /// R + DR + DR of the call, in mm: Q108.
   double tool_radius() const;

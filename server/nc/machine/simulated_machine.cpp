@@ -48,7 +48,7 @@ std::vector<Feature> around_plate(const ToolTouchProbeSetup& tt, double tool_rad
   const double half = tt.actual_radius.value_or(tt.known.radius);
   const double grown = half + tool_radius;
   constexpr double kDown = 1e4;  // mm
-  if (tt.shape == ContactPlate::Disc) return {Boss{{top.x, top.y}, top.z, kDown, 2 * grown}};
+  if (tt.known.shape == ContactPlate::Disc) return {Boss{{top.x, top.y}, top.z, kDown, 2 * grown}};
   const auto block = [&](double x, double y) {
     return Block{{top.x - x, top.y - y, top.z - kDown}, {top.x + x, top.y + y, top.z}};
   };
@@ -86,11 +86,21 @@ void SimulatedAxes::turn(const Vec3& rotary) {
 }
 
 SimulatedAxes::RealTool SimulatedAxes::real_tool(const SpindleTool& known) const {
-  RealTool real{known.axis, known.length, known.radius, {}, nullptr};
+  RealTool real{known.axis, known.length, known.radius, {}, nullptr, false};
   const int number = known.number;
   const auto tool = std::find_if(setup_.tools.begin(), setup_.tools.end(),
                                  [=](const ToolSetup& t) { return t.row.number == number; });
   if (tool == setup_.tools.end()) return real;
+  if (const auto& lathe = tool->row.lathe) {
+    const double xl = tool->actual_xl.value_or(lathe->xl + lathe->dxl);
+    const double zl = tool->actual_length.value_or(lathe->zl + lathe->dzl);
+    real.radius = lathe->rs;
+    real.length = zl + lathe->below_tip();
+    real.offset = turned_offset({xl - lathe->tip_x() * lathe->rs, 0}, known.axis,
+                                known.spindle_deg - lathe->ori);
+    real.is_lathe = true;
+    return real;
+  }
   real.length = tool->actual_length.value_or(tool->row.l + tool->row.dl);
   real.radius = tool->actual_radius.value_or(tool->row.r + tool->row.dr);
   const int row = tool->row.probe;
@@ -243,11 +253,12 @@ std::optional<Vec3> SimulatedAxes::contact_normal() const {
 
 MachineResult<double> SimulatedAxes::plate_contact(const Vec3& direction, double distance,
                                                    const RealTool& tool, Allowance& allowance) {
-  const Workpiece plate(around_plate(setup_.tt, tool.radius));
-  const Vec3 tip = real_tool_point(nose_, tool, tool.length);
-  if (plate.clearance(tip, 0) < -tolerance::kNanometre)
+  const double edge = tool.is_lathe ? tool.radius : 0;
+  const Workpiece plate(around_plate(setup_.tt, tool.is_lathe ? 0 : tool.radius));
+  const Vec3 tip = real_tool_point(nose_, tool, tool.length - edge) + tool.offset;
+  if (plate.clearance(tip, edge) < -tolerance::kNanometre)
     return make_fault(FaultKind::StylusDeflected);
-  const auto touched = plate.contact(tip, direction, 0, distance, allowance);
+  const auto touched = plate.contact(tip, direction, edge, distance, allowance);
   if (!touched) return make_fault(FaultKind::NoContact);
   double way = *touched;
   if (setup_.tt.repeatability_um != 0) {

@@ -36,6 +36,7 @@ class SimulatedAxes final : public Axes {
     double radius;
     Vec3 offset;              ///< of the ball centre from the spindle axis
     const ProbeSetup* probe;  ///< null: a cutter, or a probe that the setup does not describe
+    bool is_lathe;            ///< the ball is the round of its cutting edge, of radius RS
   };
 
   void turn(const Vec3& rotary);

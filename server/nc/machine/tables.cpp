@@ -6,6 +6,15 @@
 
 namespace fitgauge::machine {
 
+int LatheTool::tip_x() const {
+  return orientation >= 1 && orientation <= 3 ? -1 : orientation >= 5 && orientation <= 7 ? 1 : 0;
+}
+
+int LatheTool::tip_z() const {
+  if (orientation >= 3 && orientation <= 5) return 1;
+  return orientation == 1 || orientation == 7 || orientation == 8 ? -1 : 0;
+}
+
 const Tool* ToolTable::find(int number) const {
   const auto row = rows_.find(number);
   return row == rows_.end() ? nullptr : &row->second;

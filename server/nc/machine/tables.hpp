@@ -12,12 +12,38 @@
 
 namespace fitgauge::machine {
 
+enum class ContactPlate : std::uint8_t { Disc, Cube };
+
 /// The tool touch probe TT as the control knows it: cycles 480 and 484 calibrate it.
 struct ToolTouchProbe {
   Vec3 centre{300, 0, 50};  ///< of the upper side of its contact plate, machine coordinates, in mm
   double radius = 20;       ///< of the disc, or half the edge of the cube, in mm
+  ContactPlate shape = ContactPlate::Disc;  ///< the edges of a cube are along X and Y
 
   friend bool operator==(const ToolTouchProbe&, const ToolTouchProbe&) = default;
+};
+
+/// Columns of toolturn.trn. Lengths run from the spindle nose to the theoretical tip, where the
+/// tangents of the cutting edge meet, in mm: ZL along the tool, XL along X with the spindle at ORI.
+struct LatheTool {
+  double zl = 0;        ///< ZL
+  double xl = 0;        ///< XL
+  double dzl = 0;       ///< DZL
+  double dxl = 0;       ///< DXL
+  double rs = 0;        ///< RS: radius of the cutting edge
+  int orientation = 1;  ///< TO
+  double ori = 0;       ///< ORI: angle of the spindle, in degrees
+
+  /// The way of the tip from the centre of RS, in RS, along X and along Z: -1, 0 or +1. TO runs
+  /// around the edge: 1 is X- Z-, 2 X-, 3 X- Z+, 4 Z+, 5 X+ Z+, 6 X+, 7 X+ Z-, 8 Z-; 9 is the
+  /// centre.
+  int tip_x() const;
+  int tip_z() const;
+  /// How far the edge reaches below the tip, and beyond it in the direction -1 or +1 of X, in mm.
+  double below_tip() const { return (1 + tip_z()) * rs; }
+  double beyond_tip(int direction) const { return (direction - tip_x()) * rs; }
+
+  friend bool operator==(const LatheTool&, const LatheTool&) = default;
 };
 
 /// A row of tool.t; lengths in mm. 0 in LTOL, RTOL, LBREAK and RBREAK switches that check off.
@@ -51,6 +77,9 @@ struct Tool {
   double pitch = 0;           ///< PITCH
   int type = 0;               ///< TYP: number of the tool type as FN 18 ID 50 NR 36 gives it
   int probe = 0;              ///< TP_NO: row of tchprobe.tp; 0 is no touch probe
+
+  /// Of a lathe tool, in place of L, R, DL and DR.
+  std::optional<LatheTool> lathe{};
 
   bool is_probe() const { return probe != 0; }
   friend bool operator==(const Tool&, const Tool&) = default;

@@ -102,11 +102,33 @@ void check_numbers(Findings& findings, const std::string& at, const Rows& rows, 
   }
 }
 
+constexpr double kLongestToolMm = 10000;
+
+void conflict(Findings& findings, const std::string& where, std::string message) {
+  findings.add(where, std::move(message), ErrorCode::FieldConflict);
+}
+
+void check_lathe_tool(Findings& findings, const std::string& at, const Tool& row) {
+  const LatheTool& lathe = *row.lathe;
+  findings.within(at + "/lathe/zl_mm", lathe.zl, 0, kLongestToolMm);
+  findings.within(at + "/lathe/xl_mm", lathe.xl, -kLongestToolMm, kLongestToolMm);
+  findings.within(at + "/lathe/dzl_mm", lathe.dzl, -1000, 1000);
+  findings.within(at + "/lathe/dxl_mm", lathe.dxl, -1000, 1000);
+  findings.within(at + "/lathe/rs_mm", lathe.rs, 0, 1000);
+  findings.within(at + "/lathe/to", lathe.orientation, 0, 9);
+  findings.within(at + "/lathe/ori_deg", lathe.ori, -360, 360);
+  if (row.l != 0 || row.r != 0 || row.dl != 0 || row.dr != 0) {
+    conflict(findings, at + "/lathe",
+             "a lathe tool has ZL, XL, DZL and DXL in place of L, R, DL and DR");
+  }
+  if (row.is_probe()) conflict(findings, at + "/lathe", "a touch probe is no lathe tool");
+}
+
 void check_tools(Findings& findings, const MachineSetup& setup) {
   check_numbers(findings, "/machine/tools", setup.tools, 1,
                 [](const ToolSetup& t) { return t.row.number; });
   for (std::size_t k = 0; k < setup.tools.size(); ++k) {
-    const auto& [row, length, radius] = setup.tools[k];
+    const auto& [row, length, radius, xl] = setup.tools[k];
     const std::string at = fmt::format("/machine/tools/{}", k);
     findings.within(at + "/length_mm", row.l, 0, 10000);
     findings.within(at + "/radius_mm", row.r, 0, 1000);
@@ -115,6 +137,14 @@ void check_tools(Findings& findings, const MachineSetup& setup) {
     findings.within(at + "/actual_radius_mm", radius.value_or(0), 0, 1000);
     findings.within(at + "/length_offset_mm", row.l_offset, -1000, 1000);
     findings.within(at + "/radius_offset_mm", row.r_offset, -1000, 1000);
+    if (row.lathe) check_lathe_tool(findings, at, row);
+    if (row.lathe && radius) {
+      conflict(findings, at + "/actual_radius_mm", "a lathe tool has actual_xl_mm in its place");
+    }
+    if (xl) {
+      findings.within(at + "/actual_xl_mm", *xl, -kLongestToolMm, kLongestToolMm);
+      if (!row.lathe) conflict(findings, at + "/actual_xl_mm", "only a lathe tool has XL");
+    }
     if (!row.is_probe()) continue;
     const auto same = [&row = row](const ProbeSetup& p) { return p.row.number == row.probe; };
     if (std::none_of(setup.probes.begin(), setup.probes.end(), same)) {

@@ -68,6 +68,14 @@ NcResult<void> note_entry(Channel& channel) {
                           : "with a standing spindle: give its speed S, and M3 or M4 before"));
 }
 
+NcResult<void> note_lathe_tool(Channel& channel) {
+  const machine::Tool* tool = channel.machine().state().active_tool();
+  if (tool == nullptr || !tool->lathe || tool->lathe->xl + tool->lathe->dxl == 0) return {};
+  return channel.note(fmt::format(
+      "tool {} is a lathe tool: positioning blocks move the spindle axis here, without XL",
+      tool->number));
+}
+
 }  // namespace
 
 NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
@@ -99,6 +107,7 @@ NcResult<void> execute(Channel& channel, const klartext::ToolCall& call) {
     }
   }
   TRY(checked(channel.machine().call_tool(command)));
+  TRY(note_lathe_tool(channel));
   const auto words = TRY(read_words(channel, call.words));
   if (words.feed && !words.feed->is_rapid) {
     channel.contour.tool_feed = words.feed->rate;

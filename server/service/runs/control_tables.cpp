@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -16,7 +17,7 @@
 namespace fitgauge::app {
 namespace {
 
-/// A table of the control: tool.t, tchprobe.tp or preset.pr.
+/// A table of the control: tool.t, toolturn.trn, tchprobe.tp or preset.pr.
 struct MachineTable {
   std::string path;
   tabfile::TabTable table;
@@ -162,8 +163,9 @@ using Row = MachineTableRow;
 
 constexpr const char* kProbeTable = "tchprobe.tp";
 constexpr const char* kToolTable = "tool.t";
+constexpr const char* kLatheTable = "toolturn.trn";
 constexpr const char* kPresetTable = "preset.pr";
-constexpr std::array kTables = {kProbeTable, kToolTable, kPresetTable};
+constexpr std::array kTables = {kProbeTable, kToolTable, kLatheTable, kPresetTable};
 
 template <class Owner>
 using Column = std::pair<std::string_view, double Owner::*>;
@@ -207,6 +209,21 @@ void read(Row& row, Tool& tool) {
   // TYP is the number of a type; on newer controls it is the name, which FN 18 does not return.
   const std::string_view type = row.text("TYP");
   if (!type.empty() && type.front() >= '0' && type.front() <= '9') row.whole("TYP", tool.type);
+}
+
+void read(Row& row, machine::LatheTool& lathe) {
+  row.length("ZL", lathe.zl);
+  row.length("XL", lathe.xl);
+  row.length("DZL", lathe.dzl);
+  row.length("DXL", lathe.dxl);
+  row.length("RS", lathe.rs);
+  row.whole("TO", lathe.orientation);
+  row.number("ORI", lathe.ori);
+  for (const std::string_view column : {"YL", "DYL"}) {
+    double across = 0;
+    row.number(column, across);
+    if (across != 0) row.fail(column, "lathe tools are in the middle of Y here");
+  }
 }
 
 void read(Row& row, ProbeRow& probe) {
@@ -289,6 +306,25 @@ Result<void> read_tools(const interpreter::ControlDisk& disk, Allowance& allowan
   });
 }
 
+/// @pre the tools are read: tool.t has the name, TL, LTOL and LBREAK of a lathe tool.
+Result<void> read_lathe_tools(const interpreter::ControlDisk& disk, Allowance& allowance,
+                              ControlTables& tables) {
+  machine::Setup setup;
+  add_rows(tables, {}, setup.machine);
+  return for_each_row(disk, kLatheTable, allowance, [&](Row& row) {
+    if (row.number() == 0) return;
+    const auto known = std::ranges::find(tables.tools, row.number(),
+                                         [](const ToolSetup& tool) { return tool.row.number; });
+    ToolSetup& tool = known != tables.tools.end() ? *known : tables.tools.emplace_back();
+    tool.row.number = row.number();
+    if (tool.row.name.empty()) tool.row.name = row.text("NAME");
+    tool.row.l = tool.row.r = tool.row.dl = tool.row.dr = 0;
+    read(row, tool.row.lathe.emplace());
+    setup.machine.tools = {tool};
+    row.check(setup);
+  });
+}
+
 Result<void> read_presets(const interpreter::ControlDisk& disk, Allowance& allowance,
                           ControlTables& tables) {
   return for_each_row(disk, kPresetTable, allowance, [&tables](Row& row) {
@@ -324,7 +360,7 @@ void add(const std::vector<SetupRow>& added, bool given, std::vector<SetupRow>& 
 Result<ControlTables> read_control_tables(const interpreter::ControlDisk& disk,
                                           Allowance& allowance) {
   ControlTables tables;
-  for (const auto& read_table : {read_probes, read_tools, read_presets}) {
+  for (const auto& read_table : {read_probes, read_tools, read_lathe_tools, read_presets}) {
     TRY(read_table(disk, allowance, tables));
   }
   return tables;

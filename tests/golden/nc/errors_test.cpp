@@ -166,9 +166,8 @@ class FirstBlock {
     const RunResult result =
         interpreter::run(file->program, {machine, disk, programs, clock, observer}, setup.options);
     INFO(text());
-    if (result.messages.empty()) return -1;
-    INFO(result.messages.back().text);
-    CHECK(result.status != RunStatus::Completed);
+    if (result.status == RunStatus::Completed) return -1;
+    REQUIRE_FALSE(result.messages.empty());
     return result.messages.back().number;
   }
 

@@ -56,8 +56,18 @@ void add_actual(std::istringstream& in, machine::MachineSetup& machine) {
   for (machine::ToolSetup& tool : machine.tools) {
     if (tool.row.number != static_cast<int>(n[0])) continue;
     tool.actual_length = n[1];
-    tool.actual_radius = n[2];
+    (tool.row.lathe ? tool.actual_xl : tool.actual_radius) = n[2];
   }
+}
+
+/// A lathe tool: `lathe number ZL XL RS TO ORI`.
+machine::ToolSetup lathe_tool(std::istringstream& in) {
+  const Numbers n(in);
+  machine::ToolSetup tool;
+  tool.row.number = static_cast<int>(n[0]);
+  tool.row.lathe = machine::LatheTool{
+      .zl = n[1], .xl = n[2], .rs = n[3], .orientation = static_cast<int>(n[4]), .ori = n[5]};
+  return tool;
 }
 
 /// LTOL RTOL LBREAK RBREAK CUT of the last tool.
@@ -128,6 +138,10 @@ bool read_standard(const std::string& word, std::istringstream& in,
   } else if (word == "sphere") {
     const Numbers n(in);
     machine.calibration_sphere = machine::CalibrationSphere{n.vector(0), n[3]};
+  } else if (word == "cuboid") {
+    machine.tt.known.shape = machine::ContactPlate::Cube;
+  } else if (word == "disc") {
+    machine.tt.known.shape = machine::ContactPlate::Disc;
   } else if (word == "tt") {
     const Numbers n(in);
     machine.tt.actual_centre = n.vector(0);
@@ -170,8 +184,8 @@ bool read_kinematics(const std::string& word, std::istringstream& in,
 }
 
 bool read_machine(const std::string& word, std::istringstream& in, machine::MachineSetup& machine) {
-  if (word == "tool") {
-    const machine::ToolSetup added = tool(in);
+  if (word == "tool" || word == "lathe") {
+    const machine::ToolSetup added = word == "tool" ? tool(in) : lathe_tool(in);
     std::erase_if(machine.tools,
                   [&](const auto& known) { return known.row.number == added.row.number; });
     machine.tools.push_back(added);

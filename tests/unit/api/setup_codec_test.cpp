@@ -60,9 +60,11 @@ TEST_CASE("every part of a setup is read") {
                      "scatter_um": 1.5}},
       "start_mm": {"X": 5, "A": 6}, "rapid_mm_min": 9000,
       "tools": [{"number": 4, "name": "MILL", "length_mm": "80.5", "radius_mm": 4,
-                 "delta_mm": [0.1, -0.2, 0], "actual_radius_mm": 3.9, "locked": true}],
+                 "delta_mm": [0.1, -0.2, 0], "actual_radius_mm": 3.9, "locked": true},
+                {"number": 11, "lathe": {"zl_mm": 100, "xl_mm": -40, "dzl_mm": 0.1, "dxl_mm": 0.2,
+                 "rs_mm": 0.8, "to": 7, "ori_deg": 90}, "actual_xl_mm": "-40.02"}],
       "probes": [{"number": 2, "set_up_mm": 3, "repeatability_um": 0.4, "center_offset_mm": [0.01, 0]}],
-      "tt": {"center_mm": [1, 2, 3], "radius_mm": 15},
+      "tt": {"center_mm": [1, 2, 3], "radius_mm": 15, "shape": "cube"},
       "presets": [{"number": 8, "x_mm": 1.5, "rotation_deg": [0, 0, 2], "locked": true}],
       "active_preset": 8},
     "workpiece": {"features": [
@@ -73,6 +75,11 @@ TEST_CASE("every part of a setup is read") {
     "seed": 99})");
   CHECK(setup.seed == 99);
   const machine::MachineSetup& machine = setup.machine;
+  CHECK(machine.tools.at(1).row.lathe ==
+        machine::LatheTool{
+            .zl = 100, .xl = -40, .dzl = 0.1, .dxl = 0.2, .rs = 0.8, .orientation = 7, .ori = 90});
+  CHECK(machine.tools.at(1).actual_xl == -40.02);
+  CHECK(machine.tt.known.shape == machine::ContactPlate::Cube);
   CHECK(machine.axes[0]->max == 900);
   REQUIRE(machine.axes[3]);
   CHECK(machine.axes[3]->min == -30);

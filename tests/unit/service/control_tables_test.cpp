@@ -71,6 +71,36 @@ TEST_CASE("a disk without tables adds nothing") {
   CHECK(setup.presets.size() == 1);
 }
 
+TEST_CASE("lathe tools come from toolturn.trn, with TL and LTOL of tool.t") {
+  FullDisk disk;
+  disk.with("TNC:\\table\\toolturn.trn",
+            "BEGIN TOOLTURN .TRN MM\n"
+            "T       NAME      ZL        XL        YL        DZL       DXL       RS    TO  ORI\n"
+            "5       ROUGH     +110      -35.5     +0        -0.01     +0.02     0.8   7   90\n"
+            "6       BORING    +150      +12                                     0.2   7   0\n"
+            "[END]\n");
+  const auto tools = disk.read().tools;
+  REQUIRE(tools.size() == 3);
+  const machine::Tool& rough = tools[0].row;
+  CHECK(rough.name == "MILL_D8");
+  CHECK(rough.locked);
+  CHECK(rough.l == 0);
+  REQUIRE(rough.lathe.has_value());
+  CHECK(*rough.lathe == machine::LatheTool{.zl = 110,
+                                           .xl = -35.5,
+                                           .dzl = -0.01,
+                                           .dxl = 0.02,
+                                           .rs = 0.8,
+                                           .orientation = 7,
+                                           .ori = 90});
+  CHECK(tools[2].row.name == "BORING");
+  CHECK(tools[2].row.lathe.has_value());
+  disk.with("TNC:\\table\\toolturn.trn",
+            "BEGIN TOOLTURN .TRN MM\nT   ZL   XL   YL\n6   150  12   3\n[END]\n");
+  CHECK(disk.error() ==
+        "TNC:\\table\\toolturn.trn: row 6, YL: lathe tools are in the middle of Y here");
+}
+
 TEST_CASE("tools come from tool.t; tool 0 and indexed tools are left out") {
   const auto tools = FullDisk().read().tools;
   REQUIRE(tools.size() == 2);

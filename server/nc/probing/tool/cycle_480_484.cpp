@@ -52,7 +52,9 @@ CycleResult<machine::ToolTouchProbe> touch_plate(ToolProbing& probing, Point2 ne
 CycleResult<void> calibrate(const CycleContext& context, CycleResult<ToolProbing> probing,
                             Point2 near) {
   if (!probing) return probing.error();
-  const auto found = TRY(touch_plate(*probing, near, context.machine.state().tool_radius()));
+  const machine::MachineState& state = context.machine.state();
+  auto found = TRY(touch_plate(*probing, near, state.tool_radius()));
+  found.shape = state.tt.shape;
   if (found.radius <= 0)
     return nc_error(1109, "the tool table has a radius R of the calibrating tool too large");
   return lift(context.machine.write_tool_touch_probe(found));

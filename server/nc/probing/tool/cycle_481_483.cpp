@@ -4,7 +4,6 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/dotted_parameters.hpp"
 #include "nc/probing/errors.hpp"
-#include "nc/probing/measured_value.hpp"
 #include "nc/probing/parameters.hpp"
 #include "nc/probing/tool/tool_measuring.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
@@ -14,9 +13,8 @@ namespace fitgauge::probing::cycle_481_483 {
 using namespace parameter;
 using machine::Tool;
 
-constexpr std::array kParameters{
-    choice(340, "Tool measurement: 0 first, 1 check, 2 check and write nothing", 0, 2, 1),
-    kClearanceHeight, choice(341, "Measure the single teeth: 0 no, 1 yes", 0, 1, 0)};
+constexpr std::array kParameters{kToolMeasurement, kClearanceHeight,
+                                 choice(341, "Measure the single teeth: 0 no, 1 yes", 0, 1, 0)};
 
 /// 31 to 33: the parameters in sub-lines; CHECK is 0 or 1, and a Q for the status may follow.
 constexpr CycleParameter status_parameter() {
@@ -38,47 +36,28 @@ constexpr std::array kToolWords{in_part(1, {.id = ParameterId::WordCheck,
 
 constexpr CycleOutput kLengthDeviation{115, "Deviation of the length", Unit::Length};
 constexpr CycleOutput kRadiusDeviation{116, "Deviation of the radius", Unit::Length};
-constexpr CycleOutput kToolStatus{199, "Tool: 0 within tolerance, 1 worn, 2 broken", Unit::None};
 constexpr std::array k481Results{kLengthDeviation, kToolStatus};
 constexpr std::array k482Results{kRadiusDeviation, kToolStatus};
 constexpr std::array k483Results{kLengthDeviation, kRadiusDeviation, kToolStatus};
 
-enum class Mode : std::uint8_t { First, Check, CheckOnly };
-enum class Status : std::uint8_t { WithinTolerance, Worn, Broken };
-
 /// Request of the block, in both of its forms.
 struct ToolOrder {
-  Mode mode;
+  ToolMode mode;
   double clearance_height;
   bool single_teeth;
 };
 
 ToolOrder tool_order_of(const Arguments& arguments) {
-  return {static_cast<Mode>(arguments.number(ParameterId::WordCheck, 340)),
+  return {static_cast<ToolMode>(arguments.number(ParameterId::WordCheck, 340)),
           arguments.number(ParameterId::WordHeight, 260),
           arguments.number(ParameterId::WordTeeth, 341) != 0};
 }
 
-/// A measured column of tool.t, with the columns that judge it.
-struct Dimension {
-  const CycleOutput* result;
-  double Tool::*stored;
-  double Tool::*delta;
-  double Tool::*tolerance;
-  double Tool::*breakage;
-};
-constexpr Dimension kLength{&kLengthDeviation, &Tool::l, &Tool::dl, &Tool::l_tolerance,
-                            &Tool::l_breakage};
-constexpr Dimension kRadius{&kRadiusDeviation, &Tool::r, &Tool::dr, &Tool::r_tolerance,
-                            &Tool::r_breakage};
-
-/// 0 in the tolerance switches a check off; limits are inclusive.
-Status judge(Length deviation, double tolerance, double breakage) {
-  const auto exceeds = [&](double limit) {
-    return to_length(limit) > Length{} && magnitude(deviation) > to_length(limit);
-  };
-  if (exceeds(breakage)) return Status::Broken;
-  return exceeds(tolerance) ? Status::Worn : Status::WithinTolerance;
+Dimension length_of(Tool& tool) {
+  return {kLengthDeviation, tool.l, tool.dl, tool.l_tolerance, tool.l_breakage};
+}
+Dimension radius_of(Tool& tool) {
+  return {kRadiusDeviation, tool.r, tool.dr, tool.r_tolerance, tool.r_breakage};
 }
 
 /// Returns the spindle's behaviour for each touch. It turns for the longest edge. With Q341 it then
@@ -123,45 +102,28 @@ CycleResult<double> measure_radius(const CycleContext& context, ToolProbing& pro
   return largest;
 }
 
-/// Writes a measured value into the tool row as Q340 requests, and its deviation into Q115 or Q116.
-Status enter(const CycleContext& context, const Dimension& dimension, double measured, Tool& tool) {
-  const Mode mode = tool_order_of(context.arguments).mode;
-  const Length found = to_length(measured);
-  const Length deviation = found - to_length(tool.*dimension.stored);
-  context.host.set_q(dimension.result->q, deviation.to_mm(), Unit::Length);
-  if (mode == Mode::First) {
-    tool.*dimension.stored = found.to_mm();
-    tool.*dimension.delta = 0;
-    return Status::WithinTolerance;
-  }
-  if (mode == Mode::Check) tool.*dimension.delta = deviation.to_mm();
-  return judge(deviation, tool.*dimension.tolerance, tool.*dimension.breakage);
-}
-
-CycleResult<void> finish(const CycleContext& context, Tool tool, Status status) {
+CycleResult<void> finish(const CycleContext& context, const Tool& tool, ToolStatus status) {
   const Arguments& arguments = context.arguments;
-  context.host.set_q(kToolStatus.q, static_cast<double>(status), Unit::None);
   if (arguments.descriptor().dotted && arguments.has_number(ParameterId::WordResult)) {
     context.host.set_q(static_cast<std::uint16_t>(arguments.number(ParameterId::WordResult)),
                        static_cast<double>(status), Unit::None);
   }
-  if (tool_order_of(arguments).mode == Mode::CheckOnly) return {};
-  tool.locked = tool.locked || status != Status::WithinTolerance;
-  return lift(context.machine.write_tool(tool));
+  return write_measured(context, tool_order_of(arguments).mode, tool, status);
 }
 
 CycleResult<void> measure(const CycleContext& context, bool length, bool radius) {
   auto probing =
       TRY(ToolProbing::begin(context, tool_order_of(context.arguments).clearance_height));
+  const ToolMode mode = tool_order_of(context.arguments).mode;
   Tool tool = *context.machine.state().active_tool();
-  Status status = Status::WithinTolerance;
+  ToolStatus status = ToolStatus::WithinTolerance;
   if (length) {
     const auto measured = TRY(measure_length(context, probing));
-    status = enter(context, kLength, measured, tool);
+    status = enter(context, mode, length_of(tool), measured);
   }
   if (radius) {
     const auto measured = TRY(measure_radius(context, probing));
-    status = std::max(status, enter(context, kRadius, measured, tool));
+    status = std::max(status, enter(context, mode, radius_of(tool), measured));
   }
   TRY(probing.retract());
   return finish(context, tool, status);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "nc/machine/tolerance.hpp"
+#include "nc/probing/measured_value.hpp"
 #include "nc/probing/touch/probing_motion.hpp"
 
 namespace fitgauge::probing {
@@ -19,12 +20,21 @@ using machine::Feed;
 using machine::MachineState;
 using machine::make_fault;
 
-CycleResult<void> check(const MachineState& state) {
+enum class ToolForm : std::uint8_t { Mill, Lathe };
+
+CycleResult<void> check(const MachineState& state, ToolForm form = ToolForm::Mill) {
   if (!state.tool.axis) return from_machine(make_fault(FaultKind::ToolAxisMissing));
   const machine::Tool* tool = state.active_tool();
   if (tool == nullptr) return from_machine(make_fault(FaultKind::NoTool));
   if (tool->is_probe()) {
     return nc_error(1093, fmt::format("tool {} is a touch probe", tool->number));
+  }
+  if (form == ToolForm::Mill && tool->lathe) {
+    return nc_error(1093, fmt::format("tool {} is a lathe tool: 485 measures it", tool->number));
+  }
+  if (form == ToolForm::Lathe && !tool->lathe) {
+    return nc_error(1093,
+                    fmt::format("tool {} is no lathe tool: it has no ZL and XL", tool->number));
   }
   if (state.tool.axis != Axis::Z) return nc_error(1079, "the TT is touched along Z");
   const Vec3 up = unit_vector(Axis::Z);
@@ -34,6 +44,27 @@ CycleResult<void> check(const MachineState& state) {
     return nc_error(1075, "the tool is measured upright: reset the tilted plane");
   }
   return {};
+}
+
+/// The cuboid, and a tip that reaches it from above or from a side.
+CycleResult<void> check_lathe(const MachineState& state) {
+  const machine::LatheTool& lathe = *state.active_tool()->lathe;
+  if (state.tt.shape != machine::ContactPlate::Cube) {
+    return nc_error(1097, "a lathe tool is measured on a cuboid; the tool touch probe has a disc");
+  }
+  if (lathe.tip_z() <= 0) return {};
+  return nc_error(1109, fmt::format("the tip of tool {} points up (TO {}): the tool touch probe "
+                                    "has no side for it",
+                                    state.tool.number, lathe.orientation));
+}
+
+/// 0 in the tolerance switches a check off; limits are inclusive.
+ToolStatus judge(Length deviation, double tolerance, double breakage) {
+  const auto exceeds = [&](double limit) {
+    return to_length(limit) > Length{} && magnitude(deviation) > to_length(limit);
+  };
+  if (exceeds(breakage)) return ToolStatus::Broken;
+  return exceeds(tolerance) ? ToolStatus::Worn : ToolStatus::WithinTolerance;
 }
 
 /// The feed of a turning tool: a measuring tolerance each turn, at the speed that its edge may
@@ -48,11 +79,47 @@ double probing_feed(double tool_radius, Spindle spindle) {
 
 }  // namespace
 
+ToolStatus enter(const CycleContext& context, ToolMode mode, const Dimension& dimension,
+                 double measured) {
+  const Length found = to_length(measured);
+  const Length deviation = found - to_length(dimension.stored);
+  context.host.set_q(dimension.result.q, deviation.to_mm(), Unit::Length);
+  if (mode == ToolMode::First) {
+    dimension.stored = found.to_mm();
+    dimension.delta = 0;
+    return ToolStatus::WithinTolerance;
+  }
+  if (mode == ToolMode::Check) dimension.delta = deviation.to_mm();
+  return judge(deviation, dimension.tolerance, dimension.breakage);
+}
+
+CycleResult<void> write_measured(const CycleContext& context, ToolMode mode, machine::Tool tool,
+                                 ToolStatus status) {
+  context.host.set_q(kToolStatus.q, static_cast<double>(status), Unit::None);
+  if (mode == ToolMode::CheckOnly) return {};
+  tool.locked = tool.locked || status != ToolStatus::WithinTolerance;
+  return lift(context.machine.write_tool(tool));
+}
+
 CycleResult<ToolProbing> ToolProbing::begin(const CycleContext& context, double clearance_height) {
   const MachineState& state = context.machine.state();
   TRY(check(state));
   const double height = state.frames.to_machine({0, 0, clearance_height}).z;
   const double start = state.tt.centre.z + tt_parameters::kSafetyDistance;
+  return ToolProbing(context, std::max(height, start), start);
+}
+
+CycleResult<ToolProbing> ToolProbing::begin_lathe(const CycleContext& context,
+                                                  double clearance_height) {
+  const MachineState& state = context.machine.state();
+  TRY(check(state, ToolForm::Lathe));
+  TRY(check_lathe(state));
+  const machine::LatheTool& lathe = *state.active_tool()->lathe;
+  machine::Modes modes = state.modes;
+  modes.spindle_deg = lathe.ori;
+  TRY(lift(context.machine.set_modes(modes)));
+  const double start = state.tt.centre.z + tt_parameters::kSafetyDistance + lathe.below_tip();
+  const double height = state.frames.to_machine({0, 0, clearance_height}).z;
   return ToolProbing(context, std::max(height, start), start);
 }
 

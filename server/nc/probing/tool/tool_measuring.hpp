@@ -1,5 +1,6 @@
 #pragma once
 
+#include "nc/probing/parameters.hpp"
 #include "nc/probing/touch/fits.hpp"
 #include "nc/probing/touch_probe_cycle.hpp"
 
@@ -16,6 +17,31 @@ inline constexpr double kMostRpm = 1000;        ///< maxSpeed
 inline constexpr double kMeasuringTolerance = 0.01;  ///< measureTolerance1, mm a turn
 }  // namespace tt_parameters
 
+/// Q340 and Q199 of the cycles that measure a tool.
+inline constexpr CycleParameter kToolMeasurement = parameter::choice(
+    340, "Tool measurement: 0 first, 1 check, 2 check and write nothing", 0, 2, 1);
+inline constexpr CycleOutput kToolStatus{199, "Tool: 0 within tolerance, 1 worn, 2 broken",
+                                         Unit::None};
+enum class ToolMode : std::uint8_t { First, Check, CheckOnly };
+enum class ToolStatus : std::uint8_t { WithinTolerance, Worn, Broken };
+
+/// A measured column of a tool's row, with the columns that judge it. 0 in the tolerance or the
+/// breakage switches that check off; limits are inclusive.
+struct Dimension {
+  CycleOutput result;
+  double& stored;
+  double& delta;
+  double tolerance;
+  double breakage;
+};
+
+/// Writes a measured value into the row as Q340 requests, and its deviation into the result.
+ToolStatus enter(const CycleContext& context, ToolMode mode, const Dimension& dimension,
+                 double measured);
+/// Writes Q199 and, unless Q340 forbids it, the row, which a status other than 0 locks.
+CycleResult<void> write_measured(const CycleContext& context, ToolMode mode, machine::Tool tool,
+                                 ToolStatus status);
+
 /// Whether the spindle turns while the tool is touched.
 enum class Spindle : std::uint8_t { Stands, Turns };
 
@@ -26,8 +52,11 @@ class ToolProbing {
  public:
   /// @param clearance_height Q260, in the input system; raised to stay clear of the contact plate.
   /// @errors 1001 tool axis missing, 1075 the tool is inclined or the coordinates are tilted, 1079
-  ///   the tool axis is not Z, 1092 no tool, 1093 a touch probe is in the spindle.
+  ///   the tool axis is not Z, 1092 no tool, 1093 a touch probe or a lathe tool is in the spindle.
   static CycleResult<ToolProbing> begin(const CycleContext& context, double clearance_height);
+  /// Begins with a lathe tool, and orients the spindle to its ORI.
+  /// @errors of begin; 1093 when it is none, 1097 without a cuboid, 1109 when its tip points up.
+  static CycleResult<ToolProbing> begin_lathe(const CycleContext& context, double clearance_height);
   /// Begins with the present height of the tip, at any distance from the plate.
   static CycleResult<ToolProbing> begin_here(const CycleContext& context);
 

@@ -141,7 +141,7 @@ TEST_CASE("the ball goes round with the spindle, and CAL_OF with it") {
 
 TEST_CASE("the contact plate of the tool touch probe may be a cube") {
   Setup setup;
-  setup.machine.tt.shape = ContactPlate::Cube;
+  setup.machine.tt.known.shape = ContactPlate::Cube;
   ToolSetup mill;
   mill.row.number = 5;
   mill.row.l = 100;

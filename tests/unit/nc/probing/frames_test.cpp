@@ -43,7 +43,7 @@ const std::vector<FrameRule> kRules{
      0,
      0,
      0,
-     {30, 31, 32, 33, 451, 452, 453, 480, 481, 482, 483, 484}},
+     {30, 31, 32, 33, 451, 452, 453, 480, 481, 482, 483, 484, 485}},
     {"no motion", 0, 0, 0, {247, 404, 441, 450, 1493}},
 };
 
@@ -102,6 +102,11 @@ Numbers tool_data(ProbingBench& bench) {
   const machine::ToolTouchProbe& tt = bench.machine.state().tt;
   const machine::Tool& tool = *bench.machine.state().active_tool();
   return {tt.centre.x, tt.centre.y, tt.centre.z, tt.radius, tool.dl, tool.dr, bench.host.q[199]};
+}
+
+Numbers lathe_data(ProbingBench& bench) {
+  const machine::LatheTool& lathe = *bench.machine.state().active_tool()->lathe;
+  return {lathe.dzl, lathe.dxl, bench.host.q[199]};
 }
 
 Numbers kinematic_results(ProbingBench& bench) {
@@ -248,6 +253,13 @@ std::vector<Scenario> scenarios() {
       },
       tool_data));
   all.push_back(on_machine(484, mill, 5, {299, 1, 80}, always({{536, 1.0}}), tool_data));
+  Setup lathe = tool_setup();
+  machine::ToolSetup& turning = lathe.machine.tools.emplace_back();
+  turning.row.number = 6;
+  turning.row.lathe = machine::LatheTool{.zl = 100, .xl = -40, .rs = 0.8, .ori = 30};
+  turning.actual_xl = -39.98;
+  lathe.machine.tt.known.shape = machine::ContactPlate::Cube;
+  all.push_back(on_machine(485, lathe, 6, {0, 0, 200}, check, lathe_data));
   all.push_back(on_machine(247, probe, 30, {0, 0, 200}, always({{339, 1.0}}), modal_state));
   all.push_back(
       on_machine(404, probe, 30, {0, 0, 200}, always({{307, 2.5}, {305, 0.0}}), modal_state));

@@ -199,7 +199,7 @@ TEST_CASE("the clearance height is that of the preset, and never so low that the
 TEST_CASE("480 finds centre and radius of the TT, and tools are right after it") {
   for (const auto shape : {machine::ContactPlate::Disc, machine::ContactPlate::Cube}) {
     Setup setup = mill_setup();
-    setup.machine.tt.shape = shape;
+    setup.machine.tt.known.shape = shape;
     setup.machine.tt.actual_centre = Vec3{300.4, -0.3, 50.12};
     setup.machine.tt.actual_radius = 19.95;
     machine::ToolSetup pin;

@@ -169,6 +169,18 @@ TEST_CASE("the datum table of the setup is active at the start") {
   CHECK(control.machine->state().nose[machine::Axis::X] == doctest::Approx(10));
 }
 
+TEST_CASE("a lathe tool says that XL does not count in positioning") {
+  Workshop control;
+  machine::ToolSetup& tool = control.setup.machine.tools.emplace_back();
+  tool.row.number = 6;
+  tool.row.lathe = machine::LatheTool{.zl = 80, .xl = -40};
+  control.path("TOOL CALL 6 Z\nL Z+0 FMAX");
+  CHECK(says(control.last, "tool 6 is a lathe tool"));
+  CHECK(control.machine->state().nose.linear.z == 80);
+  control.path("TOOL CALL 5 Z\nL Z+0 FMAX");
+  CHECK(control.last.messages.empty());
+}
+
 TEST_CASE("a hole by its countersink names the point angle") {
   Workshop control;
   control.path(
