@@ -74,7 +74,7 @@ void members(auto& v, machine::ToolSetup& tool) {
              "TP_NO: its row of the touch-probe table; 0: no touch probe");
   v.optional("lathe", row.lathe, Object<machine::LatheTool>{"LatheTool"},
              "A lathe tool: its row of the turning-tool table");
-  v.optional("actual_xl_mm", tool.actual_xl, Mm{}, "Real XL of a lathe tool; XL + DXL when absent");
+  v.optional("actual_xl_mm", tool.actual_xl, Mm{}, "Real XL of a lathe tool (default: XL + DXL)");
 }
 
 void members(auto& v, machine::ProbeSetup& probe) {

@@ -8,6 +8,7 @@
 
 #include "base/text.hpp"
 #include "nc/klartext/parser.hpp"
+#include "nc/klartext/word_names.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
@@ -109,8 +110,32 @@ class BlockCheck {
     }
   }
 
-  void check_part(const CyclePart& part) {
-    if (!is_available(part.family, part.number, true)) warn_unavailable(part.family, part.number);
+  void check_part(std::uint32_t index) {
+    const auto& part = std::get<CyclePart>(block_.statement);
+    const auto line = [&](int number) {
+      return fmt::format("{} {}.{}",
+                         part.family == klartext::CycleFamily::TchProbe ? "TCH PROBE" : "CYCL DEF",
+                         part.number, number);
+    };
+    const auto before = neighbour(program_, index, -1);
+    if (part.part != 0 && !before) {
+      return report(Severity::Error, DiagnosticCode::CycleParameterInvalid, block_.written,
+                    fmt::format("CYCL incomplete: {} stands without {} directly before it",
+                                line(part.part), line(0)));
+    }
+    const int expected =
+        before ? std::get<CyclePart>(program_.blocks()[*before].statement).part + 1 : 0;
+    if (part.part != expected) {
+      report(Severity::Warning, DiagnosticCode::CycleParameterInvalid, block_.written,
+             fmt::format("{} is missing before {}", line(expected), line(part.part)));
+    }
+    if (part.part != 0) return check_repeated(part, before);
+    if (!is_available(part.family, part.number, true)) {
+      warn_unavailable(part.family, part.number);
+    } else if (!neighbour(program_, index, 1)) {
+      report(Severity::Warning, DiagnosticCode::CycleParameterInvalid, block_.written,
+             fmt::format("{} is missing after {}", line(1), line(0)));
+    }
   }
 
   void check_words(klartext::Slice<klartext::Word> words) {
@@ -136,6 +161,36 @@ class BlockCheck {
   }
 
  private:
+  /// Cycles 7, 8 and 26 name each axis once in all of their sub-lines, or 7 a row of the table.
+  void check_repeated(const CyclePart& part, std::optional<std::uint32_t> before) {
+    if (part.family != klartext::CycleFamily::CyclDef) return;
+    if (part.number != 7 && part.number != 8 && part.number != 26) return;
+    klartext::LetterSet named;
+    bool names_row = false;
+    for (const klartext::Word& word : program_.view(part.words)) {
+      named = named | klartext::LetterSet(word.letter);
+      names_row = names_row || word.letter == klartext::Letter::Row;
+    }
+    for (auto at = before; at; at = neighbour(program_, *at, -1)) {
+      const auto& other = std::get<CyclePart>(program_.blocks()[*at].statement);
+      for (const klartext::Word& word : program_.view(other.words)) {
+        if (!named.contains(word.letter)) continue;
+        return report(
+            Severity::Error, DiagnosticCode::WordRepeated, block_.written,
+            fmt::format("{} is also in line {} of this cycle", klartext::spelling(word.letter),
+                        program_.range(program_.blocks()[*at].written).begin.line));
+      }
+      names_row = names_row || std::ranges::any_of(program_.view(other.words), [](const auto& w) {
+                    return w.letter == klartext::Letter::Row;
+                  });
+    }
+    const bool names_axis = std::ranges::any_of(
+        program_.view(part.words), [](const auto& word) { return is_axis(word.letter); });
+    if (names_row && names_axis)
+      report(Severity::Error, DiagnosticCode::WordRepeated, block_.written,
+             "cycle 7 takes a row of the datum table or coordinates, not both");
+  }
+
   void report(Severity severity, DiagnosticCode code, klartext::Slice<char> place,
               std::string message) {
     if (diagnostics_.size() >= kMostFindings) return;
@@ -269,8 +324,8 @@ void check_block(const klartext::Program& program, std::uint32_t index,
   BlockCheck check(program, block, diagnostics);
   if (const auto* cycle = std::get_if<klartext::Cycle>(&block.statement)) {
     check.check_cycle(*cycle);
-  } else if (const auto* part = std::get_if<CyclePart>(&block.statement)) {
-    if (part->part == 0) check.check_part(*part);
+  } else if (std::holds_alternative<CyclePart>(block.statement)) {
+    check.check_part(index);
   } else if (const auto* motion = std::get_if<klartext::Motion>(&block.statement)) {
     check.check_words(motion->words);
     check.check_turn(*motion);

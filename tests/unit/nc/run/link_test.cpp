@@ -40,6 +40,56 @@ TEST_CASE("a contour label that is missing is found before the run") {
         "label 2 is not defined in this program: the cycle that mills the contour fails");
 }
 
+TEST_CASE("sub-lines of a cycle without the line .0, out of order, or left out, are found") {
+  Control control;
+  const auto found = [&](std::string_view blocks) {
+    control.program(blocks);
+    const auto diagnostics = control.diagnostics();
+    if (diagnostics.empty()) return std::string();
+    return (diagnostics[0].severity == Severity::Error ? "error " : "warning ") +
+           diagnostics[0].message;
+  };
+  const std::string alone = "error CYCL incomplete: ";
+  for (const std::string line :
+       {"CYCL DEF 7.1 X+5", "CYCL DEF 8.1 X", "CYCL DEF 9.1 DWELL 1", "CYCL DEF 10.1 ROT+5",
+        "CYCL DEF 11.1 SCL0.5", "CYCL DEF 12.1 PGM main.h", "CYCL DEF 19.1 A+5", "CYCL DEF 26.1 X2",
+        "CYCL DEF 32.1 T0.1", "CYCL DEF 4.1 SET UP 2", "CYCL DEF 14.1 CONTOUR LABEL 1",
+        "TCH PROBE 3.1 Q1"}) {
+    const std::string name = line.substr(0, line.find('.'));
+    const std::string written = line.substr(0, line.find('.') + 2);
+    CHECK(found("LBL 1\n" + line) ==
+          alone + written + " stands without " + name + ".0 directly before it");
+  }
+  CHECK(found("CYCL DEF 7.0 DATUM SHIFT\nL X+1 FMAX\nCYCL DEF 7.1 X+5") != "");
+  CHECK(found("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 10.1 ROT+5") != "");
+  CHECK(found("CYCL DEF 7.0 DATUM SHIFT\n; a comment\nCYCL DEF 7.1 X+5\nCYCL DEF 7.2 Y+5") == "");
+  CHECK(found("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+5\nCYCL DEF 7.3 Z+5") ==
+        "warning CYCL DEF 7.2 is missing before CYCL DEF 7.3");
+  CHECK(found("CYCL DEF 10.0 ROTATION\nL X+1 FMAX") ==
+        "warning CYCL DEF 10.1 is missing after CYCL DEF 10.0");
+}
+
+TEST_CASE("what two sub-lines of a cycle say twice, or against each other, is refused") {
+  Control control;
+  const auto found = [&](std::string_view blocks) {
+    control.program(blocks);
+    const auto diagnostics = control.diagnostics();
+    return diagnostics.empty() ? std::string() : diagnostics[0].message;
+  };
+  const std::string shift = "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 ";
+  const std::string both = "cycle 7 takes a row of the datum table or coordinates, not both";
+  CHECK(found(shift + "X+5\nCYCL DEF 7.2 X+6") == "X is also in line 3 of this cycle");
+  CHECK(found(shift + "X+5\nCYCL DEF 7.2 Y+5\nCYCL DEF 7.3 X+6") ==
+        "X is also in line 3 of this cycle");
+  CHECK(found(shift + "#1 X+5") == both);
+  CHECK(found(shift + "#1\nCYCL DEF 7.2 X+5") == both);
+  CHECK(found(shift + "X+5\nCYCL DEF 7.2 Y+5\nCYCL DEF 7.3 Z+5") == "");
+  CHECK(found("CYCL DEF 8.0 MIRROR IMAGE\nCYCL DEF 8.1 X\nCYCL DEF 8.2 X") ==
+        "X is also in line 3 of this cycle");
+  CHECK(found("CYCL DEF 26.0 AXIS\nCYCL DEF 26.1 X2\nCYCL DEF 26.2 X3") ==
+        "X is also in line 3 of this cycle");
+}
+
 TEST_CASE("M functions of one block that exclude each other are found before the run") {
   Control control;
   const auto found = [&](std::string_view block) {
