@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "nc/klartext/word_names.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
@@ -131,6 +132,32 @@ class Contradictions {
 
   // --- blocks before a block that probes
   void visit(const auto&) {}
+  /// BLK FORM 0.2 is the other corner of the blank that 0.1 begins.
+  void visit(const klartext::BlankForm& blank) {
+    if (blank.kind != klartext::BlankKind::Maximum) {
+      if (blank.kind == klartext::BlankKind::Minimum) corner_ = block_;
+      return;
+    }
+    if (corner_ == nullptr) {
+      return warn(DiagnosticCode::OrderContradicts, block_->written,
+                  "BLK FORM 0.2 stands without BLK FORM 0.1 before it");
+    }
+    const auto& least = std::get<klartext::BlankForm>(corner_->statement);
+    for (const klartext::Word& word : program_.view(blank.words)) {
+      for (const klartext::Word& below : program_.view(least.words)) {
+        const auto* upper = std::get_if<double>(&word.value);
+        const auto* lower = std::get_if<double>(&below.value);
+        if (word.letter != below.letter || word.incremental || upper == nullptr ||
+            lower == nullptr || *upper > *lower)
+          continue;
+        warn(DiagnosticCode::OrderContradicts, block_->written,
+             fmt::format("the upper corner of the blank must lie above the lower one: {}{:+g} and "
+                         "{}{:+g}",
+                         klartext::spelling(word.letter), *upper, klartext::spelling(word.letter),
+                         *lower));
+      }
+    }
+  }
   void visit(const klartext::LabelDefinition& label) {
     forget();
     if (label.label == klartext::Label(0U)) constants_.clear();  // the next part has other callers
@@ -432,6 +459,7 @@ class Contradictions {
   std::vector<klartext::Diagnostic>& diagnostics_;
   const Block* block_ = nullptr;
   const Block* before_ = nullptr;
+  const Block* corner_ = nullptr;   ///< BLK FORM 0.1
   const Block* spindle_ = nullptr;  ///< the block that has started the spindle
   const Block* cutter_ = nullptr;   ///< the block that machines with the tool in the spindle
   bool has_tool_ = false;           ///< the program calls one

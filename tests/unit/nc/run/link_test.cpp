@@ -90,6 +90,26 @@ TEST_CASE("what two sub-lines of a cycle say twice, or against each other, is re
         "X is also in line 3 of this cycle");
 }
 
+TEST_CASE("a blank whose corners contradict each other is found") {
+  Control control;
+  const auto found = [&](std::string_view blocks) {
+    control.program(blocks);
+    const auto diagnostics = control.diagnostics();
+    if (diagnostics.empty()) return std::string();
+    CHECK(diagnostics[0].severity == Severity::Warning);
+    return diagnostics[0].message;
+  };
+  const std::string corner = "BLK FORM 0.1 Z X+0 Y+0 Z-20\nBLK FORM 0.2 ";
+  CHECK(found(corner + "X-10 Y+10 Z+0") ==
+        "the upper corner of the blank must lie above the lower one: X-10 and X+0");
+  CHECK(found(corner + "X+10 Y+10 Z-20") ==
+        "the upper corner of the blank must lie above the lower one: Z-20 and Z-20");
+  CHECK(found("BLK FORM 0.2 X+10 Y+10 Z+0") ==
+        "BLK FORM 0.2 stands without BLK FORM 0.1 before it");
+  CHECK(found(corner + "X+10 Y+10 Z+0") == "");
+  CHECK(found(corner + "IX+10 IY+10 IZ+0.1") == "");
+}
+
 TEST_CASE("M functions of one block that exclude each other are found before the run") {
   Control control;
   const auto found = [&](std::string_view block) {
