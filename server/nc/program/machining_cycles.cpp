@@ -73,7 +73,7 @@ constexpr CycleParameter kParameters[] = {
     coordinate(201, "Depth"),
     length(202, "Plunging depth"),
     coordinate(203, "Coordinate of the surface"),
-    coordinate(204, "2nd set-up clearance"),
+    length(204, "2nd set-up clearance"),
     length(205, "Minimum plunging depth"),
     feed(206, "Feed rate for plunging"),
     feed(207, "Feed rate for milling"),
@@ -98,7 +98,7 @@ constexpr CycleParameter kParameters[] = {
     coordinate(237, "Spacing in the main axis"),
     coordinate(238, "Spacing in the secondary axis"),
     coordinate(239, "Thread pitch"),
-    count(241, "Number of operations", 1),
+    choice(241, "Number of operations", 1, 99999, 1),
     count(242, "Number of columns", 1),
     count(243, "Number of rows", 1),
     length(244, "Pitch circle diameter"),
@@ -145,7 +145,7 @@ constexpr CycleParameter kParameters[] = {
     angle(374, "Angle of rotation"),
     length(375, "Pitch circle diameter"),
     angle(376, "Starting angle"),
-    count(377, "Number of operations", 1),
+    choice(377, "Number of operations", 1, 99999, 1),
     angle(378, "Stepping angle"),
     length(379, "Deepened starting point, below the surface"),
     feed(385, "Feed rate for finishing", 500),
@@ -195,6 +195,15 @@ constexpr std::array<CycleParameter, N> pick(const int (&numbers)[N]) {
   return picked;
 }
 
+/// Q367 of a cycle that has fewer positions.
+template <std::size_t N>
+constexpr std::array<CycleParameter, N> placed(std::array<CycleParameter, N> all, double most) {
+  for (CycleParameter& parameter : all) {
+    if (parameter.id == q(367)) parameter.range.max = most;
+  }
+  return all;
+}
+
 // Parameters of each cycle, in the order of the control's dialog.
 constexpr auto k20 = pick({1, 2, 3, 4, 5, 6, 7, 8, 9});
 constexpr auto k21 = pick({10, 11, 13});
@@ -226,16 +235,20 @@ constexpr auto k232 = [] {
   }
   return all;
 }();
-constexpr auto k251 = pick({215, 218, 219, 220, 368, 224, 367, 207, 351, 201, 202,
-                            369, 206, 338, 200, 203, 204, 370, 366, 385, 439});
+constexpr auto k251 = placed(pick({215, 218, 219, 220, 368, 224, 367, 207, 351, 201, 202,
+                                   369, 206, 338, 200, 203, 204, 370, 366, 385, 439}),
+                             4);
 constexpr auto k252 =
     pick({215, 223, 368, 207, 351, 201, 202, 369, 206, 338, 200, 203, 204, 370, 366, 385, 439});
-constexpr auto k253 = pick({215, 218, 219, 368, 374, 367, 207, 351, 201, 202, 369, 206, 338, 200,
-                            203, 204, 366, 385, 439});
-constexpr auto k254 = pick({215, 219, 368, 375, 367, 216, 217, 376, 248, 378, 377, 207,
-                            351, 201, 202, 369, 206, 338, 200, 203, 204, 366, 385, 439});
-constexpr auto k256 = pick({218, 424, 219, 425, 220, 368, 224, 367, 207, 351, 201,
-                            202, 206, 200, 203, 204, 370, 437, 215, 369, 338, 385});
+constexpr auto k253 = placed(pick({215, 218, 219, 368, 374, 367, 207, 351, 201, 202, 369, 206, 338,
+                                   200, 203, 204, 366, 385, 439}),
+                             4);
+constexpr auto k254 = placed(pick({215, 219, 368, 375, 367, 216, 217, 376, 248, 378, 377, 207,
+                                   351, 201, 202, 369, 206, 338, 200, 203, 204, 366, 385, 439}),
+                             3);
+constexpr auto k256 = placed(pick({218, 424, 219, 425, 220, 368, 224, 367, 207, 351, 201,
+                                   202, 206, 200, 203, 204, 370, 437, 215, 369, 338, 385}),
+                             4);
 constexpr auto k257 =
     pick({223, 222, 368, 207, 351, 201, 202, 206, 200, 203, 204, 370, 376, 215, 369, 338, 385});
 constexpr auto k262 = pick({335, 239, 201, 355, 253, 351, 200, 203, 204, 207, 512});

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "nc/program/diagnose.hpp"
+#include "nc/program/machining_cycles.hpp"
 #include "workshop.hpp"
 
 /// Each word of a program is executed, leaves a note, or is refused.
@@ -167,6 +168,28 @@ TEST_CASE("the datum table of the setup is active at the start") {
   control.path("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 #1\nL X+0 Y+0 F500");
   CHECK(outcome(control.last) == "completed");
   CHECK(control.machine->state().nose[machine::Axis::X] == doctest::Approx(10));
+}
+
+TEST_CASE("no cycle that machines has a clearance below 0") {
+  for (const MachiningCycle& cycle : machining_cycles()) {
+    for (const probing::CycleParameter& parameter : cycle.descriptor.parameters) {
+      if (parameter.meaning.find("learance") == std::string_view::npos) continue;
+      if (parameter.meaning == "Clearance height") continue;  // a coordinate
+      CAPTURE(cycle.descriptor.number);
+      CAPTURE(parameter.meaning);
+      CHECK(parameter.range.min == 0);
+    }
+  }
+  Workshop control;
+  const std::string drill =
+      "CYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=100 Q202=5 Q210=0 Q203=0 Q211=0 Q204=";
+  control.program(drill + "-0.001");
+  REQUIRE(control.diagnostics().size() == 1);
+  CHECK(control.diagnostics()[0].message.find("Q204") != std::string::npos);
+  control.path("Q9 = -0.001\n" + drill + "Q9\nCYCL CALL");
+  CHECK(outcome(control.last).starts_with("failed line 5: Range exceeded: Q204"));
+  control.path(drill + "0\nCYCL CALL");
+  CHECK(outcome(control.last) == "completed");
 }
 
 TEST_CASE("a lathe tool says that XL does not count in positioning") {
