@@ -46,6 +46,7 @@ NcResult<Next> execute(Channel& channel, const klartext::LabelCall& call, std::u
   double& left = channel.parameters.cells()[counter];
   if (!is_defined(left)) {
     const auto count = TRY(number(channel, call.repeat));
+    if (count < 0) return nc_error(1004, "REP is less than 0");
     left = std::round(count);
   }
   if (left < 1) {

@@ -1,5 +1,7 @@
-
+#include <array>
 #include <map>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "nc/klartext/parser_words.hpp"
@@ -118,6 +120,36 @@ NcResult<Matrix3> rotation_of(const Channel& channel, PlaneKind kind, const Plan
   return Matrix3{};
 }
 
+/// The words of a plane that is defined by all of them.
+std::span<const Letter> all_words(PlaneKind kind) {
+  static constexpr std::array kSpatial{Letter::Spa, Letter::Spb, Letter::Spc};
+  static constexpr std::array kProjected{Letter::ProPr, Letter::ProMin, Letter::Rot};
+  static constexpr std::array kEuler{Letter::EulPr, Letter::EulNu, Letter::EulRot};
+  static constexpr std::array kVector{Letter::Bx, Letter::By, Letter::Bz,
+                                      Letter::Nx, Letter::Ny, Letter::Nz};
+  static constexpr std::array kPoints{Letter::P1x, Letter::P1y, Letter::P1z,
+                                      Letter::P2x, Letter::P2y, Letter::P2z,
+                                      Letter::P3x, Letter::P3y, Letter::P3z};
+  switch (kind) {
+    case PlaneKind::Spatial: return kSpatial;
+    case PlaneKind::Projected: return kProjected;
+    case PlaneKind::Euler: return kEuler;
+    case PlaneKind::Vector: return kVector;
+    case PlaneKind::Points: return kPoints;
+    default: return {};
+  }
+}
+
+NcResult<void> note_missing(Channel& channel, PlaneKind kind, const PlaneWords& words) {
+  std::string missing;
+  for (const Letter letter : all_words(kind)) {
+    if (words.contains(letter)) continue;
+    missing += (missing.empty() ? "" : ", ") + std::string(klartext::spelling(letter));
+  }
+  if (missing.empty()) return {};
+  return channel.note("PLANE without " + missing + ", which counts as 0: write it");
+}
+
 NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane,
                               const PlaneWords& words) {
   PlaneMoves moves{.positioning = plane.positioning,
@@ -137,15 +169,6 @@ NcResult<PlaneMoves> moves_of(Channel& channel, const klartext::Plane& plane,
   moves.is_symmetric = words.contains(Letter::Sym);
   moves.sequence = static_cast<int>(get(words, Letter::Seq) + get(words, Letter::Sym));
   return moves;
-}
-
-std::array<bool, 3> named_linear_axes(const Channel& channel,
-                                      klartext::Slice<klartext::Word> words) {
-  std::array<bool, 3> named{};
-  for (const klartext::Word& word : channel.program().view(words)) {
-    if (word.letter <= Letter::Z) named[static_cast<std::size_t>(word.letter)] = true;
-  }
-  return named;
 }
 
 NcResult<void> execute_datum_table(Channel& channel, const klartext::Trans& trans,
@@ -170,8 +193,9 @@ NcResult<void> execute(Channel& channel, const klartext::Trans& trans) {
     return axes ? shift_datum(channel, *axes) : axes.error();
   }
   if (trans.kind == Transformation::Mirror) {
-    return mirror(channel,
-                  trans.reset ? std::array<bool, 3>{} : named_linear_axes(channel, trans.words));
+    if (trans.reset) return mirror(channel, {});
+    const auto axes = mirrored_axes(channel.program().view(trans.words));
+    return axes ? mirror(channel, *axes) : axes.error();
   }
   const auto words = TRY(read_plane_words(channel, trans.words));
   switch (trans.kind) {
@@ -193,6 +217,7 @@ NcResult<void> execute(Channel& channel, const klartext::Trans& trans) {
 
 NcResult<void> execute(Channel& channel, const klartext::Plane& plane) {
   const auto words = TRY(read_plane_words(channel, plane.words));
+  TRY(note_missing(channel, plane.kind, words));
   const auto moves = TRY(moves_of(channel, plane, words));
   if (plane.kind == PlaneKind::Reset) return reset_tilt(channel, moves);
   const auto rotation = TRY(rotation_of(channel, plane.kind, words));

@@ -100,6 +100,7 @@ const Instruction* ExecutorSteps::repeat(const Instruction* pc) {
   if (!is_defined(counter)) {
     const double count = cells_[pc->a];
     if (!is_defined(count)) return fail(undefined_error(parameter_of(pc->a)));
+    if (count < 0) return fail(nc_error(1004, "REP is less than 0"));
     counter = std::round(count);  // decision 7
   }
   if (counter < 1) {

@@ -85,6 +85,8 @@ NcResult<std::optional<Vec3>> rotary_positions(Channel& channel, const Frames& f
   if (turns || !state.kinematics.axes().empty()) {
     return nc_error(1013, "no position of the rotary axes reaches the plane");
   }
+  TRY(channel.note(
+      "the machine of the setup has no rotary axes: the coordinates tilt, the tool does not"));
   return std::optional<Vec3>();
 }
 

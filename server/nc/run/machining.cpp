@@ -59,6 +59,13 @@ NcResult<void> note_standing(Channel& channel, const MachiningCycle& cycle) {
       "cycle {} cuts with a standing spindle: give its speed S, and M3 or M4 before", number));
 }
 
+NcResult<void> note_probe(Channel& channel, const MachiningCycle& cycle) {
+  const machine::MachineState& state = channel.machine().state();
+  if (!state.probe_system()) return {};
+  return channel.note(fmt::format("cycle {} machines with the touch probe, tool {}: call a cutter",
+                                  cycle.descriptor.number, state.tool.number));
+}
+
 }  // namespace
 
 ToolMotion::ToolMotion(machine::Machine& machine, RunBudget& budget)
@@ -148,7 +155,8 @@ NcResult<void> machine_here(Channel& channel, const MachiningDefinition& definit
   });
   if (found) return nc_error(found->error, found->text);
   Machining cycle({channel.machine(), channel.budget}, definition);
-  if (auto noted = note_standing(channel, *definition.cycle); !noted) return noted;
+  TRY(note_standing(channel, *definition.cycle));
+  TRY(note_probe(channel, *definition.cycle));
   TRY(note_corner(channel, definition));
   switch (shape) {
     case MachiningShape::Drilling: return drill(cycle);

@@ -1,7 +1,11 @@
 #include "nc/run/transformation_cycles.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "nc/klartext/word_names.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/frame_commands.hpp"
 #include "nc/run/values.hpp"
@@ -36,12 +40,18 @@ NcResult<void> datum_shift(Channel& channel, Words words) {
   return axes ? shift_datum(channel, *axes) : axes.error();
 }
 
-NcResult<void> mirror_axes(Channel& channel, Words words) {
-  std::array<bool, 3> axes{};
-  for (const Word& word : words) {
-    if (word.letter <= Letter::Z) axes[static_cast<std::size_t>(word.letter)] = true;
-  }
-  return mirror(channel, axes);
+/// Tolerance of the path, which a simulated path does not have.
+NcResult<void> tolerance(Channel& channel, Words words) {
+  const auto width = TRY(value(channel, words, Letter::T, 0));
+  if (width < 0) return nc_error(1004, fmt::format("T of cycle 32 is {}", width));
+  return {};
+}
+
+/// The spindle turns to the angle, which nothing here depends on.
+NcResult<void> orientation(Channel& channel, Words words) {
+  const auto angle = TRY(value(channel, words, Letter::Value, 0));
+  if (std::abs(angle) > 360) return nc_error(1013, fmt::format("cycle 13: {} degrees", angle));
+  return {};
 }
 
 NcResult<void> dwell(Channel& channel, Words words) {
@@ -82,6 +92,9 @@ NcResult<void> working_plane_cycle(Channel& channel, Words words) {
       return nc_error("cycle 19 takes no I: write the angles themselves");
     if (word) angles[i] = word->value;
   }
+  if (find(words, Letter::F) != nullptr || find(words, Letter::Value) != nullptr) {
+    TRY(channel.note("cycle 19: F and ABST have no effect, because the program turns the axes"));
+  }
   if (angles == Vec3{}) return reset_tilt(channel, {});
   return tilt(channel, machine::Matrix3::spatial(angles), {});
 }
@@ -96,6 +109,18 @@ NcResult<void> program_call(Channel& channel, Words words) {
 }
 
 }  // namespace
+
+NcResult<std::array<bool, 3>> mirrored_axes(std::span<const Word> words) {
+  std::array<bool, 3> axes{};
+  for (const Word& word : words) {
+    if (word.letter > Letter::Z) {
+      return nc_error(fmt::format("only X, Y and Z are mirrored here, not {}",
+                                  klartext::spelling(word.letter)));
+    }
+    axes[static_cast<std::size_t>(word.letter)] = true;
+  }
+  return axes;
+}
 
 NcResult<AxisCoordinates> read_axis_words(Channel& channel, std::span<const Word> words) {
   AxisCoordinates axes;
@@ -112,14 +137,18 @@ NcResult<AxisCoordinates> read_axis_words(Channel& channel, std::span<const Word
 NcResult<void> execute_transformation(Channel& channel, int cycle, Words words) {
   switch (cycle) {
     case 7: return datum_shift(channel, words);
-    case 8: return mirror_axes(channel, words);
+    case 8: {
+      const auto axes = mirrored_axes(words);
+      return axes ? mirror(channel, *axes) : axes.error();
+    }
     case 9: return dwell(channel, words);
     case 10: return rotation(channel, words);
     case 11: return scaling(channel, words);
     case 12: return program_call(channel, words);
     case 19: return working_plane_cycle(channel, words);
     case 26: return axis_scaling(channel, words);
-    default: return {};  // 13 and 32 have no effect on a simulated path
+    case 13: return orientation(channel, words);
+    default: return tolerance(channel, words);
   }
 }
 

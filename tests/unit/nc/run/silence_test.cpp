@@ -192,6 +192,73 @@ TEST_CASE("no cycle that machines has a clearance below 0") {
   CHECK(outcome(control.last) == "completed");
 }
 
+TEST_CASE("a tilt on a machine without rotary axes says that the tool does not tilt") {
+  for (const std::string tilt :
+       {"CYCL DEF 19.0 WORKING PLANE\nCYCL DEF 19.1 A+10 B+0 C+0",
+        "PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY", "PLANE VECTOR BX1 BY0 BZ0 NX0 NY0.1 NZ1 STAY"}) {
+    CAPTURE(tilt);
+    Workshop rigid;
+    rigid.path(tilt);
+    CHECK(says(rigid.last, "no rotary axes: the coordinates tilt, the tool does not"));
+    Tilting tilting;
+    tilting.path(tilt);
+    CHECK_FALSE(says(tilting.last, "no rotary axes"));
+  }
+  Workshop level;
+  level.path("CYCL DEF 19.0 WORKING PLANE\nCYCL DEF 19.1 A+0 B+0 C+0\nPLANE RESET STAY");
+  CHECK(outcome(level.last) == "completed");
+  CHECK(level.last.messages.empty());
+}
+
+TEST_CASE("words that a run cannot do what they say with are refused or noted") {
+  struct Row {
+    std::string body;
+    std::string_view says;
+  };
+  const std::string pocket =
+      "CYCL DEF 251 RECTANGULAR POCKET Q215=1 Q218=50 Q219=30 Q207=500 Q201=-20 Q202=5 Q206=150 "
+      "Q200=2 Q203=0 Q204=50 ";
+  const std::string call = "\nCYCL CALL";
+  for (const Row& row :
+       {Row{"CYCL DEF 8.0 MIRROR IMAGE\nCYCL DEF 8.1 X A",
+            "only X, Y and Z are mirrored here, not A"},
+        Row{"TRANS MIRROR AXIS X B", "only X, Y and Z are mirrored here, not B"},
+        Row{"CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T-0.1", "T of cycle 32 is -0.1"},
+        Row{"CYCL DEF 13.0 ORIENTATION\nCYCL DEF 13.1 ANGLE 361", "cycle 13: 361 degrees"},
+        Row{"CYCL DEF 19.0 WORKING PLANE\nCYCL DEF 19.1 A+0 B+0 C+0 F500 ABST50",
+            "cycle 19: F and ABST have no effect"},
+        Row{"PLANE SPATIAL SPA+0 SPC+0 STAY", "PLANE without SPB, which counts as 0"},
+        Row{"PLANE EULER EULPR+0 STAY", "PLANE without EULNU, EULROT, which"},
+        Row{"M140", "a retraction needs MB with a length"},
+        Row{"L M140 MB-5 F100", "a retraction needs MB with a length"},
+        Row{"PLANE SPATIAL SPA+0 SPB+0 SPC+0 TURN MB-5 FMAX",
+            "a retraction needs MB with a length"},
+        Row{"LBL 1\nCALL LBL 1 REP-1", "Range exceeded: REP is less than 0"},
+        Row{"TOOL CALL 30 Z S1000\n" + pocket + call,
+            "cycle 251 machines with the touch probe, tool 30"},
+        Row{pocket + "Q220=15.001" + call, "Rounding radius too large: Q220"},
+        Row{pocket + "Q369=20" + call, "Oversize greater than depth: the allowance Q369"},
+        Row{"CYCL DEF 254 CIRCULAR SLOT Q215=1 Q219=20 Q375=80 Q367=1 Q376=0 Q248=0 Q207=500 "
+            "Q201=-20 Q202=5 Q206=150 Q200=2 Q203=0 Q204=50" +
+                call,
+            "Angular length is undefined: Q248"}}) {
+    CAPTURE(row.body);
+    Workshop control;
+    control.path("M3\n" + row.body);
+    CHECK(says(control.last, row.says));
+  }
+  Workshop fits;
+  fits.path("M3\n" + pocket + "Q220=15 Q369=19.999" + call);
+  CHECK(outcome(fits.last) == "completed");
+  CHECK(fits.last.messages.empty());
+  for (const std::string value : {"251 POCKET Q367=5", "254 CIRCULAR SLOT Q367=4",
+                                  "254 CIRCULAR SLOT Q377=0", "220 POLAR PATTERN Q241=0"}) {
+    fits.program("CYCL DEF " + value);
+    REQUIRE(fits.diagnostics().size() == 1);
+    CHECK(fits.diagnostics()[0].message.starts_with("Range exceeded: "));
+  }
+}
+
 TEST_CASE("a lathe tool says that XL does not count in positioning") {
   Workshop control;
   machine::ToolSetup& tool = control.setup.machine.tools.emplace_back();
