@@ -146,8 +146,8 @@ CycleResult<void> check_inclined(const Arguments& arguments) {
   return tolerance ? CycleResult<void>() : tolerance.error();
 }
 
-constinit const TouchProbeCycle kCycle1410 = object_cycle(
-    1410, "PROBING ON EDGE", k1410, kLineResults, {1042, 1081, 1100}, probe_edge);
+constinit const TouchProbeCycle kCycle1410 =
+    object_cycle(1410, "PROBING ON EDGE", k1410, kLineResults, {1042, 1081, 1100}, probe_edge);
 constinit const TouchProbeCycle kCycle1412 =
     object_cycle(1412, "INCLINED EDGE PROBING", k1412, kLineResults, {1004, 1042, 1081, 1100},
                  probe_inclined, check_inclined);

@@ -80,9 +80,6 @@ TEST_CASE("where the axes of the plane are scaled differently there are no arcs"
   const std::string scaled =
       "L X+9 Y+0 Z+5 R0 FMAX M3\nCYCL DEF 26.0 AXIS-SPEC. SCALING\nCYCL DEF 26.1 X2 Y1 CCX+0 "
       "CCY+0\n";
-  const std::string pocket =
-      " Q215=0 Q218=40 Q219=30 Q223=30 Q222=40 Q335=20 Q368=0 Q207=500 Q201=-5 Q202=5 Q206=100 "
-      "Q200=2 Q203=0 Q204=50";
   const auto cycle = [&](const std::string& numbers, const std::string& head) {
     return scaled + head + numbers + "\nL X+20 Y+20 R0 FMAX M99";
   };
