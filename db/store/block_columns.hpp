@@ -61,7 +61,7 @@ class BlockColumnsWriter {
   std::vector<std::int64_t> measured_nm_;
 };
 
-/// Reads them. Texts are views of the bytes.
+/// Reads the columns of a block. Texts are views of its bytes.
 class BlockColumns {
  public:
   /// @returns false if the bytes are not kBlock rows.

@@ -92,7 +92,7 @@ class Snapshot {
     return value_;
   }
 
-  /// Whether `kept`, which the caller owns too, is still the value; takes no lock.
+  /// Whether `kept` is still the value. The caller owns `kept` too. Takes no lock.
   bool is(const T* kept) const { return current_.load(std::memory_order_acquire) == kept; }
 
   void set(std::shared_ptr<const T> value) {

@@ -61,9 +61,9 @@ struct ServerOptions {
   std::size_t body_budget = std::size_t{64} << 20;
   /// Folder for bodies whose route spools them; empty: they stay in memory.
   std::string spool_folder{};
-  /// Bytes of answers that wait for their readers, in all connections together. Above it, the
-  /// oldest answers end that have waited longer than `unsent_time`, because active readers finish
-  /// in that time. Memory that several answers share does not count.
+  /// Maximum number of unsent bytes of all connections together. Above it, answers end that have
+  /// waited longer than `unsent_time`, the oldest first: active readers finish in that time. Memory
+  /// that several answers share does not count.
   std::size_t unsent_budget = std::size_t{64} << 20;
   std::chrono::milliseconds unsent_time = std::chrono::seconds(10);
   /// A sender that is silent for this time loses its share when others wait for memory.

@@ -21,7 +21,7 @@ namespace fitgauge::connections {
 // Forms of settings, in addition to base/json/body_forms.hpp. They only read: the meaning of a
 // setting has its default.
 
-/// A text that `parse` converts to a value, or refuses with a message.
+/// A text that `parse` converts to a value. For a wrong text `parse` returns an error.
 template <class Parse>
 struct By {
   std::size_t longest;  ///< 0: as long as a body may be

@@ -211,8 +211,8 @@ class MeasurementRowReader {
 bool read_body_fast(std::string_view body, const BatchContext& context, MeasurementBatch& batch,
                     FieldErrors& errors);
 
-/// Reads one object into one row, after reader.begin(); false leaves the batch as it was.
-/// @param object followed by as many readable bytes, as above.
+/// Reads one object into one row. Call reader.begin() before. If false, the batch is unchanged.
+/// @param object followed by as many readable bytes as the function above needs
 bool read_object_fast(std::string_view object, MeasurementRowReader& reader,
                       MeasurementBatch& batch);
 

@@ -47,7 +47,7 @@ class Ranking {
   Wide front() const { return values_.front(); }
   Wide back() const { return values_.back(); }
 
-  /// Each value once, and how many values are not above it.
+  /// Distinct values, and for each the number of values up to it.
   std::span<const Wide> values() const { return values_; }
   std::span<const std::uint32_t> ends() const { return ends_; }
 

@@ -46,7 +46,7 @@ constexpr CycleParameter choice(int number, std::string_view meaning, double fir
           .default_value = by_default};
 }
 
-/// Blocks of older controls do not have it.
+/// Marks a parameter that cycle blocks of older controls lack.
 constexpr CycleParameter newer(CycleParameter parameter) {
   parameter.newer = true;
   return parameter;

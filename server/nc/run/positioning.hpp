@@ -58,7 +58,7 @@ class Positioning {
   /// LN: from the programmed path, the tool's DR along the surface's normal.
   NcResult<machine::Vec3> shift_of_surface();
 
-  /// R+ and R-: each named axis of the plane moves further, or less far, by the tool's radius.
+  /// R+ and R-: lengthens or shortens the move of each named axis of the plane by the tool radius.
   NcResult<void> lengthened_line(Vec2 end);
   NcResult<void> arc();
   bool left_turn() const { return motion_.rotation != klartext::Rotation::Negative; }
