@@ -65,7 +65,7 @@ class RecordReader {
     const std::string_view mount = text(row, "ON");
     if (axis == machine::kAllAxes.end() || !machine::is_rotary(*axis))
       return fail("AXIS must be one of: A, B, C, TOOL");
-    if (mount != kOnTable && mount != kOnHead) return fail("ON must be TABLE or HEAD");
+    if (mount != kOnTable && mount != kOnHead) return fail("ON must be one of: TABLE, HEAD");
     std::vector<RotaryAxis>& axes = found_[name].axes;
     if (std::ranges::count(axes, *axis, &RotaryAxis::axis) > 0) return fail("the axis is repeated");
     const Vec3 direction = vector(row, {"I", "J", "K"});

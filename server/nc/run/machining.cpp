@@ -40,11 +40,9 @@ Heights heights_of(const MachiningDefinition& definition, const ToolMotion& moti
 
 /// A rectangle has no larger corners than half of its shorter side.
 NcResult<void> note_corner(Channel& channel, const MachiningDefinition& definition) {
-  const MachiningShape shape = definition.cycle->shape;
+  if (definition.cycle->shape != MachiningShape::RectangularStud) return {};
   const double most = std::min(definition.value(218), definition.value(219)) / 2;
-  const bool is_rectangle =
-      shape == MachiningShape::RectangularPocket || shape == MachiningShape::RectangularStud;
-  if (!is_rectangle || definition.value(220) <= most) return {};
+  if (definition.value(220) <= most) return {};
   return channel.note(fmt::format(
       "the corner radius Q220 = {} is larger than half of the shorter side: {} mm is milled",
       definition.value(220), most));

@@ -166,8 +166,8 @@ class Editing(ServerTest):
         self.assertIsNone(self.at("hover", "demo.h", "STOP")["result"])
 
     def test_completion_writes_a_cycle_that_only_lacks_values(self):
-        for name, head, frame_of in (("a.h", "TCH PROBE 42", "BEGIN PGM A MM\n{}\nEND PGM A MM\n"),
-                                     ("a.i", "G42", "%A G71 *\nN10 {} *\nN99999999 %A G71 *\n")):
+        for name, head, frame_of in (("a.h", "TCH PROBE 42", "BEGIN PGM A MM\nTOOL CALL 1 Z\n{}\nEND PGM A MM\n"),
+                                     ("a.i", "G42", "%A G71 *\nN5 T1 G17 *\nN10 {} *\nN99999999 %A G71 *\n")):
             with self.subTest(name):
                 self.client.open(name, frame_of.format(head))
                 line = self.line_of(name, head)

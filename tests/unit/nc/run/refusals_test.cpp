@@ -140,7 +140,7 @@ TEST_CASE("values of a machining cycle that contradict each other end the run an
   CHECK(findings("CYCL DEF 232 Q227=0 Q386=0 Q218=40 Q219=30 Q207=500", "Q386").empty());
 }
 
-TEST_CASE("a corner radius beyond half of the shorter side leaves a note") {
+TEST_CASE("a corner radius beyond half of the shorter side leaves a note, or is an error") {
   const std::string values = " Q207=500 Q201=-5 Q202=5 Q206=100\nL X+100 Y+100 R0 FMAX M3 M99";
   const auto notes = [](const std::string& body) {
     Workshop control;
