@@ -405,6 +405,7 @@ struct Rule {
 
 constexpr auto kLess = [](double value, double other) { return value < other; };
 constexpr auto kMore = [](double value, double other) { return value > other; };
+constexpr auto kMoreThanHalf = [](double value, double other) { return value > other / 2; };
 constexpr auto kZero = [](double value, double) { return value == 0; };
 constexpr auto kReaches = [](double value, double depth) {
   return value > 0 && depth != 0 && value >= std::abs(depth);
@@ -424,6 +425,10 @@ constexpr Rule kRules[] = {
     {1010, 207, "", 207, kZero, {251, 252, 253, 254, 256, 257, 262, 263, 264, 265, 267}},
     {1011, 239, "", 239, kZero, {207, 209, 262, 263, 264, 265, 267}},
     {1011, 334, "", 334, kZero, {208}},
+    {1023, 220, "is more than half of", 218, kMoreThanHalf, {4, 251}},
+    {1023, 220, "is more than half of", 219, kMoreThanHalf, {4, 251}},
+    {1086, 369, "leaves nothing of", 201, kReaches, {}},
+    {1106, 248, "", 248, kZero, {254}},
 };
 
 }  // namespace

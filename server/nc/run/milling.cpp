@@ -29,11 +29,6 @@ NcResult<void> check_depth(const Machining& cycle) {
   return nc_error(1012, "the depth Q201 is negative: milling goes down from the surface");
 }
 
-NcResult<void> check_floor(const Machining& cycle) {
-  if (cycle.value(369) < std::abs(cycle.value(201)) || cycle.value(369) == 0) return {};
-  return nc_error(1086, "the allowance Q369 leaves nothing of Q201");
-}
-
 /// Calls `mill` at each depth, after plunging at `where`.
 template <class Mill>
 NcResult<void> at_each_depth(Machining& cycle, Vec2 where, const Mill& mill) {
@@ -41,7 +36,6 @@ NcResult<void> at_each_depth(Machining& cycle, Vec2 where, const Mill& mill) {
   const double bottom = bottom_of(cycle);
   const double infeed = cycle.value(202) > 0 ? cycle.value(202) : std::abs(cycle.value(201));
   TRY(check_depth(cycle));
-  TRY(check_floor(cycle));
   TRY(cycle.start());
   for (double depth = cycle.heights.surface; depth > bottom;) {
     const double next = depth - bottom <= infeed ? bottom : depth - infeed;
@@ -239,9 +233,6 @@ NcResult<void> mill_rectangle(Machining& cycle) {
   const double a = cycle.value(218) / 2 - inset;
   const double b = cycle.value(219) / 2 - inset;
   if (a < 0 || b < 0) return does_not_fit(1029, cycle.motion.tool_radius());
-  if (cycle.value(220) > std::min(cycle.value(218), cycle.value(219)) / 2) {
-    return nc_error(1023, "Q220 is more than half of a side");
-  }
   Outline outline{cycle.motion.point(), cycle.value(224)};
   outline.origin = outline.at(rectangle_centre(cycle, cycle.value(218) / 2, cycle.value(219) / 2));
   const double corner = std::clamp(cycle.value(220) - inset, 0.0, std::min(a, b));
@@ -283,7 +274,6 @@ NcResult<void> mill_circular_slot(Machining& cycle) {
   if (width < 0) return does_not_fit(1028, motion.tool_radius());
   const double pitch = cycle.value(375) / 2;
   const double length = cycle.value(248);
-  if (length == 0) return nc_error(1106, "Q248 is 0");
   if (pitch - width <= 0) return nc_error(1003, "the slot lies across the centre of its circle");
   // Q367: position of the tool on the slot; Q376 is the angle of that place.
   constexpr std::array<double, 4> kParts{0, 0, 0.5, 1};

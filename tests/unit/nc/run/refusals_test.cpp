@@ -124,6 +124,9 @@ TEST_CASE("values of a machining cycle that contradict each other end the run an
       {"200 ", "Q201=-5 Q206=0 Q202=5", "Q206 = 0"},
       {"262 ", "Q335=20 Q239=0 Q201=-5 Q207=500", "Q239 = 0"},
       {"208 ", "Q335=20 Q334=0 Q201=-5 Q206=100", "Q334 = 0"},
+      {"251 ", "Q218=40 Q219=30 Q220=15.1" + pocket, "Q220 = 15.1"},
+      {"251 ", "Q218=40 Q219=30 Q369=5" + pocket, "Q369 = 5"},
+      {"254 ", "Q219=20 Q375=80 Q248=0" + pocket, "Q248 = 0"},
   };
   for (const auto& [cycle, values, message] : cases) {
     CAPTURE(cycle);

@@ -237,7 +237,7 @@ TEST_CASE("words that a run cannot do what they say with are refused or noted") 
         Row{"TOOL CALL 30 Z S1000\n" + pocket + call,
             "cycle 251 machines with the touch probe, tool 30"},
         Row{pocket + "Q220=15.001" + call, "Rounding radius too large: Q220"},
-        Row{pocket + "Q369=20" + call, "Oversize greater than depth: the allowance Q369"},
+        Row{pocket + "Q369=20" + call, "Oversize greater than depth: Q369"},
         Row{"CYCL DEF 254 CIRCULAR SLOT Q215=1 Q219=20 Q375=80 Q367=1 Q376=0 Q248=0 Q207=500 "
             "Q201=-20 Q202=5 Q206=150 Q200=2 Q203=0 Q204=50" +
                 call,
