@@ -194,8 +194,7 @@ NcResult<void> execute(Channel& channel, const klartext::Trans& trans) {
   }
   if (trans.kind == Transformation::Mirror) {
     if (trans.reset) return mirror(channel, {});
-    const auto axes = mirrored_axes(channel.program().view(trans.words));
-    return axes ? mirror(channel, *axes) : axes.error();
+    return mirror(channel, TRY(mirrored_axes(channel.program().view(trans.words))));
   }
   const auto words = TRY(read_plane_words(channel, trans.words));
   switch (trans.kind) {

@@ -137,10 +137,7 @@ NcResult<AxisCoordinates> read_axis_words(Channel& channel, std::span<const Word
 NcResult<void> execute_transformation(Channel& channel, int cycle, Words words) {
   switch (cycle) {
     case 7: return datum_shift(channel, words);
-    case 8: {
-      const auto axes = mirrored_axes(words);
-      return axes ? mirror(channel, *axes) : axes.error();
-    }
+    case 8: return mirror(channel, TRY(mirrored_axes(words)));
     case 9: return dwell(channel, words);
     case 10: return rotation(channel, words);
     case 11: return scaling(channel, words);
