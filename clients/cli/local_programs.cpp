@@ -22,10 +22,14 @@ using klartext::Diagnostic;
 using klartext::DiagnosticCode;
 using klartext::Severity;
 
-constexpr std::string_view kCodes[] = {
-#define KLARTEXT_DIAGNOSTIC(name, id) id,
+struct Code {
+  std::string_view id;
+  bool is_error;  ///< always
+};
+constexpr Code kCodes[] = {
+#define KLARTEXT_DIAGNOSTIC(name, id) {id, false},
+#define KLARTEXT_ERROR(name, id) {id, true},
 #include "nc/klartext/diagnostic_codes.inc"
-#undef KLARTEXT_DIAGNOSTIC
 };
 
 JsonObject sarif_place(std::string uri, SourceRange range) {
@@ -89,7 +93,7 @@ Outcome<std::vector<Diagnostic>> found_there(const Context& context, const std::
     for (const Severity each : {Severity::Note, Severity::Warning, Severity::Error}) {
       if (item.text_of("severity") == word(each)) found.severity = each;
     }
-    const auto* code = std::ranges::find(kCodes, item.text_of("code"));
+    const auto* code = std::ranges::find(kCodes, item.text_of("code"), &Code::id);
     if (code != std::end(kCodes)) found.code = static_cast<DiagnosticCode>(code - kCodes);
     found.message = item.text_of("message");
     found.program = item.text_of("program");
@@ -114,14 +118,6 @@ Outcome<std::vector<Diagnostic>> found_there(const Context& context, const std::
 }  // namespace
 
 Outcome<Levels> read_levels(const std::vector<std::string>& written) {
-  using enum DiagnosticCode;
-  // Their programs do not run.
-  constexpr DiagnosticCode kErrors[] = {
-      SyntaxError,           BlockUnknown,      NumberMalformed,        NumberOutOfRange,
-      ParameterOutOfRange,   ParameterType,     StringUnterminated,     StringTooLong,
-      LabelMalformed,        ExpressionTooDeep, CycleParameterRepeated, ControlCharacter,
-      BeginMissing,          EndMissing,        LabelDuplicate,         CycleParameterUnknown,
-      CycleParameterInvalid, RunFailed};
   Levels levels;
   for (const std::string& level : written) {
     const std::size_t equals = level.find('=');
@@ -138,9 +134,10 @@ Outcome<Levels> read_levels(const std::vector<std::string>& written) {
                       level)};
     }
     const std::string code = level.substr(0, equals);
-    if (std::ranges::find(kCodes, code) == std::end(kCodes))
+    const auto* known = std::ranges::find(kCodes, code, &Code::id);
+    if (known == std::end(kCodes))
       return Failure{ExitCode::Usage, fmt::format("--level: unknown finding '{}'", code)};
-    if (std::ranges::find(kErrors, code, klartext::id) != std::end(kErrors))
+    if (known->is_error)
       return Failure{ExitCode::Usage,
                      fmt::format("--level: '{}' is always an error: correct the program", code)};
     levels[code] = severity;

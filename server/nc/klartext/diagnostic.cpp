@@ -14,7 +14,6 @@ namespace {
 constexpr std::string_view kIds[] = {
 #define KLARTEXT_DIAGNOSTIC(name, id) id,
 #include "nc/klartext/diagnostic_codes.inc"
-#undef KLARTEXT_DIAGNOSTIC
 };
 
 /// Returns the line under the source line: carets under the place, with tabs so that they align.

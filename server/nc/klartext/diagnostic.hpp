@@ -25,7 +25,6 @@ std::string_view word(Severity severity);
 enum class DiagnosticCode : std::uint8_t {
 #define KLARTEXT_DIAGNOSTIC(name, id) name,
 #include "nc/klartext/diagnostic_codes.inc"
-#undef KLARTEXT_DIAGNOSTIC
 };
 
 /// The stable text of a code: `label.unknown`.

@@ -126,14 +126,14 @@ class BlockCheck {
     const int expected =
         before ? std::get<CyclePart>(program_.blocks()[*before].statement).part + 1 : 0;
     if (part.part != expected) {
-      report(Severity::Warning, DiagnosticCode::CycleParameterInvalid, block_.written,
+      report(Severity::Warning, DiagnosticCode::OrderContradicts, block_.written,
              fmt::format("{} is missing before {}", line(expected), line(part.part)));
     }
     if (part.part != 0) return check_repeated(part, before);
     if (!is_available(part.family, part.number, true)) {
       warn_unavailable(part.family, part.number);
     } else if (!neighbour(program_, index, 1)) {
-      report(Severity::Warning, DiagnosticCode::CycleParameterInvalid, block_.written,
+      report(Severity::Warning, DiagnosticCode::OrderContradicts, block_.written,
              fmt::format("{} is missing after {}", line(1), line(0)));
     }
   }
