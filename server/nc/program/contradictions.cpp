@@ -16,6 +16,7 @@
 #include "nc/program/followed_values.hpp"
 #include "nc/program/machining_cycles.hpp"
 #include "nc/program/parameter.hpp"
+#include "nc/program/word_senses.hpp"
 
 namespace fitgauge::interpreter {
 namespace {
@@ -24,69 +25,6 @@ using klartext::Block;
 using klartext::DiagnosticCode;
 using klartext::Severity;
 using probing::CycleDescriptor;
-
-/// Meanings of a word; a bit each.
-enum Sense : unsigned {
-  kInside = 1U << 0U,
-  kOutside = 1U << 1U,
-  kCircle = 1U << 2U,
-  kRectangle = 1U << 3U,
-  kWidth = 1U << 4U,
-  kCoordinate = 1U << 5U,
-  kPlane = 1U << 6U,
-  kAngle = 1U << 7U,
-  kMaximum = 1U << 8U,
-  kMinimum = 1U << 9U,
-  kFirstAxis = 1U << 10U,
-  kSecondAxis = 1U << 11U,
-  kThirdAxis = 1U << 12U,
-  kDiameter = 1U << 13U,
-  kHeight = 1U << 14U,
-  kTolerance = 1U << 15U,
-  kClearance = 1U << 16U,
-  kDepth = 1U << 17U,
-  kDrill = 1U << 18U,
-  kScrew = 1U << 19U
-};
-
-/// Senses that exclude each other.
-constexpr unsigned kSide = kInside | kOutside;
-constexpr unsigned kOfCycles[] = {kSide, kCircle | kRectangle,
-                                  kWidth | kCoordinate | kPlane | kAngle, kDrill | kScrew};
-constexpr unsigned kOfParameters[] = {kMaximum | kMinimum, kFirstAxis | kSecondAxis | kThirdAxis,
-                                      kAngle | kDiameter | kHeight | kTolerance | kClearance,
-                                      kClearance | kDepth};
-
-struct Term {
-  std::string_view word;
-  unsigned senses;
-};
-
-constexpr Term kTerms[] = {
-#define FITGAUGE_TERM(word, senses) {word, senses},
-#include "nc/program/contradictions.inc"
-#undef FITGAUGE_TERM
-};
-
-unsigned senses_of(std::string_view text) {
-  const std::string upper = ascii_upper(text) + ' ';
-  unsigned senses = 0;
-  for (std::size_t at = 0; at < upper.size(); ++at) {
-    if (at != 0 && is_ascii_letter(upper[at - 1])) continue;
-    const std::string_view rest = std::string_view(upper).substr(at);
-    for (const Term& term : kTerms) {
-      if (rest.front() == term.word.front() && rest.starts_with(term.word)) senses |= term.senses;
-    }
-  }
-  return senses;
-}
-
-/// The text means something in a group, but not the intended item.
-bool contradict(unsigned said, unsigned meant, std::span<const unsigned> groups) {
-  return std::ranges::any_of(groups, [&](unsigned group) {
-    return (said & group) != 0 && (meant & group) != 0 && (said & meant & group) == 0;
-  });
-}
 
 /// Nominal size of a cycle, and its limit or the tolerance of its centre.
 constexpr int kLimitsOfSize[][2] = {
