@@ -29,9 +29,6 @@ class LatheBench : public ProbingBench {
  public:
   explicit LatheBench(const Setup& setup = lathe_setup()) : ProbingBench(setup) { call(11); }
 
-  void call(int number, Axis axis = Axis::Z) {
-    REQUIRE(machine.call_tool({.number = number, .axis = axis, .spindle_rpm = {}}).has_value());
-  }
   const machine::Tool& tool() { return *machine.state().tools.find(11); }
   const machine::LatheTool& lathe() { return *tool().lathe; }
 };

@@ -32,9 +32,10 @@ class ProbingBench {
  public:
   explicit ProbingBench(std::vector<machine::Feature> features = {})
       : ProbingBench(machine::Setup{.machine = {}, .features = std::move(features)}) {}
-  explicit ProbingBench(const machine::Setup& setup) : machine(setup) {
-    REQUIRE(
-        machine.call_tool({.number = 30, .axis = machine::Axis::Z, .spindle_rpm = {}}).has_value());
+  explicit ProbingBench(const machine::Setup& setup) : machine(setup) { call(30); }
+
+  void call(int number, machine::Axis axis = machine::Axis::Z) {
+    REQUIRE(machine.call_tool({.number = number, .axis = axis, .spindle_rpm = {}}).has_value());
   }
 
   /// Error number and text; 0 when the cycle succeeds, -1 for a fault without a number.

@@ -33,9 +33,6 @@ class TtBench : public ProbingBench {
  public:
   explicit TtBench(const Setup& setup = mill_setup()) : ProbingBench(setup) { call(5); }
 
-  void call(int number, Axis axis = Axis::Z) {
-    REQUIRE(machine.call_tool({.number = number, .axis = axis, .spindle_rpm = {}}).has_value());
-  }
   const machine::Tool& mill() { return *machine.state().tools.find(5); }
 };
 
