@@ -312,7 +312,7 @@ void Plant::verify() {
 void Plant::verify(Site& site) {
   for (const std::string& finding : site.node->verify(site.notes))
     broken(site, "verify: " + finding);
-  // What is of the newest of them is of those before it too.
+  // A note that is there proves the ones before it: only the newest is asked for again.
   if (!site.notes.empty()) site.notes.erase(site.notes.begin(), std::prev(site.notes.end()));
 }
 

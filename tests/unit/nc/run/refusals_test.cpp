@@ -3,7 +3,7 @@
 #include "nc/run/plane_geometry.hpp"
 #include "workshop.hpp"
 
-/// What contradicts itself is refused by the run, and named by the check.
+/// The run refuses contradictions, and the check names them.
 namespace fitgauge::interpreter {
 namespace {
 
