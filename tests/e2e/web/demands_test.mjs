@@ -100,6 +100,7 @@ describe('what a value demands', () => {
     await line('SN-8006');
     await page.waitForFunction(() => document.querySelector('.tiles-of-plan [aria-current]')?.textContent.includes('bore-A'));
     await hasMarks(undefined, 'good', 'good');
+    await isUp(); // a value that is under way would be stored in the next test
     await close(page);
   });
 
@@ -131,6 +132,7 @@ describe('what a value demands', () => {
     await page.waitForSelector('.reactions', { state: 'hidden' });
     await line('40.01'); // the station is free again
     await hasMarks('good', 'good', undefined);
+    await isUp();
     await close(page);
   });
 
@@ -145,6 +147,7 @@ describe('what a value demands', () => {
     await line('40.01');
     await hasMarks('reject', 'good', undefined);
     assert.deepEqual((await daemon.json(`/v1/measurements/${id}/notes`)).notes.map(({ cause, measure }) => [cause, measure]), [['Wrong offset', 'Part scrapped']]);
+    await isUp();
     await close(page);
   });
 
