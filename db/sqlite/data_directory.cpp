@@ -98,6 +98,8 @@ Error system_error(std::string_view doing, const std::filesystem::path& path) {
           fmt::format("cannot {} {}: {}", doing, path.string(), std::strerror(errno))};
 }
 
+constexpr std::array<const char*, 2> kLogSuffixes{"-wal", "-shm"};
+
 /// Gives files that root makes in the folder of a service's user to that user, who opens them
 /// later.
 bool give_to_owner_of_folder(const Descriptor& descriptor, const std::filesystem::path& file) {
@@ -165,6 +167,31 @@ Result<void> FileIdentity::check() const {
                            path_.string(), now ? "replaced" : "removed")};
 }
 
+void LogFiles::remember() {
+  const std::lock_guard lock(mutex_);
+  files_.clear();
+  for (const std::string_view suffix : kLogSuffixes) {
+    if (const auto file = FileIdentity::of(with_suffix(database_, suffix))) files_.push_back(*file);
+  }
+}
+
+void LogFiles::forget() {
+  const std::lock_guard lock(mutex_);
+  files_.clear();
+}
+
+Result<void> LogFiles::check() const {
+  const std::lock_guard lock(mutex_);
+  for (const FileIdentity& file : files_) TRY(file.check());
+  return {};
+}
+
+bool LogFiles::is_log_gone() const {
+  struct stat status {};
+  const auto log = with_suffix(database_, kLogSuffixes.front());
+  return ::stat(log.c_str(), &status) != 0 ? errno == ENOENT : status.st_size == 0;
+}
+
 Result<void> inspect_file(const std::filesystem::path& file, Access access) {
   const Descriptor descriptor = open_file(file, access == Access::Serve ? O_RDWR : O_RDONLY);
   if (!descriptor.is_open()) return system_error("open", file);
@@ -188,10 +215,9 @@ Result<void> inspect_file(const std::filesystem::path& file, Access access) {
 
 void close_to_others(const std::filesystem::path& database) {
   using std::filesystem::perms;
-  for (const std::string_view suffix : {"", "-wal", "-shm"}) {
-    std::filesystem::path file = database;
+  for (const std::string_view suffix : {"", kLogSuffixes[0], kLogSuffixes[1]}) {
     std::error_code ignored;
-    std::filesystem::permissions(file += suffix, perms::others_all,
+    std::filesystem::permissions(with_suffix(database, suffix), perms::others_all,
                                  std::filesystem::perm_options::remove, ignored);
   }
 }

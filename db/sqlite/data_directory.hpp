@@ -4,8 +4,10 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <mutex>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/folder.hpp"
 #include "base/result.hpp"
@@ -28,6 +30,10 @@ namespace fitgauge::store {
 /// `.` for a name without a folder.
 std::filesystem::path folder_of(const std::filesystem::path& file);
 
+inline std::filesystem::path with_suffix(std::filesystem::path file, std::string_view suffix) {
+  return file += suffix;
+}
+
 /// Identifies the file that a path named when it was opened.
 class FileIdentity {
  public:
@@ -43,6 +49,25 @@ class FileIdentity {
   std::filesystem::path path_;
   dev_t device_;
   ino_t inode_;
+};
+
+/// SQLite's write-ahead log and its index, next to the database while a connection is open.
+/// Thread-safe.
+class LogFiles {
+ public:
+  explicit LogFiles(std::filesystem::path database) : database_(std::move(database)) {}
+
+  void remember();  ///< the files that a connection has opened
+  void forget();    ///< before a connection closes that may remove them
+  /// Whether they are the remembered files. @errors as FileIdentity::check().
+  Result<void> check() const;
+  /// Whether nothing that the log held is at its path.
+  bool is_log_gone() const;
+
+ private:
+  const std::filesystem::path database_;
+  mutable std::mutex mutex_;
+  std::vector<FileIdentity> files_;
 };
 
 /// The lock that keeps a second daemon out of a data directory; released when destroyed, also by a

@@ -24,16 +24,27 @@ class WriterSession final : public Session {
  public:
   using Check = std::function<Result<void>()>;
 
-  /// @param check whether the files are still the ones that were opened.
-  WriterSession(const OpenOptions& options, const Clock& clock, Mode mode, Check check)
-      : Session(options, clock, mode), check_(std::move(check)), checkpointer_(options) {
+  /// @param check whether lock and database are still the files that were opened.
+  WriterSession(const OpenOptions& options, const Clock& clock, Mode mode, Check check,
+                LogFiles& log)
+      : Session(options, clock, mode), check_(std::move(check)), log_(log), checkpointer_(options) {
     checkpointer_.install(connection);
+    connection.query_integer("SELECT count(*) FROM sqlite_schema");  // opens the log
+    log_.remember();
   }
   /// The last connection that closes removes the log by its name, which may be another database's.
+  /// What a removed log held goes into the database.
   ~WriterSession() override {
-    if (!check_()) {
-      sqlite3_db_config(connection.handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    const bool has_database{check_()};
+    if (has_database && log_.check()) {
+      log_.forget();
+      return;
     }
+    sqlite3* const handle = connection.handle();
+    if (has_database && log_.is_log_gone()) {
+      sqlite3_wal_checkpoint_v2(handle, nullptr, SQLITE_CHECKPOINT_FULL, nullptr, nullptr);
+    }
+    sqlite3_db_config(handle, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   }
 
   void tidy_up(WriterCounters& counters) override {
@@ -43,6 +54,7 @@ class WriterSession final : public Session {
 
  private:
   const Check check_;
+  LogFiles& log_;
   Checkpointer checkpointer_;
 };
 
@@ -61,14 +73,15 @@ class FileDatabase final : public Database {
         clock_(time),
         file_(chosen.directory / kDatabaseFile),
         identity_(identity_of(file_)),
+        log_files_(file_),
         monitor_(chosen.health_changed),
         writer_engine_(
             chosen, time, monitor_,
             [this]() -> std::unique_ptr<sql::Session> {
               require_own_files();
               const Mode mode = is_read_only(options_) ? Mode::Read : Mode::Write;
-              return std::make_unique<WriterSession>(options_, clock_, mode,
-                                                     [this] { return check_files(); });
+              return std::make_unique<WriterSession>(
+                  options_, clock_, mode, [this] { return check_database(); }, log_files_);
             },
             [this] { require_own_files(); }),
         reader_engine_(chosen, monitor_,
@@ -127,10 +140,14 @@ class FileDatabase final : public Database {
     return *std::move(identity);
   }
 
-  /// Checks that lock and database are still the opened files.
-  Result<void> check_files() const {
+  Result<void> check_database() const {
     TRY(lock_ ? lock_->check() : Result<void>());
     return identity_.check();
+  }
+  /// Checks that lock, database and log are still the opened files.
+  Result<void> check_files() const {
+    TRY(check_database());
+    return log_files_.check();
   }
   void require_own_files() const {
     if (const auto own = check_files(); !own) throw StorageFailure(own.error());
@@ -141,6 +158,7 @@ class FileDatabase final : public Database {
   const Clock& clock_;
   const std::filesystem::path file_;
   const FileIdentity identity_;
+  LogFiles log_files_;
   HealthMonitor monitor_;
   Writer::Engine writer_engine_;
   ReadPool::Engine reader_engine_;

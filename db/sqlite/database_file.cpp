@@ -47,8 +47,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path with_suffix(fs::path path, std::string_view suffix) { return path += suffix; }
-
 Error unavailable(std::string message) {
   return {ErrorCode::StorageUnavailable, std::move(message)};
 }

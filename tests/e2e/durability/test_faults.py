@@ -146,7 +146,7 @@ class Removed(FaultTest):
         self.assertIn(word, daemon.get("/readyz").json["detail"])
 
     def test_a_database_that_is_removed(self):
-        for name in ("fitgauge.db", "fitgauge.lock"):
+        for name in ("fitgauge.db", "fitgauge.lock", "fitgauge.db-wal", "fitgauge.db-shm"):
             with self.subTest(name):
                 daemon = self.make_daemon().start()
                 self.assertEqual(daemon.measure(PART).status, 201)
@@ -158,6 +158,24 @@ class Removed(FaultTest):
                 self.assertEqual(daemon.get("/readyz").status, 200)
                 self.assertEqual(daemon.stop(), 0)
                 self.assertEqual(daemon.command("verify").returncode, 0)
+
+    def test_a_log_that_is_removed_loses_nothing(self):
+        for name in ("fitgauge.db-wal", "fitgauge.db-shm"):
+            for replace in (False, True):
+                with self.subTest(name, replace=replace):
+                    daemon = self.make_daemon().start()
+                    self.assertEqual([daemon.measure(PART).status for _ in range(3)], [201] * 3)
+                    (daemon.data / name).unlink()
+                    if replace:
+                        (daemon.data / name).write_bytes(b"")
+                    self.assert_refuses(daemon, name, "re")
+                    self.assertEqual(len(daemon.stored()), 3)
+                    daemon.kill()
+                    daemon.start()
+                    self.assertEqual(len(daemon.stored()), 3)
+                    self.assertNotIn("log_branched", daemon.log)
+                    self.assertEqual(daemon.stop(), 0)
+                    self.assertEqual(daemon.command("verify").returncode, 0)
 
     def test_nothing_is_written_into_the_folder_of_another(self):
         first = self.make_daemon().start()
