@@ -196,7 +196,7 @@ class LogService {
   std::optional<std::string> told_by(const TreeNames& tree, std::int64_t leaves,
                                      const Loaded& loaded);
   std::optional<std::string> told_by_checkpoint(const Loaded& loaded);
-  std::optional<std::string> why_to_branch(const Loaded& loaded);
+  std::optional<std::string> why_to_branch(Loaded& loaded);
   Result<void> branch(const Loaded& loaded, const std::string& why);
   void run(const std::stop_token& stop);
   Steady::time_point next_wake() const;

@@ -37,6 +37,26 @@ bool is_renamed(std::string_view name, const LogOptions& options) {
   return options.name != LogOptions().name && options.name != middle_of(name);
 }
 
+/// The name under which a folder has signed the log with this origin; none: it has not.
+std::optional<std::string> name_in_folder(const std::filesystem::path& folder,
+                                          const std::string& digits) {
+  std::vector<std::string> names;
+  for (const TreeNames& tree : {kTreeOfMeasurements, kTreeOfChanges}) {
+    const auto note = read_small_file(folder / tree.file);
+    if (!note || !*note) continue;
+    const auto checkpoint = tlog::parse_checkpoint(**note);
+    if (!checkpoint || !checkpoint->origin.ends_with(tree.suffix)) continue;
+    names.push_back(checkpoint->origin.substr(0, checkpoint->origin.size() - tree.suffix.size()));
+  }
+  if (const auto keys = read_log_keys(folder)) {
+    for (const tlog::SigningKey& key : *keys) names.push_back(key.verifier().name());
+  }
+  const std::string ending = "/" + digits.substr(0, kDigitsInName);
+  const auto name = std::find_if(names.begin(), names.end(),
+                                 [&](const auto& each) { return each.ends_with(ending); });
+  return name == names.end() ? std::nullopt : std::optional(*name);
+}
+
 }  // namespace
 
 /// The state of the log in the database.
@@ -219,8 +239,12 @@ std::optional<std::string> LogService::told_by_checkpoint(const Loaded& loaded) 
 }
 
 /// Returns the reason why the next ids may already have been given out; none if they cannot.
-std::optional<std::string> LogService::why_to_branch(const Loaded& loaded) {
-  if (!loaded.state.name) return std::nullopt;  // the first start
+std::optional<std::string> LogService::why_to_branch(Loaded& loaded) {
+  if (!loaded.state.name) {
+    loaded.state.name = name_in_folder(options_.directory, digits_of_origin(loaded.state.origin));
+    if (!loaded.state.name) return std::nullopt;  // the first start
+    return "the folder has signed this log, and the database has lost its beginning";
+  }
   if (auto told = told_by_checkpoint(loaded)) return told;
   if (loaded.takes_name(options_)) return fmt::format("origin-name is {}", options_.name);
   if (loaded.is_copy) return "the database is a copy that `backup` made";
@@ -245,7 +269,9 @@ Result<void> LogService::branch(const Loaded& loaded, const std::string& why) {
                                    digits_of_origin(origin));
   const auto begun = database_.writer().wait([&](store::Stores& stores) -> Result<bool> {
     // Another daemon may have been first.
-    if (stores.log.state().origin != loaded.state.origin) return false;
+    const auto state = stores.log.state();
+    if (state.origin != loaded.state.origin) return false;
+    if (!state.name) stores.log.set_name(before);
     stores.log.begin_branch(stores.measurements.log_size(), origin, name);
     return true;
   });

@@ -173,6 +173,25 @@ class Folders(Restored):
         daemon.start()
         daemon.wait_for_log("has signed 5 measurements, and the database has 3")
 
+    def test_a_first_start_that_is_lost_gives_no_id_twice(self):
+        daemon = self.made().start()
+        lost = self.store(daemon, "d1 d2 d3")
+        wait_for_size(daemon, 3)
+        daemon.kill()
+        for suffix in ("-wal", "-shm"):
+            pathlib.Path(f"{daemon.database}{suffix}").unlink()
+        daemon.start()
+        daemon.wait_for_log('"event":"log_branched"')
+        self.assertEqual(daemon.stored(), [])
+        self.assert_unique(lost, self.store(daemon, "n1 n2 n3"))
+        for gone in lost:
+            self.assertEqual(daemon.get(f"/v1/measurements/{gone}").status, 404)
+        wait_for_size(daemon, 3)
+        self.assertEqual(daemon.stop(), 0)
+        self.assert_clean(daemon)
+        daemon.start()
+        self.assertEqual(daemon.log.count('"event":"log_branched"'), 1)
+
     def test_a_subscriber_that_deduplicates_by_id_loses_nothing(self):
         broker, daemon = Broker(), self.made().start()
         self.addCleanup(broker.cleanup)
