@@ -135,6 +135,15 @@ void LogStore::set_centre(std::string_view digits) {
   statements_->mark.run("centre", digits);
 }
 
+std::optional<std::string> LogStore::retention() const {
+  return statements_->reason_of("retention");
+}
+
+void LogStore::set_retention(std::string_view text) {
+  statements_->unmark.run("retention");
+  statements_->mark.run("retention", text);
+}
+
 void LogStore::begin_branch(std::int64_t size, const Origin& origin, std::string_view name) {
   const State ended = state();
   const auto last = [this] {

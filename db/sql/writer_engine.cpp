@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <sstream>
+#include <utility>
 
 #include "db/store/stores.hpp"
 
@@ -11,6 +13,7 @@ namespace fitgauge::store {
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
 
 /// Maximum number of rows that a step deletes: a request meanwhile waits a few milliseconds.
 constexpr std::int64_t kStep = 200;
@@ -22,6 +25,12 @@ constexpr milliseconds kLookInterval{200};
 constexpr milliseconds kQuietInterval{60'000};
 
 constexpr milliseconds kProbeInterval{1'000};
+
+/// Running time after which a clock is right.
+constexpr std::chrono::hours kSteadyDay{24};
+/// A clock is set back less when the machine starts.
+constexpr std::chrono::hours kLeastSetBack{1};
+constexpr std::chrono::minutes kBetweenKeepings{10};
 /// After this duration of a transaction, waiting jobs are left for the next one.
 constexpr milliseconds kLongestBatch{20};
 
@@ -33,12 +42,13 @@ Error internal_error(const std::exception& bug) {
 
 bool run_maintenance_step(sql::Session& session, const OpenOptions& options,
                           const SteadyTime& clock, Retention& retention) {
-  using std::chrono::nanoseconds;
   Stores& stores = session.stores();
   std::int64_t keys = 0;
   std::int64_t runs = 0;
   session.begin_writing();
-  if (const auto now = retention.time(clock, stores)) {
+  const auto now = retention.time(clock, stores);
+  retention.keep(stores);
+  if (now) {
     keys = stores.idempotency.purge(*now, kStep);
     runs = stores.runs.purge(now->nanoseconds - nanoseconds(options.run_retention).count(), kStep);
   }
@@ -323,16 +333,39 @@ Error Writer::in_progress() {
 }
 
 std::optional<Timestamp> Retention::time(const SteadyTime& clock, const Stores& stores) {
-  const bool has_held = clock.held >= std::chrono::hours(24);
-  if (has_begun_ && !has_held) return time_;
-  const std::optional<Timestamp> newest = stores.measurements.newest_received_at();
-  has_begun_ = true;
-  if (newest) {
-    time_ = std::min(*newest, clock.time);
-  } else if (has_held) {
-    time_ = clock.time;
+  if (!std::exchange(has_begun_, true)) {
+    std::istringstream text(stores.log.retention().value_or(""));
+    State kept;
+    if (text >> kept.time_ns >> kept.next_ns >> kept.held_ns >> kept.seen_ns) state_ = kept_ = kept;
   }
-  return time_;
+  const bool has_held = clock.held >= kSteadyDay;
+  const std::int64_t now = clock.time.nanoseconds;
+  const bool is_set_back = now < state_.seen_ns - nanoseconds(kLeastSetBack).count();
+  const bool begins = state_.next_ns == 0 || clock.held < held_ || is_set_back;
+  if (!has_held && !begins) state_.held_ns += (clock.held - held_).count();
+  const bool is_day_over = has_held || state_.held_ns >= nanoseconds(kSteadyDay).count();
+  if (begins || is_day_over) {
+    const auto newest = stores.measurements.newest_received_at();
+    const std::int64_t next = newest ? std::min(newest->nanoseconds, now) : now;
+    if (is_day_over) state_.time_ns = has_held ? next : state_.next_ns;
+    state_.next_ns = next;
+    state_.held_ns = 0;
+  }
+  held_ = clock.held;
+  state_.seen_ns = now;
+  return state_.time_ns == 0 ? std::nullopt : std::optional(Timestamp{state_.time_ns});
+}
+
+void Retention::keep(Stores& stores) {
+  const auto has_moved = [](std::int64_t from, std::int64_t to) {
+    return to < from || to - from >= nanoseconds(kBetweenKeepings).count();
+  };
+  if (!has_moved(kept_.seen_ns, state_.seen_ns) && !has_moved(kept_.held_ns, state_.held_ns)) {
+    return;
+  }
+  stores.log.set_retention(
+      fmt::format("{} {} {} {}", state_.time_ns, state_.next_ns, state_.held_ns, state_.seen_ns));
+  kept_ = state_;
 }
 
 void Retention::deleted(std::int64_t keys, std::int64_t runs) {
@@ -345,7 +378,7 @@ std::optional<std::string> Retention::report(std::chrono::nanoseconds now, bool 
   if (keys_ + runs_ == 0 || more || is_soon) return std::nullopt;
   std::string sentence = fmt::format(
       "deleted {} idempotency keys and {} finished runs with their files: expired at {}", keys_,
-      runs_, time_ ? format_rfc3339(*time_) : "");
+      runs_, format_rfc3339({state_.time_ns}));
   keys_ = runs_ = 0;
   reported_ = now;
   return sentence;

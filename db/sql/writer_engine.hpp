@@ -26,13 +26,15 @@ struct Stores;
 /// Time by which runs and idempotency keys expire, and a count of the deletions. A clock may be
 /// wrong (a dead battery, the first response of NTP) and a deletion is final: the time is never
 /// later than the newest record's `received_at`, and it advances only after the clock was steady
-/// for a day of running time. Until then it is the time of the start, or of the last check before a
-/// jump. Used by one thread.
+/// for a day of running time. The day may have several starts, and the time advances then to the
+/// begin of the day. Used by one thread.
 class Retention {
  public:
-  /// @returns none while nothing may expire: without a record, until the clock was steady.
+  /// @returns none while nothing may expire: until the clock was steady for the first time.
   /// @throws StorageFailure
   std::optional<Timestamp> time(const SteadyTime& clock, const Stores& stores);
+  /// Stores the state for the next start, from time to time. @throws StorageFailure
+  void keep(Stores& stores);
 
   void deleted(std::int64_t keys, std::int64_t runs);
   /// @param now of a clock that nobody sets. @param more whether the next step may delete more.
@@ -40,8 +42,17 @@ class Retention {
   std::optional<std::string> report(std::chrono::nanoseconds now, bool more);
 
  private:
+  struct State {
+    std::int64_t time_ns = 0;  ///< 0: none yet
+    std::int64_t next_ns = 0;  ///< the time after a steady day
+    std::int64_t held_ns = 0;  ///< running time of that day
+    std::int64_t seen_ns = 0;  ///< the clock
+  };
+
   bool has_begun_ = false;
-  std::optional<Timestamp> time_;
+  State state_;
+  State kept_;
+  std::chrono::nanoseconds held_{0};  ///< of the clock at the last check
   std::int64_t keys_ = 0;
   std::int64_t runs_ = 0;
   std::optional<std::chrono::nanoseconds> reported_;

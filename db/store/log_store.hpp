@@ -56,6 +56,9 @@ class LogStore {
   /// met no centre.
   std::optional<std::string> centre() const;
   void set_centre(std::string_view digits);
+  /// The text of Retention; none: it has kept nothing yet.
+  std::optional<std::string> retention() const;
+  void set_retention(std::string_view text);
   /// Ends the history that state() names with the `size` rows there are, and begins another.
   void begin_branch(std::int64_t size, const std::array<std::uint8_t, 16>& origin,
                     std::string_view name);

@@ -1,6 +1,8 @@
 """A machine clock that is set back: nothing is lost or doubled, order is kept, and the log says so."""
 
+import contextlib
 import json
+import sqlite3
 import unittest
 from datetime import datetime
 
@@ -20,6 +22,11 @@ class SetBack(ClockTest):
     def warnings(self, event="clock_set_back"):
         lines = map(json.loads, self.daemon.log.splitlines())
         return [line["detail"] for line in lines if line["event"] == event]
+
+    def retention(self):
+        """Stored by the steps that delete."""
+        with contextlib.closing(sqlite3.connect(f"file:{self.daemon.database}?mode=ro", uri=True)) as database:
+            return database.execute("SELECT reason FROM log_marks WHERE mark = 'retention'").fetchall()
 
     def check(self, records):
         """All are there once, in the order of their ids and of their times."""
@@ -77,8 +84,15 @@ class SetBack(ClockTest):
         self.daemon.start()
         first = self.daemon.measure(PART, KEY)
         self.daemon.kill()
-        self.set_clock("+400d")
+        records = [first.json]
+        for offset in ("+400d", "+401d"):  # the second start finds a record of a wrong time
+            self.set_clock(offset)
+            before = self.retention()
+            self.daemon.start()
+            records += [self.measure(), self.measure()]
+            wait_for(lambda: self.retention() != before, "a step that deletes what has expired")
+            self.assertEqual(self.daemon.measure(PART, KEY).body, first.body)
+            self.assertEqual(self.daemon.stop(), 0)
+        self.assertEqual(self.warnings("purged"), [])
         self.daemon.start()
-        records = [first.json, self.measure(), self.measure()]
-        self.assertEqual(self.daemon.measure(PART, KEY).body, first.body)
         self.check(records)

@@ -1,5 +1,7 @@
 """Runs and idempotency keys are kept for as many days as configured."""
 
+import time
+
 from support.control import ControlTest
 from support.seals import alter, sealed_anew
 from support.waiting import wait_for
@@ -11,9 +13,12 @@ DAY = 86_400 * 10**9
 
 class Retention(ControlTest):
     def restart(self, *flags, changes=()):
-        """Ends the service and starts it with other flags; the changes are made in its database."""
+        """Ends the service and starts it with other flags at the end of a steady day; the changes are made in its
+        database."""
         self.assertEqual(self.daemon.stop(), 0)
-        alter(self.daemon.database, *changes)
+        now = time.time_ns()
+        steady = f"INSERT OR REPLACE INTO log_marks VALUES ('retention', '0 {now} {DAY} {now}', zeroblob(32))"
+        alter(self.daemon.database, *changes, steady, sealed_anew("log_marks"))
         self.daemon.flags = list(flags)
         self.daemon.start()
 

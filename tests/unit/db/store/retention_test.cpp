@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <thread>
 
 #include "fixture.hpp"
 
@@ -15,11 +16,34 @@ namespace {
 
 /// The service with a clock that can be set, from its start on.
 struct Retained : Fixture {
+  /// The writer of the service stores its state once, before the test begins.
+  Retained() {
+    database.reset();
+    options.steady_time = [begin = clock.now()] { return SteadyTime{.time = begin, .held = 0s}; };
+    open();
+    const auto is_kept = [this] {
+      return *read(
+          [](const Stores& stores) -> Result<bool> { return stores.log.retention().has_value(); });
+    };
+    while (!is_kept()) std::this_thread::yield();
+    const auto cleared = write([](Stores& stores) -> Result<bool> {
+      stores.log.set_retention("0 0 0 0");
+      return true;
+    });
+    REQUIRE(cleared.has_value());
+  }
   /// The time that things expire by.
   std::optional<Timestamp> look() {
-    return *read([this](const Stores& stores) -> Result<std::optional<Timestamp>> {
-      return retention.time({.time = clock.now(), .held = held}, stores);
+    return *write([this](Stores& stores) -> Result<std::optional<Timestamp>> {
+      const auto time = retention.time({.time = clock.now(), .held = held}, stores);
+      retention.keep(stores);
+      return time;
     });
+  }
+  void start_again() {
+    retention = {};
+    held = 0s;
+    look();
   }
   Timestamp record() {
     REQUIRE(append(clock.row()).has_value());
@@ -50,16 +74,42 @@ TEST_CASE_FIXTURE(Retained, "nothing expires by a time later than the newest rec
   CHECK(look() == second);
 }
 
-TEST_CASE_FIXTURE(Retained,
-                  "in the first day of a start things expire by the newest record before") {
+TEST_CASE_FIXTURE(Retained, "in the first day of a start nothing more expires") {
+  pass(48h);
   const Timestamp before = record();
   CHECK(look() == before);
-  clock.advance(400 * 24h);  // wrong from the start on
-  record();
+  clock.advance(400 * 24h);  // wrong while the service is off, and with a record of that time
+  for (int starts = 0; starts < 2; ++starts) {
+    start_again();
+    record();
+    CHECK(look() == before);
+    pass(11h);
+    CHECK(look() == before);
+  }
+  clock.advance(-400 * 24h);  // corrected while it is off: the day begins again
+  start_again();
   pass(24h - 1ns);
   CHECK(look() == before);
+}
+
+TEST_CASE_FIXTURE(Retained, "a steady day may have several starts") {
+  const Timestamp begin = record();
+  for (int starts = 0; starts < 2; ++starts) {
+    start_again();
+    pass(8h);
+    record();
+    CHECK_FALSE(look().has_value());
+  }
+  start_again();
+  pass(8h - 1ns);
+  CHECK_FALSE(look().has_value());
   pass(1ns);
-  CHECK(look() == Timestamp{clock.now().nanoseconds - std::chrono::nanoseconds(24h).count()});
+  CHECK(look() == begin);
+  clock.advance(400 * 24h);
+  start_again();
+  record();
+  pass(23h);
+  CHECK(look() == begin);
 }
 
 TEST_CASE_FIXTURE(Retained,
