@@ -90,7 +90,7 @@ namespace fitgauge::store {
 namespace {
 
 Descriptor open_file(const std::filesystem::path& path, int flags) {
-  return Descriptor(::open(path.c_str(), flags | O_CLOEXEC, 0640));
+  return Descriptor(::open(path.c_str(), flags | O_NONBLOCK | O_CLOEXEC, 0640));
 }
 
 Error system_error(std::string_view doing, const std::filesystem::path& path) {
@@ -99,6 +99,11 @@ Error system_error(std::string_view doing, const std::filesystem::path& path) {
 }
 
 constexpr std::array<const char*, 2> kLogSuffixes{"-wal", "-shm"};
+
+Error not_regular(const std::filesystem::path& file) {
+  return {ErrorCode::StorageUnavailable,
+          fmt::format("{} is not a regular file: move it away", file.string())};
+}
 
 /// Gives files that root makes in the folder of a service's user to that user, who opens them
 /// later.
@@ -149,6 +154,7 @@ Result<DirectoryLock> DirectoryLock::acquire(const std::filesystem::path& direct
   }
   struct stat status {};
   if (::fstat(descriptor.get(), &status) != 0) return system_error("look at", file);
+  if (!S_ISREG(status.st_mode)) return not_regular(file);
   return DirectoryLock(std::move(descriptor), FileIdentity{file, status.st_dev, status.st_ino});
 }
 
@@ -190,6 +196,15 @@ bool LogFiles::is_log_gone() const {
   struct stat status {};
   const auto log = with_suffix(database_, kLogSuffixes.front());
   return ::stat(log.c_str(), &status) != 0 ? errno == ENOENT : status.st_size == 0;
+}
+
+Result<void> check_kinds(const std::filesystem::path& database) {
+  for (const char* const suffix : {"", "-journal", kLogSuffixes[0], kLogSuffixes[1]}) {
+    const std::filesystem::path file = with_suffix(database, suffix);
+    struct stat status {};
+    if (::stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return not_regular(file);
+  }
+  return {};
 }
 
 Result<void> inspect_file(const std::filesystem::path& file, Access access) {

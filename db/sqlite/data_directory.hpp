@@ -89,6 +89,10 @@ class DirectoryLock {
   FileIdentity file_;
 };
 
+/// Whether the database and SQLite's files next to it are regular files, as far as they exist:
+/// SQLite waits for the writer of a FIFO. @errors StorageUnavailable
+Result<void> check_kinds(const std::filesystem::path& database);
+
 /// Reads the first bytes of an existing database without opening it with SQLite, which would use an
 /// empty file as a new database. Called before any connection to the file is open (closing a
 /// descriptor releases the locks of SQLite).

@@ -168,6 +168,7 @@ Result<int> checked_version(const OpenOptions& options, const fs::path& file,
 Result<void> prepare_or_throw(const OpenOptions& options, std::span<const sqlite::Migration> known,
                               std::int64_t now_ns) {
   const fs::path file = options.directory / kDatabaseFile;
+  TRY(check_kinds(file));
   if (!fs::exists(file)) {
     if (options.access == Access::Serve) return create_file(file, known, now_ns);
     return unavailable(fmt::format("{} does not exist: start fitgauged once", file.string()));

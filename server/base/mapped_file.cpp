@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "base/folder.hpp"
+#include "base/regular_file.hpp"
 
 namespace fitgauge {
 namespace {
@@ -36,9 +36,9 @@ MappedFile::~MappedFile() {
 }
 
 Result<MappedFile> MappedFile::open(const std::string& path) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor file = TRY(open_regular(path));
   struct stat status {};
-  if (!file.is_open() || ::fstat(file.get(), &status) != 0) return failed();
+  if (::fstat(file.get(), &status) != 0) return failed();
   if (status.st_size == 0) return MappedFile();
   MappedFile mapped(file.get(), static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE);
   if (mapped.bytes() == nullptr) return failed();

@@ -7,7 +7,6 @@
 #include <sys/time.h>
 
 #include <chrono>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -15,6 +14,7 @@
 
 #include "api/services.hpp"
 #include "base/folder.hpp"
+#include "base/regular_file.hpp"
 #include "http/server.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/qualification/qualification.hpp"
@@ -55,9 +55,8 @@ Result<std::string> address_of(const Config& config) {
     const auto listen = TRY(http::parse_listen_address(config.listen.front()));
     return listen.own_address();
   }
-  std::ifstream file(health_port_file(config));
-  std::string port;
-  if (file >> port) return "127.0.0.1:" + port;
+  const auto port = read_regular(health_port_file(config));
+  if (port && !port->empty()) return "127.0.0.1:" + port->substr(0, port->find('\n'));
   return Error{ErrorCode::NotReady, "no service runs on " + config.data + ": it holds no " +
                                         health_port_file(config).filename().string()};
 }
@@ -92,11 +91,12 @@ Result<int> run_backup(const Config& config, const std::string& file) {
 Result<int> run_verify(const Config& config, const std::vector<std::string>& checkpoints) {
   std::map<std::string, std::string> notes;
   for (const std::string& file : checkpoints) {
-    std::ifstream in(file, std::ios::binary);
-    notes[file] = {std::istreambuf_iterator<char>(in), {}};
-    if (!in.is_open() || in.bad()) {
-      return Error{ErrorCode::ConfigInvalid, "cannot read the checkpoint " + file};
+    auto note = read_regular(file);
+    if (!note) {
+      return Error{ErrorCode::ConfigInvalid,
+                   fmt::format("cannot read the checkpoint {}: {}", file, note.error().message)};
     }
+    notes[file] = *std::move(note);
   }
   const auto app = TRY(attach(config));
   const auto verification = TRY(app->verify(notes));

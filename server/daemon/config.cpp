@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/number.hpp"
+#include "base/regular_file.hpp"
 #include "base/text.hpp"
 #include "daemon/connections.hpp"
 #include "formats/certificate/certificate.hpp"
@@ -240,14 +241,12 @@ Result<void> assign(const Setting& setting, std::string_view text, Config& confi
 }
 
 Result<void> read_toml(const std::string& path, Config& config) {
+  const auto content = read_regular(path);
+  if (!content) return invalid(fmt::format("cannot read {}: {}", path, content.error().message));
   toml::table file;
   try {
-    file = toml::parse_file(path);
+    file = toml::parse(*content, path);
   } catch (const toml::parse_error& error) {
-    if (!error.source().begin) {
-      return invalid(fmt::format(
-          "cannot read {}: check that the file is there and that this user may read it", path));
-    }
     return invalid(fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
   }
   for (const auto& [key, node] : file) {

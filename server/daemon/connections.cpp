@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 
+#include "base/regular_file.hpp"
 #include "base/text.hpp"
 #include "daemon/log.hpp"
 #include "service/log/revisions_text.hpp"
@@ -101,15 +101,14 @@ Result<void> ConnectionReader::load_patterns(JsonValue& body) const {
         return error(table_.get("patterns"), "patterns must be a list of texts");
       }
       const auto path = std::filesystem::path(file_).parent_path() / item.text;
-      std::ifstream file(path, std::ios::binary);
-      std::string content{std::istreambuf_iterator<char>(file), {}};
-      if (!file) {
-        return error(table_.get("patterns"),
-                     fmt::format("cannot read the pattern file {}", path.string()));
+      auto content = read_regular(path);
+      if (!content) {
+        return error(table_.get("patterns"), fmt::format("cannot read the pattern file {}: {}",
+                                                         path.string(), content.error().message));
       }
       JsonValue pattern{.kind = JsonValue::Kind::Object};
       pattern.members.emplace_back("file", text_value(item.text));
-      pattern.members.emplace_back("text", text_value(std::move(content)));
+      pattern.members.emplace_back("text", text_value(*std::move(content)));
       item = std::move(pattern);
     }
   }
@@ -174,9 +173,14 @@ Result<std::vector<Definition>> read_connections(const std::string& path) {
   const auto invalid = [&path](auto line, std::string_view what) {
     return Error{ErrorCode::ConfigInvalid, fmt::format("{}:{}: {}", path, line, what)};
   };
+  const auto text = read_regular(path);
+  if (!text) {
+    return Error{ErrorCode::ConfigInvalid,
+                 fmt::format("cannot read {}: {}", path, text.error().message)};
+  }
   toml::table file;
   try {
-    file = toml::parse_file(path);
+    file = toml::parse(*text, path);
   } catch (const toml::parse_error& error) {
     return invalid(error.source().begin.line, error.description());
   }
@@ -245,8 +249,9 @@ Result<void> check_forwarding(const Config& config) {
                     url));
   }
   for (const std::string& file : {config.forward_key_file, config.forward_ca}) {
-    if (!file.empty() && !std::ifstream(file).good()) {
-      return invalid_forwarding(fmt::format("cannot read {}", file));
+    if (file.empty()) continue;
+    if (const auto opened = open_regular(file); !opened) {
+      return invalid_forwarding(fmt::format("cannot read {}: {}", file, opened.error().message));
     }
   }
   return {};

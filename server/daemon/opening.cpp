@@ -61,6 +61,7 @@ bool is_to_end_after_a_second() {
 Result<void> write_port_file(const std::string& path, std::uint16_t port) {
   const std::string aside = path + ".new";
   {
+    std::remove(aside.c_str());  // a FIFO would wait for a reader
     std::ofstream file(aside);
     file << port << '\n';
     if (!file.flush()) return Error{ErrorCode::ConfigInvalid, "cannot write the port file " + path};

@@ -13,9 +13,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
+#include "base/regular_file.hpp"
 #include "base/text.hpp"
 #include "daemon/connections.hpp"
 #include "daemon/log.hpp"
@@ -191,15 +191,13 @@ std::string admin_key_out(const Config& config) {
 }
 
 Result<std::string> read_admin_key(const std::string& file) {
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  std::string token(trim(line));
+  const auto text = read_regular(file);
+  std::string token(text ? trim(text->substr(0, text->find('\n'))) : "");
   if (token.size() >= app::kShortestToken) return token;
   const auto invalid = [&](const std::string& what) {
     return Error{ErrorCode::ConfigInvalid, fmt::format("admin-key-file {} {}", file, what)};
   };
-  if (!in.is_open()) return invalid(fmt::format("cannot be read: {}", std::strerror(errno)));
+  if (!text) return invalid("cannot be read: " + text.error().message);
   if (token.empty()) return invalid("has no key in its first line");
   return invalid(fmt::format("has a key of {} characters; a key must have at least {}",
                              token.size(), app::kShortestToken));

@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <ctime>
-#include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <system_error>
 
+#include "base/regular_file.hpp"
 #include "daemon/log.hpp"
 
 namespace fitgauge::daemon {
@@ -29,11 +30,15 @@ double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
 }
 
+std::string text_of_kernel(const char* file) {
+  const auto text = read_regular(file);
+  return text ? *text : std::string();
+}
+
 /// Start of this process in seconds since 1970: the kernel counts from its own start.
 double start_time() {
   // The name, in brackets, may have blanks; the start is the 20th word after it (proc(5)).
-  std::ifstream file("/proc/self/stat");
-  std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text = text_of_kernel("/proc/self/stat");
   text.erase(0, text.rfind(')') + 1);
   std::size_t at = 0;
   for (int word = 1; word < 20 && at != std::string::npos; ++word) at = text.find(' ', at + 1);
@@ -55,7 +60,7 @@ double open_files() {
 
 /// Pages of the address space and of memory (proc(5), statm).
 std::pair<double, double> memory() {
-  std::ifstream file("/proc/self/statm");
+  std::istringstream file(text_of_kernel("/proc/self/statm"));
   double all = 0;
   double resident = 0;
   file >> all >> resident;

@@ -3,9 +3,9 @@
 with the folders.
 
 Fails on an include of a room that comes later, on a cycle between files, on a library of others outside its border
-(SQLite, Beast, JSON), on a thread that an exception would end, on an error code that nothing makes, on a folder of the
-tree that does not exist or that the tree lacks, and when it finds nothing to check. `--arrows` prints the rooms with
-their lines, and each pair of rooms of which one includes the other.
+(SQLite, Beast, JSON), on a thread that an exception would end, on a file that is read by its path, on an error code
+that nothing makes, on a folder of the tree that does not exist or that the tree lacks, and when it finds nothing to
+check. `--arrows` prints the rooms with their lines, and each pair of rooms of which one includes the other.
 """
 
 import re
@@ -25,6 +25,10 @@ BORDERS = {
 # What starts a thread. All but base/thread.hpp take that one, which guards what the thread does. (The tools of clients
 # end with their command, and std::async hands an exception on.)
 RAW_THREAD = re.compile(r"std::(j?thread|async)\b|pthread_create|boost::thread|asio::thread_pool")
+# What opens a file by its path to read it, and so waits for the writer of a FIFO: base/regular_file.hpp does not.
+RAW_READ = re.compile(r"std::ifstream|\bfopen\(|parse_file\(|(certificate|key|verify|CA)_(chain_)?file\(|"
+                      r"CURLOPT_CAINFO\b|O_RDONLY(?! \| O_DIRECTORY)")
+READERS = ("server/base/", "db/sqlite/data_directory.cpp")
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 SOURCES = {".hpp", ".cpp", ".inc"}
 
@@ -82,6 +86,8 @@ def main(root: Path, print_arrows: bool) -> int:
                 made.update(re.findall(r"ErrorCode::(\w+)", text))
             if room != "cli" and name != "base/thread.hpp":
                 findings += [f"{path}: {raw[0]} is a thread that an exception ends: use base/thread.hpp" for raw in RAW_THREAD.finditer(text)]
+            if room != "cli" and not str(path).startswith(READERS):
+                findings += [f"{path}: {raw[0]} waits for a FIFO: use base/regular_file.hpp" for raw in RAW_READ.finditer(text)]
             for quoted, angled in INCLUDE.findall(text):
                 target = quoted.split("/")[0]
                 if target in rank:

@@ -4,10 +4,11 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <new>
 #include <utility>
+
+#include "base/regular_file.hpp"
 
 namespace fitgauge::certificate {
 namespace {
@@ -45,11 +46,9 @@ Result<Picture> read_picture(const std::string& path) {
   const auto refused = [&](std::string_view why) {
     return Error{ErrorCode::ConfigInvalid, fmt::format("the picture {} {}", path, why)};
   };
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return refused("cannot be read: name a PNG file that the service may read");
-  std::string file(kMostBytes + 1, '\0');
-  in.read(file.data(), static_cast<std::streamsize>(file.size()));
-  file.resize(static_cast<std::size_t>(in.gcount()));
+  const auto read = read_regular(path);
+  if (!read) return refused("cannot be read: name a PNG file that the service may read");
+  const std::string& file = *read;
   const auto number = [&](std::size_t at) {
     std::uint32_t value = 0;
     for (std::size_t i = at; i < at + 4; ++i)

@@ -6,9 +6,9 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
+#include "base/regular_file.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge::sheet {
@@ -173,17 +173,15 @@ Result<TimeZone> TimeZone::load(std::string_view name) {
                          return is_ascii_alphanumeric(c) ||
                                 std::string_view("/_-+").find(c) != std::string_view::npos;
                        });
-  const std::filesystem::path path = std::filesystem::path("/usr/share/zoneinfo") / name;
-  std::error_code failure;
-  if (!is_name || !std::filesystem::is_regular_file(path, failure)) {
+  const auto path = std::filesystem::path("/usr/share/zoneinfo") / (is_name ? name : ".");
+  const auto bytes = read_regular(path);
+  if (!bytes) {
     return no_zone(
         fmt::format("unknown time zone '{}': use a name such as Europe/Berlin, from "
                     "/usr/share/zoneinfo (package tzdata)",
                     first_characters(name, 100)));
   }
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  return parse(bytes);
+  return parse(*bytes);
 }
 
 Result<TimeZone> TimeZone::parse(std::string_view all) {

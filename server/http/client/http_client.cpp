@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/number.hpp"
+#include "base/regular_file.hpp"
 #include "base/text.hpp"
 
 namespace fitgauge {
@@ -225,7 +226,17 @@ HttpAnswer HttpClient::call(const HttpCall& call, const std::function<bool()>& g
   handle.begin(call.url, call.method, call.headers, call.body);
   handle.set(CURLOPT_QUICK_EXIT, 1L);  // a name that is looked up yet holds up no end
   if (!options_.may_ask_proxy) handle.set(CURLOPT_PROXY, "");
-  handle.set_text(CURLOPT_CAINFO, options_.authorities);
+  if (!options_.authorities.empty()) {
+    const auto authorities = read_regular(options_.authorities);
+    if (!authorities) {
+      return {.failure = fmt::format("cannot read {}: {}", options_.authorities,
+                                     authorities.error().message)};
+    }
+    curl_blob blob{.data = const_cast<char*>(authorities->data()),
+                   .len = authorities->size(),
+                   .flags = CURL_BLOB_COPY};
+    handle.set(CURLOPT_CAINFO_BLOB, &blob);
+  }
   handle.set(CURLOPT_CONNECTTIMEOUT, kConnectSeconds);
   handle.set(CURLOPT_TIMEOUT, static_cast<long>(call.timeout.count()));
   handle.set(CURLOPT_OPENSOCKETFUNCTION, &open_socket);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <openssl/err.h>
+#include <openssl/pem.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "base/regular_file.hpp"
 #include "base/thread.hpp"
 
 namespace fitgauge::http {
@@ -22,30 +24,52 @@ constexpr auto kRetry = std::chrono::milliseconds(100);
 /// Bytes of one call of OpenSSL, which counts in int.
 constexpr std::size_t kMostAtOnce = 1 << 20;
 
+/// Tells clients which authorities a certificate may be of.
+void name_authorities(SSL_CTX* context, const std::string& pem) {
+  const std::unique_ptr<BIO, decltype(&BIO_free)> text(
+      BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())), &BIO_free);
+  while (X509* const authority = PEM_read_bio_X509(text.get(), nullptr, nullptr, nullptr)) {
+    SSL_CTX_add_client_CA(context, authority);
+    X509_free(authority);
+  }
+  ERR_clear_error();
+}
+
 }  // namespace
 
 Result<std::shared_ptr<ssl::context>> load_tls(const TlsOptions& options) {
   auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
   error_code error;
-  const auto fail = [&](std::string_view what, const std::string& file) {
+  const auto refuse = [](std::string_view what, const std::string& file, const std::string& why) {
     return Error{ErrorCode::ConfigInvalid,
-                 fmt::format("the TLS {} {} cannot be used: {}", what, file, error.message()),
-                 file};
+                 fmt::format("the TLS {} {} cannot be used: {}", what, file, why), file};
+  };
+  const auto unreadable = [&](auto what, const auto& file, const Error& cause) {
+    return refuse(what, file, cause.message);
+  };
+  const auto fail = [&](auto what, const auto& file) {
+    return refuse(what, file, error.message());
   };
   SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
   SSL_CTX_set_mode(context->native_handle(), SSL_MODE_RELEASE_BUFFERS |
                                                  SSL_MODE_ENABLE_PARTIAL_WRITE |
                                                  SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
   SSL_CTX_set_options(context->native_handle(), SSL_OP_NO_RENEGOTIATION);
-  context->use_certificate_chain_file(options.certificate_file, error);
+  // OpenSSL would wait for a writer of a FIFO.
+  const auto certificate = read_regular(options.certificate_file);
+  if (!certificate) return unreadable("certificate", options.certificate_file, certificate.error());
+  const auto key = read_regular(options.key_file);
+  if (!key) return unreadable("key", options.key_file, key.error());
+  context->use_certificate_chain(asio::buffer(*certificate), error);
   if (error) return fail("certificate", options.certificate_file);
-  context->use_private_key_file(options.key_file, ssl::context::pem, error);
+  context->use_private_key(asio::buffer(*key), ssl::context::pem, error);
   if (error) return fail("key", options.key_file);
   if (!options.client_ca_file.empty()) {
-    context->load_verify_file(options.client_ca_file, error);
+    const auto authorities = read_regular(options.client_ca_file);
+    if (!authorities) return unreadable("client CA", options.client_ca_file, authorities.error());
+    context->add_certificate_authority(asio::buffer(*authorities), error);
     if (error) return fail("client CA", options.client_ca_file);
-    SSL_CTX_set_client_CA_list(context->native_handle(),
-                               SSL_load_client_CA_file(options.client_ca_file.c_str()));
+    name_authorities(context->native_handle(), *authorities);
     auto mode = ssl::verify_peer;
     if (options.require_client_certificate) mode |= ssl::verify_fail_if_no_peer_cert;
     context->set_verify_mode(mode);

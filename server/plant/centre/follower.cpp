@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "base/gzip.hpp"
+#include "base/regular_file.hpp"
 #include "base/text.hpp"
 #include "service/log/revisions_text.hpp"
 
@@ -17,10 +16,9 @@ constexpr std::size_t kLongestPage = std::size_t{64} << 20;
 
 /// The first line of the file. @returns false when it cannot be read.
 bool read_key(const std::string& file, std::string& key) {
-  std::ifstream in(file);
-  std::getline(in, key);
-  key = trim(key);
-  return !in.bad() && !key.empty();
+  const auto text = read_regular(file);
+  if (text) key = trim(text->substr(0, text->find('\n')));
+  return !key.empty();
 }
 
 using std::chrono::minutes;

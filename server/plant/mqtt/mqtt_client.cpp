@@ -14,6 +14,8 @@
 #include <new>
 #include <utility>
 
+#include "base/regular_file.hpp"
+
 namespace fitgauge::connections {
 namespace {
 
@@ -178,10 +180,10 @@ int MqttClient::Loop::connect() {
                               broker.password.empty() ? nullptr : broker.password.c_str());
   }
   if (broker.tls) {
-    int done = MOSQ_ERR_SUCCESS;
+    int done = MOSQ_ERR_INVAL;
     if (broker.ca_file.empty()) {
       done = mosquitto_int_option(handle, MOSQ_OPT_TLS_USE_OS_CERTS, 1);
-    } else {
+    } else if (open_regular(broker.ca_file)) {
       done = mosquitto_tls_set(handle, broker.ca_file.c_str(), nullptr, nullptr, nullptr, nullptr);
     }
     if (done != MOSQ_ERR_SUCCESS) {

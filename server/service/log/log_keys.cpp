@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/digest.hpp"
+#include "base/regular_file.hpp"
 #include "db/sqlite/data_directory.hpp"
 
 namespace fitgauge::app {
@@ -131,10 +132,10 @@ Result<void> replace_file(const fs::path& file, std::string_view content, bool d
 Result<std::optional<std::string>> read_small_file(const fs::path& file) {
   std::error_code failure;
   if (!fs::exists(file, failure) && !failure) return std::optional<std::string>();
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in.is_open() || in.bad()) return failed("read", file);
-  return std::optional(std::move(text));
+  auto text = read_regular(file);
+  if (text) return std::optional(*std::move(text));
+  return Error{ErrorCode::StorageUnavailable,
+               fmt::format("cannot read {}: {}", file.string(), text.error().message)};
 }
 
 }  // namespace fitgauge::app

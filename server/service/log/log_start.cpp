@@ -211,7 +211,11 @@ void LogService::set_aside(std::string_view name, std::string_view why) {
 std::optional<std::string> LogService::told_by(const TreeNames& tree, std::int64_t leaves,
                                                const Loaded& loaded) {
   const auto note = read_small_file(options_.directory / tree.file);
-  if (!note || !*note || (*note)->empty()) return std::nullopt;
+  if (!note) {
+    set_aside(tree.file, "unreadable");
+    return note.error().message;
+  }
+  if (!*note || (*note)->empty()) return std::nullopt;
   if (!tlog::parse_checkpoint(**note)) {  // for example cut by a power failure
     set_aside(tree.file, "not a checkpoint");
     return std::nullopt;

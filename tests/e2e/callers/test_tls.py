@@ -1,6 +1,7 @@
 """TLS: the service speaks it, takes new certificates on SIGHUP, asks for those of clients."""
 
 import http.client
+import os
 import shutil
 import signal
 import ssl
@@ -49,6 +50,11 @@ class Tls(unittest.TestCase):
         self.certificate.write_text("nonsense")
         self.daemon.process.send_signal(signal.SIGHUP)
         self.daemon.wait_for_log("certificates_kept")
+        self.assertEqual(self.serial(), 2)
+        self.certificate.unlink()
+        os.mkfifo(self.certificate)
+        self.daemon.process.send_signal(signal.SIGHUP)
+        self.daemon.wait_for_log("it is not a regular file")
         self.assertEqual(self.serial(), 2)
         self.assertEqual(self.daemon.stop(), 0)
 

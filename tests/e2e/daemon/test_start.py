@@ -69,8 +69,7 @@ class CheckConfig(unittest.TestCase):
                              (("key", "create", "--rol", "x"), "unknown option '--rol'; did you mean --role? see fitgauged --help"),
                              (("verifi",), "unknown command 'verifi'; did you mean verify? see fitgauged --help"),
                              (("--zzzzzz=1",), "unknown option '--zzzzzz'; see fitgauged --help"),
-                             (("--config", self.folder / "none.toml"),
-                              f"cannot read {self.folder}/none.toml: check that the file is there and that this user may read it")):
+                             (("--config", self.folder / "none.toml"), f"cannot read {self.folder}/none.toml: No such file or directory")):
             done = command("--check-config", *flags)
             self.assertEqual((done.returncode, done.stderr), (2, f"fitgauged: {error}\n"))
 
