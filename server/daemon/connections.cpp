@@ -221,6 +221,7 @@ Result<std::unique_ptr<connections::Connections>> start_connections(
        .gauges = gauges,
        .clock = clock,
        .origin = std::string(app.log().origin()),
+       .is_branch = app.log().origins().first() != app.log().origin(),
        .folders = {config.connection_folders.begin(), config.connection_folders.end()},
        .may_reach_private = config.allow_private_addresses,
        .is_shared = !config.database.empty(),

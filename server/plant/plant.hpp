@@ -118,6 +118,7 @@ struct Plant {
   const api::GaugesInUse& gauges;
   const Clock& clock;
   std::string origin{};                          ///< of the data folder: 16 hexadecimal digits
+  bool is_branch = false;                        ///< it has had another origin before
   std::vector<std::filesystem::path> folders{};  ///< that connections made over HTTP may name
   bool may_reach_private = false;                ///< addresses of this machine and its networks
   bool is_shared = false;  ///< with one database, each daemon would repeat the work of a connection

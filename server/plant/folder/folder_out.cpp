@@ -7,6 +7,7 @@
 #include "api/measurements/measurement_codec.hpp"
 #include "api/measurements/measurement_file.hpp"
 #include "base/folder.hpp"
+#include "base/regular_file.hpp"
 #include "base/text.hpp"
 #include "formats/dfq/dfq_writer.hpp"
 #include "plant/kind.hpp"
@@ -54,8 +55,17 @@ std::string plain(std::string_view key) {
   return name;
 }
 
+/// Whether the name is taken by anything but a file with this text.
+bool has_other(const Folder& folder, const std::string& name, std::string_view text) {
+  if (!folder.look(name)) return false;
+  const auto file = folder.read(name);
+  const auto there = file && *file ? read_all(**file) : Result<std::string>(Error{});
+  return !there || *there != text;
+}
+
 /// Writes NAME-FIRST-LAST.csv, with the positions of the measurements in the log; to a temporary
-/// file that is renamed when it is complete and on disk. Measurements that a DFQ cannot express are
+/// file that is renamed when it is complete and on disk. A branch has its digits after the
+/// positions, which occur in both histories. Measurements that a DFQ cannot express are
 /// dead letters.
 class FolderOut final : public Outlet {
  public:
@@ -69,7 +79,8 @@ class FolderOut final : public Outlet {
                              std::vector<DeadLetter>& refused) const;
   /// @errors a DFQ or a QIF cannot express it.
   Result<void> add(File& file, const app::Measurement& measurement) const;
-  std::string name_of(const File& file) const;
+  /// A name that no file with another content has.
+  std::string name_of(const File& file, const Folder& folder) const;
 
   const FolderOutOptions options_;
   const Plant& plant_;
@@ -122,12 +133,17 @@ std::vector<File> FolderOut::files_of(std::span<const Outgoing> measurements,
   return files;
 }
 
-std::string FolderOut::name_of(const File& file) const {
+std::string FolderOut::name_of(const File& file, const Folder& folder) const {
   std::string name = fmt::format("{}-{:012}-{:012}", options_.follower.name, file.first, file.last);
+  if (plant_.is_branch) name += "-" + plant_.origin;
   if (!file.key.empty()) name += "-" + plain(file.key);
   constexpr std::array<std::string_view, 4> kEndings = {".csv", ".ndjson", ".dfq", ".qif"};
-  name += kEndings.at(static_cast<std::size_t>(options_.format));
-  return name;
+  const std::string_view ending = kEndings.at(static_cast<std::size_t>(options_.format));
+  std::string free = fmt::format("{}{}", name, ending);
+  for (int number = 2; has_other(folder, free, file.text); ++number) {
+    free = fmt::format("{}-{}{}", name, number, ending);
+  }
+  return free;
 }
 
 Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::stop_token&) {
@@ -137,7 +153,7 @@ Delivery FolderOut::deliver(std::span<const Outgoing> measurements, const std::s
   if (!folder) return {.failure = folder.error().message};
   for (const File& file : files_of(measurements, refused)) {
     if (file.text.empty()) continue;  // nothing of it is writable
-    if (const auto written = folder->write(name_of(file), file.text); !written) {
+    if (const auto written = folder->write(name_of(file, *folder), file.text); !written) {
       delivery.failure = written.error().message;
       return delivery;
     }

@@ -337,6 +337,36 @@ class Writing(Folders):
         self.wait(lambda: {row["part_id"] for row in self.rows()} == {f"P{number}" for number in range(40)})
         self.assertEqual(len(self.rows()), 40)  # a file that comes again replaces itself
 
+    def test_no_file_is_replaced_after_a_restore(self):
+        daemon = self.daemon().start()
+        self.out(daemon)
+        self.store(daemon, "012")
+        self.wait(lambda: len(self.rows()) == 3)
+        copy = daemon.folder / "copy.db"
+        self.assertEqual(daemon.command("backup", copy).returncode, 0)
+        self.store(daemon, "34")
+        self.wait(lambda: len(self.rows()) == 5)
+        before = {name: (self.folder / name).read_bytes() for name in self.files()}
+        self.assertEqual(daemon.stop(), 0)
+        for file in daemon.data.glob("fitgauge.db*"):
+            file.unlink()
+        shutil.copy(copy, daemon.database)
+        daemon.start()
+        self.store(daemon, "AB")
+        self.wait(lambda: {"PA", "PB"} <= {row["part_id"] for row in self.rows()})
+        self.assertEqual({name: (self.folder / name).read_bytes() for name in before}, before)
+        digits = daemon.stored()[-1]["id"].split("-")[1]
+        for name in set(self.files()) - set(before):
+            self.assertRegex(name, rf"^caq-\d{{12}}-\d{{12}}-{digits}\.csv$")
+
+    def test_a_file_of_another_is_not_replaced(self):
+        daemon = self.daemon().start()
+        (self.folder / "caq-000000000001-000000000001.csv").write_text("another's")
+        self.out(daemon)
+        self.store(daemon, "0")
+        self.wait(lambda: (self.folder / "caq-000000000001-000000000001-2.csv").exists())
+        self.assertEqual((self.folder / "caq-000000000001-000000000001.csv").read_text(), "another's")
+
     def test_a_folder_that_is_away_comes_back(self):
         daemon = self.daemon().start()
         self.folder.rmdir()
