@@ -193,6 +193,7 @@ class LogService {
   Result<void> load_keys(const std::vector<std::string>& known);
   Result<void> write_keys() const;
   void set_aside(std::string_view name, std::string_view why);
+  Result<tlog::Hash> root_of(const TreeNames& tree, std::uint64_t size) const;
   std::optional<std::string> told_by(const TreeNames& tree, std::int64_t leaves,
                                      const Loaded& loaded);
   std::optional<std::string> told_by_checkpoint(const Loaded& loaded);

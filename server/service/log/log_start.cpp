@@ -206,6 +206,23 @@ void LogService::set_aside(std::string_view name, std::string_view why) {
                : fmt::format("{} is {}: it was renamed to {}", name, why, aside));
 }
 
+/// The root of the first leaves. Those after the stored tree are appended: it may be shorter after
+/// a power failure.
+Result<tlog::Hash> LogService::root_of(const TreeNames& tree, std::uint64_t size) const {
+  return database_.readers().wait([&](const store::Stores& stores) -> Result<tlog::Hash> {
+    const RowNames names = row_names(tables_, origins_);
+    const bool is_stored = tree.file == kCheckpointFile;
+    LogReader reader(stores, names, is_stored ? 0 : LogReader::kChanges);
+    const auto stored = static_cast<std::uint64_t>(stores.log.state().size);
+    tlog::Frontier frontier = reader.frontier(is_stored ? std::min(size, stored) : size);
+    const auto begin = static_cast<std::int64_t>(frontier.size());
+    for (const tlog::Hash& leaf : reader.leaves(begin, static_cast<std::int64_t>(size) - begin)) {
+      frontier.append(leaf);
+    }
+    return frontier.root();
+  });
+}
+
 /// The finding of a tree's checkpoint in the folder against the database, which has so many leaves
 /// of it; the file is set aside then.
 std::optional<std::string> LogService::told_by(const TreeNames& tree, std::int64_t leaves,
@@ -230,7 +247,13 @@ std::optional<std::string> LogService::told_by(const TreeNames& tree, std::int64
     set_aside(tree.file, "of another log or key");
     return "the folder has signed another log than the database's";
   }
-  if (kept->size <= static_cast<std::uint64_t>(leaves)) return std::nullopt;
+  if (kept->size <= static_cast<std::uint64_t>(leaves)) {
+    const auto root = root_of(tree, kept->size);
+    if (!root || *root == kept->root) return std::nullopt;
+    set_aside(tree.file, "of other content than the database's");
+    return fmt::format("this folder has signed other {} under this name than the database has",
+                       tree.leaves);
+  }
   set_aside(tree.file, "newer than the database");
   return fmt::format("this folder has signed {} {}, and the database has {}", kept->size,
                      tree.leaves, leaves);

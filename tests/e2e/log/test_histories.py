@@ -192,6 +192,27 @@ class Folders(Restored):
         daemon.start()
         self.assertEqual(daemon.log.count('"event":"log_branched"'), 1)
 
+    def test_the_database_of_a_sibling_begins_a_branch(self):
+        first, second = self.made().start(), self.made()
+        self.store(first, "d1 d2")
+        wait_for_size(first, 2)
+        self.assertEqual(first.stop(), 0)
+        shutil.copytree(first.data, second.data)
+        for daemon, names in ((first, "d3 d4 d5"), (second, "e3 e4 e5 e6")):
+            daemon.start()
+            self.store(daemon, names)
+            self.assertEqual(daemon.stop(), 0)
+        shutil.copy(second.database, first.database)
+        first.start()
+        first.wait_for_log("has signed other measurements under this name")
+        stored = [record["id"] for record in first.stored()]
+        new = self.store(first, "n7 n8")
+        self.assertFalse({record.split("-")[1] for record in stored} & {record.split("-")[1] for record in new})
+        self.assertEqual(first.stop(), 0)
+        self.assert_clean(first)
+        first.start()
+        self.assertEqual(first.log.count('"event":"log_branched"'), 1)
+
     def test_a_subscriber_that_deduplicates_by_id_loses_nothing(self):
         broker, daemon = Broker(), self.made().start()
         self.addCleanup(broker.cleanup)
