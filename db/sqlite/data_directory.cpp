@@ -41,6 +41,12 @@ std::optional<int> error_of_creating(const std::filesystem::path& file) {
   return nameless.is_open() || errno == EOPNOTSUPP ? std::nullopt : std::optional(errno);
 }
 
+/// The errno of writing to this file, or next to it.
+std::optional<int> error_of_writing(const std::filesystem::path& file) {
+  if (file.empty()) return std::nullopt;
+  return ::access(file.c_str(), W_OK) != 0 ? std::optional(errno) : error_of_creating(file);
+}
+
 /// `storage: disk I/O error (SQLite code 778, errno 27: File too large)`
 std::string describe(sqlite3* handle, int code, int system_error, std::string_view doing) {
   std::string text = fmt::format("{}: {}", doing, sqlite3_errstr(code));
@@ -65,6 +71,10 @@ void throw_failure(sqlite3* handle, int code, std::string_view doing) {
   // If a file cannot be created, SQLite tries to open it for reading, and reports that error.
   if ((code & 0xFF) == SQLITE_CANTOPEN && system_error == ENOENT) {
     system_error = error_of_creating(file_of(handle)).value_or(system_error);
+  }
+  // SQLite has opened the file for reading then, and forgotten why.
+  if ((code & 0xFF) == SQLITE_READONLY) {
+    system_error = error_of_writing(file_of(handle)).value_or(system_error);
   }
   const std::string what = describe(handle, code, system_error, doing);
   switch (code & 0xFF) {

@@ -215,6 +215,9 @@ class ReadOnly(FaultTest):
         # A copy on a medium that nobody can write to is checked and copied where it is.
         verified = second.command("verify")
         self.assertEqual((verified.returncode, verified.stderr), (0, ""), verified)
+        refused = second.command("key", "create", "--name", "press-3", "--role", "operator")
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn("errno 30: Read-only file system", refused.stderr)
         copy = self.make_daemon()
         copy.data.mkdir(parents=True)
         copied = second.command("backup", str(copy.database))
