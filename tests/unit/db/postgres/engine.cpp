@@ -35,7 +35,7 @@ class Cluster {
   Cluster& operator=(const Cluster&) = delete;
   ~Cluster() {
     const std::string stop = fmt::format("{} stop {} immediate", kCluster, folder_.string());
-    static_cast<void>(std::system(stop.c_str()));
+    [[maybe_unused]] const int code = std::system(stop.c_str());
     std::error_code ignored;
     std::filesystem::remove_all(folder_, ignored);
   }

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <fstream>
 #include <string>
@@ -40,13 +41,15 @@ TEST_CASE("A finding stands at its place in the DIN/ISO text") {
 }
 
 TEST_CASE("A word between the number of a cycle and its parameters is not a title") {
-  const auto refused = [](std::string_view word) {
-    return std::string(word) + " must not be in the block of a cycle: write it into another block";
+  const auto refused = [](std::string_view place, std::string_view word) {
+    return fmt::format(
+        "{} syntax.error: {} must not be in the block of a cycle: write it into another block",
+        place, word);
   };
-  CHECK(finding("N10 G247 M5 Q339=1 *") == "2:10 syntax.error: " + refused("M5"));
-  CHECK(finding("N10 G200 X+10 Q200=2 Q201=-5 *") == "2:10 syntax.error: " + refused("X+10"));
-  CHECK(finding("N10 G200 G91 ~\n Q200=2 ~\n Q201=-5 *") == "2:10 syntax.error: " + refused("G91"));
-  CHECK(finding("N10 G200 DRILLING F.5Q200=2") == "2:19 syntax.error: " + refused("F.5"));
+  CHECK(finding("N10 G247 M5 Q339=1 *") == refused("2:10", "M5"));
+  CHECK(finding("N10 G200 X+10 Q200=2 Q201=-5 *") == refused("2:10", "X+10"));
+  CHECK(finding("N10 G200 G91 ~\n Q200=2 ~\n Q201=-5 *") == refused("2:10", "G91"));
+  CHECK(finding("N10 G200 DRILLING F.5Q200=2") == refused("2:19", "F.5"));
   CHECK(finding("N10 G00 Z+5 *\nN20 G421T5 *").starts_with("3:9 syntax.error: T5 must not"));
   CHECK(finding("N10 G203 UNIVERSAL DRILLING ;M5 ~\n Q200=2 ;X+1 *").empty());
   CHECK(finding("N10 G444 PROBING IN 3-D *").empty());
@@ -65,7 +68,7 @@ TEST_CASE("A dotted cycle is Klartext") {
 }
 
 TEST_CASE("The table of the reference names the functions that have P01") {
-  std::ifstream in(std::string(FITGAUGE_SOURCE_DIR) + "/docs/reference/language.md");
+  std::ifstream in(FITGAUGE_SOURCE_DIR "/docs/reference/language.md");
   std::string row;
   while (std::getline(in, row) && row.find("with P01, P02") == row.npos) {
   }
