@@ -14,6 +14,7 @@
 #include "cli/json_object.hpp"
 #include "cli/open_programs.hpp"
 #include "cli/program_help.hpp"
+#include "cli/program_remedies.hpp"
 
 namespace fitgauge::cli {
 namespace {
@@ -276,8 +277,8 @@ Reply act(Server& server, const JsonValue& params) {
       for (const Remedy& remedy : remedies(program.text, found)) {
         actions.push_back(fmt::format(
             R"({{"title":{},"kind":"quickfix","isPreferred":{},"diagnostics":[{}],"edit":{}}})",
-            json_quoted(remedy.title), remedy.corrects, json_of(program, found),
-            json_of(Changes{{program.uri, {remedy.edit}}})));
+            json_quoted(remedy.title), remedy.is_preferred, json_of(program, found),
+            json_of(Changes{{program.uri, remedy.edits}})));
       }
     }
     return list_of(actions);

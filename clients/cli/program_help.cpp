@@ -23,18 +23,10 @@ namespace fitgauge::cli {
 namespace {
 
 using klartext::CycleFamily;
-using klartext::DiagnosticCode;
 using probing::CycleDescriptor;
 using probing::CycleParameter;
 
 constexpr std::string_view kBeforeCode = " \t/0123456789Nn";
-
-/// The cycle whose block a line belongs to.
-struct CycleAt {
-  const CycleDescriptor* cycle = nullptr;
-  std::size_t first_line = 0;
-  std::size_t dialog = 0;  ///< the column after its number
-};
 
 const CycleDescriptor* find_descriptor(CycleFamily family, int number) {
   if (family == CycleFamily::GlobalDef) return interpreter::global_definition(number);
@@ -72,22 +64,6 @@ std::optional<CycleAt> cycle_of(std::string_view line) {
   return CycleAt{cycle, 0, begin + static_cast<std::size_t>(found.length(0))};
 }
 
-std::optional<CycleAt> cycle_at(const EditedText& text, std::size_t line) {
-  constexpr std::size_t kMostLines = 200;  // no cycle has as many parameters
-  for (std::size_t seen = 0; seen < kMostLines; ++seen, --line) {
-    const std::string_view here = text.line(line);
-    if (auto found = cycle_of(here)) {
-      found->first_line = line;
-      return found;
-    }
-    const std::size_t begin = std::min(here.find_first_not_of(" \t"), here.size());
-    const bool is_parameter =
-        begin != 0 && klartext::at_cycle_parameter(here.data() + begin, here.data() + here.size());
-    if (line == 0 || !(is_parameter || trim(text.line(line - 1)).ends_with('~'))) break;
-  }
-  return std::nullopt;
-}
-
 /// Parameters of a line that may be part of a name.
 enum class Names { Nothing, Paths, All };
 Names names_of(std::string_view line) {
@@ -101,13 +77,6 @@ Names names_of(std::string_view line) {
   return Names::Nothing;
 }
 
-std::string head_of(const CycleDescriptor& cycle, bool is_iso = false) {
-  const bool probes = cycle.family == probing::CycleFamily::TchProbe;
-  if (!is_iso) return fmt::format("{} {}", probes ? "TCH PROBE" : "CYCL DEF", cycle.number);
-  constexpr int kContour = 100;  // CYCL DEF 20 is G120
-  return fmt::format("G{}", cycle.number < kContour ? cycle.number + kContour : cycle.number);
-}
-
 std::string figures_of(const CycleParameter& parameter) {
   std::string figures(symbol(parameter.unit));
   if (parameter.range.min > -std::numeric_limits<double>::max() &&
@@ -115,11 +84,6 @@ std::string figures_of(const CycleParameter& parameter) {
     figures += fmt::format(" {} to {}", parameter.range.min, parameter.range.max);
   if (parameter.default_value) figures += fmt::format(" (default {})", *parameter.default_value);
   return std::string(trim(figures));
-}
-
-/// Returns the text that a control writes after a value.
-std::string dialog_of(const CycleParameter& parameter) {
-  return ascii_upper(parameter.meaning.substr(0, parameter.meaning.find(':')));
 }
 
 /// `Q262=${1:+25} ;NOMINAL DIAMETER`. Without a default the user must write the value.
@@ -174,12 +138,40 @@ std::string parameter_hover(const EditedText& text, std::size_t line, klartext::
   return shown.empty() ? shown : fmt::format("**{}**\n\n{}", name, shown);
 }
 
+}  // namespace
+
+std::optional<CycleAt> cycle_at(const EditedText& text, std::size_t line) {
+  constexpr std::size_t kMostLines = 200;  // no cycle has as many parameters
+  for (std::size_t seen = 0; seen < kMostLines; ++seen, --line) {
+    const std::string_view here = text.line(line);
+    if (auto found = cycle_of(here)) {
+      found->first_line = line;
+      return found;
+    }
+    const std::size_t begin = std::min(here.find_first_not_of(" \t"), here.size());
+    const bool is_parameter =
+        begin != 0 && klartext::at_cycle_parameter(here.data() + begin, here.data() + here.size());
+    if (line == 0 || !(is_parameter || trim(text.line(line - 1)).ends_with('~'))) break;
+  }
+  return std::nullopt;
+}
+
+std::string head_of(const CycleDescriptor& cycle, bool is_iso) {
+  const bool probes = cycle.family == probing::CycleFamily::TchProbe;
+  if (!is_iso) return fmt::format("{} {}", probes ? "TCH PROBE" : "CYCL DEF", cycle.number);
+  constexpr int kContour = 100;  // CYCL DEF 20 is G120
+  return fmt::format("G{}", cycle.number < kContour ? cycle.number + kContour : cycle.number);
+}
+
+std::string dialog_of(const CycleParameter& parameter) {
+  return ascii_upper(parameter.meaning.substr(0, parameter.meaning.find(':')));
+}
+
 std::string_view without_wrap(std::string_view line) {
   const std::size_t last = line.find_last_not_of(" \t~");
   return line.substr(0, last + 1);
 }
 
-/// Begin of the comment of a line; npos: none.
 std::size_t comment_of(std::string_view line) {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -188,35 +180,6 @@ std::size_t comment_of(std::string_view line) {
   }
   return line.npos;
 }
-
-/// Returns the corrected text of a line with a finding, and a description; none if there is no
-/// correction.
-std::pair<std::string, std::string> correction(const EditedText& text, std::size_t line,
-                                               DiagnosticCode code) {
-  const std::string_view written = text.line(line);
-  const auto cycle = cycle_at(text, line);
-  const std::string_view mark = trim(written).ends_with('~') ? " ~" : "";
-  const std::string_view plain = without_wrap(written);
-  const std::size_t comment = std::min(comment_of(plain), plain.size());
-  const auto parameters = parameters_of(text, line);
-  if (code == DiagnosticCode::ContinuationMissing)
-    return {"Add the '~' that is missing",
-            fmt::format("{}{}{} ~", without_wrap(plain.substr(0, comment)),
-                        comment == plain.size() ? "" : " ", plain.substr(comment))};
-  if (code == DiagnosticCode::DialogContradicts && cycle && cycle->first_line == line)
-    return {fmt::format("Write the name of the cycle: {}", cycle->cycle->name),
-            fmt::format("{} {}{}{}{}", written.substr(0, cycle->dialog), cycle->cycle->name,
-                        comment == plain.size() ? "" : " ", plain.substr(comment), mark)};
-  if (code == DiagnosticCode::CommentContradicts && cycle && !parameters.empty()) {
-    const auto* known = interpreter::find_parameter(*cycle->cycle, parameters.front().parameter);
-    if (known != nullptr)
-      return {fmt::format("Write what it means: {}", dialog_of(*known)),
-              fmt::format("{};{}{}", plain.substr(0, comment), dialog_of(*known), mark)};
-  }
-  return {};
-}
-
-}  // namespace
 
 std::vector<WrittenParameter> parameters_of(const EditedText& text, std::size_t line_number) {
   const std::string_view line = text.line(line_number);
@@ -306,29 +269,6 @@ std::vector<Completion> completions(const EditedText& text, Place cursor, bool i
   for (const std::string_view word : klartext::block_keywords())
     if (word.starts_with(typed)) add(begin, std::string(word), {}, std::string(word));
   return items;
-}
-
-std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic& found) {
-  std::vector<Remedy> all;
-  if (found.range.begin.line == 0) return all;
-  std::size_t line = found.range.begin.line - 1;
-  const bool is_error = found.severity == klartext::Severity::Error;
-  const auto add = [&](std::string title, std::string by, bool corrects) {
-    all.push_back({std::move(title),
-                   {{line, 0}, text.place(line, text.line(line).size()), std::move(by)},
-                   corrects});
-  };
-  // The block after the open line is the error.
-  if (is_error && found.code == DiagnosticCode::ContinuationMissing && line != 0) --line;
-  auto [title, by] = correction(text, line, found.code);
-  if (!title.empty()) add(std::move(title), std::move(by), true);
-  if (is_error) return all;
-  const std::string_view plain = without_wrap(text.line(line));
-  add(fmt::format("Silence {} in this line", id(found.code)),
-      fmt::format("{}{}check:ignore {}{}", plain, comment_of(plain) == plain.npos ? " ;" : " ",
-                  id(found.code), trim(text.line(line)).ends_with('~') ? " ~" : ""),
-      false);
-  return all;
 }
 
 Result<std::string> formatted_text(const OpenProgram& program) {

@@ -3,97 +3,18 @@
 import re
 import shutil
 import subprocess
-import tempfile
 import unittest
 
 from support.cli import FITGAUGE
 from support.control import EXAMPLES
-from support.language_client import LanguageClient, frame
+from support.language_client import frame
+from support.language_programs import HOLE, ISO, PROGRAM, LanguageTest
 from support.waiting import PATIENCE
 
 ERROR, WARNING, INFORMATION = 1, 2, 3
-HOLE = """TCH PROBE 421 MEASURE HOLE ~
-    Q273=+50 ;CENTRE IN 1ST AXIS ~
-    Q274=+40 ;CENTRE IN 2ND AXIS ~
-    Q262=+Q1 ;NOMINAL DIAMETER ~
-    Q325=+0 ;STARTING ANGLE ~
-    Q247=+90 ;STEPPING ANGLE ~
-    Q261=-5 ;MEASURING HEIGHT ~
-    Q320=+0 ;SET-UP CLEARANCE ~
-    Q260=+50 ;CLEARANCE HEIGHT ~
-    Q301=+0 ;MOVE TO CLEARANCE HEIGHT ~
-    Q275=+25.1 ;MAXIMUM SIZE ~
-    Q276=+24.9 ;MINIMUM SIZE ~
-    Q279=+0 ~
-    Q280=+0 ~
-    Q281=+0 ~
-    Q309=+0 ~
-    Q330=+0"""
-PROGRAM = f"""BEGIN PGM DEMO MM
-Q1 = +25 ;NOMINAL
-TOOL CALL 30 Z
-CALL LBL "HOLE"
-STOP
-LBL "HOLE"
-{HOLE}
-Q2 = Q153 - Q1
-LBL 0
-END PGM DEMO MM
-"""
-ISO = """%DEMO G71 *
-N5 D00 Q1 P01 +25 *
-N7 T30 G17 *
-N8 L1,0 *
-N9 G38 *
-N40 G98 L1 *
-N50 G421 MEASURE HOLE ~
-    Q273=+50 ~
-    Q274=+40 ~
-    Q262=+Q1 ~
-    Q325=+0 ~
-    Q247=+90 ~
-    Q261=-5 ~
-    Q320=+0 ~
-    Q260=+50 ~
-    Q301=+0 ~
-    Q275=+25.1 ~
-    Q276=+24.9 ~
-    Q279=+0 ~
-    Q280=+0 ~
-    Q281=+0 ~
-    Q309=+0 ~
-    Q330=+0 *
-N60 G98 L0 *
-N99999999 %DEMO G71 *
-"""
 
 
-class ServerTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.mkdtemp(prefix="fitgauge-lsp-")
-        self.addCleanup(shutil.rmtree, folder, ignore_errors=True)
-        self.client = self.start(folder)
-
-    def start(self, folder, **named):
-        client = LanguageClient(folder, **named)
-        self.addCleanup(client.close)
-        return client
-
-    def line_of(self, name, text):
-        return next(i for i, line in enumerate(self.client.text[name].split("\n")) if text in line)
-
-    def at(self, method, name, text, inside="", **more):
-        """The answer about the first place of `inside` in the first line that has `text`."""
-        line = self.line_of(name, text)
-        return self.client.at(method, name, line, self.client.text[name].split("\n")[line].index(inside or text), **more)
-
-    def corrected(self, name, line, title):
-        """The program after the remedy whose title begins so."""
-        action = next(each for each in self.client.actions(name, line) if each["title"].startswith(title))
-        return self.client.applied(name, action["edit"]["changes"][self.client.uri(name)])
-
-
-class Editing(ServerTest):
+class Editing(LanguageTest):
     def setUp(self):
         super().setUp()
         self.capabilities = self.client.initialize()["capabilities"]
@@ -279,28 +200,8 @@ class Editing(ServerTest):
         answer = self.client.ask("textDocument/formatting", textDocument={"uri": self.client.uri("bad.h")}, options={})
         self.assertIn("correct line 2 first", answer["error"]["message"])
 
-    def test_remedies_put_it_right(self):
-        missing, dialog, comment = "block.continuation_missing", "cycle.dialog_contradicts", "cycle.comment_contradicts"
-        depth = "BEGIN PGM A MM\nCYCL DEF 200 DRILLING ~\n    Q200=2 ~\n    Q201=+20 ;DEPTH\nEND PGM A MM\n"
-        broken_off = PROGRAM.replace("    Q309=+0 ~\n    Q330", "    Q309=+0 ;STOP\nQ330")
-        for code, wrong, title in ((missing, PROGRAM.replace("2ND AXIS ~", "2ND AXIS"), "Add the '~'"),
-                                   (missing, PROGRAM.replace(";CENTRE IN 2ND AXIS ~", "~ ;CENTRE IN 2ND AXIS"), "Add the '~'"),
-                                   (missing, broken_off, "Add the '~'"),
-                                   (dialog, PROGRAM.replace("421 MEASURE HOLE", "421 MEASURE CIRCLE OUTSIDE"), "Write the name"),
-                                   (dialog, ISO.replace("G421 MEASURE HOLE", "G421 MEASURE CIRCLE OUTSIDE"), "Write the name"),
-                                   (comment, PROGRAM.replace("MAXIMUM SIZE", "MINIMUM SIZE"), "Write what it means"),
-                                   ("cycle.order_contradicts", depth, "Silence cycle.order_contradicts")):
-            name = "a.i" if wrong.startswith("%") else "a.h"
-            with self.subTest(code, name=name):
-                found = next(each for each in self.client.open(name, wrong) if each["code"] == code)
-                line = found["range"]["start"]["line"]
-                right = self.corrected(name, line, title)
-                silent = self.corrected(name, line, "Silence") if found["severity"] != ERROR else None
-                for text in filter(None, (right, silent)):
-                    self.assertNotIn(code, [each["code"] for each in self.client.change(name, {"text": text})])
 
-
-class Protocol(ServerTest):
+class Protocol(LanguageTest):
     """What breaks the rules is answered, and the server goes on."""
 
     def alive(self):

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/open_programs.hpp"
+
+namespace fitgauge::cli {
+
+/// One way to put a finding right.
+struct Remedy {
+  std::string title;
+  std::vector<Edit> edits;
+  bool is_preferred = true;
+};
+
+/// The remedies that the message of a finding names; for a warning or note also a comment that
+/// silences it.
+std::vector<Remedy> remedies(const EditedText& text, const klartext::Diagnostic& found);
+
+}  // namespace fitgauge::cli
