@@ -95,6 +95,7 @@ std::string obstacle(QRef from, QRef to, std::string_view line, const WrittenPar
 void EditedText::find_lines() {
   static std::uint64_t last_revision = 0;
   revision_ = ++last_revision;
+  tree_.reset();
   starts_.assign(1, 0);
   for (std::size_t at = 0; (at = text_.find_first_of("\r\n", at)) != text_.npos;) {
     at += text_.compare(at, 2, "\r\n") == 0 ? 2U : 1U;
@@ -142,7 +143,12 @@ void EditedText::replace(Place begin, Place end, std::string_view by) {
   find_lines();
 }
 
-bool OpenProgram::is_iso() const { return iso::is_iso(text.text(), name.text()); }
+bool EditedText::is_iso() const { return iso::is_iso(text_, name_); }
+
+const klartext::Program& EditedText::tree() const {
+  if (!tree_) tree_ = iso::parse_program(text_, name_).program;
+  return *tree_;
+}
 
 /// Folder of a program, with the editor's texts in place of its files.
 class OpenPrograms::Disk final : public interpreter::ControlDisk {
@@ -207,7 +213,7 @@ OpenProgram& OpenPrograms::open(const std::string& uri, std::string text) {
   const std::string base(path.empty() ? base_name(uri) : path.filename().string());
   auto name = ControlPath::parse("TNC:\\" + base);
   if (!name) name = ControlPath::parse(uri.ends_with(".i") ? "TNC:\\PROGRAM.I" : "TNC:\\PROGRAM.H");
-  OpenProgram program{uri, std::move(path), *name, EditedText(std::move(text))};
+  OpenProgram program{uri, std::move(path), *name, EditedText(std::move(text), name->text())};
   return all_.insert_or_assign(uri, std::move(program)).first->second;
 }
 
@@ -223,7 +229,7 @@ void OpenPrograms::check(OpenProgram& program) {
 
 std::optional<std::pair<std::string, std::size_t>> OpenPrograms::definition(
     const OpenProgram& program, std::size_t line) {
-  const auto parsed = iso::parse_program(program.text.text(), program.name.text()).program;
+  const klartext::Program& parsed = program.text.tree();
   const klartext::Label* label = nullptr;
   for (const klartext::Block& block : parsed.blocks()) {
     const SourceRange range = parsed.range(block.written);
@@ -299,7 +305,8 @@ Result<Changes> OpenPrograms::rename(const OpenProgram& program, const WrittenPa
     const auto file = disk.find(path);
     if (!file) continue;
     const OpenProgram* here = disk.open(path);
-    const EditedText text(here != nullptr ? *file->bytes : klartext::decode_source(*file->bytes));
+    const EditedText text(here != nullptr ? *file->bytes : klartext::decode_source(*file->bytes),
+                          path.text());
     for (std::size_t line = 0; line < text.lines(); ++line) {
       for (const WrittenParameter& written : parameters_of(text, line)) {
         const std::string reason = obstacle(old, name, text.line(line), written);

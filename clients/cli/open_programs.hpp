@@ -12,6 +12,7 @@
 
 #include "base/result.hpp"
 #include "nc/klartext/diagnostic.hpp"
+#include "nc/klartext/syntax.hpp"
 #include "nc/program/control_disk.hpp"
 #include "nc/program/program_cache.hpp"
 
@@ -32,10 +33,13 @@ struct Edit {
 using Changes = std::map<std::string, std::vector<Edit>>;
 
 /// UTF-8 that an editor changes piece by piece; lines end with CRLF, LF or CR. Places beyond a line
-/// or the text are its end.
+/// or the text are its end. Single-threaded.
 class EditedText {
  public:
-  explicit EditedText(std::string text) : text_(std::move(text)) { find_lines(); }
+  /// @param name the file's name
+  EditedText(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
+    find_lines();
+  }
 
   const std::string& text() const { return text_; }
   std::size_t lines() const { return starts_.size(); }
@@ -48,6 +52,9 @@ class EditedText {
   Place place_of_column(std::size_t line, std::size_t column) const;
   Place end() const { return place(lines() - 1, text_.size()); }
   void replace(Place begin, Place end, std::string_view by);
+  bool is_iso() const;
+  /// The blocks of the text; valid until it changes.
+  const klartext::Program& tree() const;
   /// Returns a number that is different for each text.
   std::uint64_t revision() const { return revision_; }
 
@@ -55,7 +62,9 @@ class EditedText {
   void find_lines();
 
   std::string text_;
+  std::string name_;
   std::vector<std::size_t> starts_;
+  mutable std::optional<klartext::Program> tree_;  ///< none until it is asked for
   std::uint64_t revision_ = 0;
 };
 
@@ -76,8 +85,6 @@ struct OpenProgram {
   std::optional<std::size_t> version{};  ///< version number of the editor
   bool is_stale = true;                  ///< `found` is out of date
   std::vector<klartext::Diagnostic> found{};
-
-  bool is_iso() const;
 };
 
 /// The programs of an editor, and the files in their folders. Single-threaded.

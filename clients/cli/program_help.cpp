@@ -115,6 +115,29 @@ std::string cycle_hover(const CycleDescriptor& cycle) {
   return text + fmt::format("\n{}\n", cycle.simulated);
 }
 
+/// Returns the number of columns that a cell of TABREAD names.
+std::size_t columns_of(const klartext::Program& tree, const klartext::Expr& cell) {
+  const auto* node = std::get_if<klartext::NodeIndex>(&cell);
+  const auto* names =
+      node == nullptr ? nullptr : std::get_if<klartext::Text>(&tree.operands(*node)[1]);
+  if (names == nullptr) return 1;
+  const std::string_view written = tree.text(*names);
+  return 1 + static_cast<std::size_t>(std::ranges::count(written, ','));
+}
+
+/// Returns the first parameter that a block sets, and their number.
+std::pair<klartext::QRef, std::size_t> set_by(const klartext::Program& tree,
+                                              const klartext::Statement& statement) {
+  if (const auto* one = std::get_if<klartext::Assignment>(&statement)) return {one->target, 1};
+  if (const auto* one = std::get_if<klartext::SetUndefined>(&statement)) return {one->target, 1};
+  constexpr std::size_t kCircle = 3;  // centre and radius
+  if (const auto* data = std::get_if<klartext::CircleData>(&statement))
+    return {data->target, kCircle};
+  const auto* row = std::get_if<klartext::TableRead>(&statement);
+  return row == nullptr ? std::pair<klartext::QRef, std::size_t>{}
+                        : std::pair{row->first, columns_of(tree, row->cell)};
+}
+
 /// A result of the cycle above, and the lines that set a parameter.
 std::string parameter_hover(const EditedText& text, std::size_t line, klartext::QRef parameter) {
   constexpr std::size_t kMostShown = 400;
@@ -128,12 +151,14 @@ std::string parameter_hover(const EditedText& text, std::size_t line, klartext::
                             cycle->cycle->name, symbol(result.unit));
   }
   const std::string name = interpreter::name(parameter);
-  for (std::size_t at = 0; at < text.lines() && shown.size() < kMostShown; ++at) {
-    const std::string_view code = trim(text.line(at));
-    const auto written = parameters_of(text, at);
-    const bool sets = !written.empty() && written.front().parameter == parameter &&
-                      !written.front().is_cycles && code.find('=') != code.npos;
-    if (sets) shown += fmt::format("{}: `{}`\n\n", at + 1, first_characters(code, 80));
+  const klartext::Program& tree = text.tree();
+  for (const klartext::Block& block : tree.blocks()) {
+    const auto [first, count] = set_by(tree, block.statement);
+    if (shown.size() >= kMostShown || first.space != parameter.space ||
+        parameter.number < first.number || parameter.number >= first.number + count)
+      continue;
+    const std::size_t at = tree.range(block.written).begin.line;
+    shown += fmt::format("{}: `{}`\n\n", at, first_characters(trim(text.line(at - 1)), 80));
   }
   return shown.empty() ? shown : fmt::format("**{}**\n\n{}", name, shown);
 }
@@ -278,8 +303,9 @@ Result<std::string> formatted_text(const OpenProgram& program) {
                  fmt::format("correct line {} first: {}", found.range.begin.line, found.message)};
   };
   if (const klartext::Diagnostic* found = parsed.not_printed()) return refused(*found);
-  auto formatted = program.is_iso() ? iso::to_iso(parsed.program, {})
-                                    : iso::Conversion{klartext::format_program(parsed.program)};
+  auto formatted = program.text.is_iso()
+                       ? iso::to_iso(parsed.program, {})
+                       : iso::Conversion{klartext::format_program(parsed.program)};
   for (const klartext::Diagnostic& found : formatted.findings)
     if (found.severity == klartext::Severity::Error) return refused(found);
   return std::move(formatted.text);

@@ -86,6 +86,20 @@ class Editing(LanguageTest):
         self.assertIn("2: `Q1 = +25 ;NOMINAL`", self.at("hover", "demo.h", "Q262=", "Q1 ")["result"]["contents"]["value"])
         self.assertIsNone(self.at("hover", "demo.h", "STOP")["result"])
 
+    def test_hover_shows_each_line_that_sets_a_parameter(self):
+        klartext = ["Q1 = +25 ;NOMINAL", "FN 0: Q1 SET UNDEFINED", "FN 23: Q40 = CDATA Q30", 'FN 28: TABREAD Q10 = 1/"A,B"',
+                    "FN 18: SYSREAD Q1 = ID20 NR1", 'QS1 = "Q1 ="', "Q3 = Q1 + Q11 + Q42"]
+        iso = ["N10 D00 Q1 P01 +5 *", "N11 D01 Q1 P01 +5 P02 +Q11 *", "N12 D08 Q1 P01 +3 P02 +Q42 *", "N13 Q1 = 3 + 4 *",
+               "N14 D23 Q40 P01 Q30 *", "N15 D18: SYSREAD Q1 = ID20 NR1 *", "N16 D00 Q11 P01 +Q1 *", "N17 G01 X+Q11 *"]
+        for name, frame_of, body, expected in (
+                ("a.h", "BEGIN PGM A MM\n{}\nEND PGM A MM\n", klartext, {"Q1 ": (2, 3, 6), "Q11 ": (5,), "Q42": (4,)}),
+                ("a.i", "%A G71 *\n{}\nN99999999 %A G71 *\n", iso, {"Q1 ": (2, 3, 4, 5, 7), "Q11 ": (8,), "Q42 ": (6,)})):
+            self.client.open(name, frame_of.format("\n".join(body)))
+            for parameter, lines in expected.items():
+                with self.subTest(name, parameter=parameter):
+                    shown = self.at("hover", name, next(each for each in body if parameter in each), parameter)["result"]["contents"]["value"]
+                    self.assertEqual(re.findall(r"^(\d+): `(.*)`$", shown, re.M), [(str(n), body[n - 2]) for n in lines])
+
     def test_completion_writes_a_cycle_that_only_lacks_values(self):
         for name, head, frame_of in (("a.h", "TCH PROBE 42", "BEGIN PGM A MM\nTOOL CALL 1 Z\n{}\nEND PGM A MM\n"),
                                      ("a.i", "G42", "%A G71 *\nN5 T1 G17 *\nN10 {} *\nN99999999 %A G71 *\n")):
