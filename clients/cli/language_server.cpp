@@ -224,7 +224,7 @@ Reply complete(Server& server, const JsonValue& params) {
   return at_place(server, params, [&](const OpenProgram& program, Place place) -> Reply {
     static const std::regex kMark(R"(\$\{\d+:([^}]*)\})");
     std::vector<std::string> items;
-    for (Completion& item : completions(program.text, place, program.text.is_iso())) {
+    for (Completion& item : completions(program.text, place)) {
       if (!server.has_snippets) item.edit.by = std::regex_replace(item.edit.by, kMark, "$1");
       items.push_back(
           fmt::format(R"({{"label":{},"detail":{},"insertTextFormat":{},"textEdit":{}}})",

@@ -73,7 +73,8 @@ struct WrittenParameter {
   std::size_t begin = 0;
   std::size_t end = 0;
   klartext::QRef parameter{};
-  bool is_cycles = false;  ///< of a cycle: it is left of `=` in its block
+  bool is_set = false;     ///< left of `=`
+  bool is_cycles = false;  ///< of a cycle: set in its block
 };
 
 /// A program as an editor has it.

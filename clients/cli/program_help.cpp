@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "nc/iso/codes.hpp"
+#include "nc/iso/line.hpp"
 #include "nc/iso/parser.hpp"
 #include "nc/iso/printer.hpp"
 #include "nc/klartext/lexer.hpp"
@@ -163,22 +164,83 @@ std::string parameter_hover(const EditedText& text, std::size_t line, klartext::
   return shown.empty() ? shown : fmt::format("**{}**\n\n{}", name, shown);
 }
 
+/// Whether a line may be in a cycle when its parameter is complete: `Q262=+25`, `Q26`, or nothing.
+bool is_parameter_begun(std::string_view line) {
+  std::string_view code = trim(without_wrap(line));
+  if (code.empty()) return true;
+  const std::size_t name = std::min(code.find('='), code.size());
+  code = trim(code.substr(0, name));
+  const bool has_kind = code.size() > 1 && !klartext::is_digit(code[1]);
+  return ascii_upper(code.front()) == 'Q' &&
+         std::ranges::all_of(code.substr(has_kind ? 2 : 1), klartext::is_digit);
+}
+
+/// The cycle whose block a line belongs to, or that the parameter written there would continue.
+std::optional<CycleAt> open_cycle(const EditedText& text, std::size_t line) {
+  constexpr std::size_t kMostLines = 200;  // no cycle has as many parameters
+  for (std::size_t seen = 0; seen < kMostLines; ++seen, --line) {
+    if (const auto cycle = cycle_at(text, line)) return cycle;
+    const std::string_view here = text.line(line);
+    if (line == 0 || !is_parameter_begun(here)) break;
+    const std::string_view above = text.line(line - 1);
+    const bool is_indented = !here.empty() && klartext::is_blank(here.front());
+    const bool goes_on = text.is_iso() ? !iso::Line(above).is_end : is_indented;
+    if (!goes_on && !trim(above).ends_with('~')) break;
+  }
+  return std::nullopt;
+}
+
+/// Parameters of a cycle from its head to its last line, which may be `line` or further lines.
+std::set<int> written_in(const EditedText& text, const CycleAt& cycle, std::size_t line) {
+  std::set<int> written;
+  for (std::size_t i = cycle.first_line; i < text.lines(); ++i) {
+    const auto here = i <= line ? std::optional(cycle) : open_cycle(text, i);
+    if (!here || here->first_line != cycle.first_line) break;
+    for (const WrittenParameter& each : parameters_of(text, i))
+      if (each.is_set) written.insert(each.parameter.number);
+  }
+  return written;
+}
+
+/// In a line of its own a parameter has its comment, and `~` where the line above has it.
+std::vector<Completion> missing_parameters(const EditedText& text, Place cursor,
+                                           const CycleAt& cycle) {
+  std::vector<Completion> items;
+  const std::string_view whole = text.line(cursor.line);
+  const std::string_view line = whole.substr(0, text.column(cursor));
+  const std::size_t word = line.find_last_of(" \t") + 1;
+  if (cycle.first_line == cursor.line && word <= cycle.dialog) return items;
+  const bool is_alone =
+      trim(line.substr(0, word)).empty() && trim(whole.substr(line.size())).empty();
+  const bool wraps = cursor.line != 0 && trim(text.line(cursor.line - 1)).ends_with('~');
+  const std::set<int> written = written_in(text, cycle, cursor.line);
+  for (const CycleParameter& parameter : cycle.cycle->parameters) {
+    if (written.contains(static_cast<int>(parameter.id))) continue;
+    std::string by = snippet_of(parameter, 1);
+    if (!is_alone) by.resize(by.find(" ;"));
+    if (is_alone && wraps) by += " ~";
+    items.push_back({name(parameter),
+                     fmt::format("{} {}", parameter.meaning, figures_of(parameter)),
+                     {text.place(cursor.line, word), cursor, std::move(by)}});
+  }
+  if (items.size() == 1) items[0].edit.by = without_wrap(items[0].edit.by);  // the last
+  return items;
+}
+
 }  // namespace
 
 std::optional<CycleAt> cycle_at(const EditedText& text, std::size_t line) {
-  constexpr std::size_t kMostLines = 200;  // no cycle has as many parameters
-  for (std::size_t seen = 0; seen < kMostLines; ++seen, --line) {
-    const std::string_view here = text.line(line);
-    if (auto found = cycle_of(here)) {
-      found->first_line = line;
-      return found;
-    }
-    const std::size_t begin = std::min(here.find_first_not_of(" \t"), here.size());
-    const bool is_parameter =
-        begin != 0 && klartext::at_cycle_parameter(here.data() + begin, here.data() + here.size());
-    if (line == 0 || !(is_parameter || trim(text.line(line - 1)).ends_with('~'))) break;
-  }
-  return std::nullopt;
+  const klartext::Program& tree = text.tree();
+  const auto blocks = tree.blocks();
+  const auto range_of = [&](const klartext::Block& block) { return tree.range(block.written); };
+  const auto next = std::ranges::partition_point(
+      blocks, [&](const klartext::Block& block) { return range_of(block).begin.line <= line + 1; });
+  if (next == blocks.begin()) return std::nullopt;
+  const SourceRange range = range_of(*std::prev(next));
+  if (range.end.line < line + 1) return std::nullopt;
+  auto found = cycle_of(text.line(range.begin.line - 1));
+  if (found) found->first_line = range.begin.line - 1;
+  return found;
 }
 
 std::string head_of(const CycleDescriptor& cycle, bool is_iso) {
@@ -231,7 +293,8 @@ std::vector<WrittenParameter> parameters_of(const EditedText& text, std::size_t 
     if (!parameter || !is_value || is_ascii_alphanumeric(behind) || behind == '_') continue;
     const std::size_t next = line.find_first_not_of(" \t", end);
     const bool is_set = next != line.npos && line[next] == '=';
-    found.push_back({at, end, *parameter, is_set && cycle_at(text, line_number)});
+    found.push_back(
+        {at, end, *parameter, is_set, is_set && cycle_at(text, line_number).has_value()});
     at = end - 1;
   }
   return found;
@@ -256,33 +319,22 @@ std::string hover_text(const EditedText& text, Place place) {
                      head_of(*cycle->cycle), cycle->cycle->name);
 }
 
-std::vector<Completion> completions(const EditedText& text, Place cursor, bool is_iso) {
+std::vector<Completion> completions(const EditedText& text, Place cursor) {
   std::vector<Completion> items;
   const std::string_view line = text.line(cursor.line).substr(0, text.column(cursor));
   if (comment_of(line) != line.npos) return items;
+  if (const auto open = open_cycle(text, cursor.line)) {
+    items = missing_parameters(text, cursor, *open);
+    if (open->first_line != cursor.line && !items.empty()) return items;
+  }
   const auto add = [&](std::size_t begin, std::string label, std::string detail, std::string by) {
     items.push_back({std::move(label),
                      std::move(detail),
                      {text.place(cursor.line, begin), cursor, std::move(by)}});
   };
-  if (const auto cycle = cycle_at(text, cursor.line); cycle && cycle->first_line != cursor.line) {
-    std::set<int> written;
-    for (std::size_t i = cycle->first_line; i < text.lines(); ++i) {
-      const auto here = cycle_at(text, i);
-      if (!here || here->first_line != cycle->first_line) break;
-      for (const auto& each : parameters_of(text, i))
-        if (each.is_cycles) written.insert(each.parameter.number);
-    }
-    const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
-    for (const CycleParameter& parameter : cycle->cycle->parameters)
-      if (!written.contains(static_cast<int>(parameter.id)))
-        add(begin, name(parameter), fmt::format("{} {}", parameter.meaning, figures_of(parameter)),
-            snippet_of(parameter, 1) + " ~");
-    if (items.size() == 1) items[0].edit.by.resize(items[0].edit.by.size() - 2);  // the last
-    return items;
-  }
   const std::size_t begin = std::min(line.find_first_not_of(kBeforeCode), line.size());
   const std::string typed = ascii_upper(line.substr(begin));
+  const bool is_iso = text.is_iso();
   const auto add_cycle = [&](const CycleDescriptor& cycle) {
     const std::string head = head_of(cycle, is_iso);
     if (!cycle.dotted && (head.starts_with(typed) || typed.starts_with(head)))

@@ -43,7 +43,7 @@ struct Completion {
 };
 /// Cycles with their parameters, in a cycle the parameters that it lacks, and first words of
 /// blocks.
-std::vector<Completion> completions(const EditedText& text, Place cursor, bool is_iso);
+std::vector<Completion> completions(const EditedText& text, Place cursor);
 
 /// Formats like `nc format`. @errors FieldInvalid for a program with errors.
 Result<std::string> formatted_text(const OpenProgram& program);

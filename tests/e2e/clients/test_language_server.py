@@ -139,6 +139,37 @@ class Editing(LanguageTest):
         self.assertNotIn("Q273", [each["label"] for each in items])
         self.assertIn(" ~", next(each for each in items if each["label"] == "Q262")["textEdit"]["newText"])
 
+    def test_completion_in_a_cycle_without_wraps_offers_what_it_lacks(self):
+        lines = ISO.replace(" ~", "").replace("    Q262=+Q1\n", "{}\n")
+        block = re.sub(r"\n +Q", " Q", lines.replace("{}\n", ""))
+        right = lambda text: text.replace("{}", "    Q262=+25 ;NOMINAL DIAMETER")
+        for text, place, expected in (
+                (lines.replace("{}", "    Q2"), "Q2\n", right(lines)), (lines.replace("{}", "    "), "    \n", right(lines)),
+                (lines.replace("{}", "Q"), "\nQ\n", right(lines).replace("    Q262", "Q262")),
+                (lines.replace("{}", "    Q2").replace("HOLE\n", "HOLE ~\n"), "Q2\n", right(lines).replace("HOLE\n", "HOLE ~\n")),
+                (lines.replace("    Q330=+0 *", "    Q330=+0 Q *").replace("{}\n", ""), "+0 Q", block.replace("Q330=+0", "Q330=+0 Q262=+25")),
+                (block.replace("HOLE Q", "HOLE Q2 Q"), "HOLE Q2", block.replace("HOLE Q", "HOLE Q262=+25 Q")),
+                (block.replace("HOLE Q", "HOLE  Q"), "HOLE ", block.replace("HOLE Q", "HOLE Q262=+25 Q")),
+                (PROGRAM.replace(" ~\n", "\n").replace("    Q262=+Q1 ;NOMINAL DIAMETER", "    "), "\n    \n",
+                 PROGRAM.replace(" ~\n", "\n").replace("+Q1 ;", "+25 ;"))):
+            with self.subTest(text[:60], place=place):
+                name = "a.i" if text.startswith("%") else "a.h"
+                self.client.open(name, text)
+                before = text[:text.index(place) + len(place.rstrip("\n"))].split("\n")
+                items = self.client.at("completion", name, len(before) - 1, len(before[-1]))["result"]
+                offered = [each["label"] for each in items if re.match(r"Q\d", each["label"])]
+                self.assertIn("Q262", offered)
+                self.assertFalse({"Q273", "Q274", "Q276", "Q330"} & set(offered), offered)
+                written = self.client.applied(name, [next(each for each in items if each["label"] == "Q262")["textEdit"]])
+                filled = re.sub(r"\$\{\d+:(.*?)\}", lambda value: value[1] or "+25", written)
+                self.assertEqual(re.sub(r"[ \n]+", " ", filled), re.sub(r"[ \n]+", " ", expected))
+                self.assertFalse([each for each in self.client.change(name, {"text": filled}) if each["severity"] < INFORMATION])
+
+    def test_a_parameter_belongs_to_its_block_in_the_tree(self):
+        self.client.open("a.i", ISO.replace(" ~\n    ", "\n"))
+        self.assertIn("Nominal diameter", self.at("hover", "a.i", "Q262=")["result"]["contents"]["value"])
+        self.assertIn("is a parameter of a cycle", self.at("rename", "a.i", "Q262=", newName="Q5")["error"]["message"])
+
     def test_an_editor_without_snippets_gets_plain_text(self):
         client = self.start(self.client.folder, snippets=False)
         client.initialize()
