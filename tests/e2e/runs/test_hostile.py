@@ -13,7 +13,7 @@ import unittest
 from support.cli import FITGAUGE
 from support.control import ControlTest
 from support.daemon import Daemon
-from support.hostile import ENDLESS, LOBES, PLANE, part, programs
+from support.hostile import ENDLESS, LOBES, PLANE, iso_texts, part, programs
 from support.waiting import PATIENCE, wait_for
 
 SECONDS = 0.3
@@ -35,7 +35,10 @@ def processor_seconds(daemon):
 
 
 def in_both_dialects():
-    """(file name, text, setup, files beside it): each program in Klartext, and in DIN/ISO where it has that form."""
+    """(file name, text, setup, files beside it): each program in Klartext, and in DIN/ISO where it has that form;
+    and texts of DIN/ISO."""
+    for name, blocks in iso_texts():
+        yield f"iso_{name}.i", "\n".join([f"%{name} G71 *", *blocks, f"N99999999 %{name} G71 *\n"]), {}, {}
     with tempfile.TemporaryDirectory() as folder:
         for name, blocks, machine, files in programs():
             text = "\n".join([f"BEGIN PGM {name} MM", *blocks, f"END PGM {name} MM\n"])

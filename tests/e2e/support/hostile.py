@@ -185,6 +185,37 @@ def large():
     yield "many_programs", [f"CALL PGM s{n}.h" for n in range(12)], {}, {f"s{n}.h": called for n in range(12)}
 
 
+def iso_texts():
+    """What only a reader of DIN/ISO meets: (name, blocks as they are written)."""
+    most = SCALE * MEGABYTE - 200
+    many = 12_500 * SCALE
+    yield "endless", ["N10 G98 L1 *", "N20 D09 P01 +0 P02 +0 P03 1 *"]
+    yield "calls_itself", ["N10 %iso_calls_itself *"]
+    yield "calls_nested", ["N10 G98 L1 *", "N20 G98 L2 *", "N30 L2,65534 *", "N40 L1,65534 *"]
+    yield "moves", ["N10 T30 G17 *", "N20 G98 L1 *", "N30 G01 G91 X+1 F500 *", "N40 X-1 *", "N50 D09 P01 +0 P02 +0 P03 1 *"]
+    yield "arcs", ["N10 T30 G17 *", "N20 I+0 J+0 *", "N30 G00 G90 X+10 *", "N40 G98 L1 *", "N50 G02 X+10 Y+0 F500 *",
+                   "N60 D09 P01 +0 P02 +0 P03 1 *"]
+    yield "block_without_end", ["N10 G421 MEASURE HOLE", *["Q273=+1 ~"] * (most // 10)]
+    yield "lines_without_end", ["N10 G01 X+1"] * (most // 12)
+    yield "wraps", ["~"] * (most // 2)
+    yield "stars", ["*" * most]
+    yield "blocks_in_a_line", ["N10 G01 X+1 * " * (most // 14)]
+    yield "codes_in_a_block", ["N10 " + "G01 " * (most // 4) + "*"]
+    yield "words_in_a_block", ["N10 G01 " + "X+1 " * (most // 4) + "*"]
+    yield "parameters_in_a_block", ["N10 G421 " + "Q273=+1 " * (most // 8) + "*"]
+    yield "lines_of_a_block", ["N10 G421 ~", *["Q273=+1 ~"] * (most // 10), "Q274=+1 *"]
+    yield "unknown_codes", ["N10 G998 X+1 *"] * many
+    yield "unknown_letters", ["N10 W?!$ *"] * many
+    yield "assumed_modes", ["N10 X+1 Y+1 *"] * (most // 14)
+    yield "rows_of_frames", ["%A G71 *", "N99999999 %A G71 *"] * (most // 28)
+    yield "numbers_beyond", [f"N{'9' * 400} G{'9' * 400} X+{'9' * 400} L{'9' * 400} T{'9' * 400} D{'9' * 400} *"] * 1_000
+    yield "open_quotes", ['N10 QS1 = "' + "x" * most]
+    yield "comment_stars", ["N10 M5 ;" + "*~" * (most // 2)]
+    yield "deep", ["N10 Q1 = " + "( " * 10_000 + "1" + " )" * 10_000 + " *"]
+    yield "texts_of_functions", ["N10 D18: " + "SYSREAD " * (most // 8) + "*"]
+    yield "points_of_a_function", ["N10 D09 " + "P01 +0 " * (most // 7) + "*"]
+
+
 def programs():
     for family in (endless, lasting, growing, infinite, outside, large):
         for entry in family():
