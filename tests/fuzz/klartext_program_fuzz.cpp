@@ -1,5 +1,5 @@
 // Any bytes as a program of either dialect: every finding has its place, and a program without
-// errors, printed as Klartext, reads back as the same.
+// errors, printed as Klartext and as DIN/ISO, reads back as the same.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <string>
 
 #include "nc/iso/parser.hpp"
+#include "nc/iso/printer.hpp"
 #include "nc/klartext/printer.hpp"
 
 using namespace fitgauge::klartext;
@@ -21,5 +22,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (parsed.has_errors()) return 0;
   const ParsedProgram again = parse_program(printed, "printed.h");
   if (again.has_errors() || !(again.program == parsed.program)) std::abort();
+  // A block without a form in DIN/ISO is an error of the conversion.
+  const auto converted = fitgauge::iso::to_iso(parsed.program, {});
+  if (contains_error(converted.findings)) return 0;
+  const ParsedProgram there = fitgauge::iso::parse_program(converted.text, "printed.i");
+  if (there.has_errors()) std::abort();
+  if (format_program(there.program) != format_program(parsed.program)) std::abort();
   return 0;
 }
