@@ -140,9 +140,14 @@ export class Editor {
     }));
   }
 
-  /** Puts another text in the place of this one, as an edit. */
+  /** Puts another text in the place of this one, as an edit of what differs. */
   replace(text) {
-    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+    const old = this.text;
+    const most = Math.min(old.length, text.length);
+    let [from, behind] = [0, 0];
+    while (from < most && old[from] === text[from]) ++from;
+    while (behind < most - from && old.at(-1 - behind) === text.at(-1 - behind)) ++behind;
+    this.view.dispatch({ changes: { from, to: old.length - behind, insert: text.slice(from, text.length - behind) } });
   }
 
   /** Shows what a check found in this text. */

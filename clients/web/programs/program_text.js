@@ -37,7 +37,7 @@ export class ProgramText {
     this.note = h('p.aside', { hidden: true });
     this.called = new CalledProgram(onLine);
     this.table = new TableEditor(this.editor);
-    this.looks = ['table', 'text'].map((look) => h('button', { type: 'button', 'aria-pressed': 'false', onclick: () => this.#look(look) }, t(`table.as_${look}`)));
+    this.looks = ['table', 'text'].map((look) => h('button', { type: 'button', 'aria-pressed': 'false', onclick: () => this.#look(look === 'table' && this.table.show()) }, t(`table.as_${look}`)));
     this.switch = h('div.switch', { role: 'group', 'aria-label': t('table.title'), hidden: true }, this.looks);
     this.element = h('div.texts', this.switch, h('div.listing', this.table.element, this.editor.element, this.note, this.list), this.called.element);
     leaving.addEventListener('abort', () => {
@@ -76,7 +76,7 @@ export class ProgramText {
     this.editor.show(draft?.text ?? file.text ?? '', { label: t('editor.text', { name: fileName(path) }), isProgram: isProgram(path), readOnly: Boolean(reason) });
     this.showBreaks();
     this.switch.hidden = this.table.element.hidden = true;
-    if (!reason && isTable(path) && this.table.show()) this.#look('table');
+    if (!reason && isTable(path) && this.table.show()) this.#look(true);
     this.show([]);
     this.onState();
     if (!reason) this.#checkSoon(0);
@@ -84,8 +84,7 @@ export class ProgramText {
   }
 
   /** A table as cells, or as its text. */
-  #look(look) {
-    const isCells = look === 'table' && this.table.show();
+  #look(isCells) {
     this.switch.hidden = false;
     this.table.element.hidden = !isCells;
     this.editor.element.hidden = isCells;

@@ -11,7 +11,7 @@ export const isTable = (path) => /\.(tab|t|tp|pr|d|pnt)$/i.test(path);
  * {columns: [{name, begin, width}], rows: [{line, cells}], fixed} of a text; `fixed` where a description sets the widths. null where it
  * is no such table, a cell reaches over the beginning of a column, or there are too many cells.
  */
-export function readTable(text) {
+export function readTable(text, mostCells = MOST_CELLS) {
   const lines = text.split('\n');
   let at = lines.findIndex((line) => HEAD.test(line));
   if (at < 0 || text.includes('\t')) return null;
@@ -28,7 +28,7 @@ export function readTable(text) {
     if (columns.some(({ begin }) => begin > 0 && /\S\S/.test(row.slice(begin - 1, begin + 1)))) return null;
     rows.push({ line, cells: columns.map(({ begin }, i) => row.slice(begin, columns[i + 1]?.begin).trim()) });
   }
-  return rows.length * columns.length > MOST_CELLS ? null : { columns, rows, fixed: isFixed, head: at };
+  return rows.length * columns.length > mostCells ? null : { columns, rows, fixed: isFixed, head: at };
 }
 
 /** The text with another value in a cell. @throws RangeError with the width where it does not fit and a description sets it */
