@@ -1,87 +1,18 @@
 """/openapi.json is the contract: every operation is described, and what it answers is what it says."""
 
-import http.client
-import json
-import os
 import re
 import unittest
-import urllib.parse
 
 import jsonschema
 
-from support.contract import Contract, Drawing, refuse_others, spoil
+from support.contract import refuse_others
+from support.contract_test import SETUP, ContractTest
 from support.control import FOREVER
-from support.daemon import ROOT, Answer, DaemonTest
+from support.daemon import ROOT
 
-PROGRAM = b"""BEGIN PGM HOLE MM
-TOOL CALL 30 Z
-L Z+50 R0 FMAX
-TCH PROBE 421 MEASURE HOLE ~
-Q273=+50 ~
-Q274=+40 ~
-Q262=25 ~
-Q325=+0 ~
-Q247=+90 ~
-Q261=-5 ~
-Q320=0 ~
-Q260=+20 ~
-Q301=0 ~
-Q275=25.021 ~
-Q276=25 ~
-Q279=0 ~
-Q280=0 ~
-Q281=1 ~
-Q309=0 ~
-Q330=0 ~
-Q423=4 ~
-Q365=1
-FN 16: F-PRINT TNC:\\nc_prog\\m.a / SCREEN:
-END PGM HOLE MM
-"""
-SETUP = {"machine": {"axes": {"C": {"on": "table"}}}, "workpiece": {"features": [
-    {"type": "block", "min_mm": [0, 0, -40], "max_mm": [100, 80, 0]},
-    {"type": "bore", "center_mm": [50, 40], "diameter_mm": 25.013}]}}
 PLAN = {"part": "4711-A", "name": "Housing", "characteristics": [
     {"name": "bore-A", "designation": "25 H7", "gauge": "G-07"},
     {"name": "slot", "nominal_mm": 8, "feature": "hole", "upper_um": 36, "lower_um": 0, "reaction": "Stop"}]}
-HINTS = {
-    "designation": ["25H7", "25 g6", "10,5 h6", "3150 H7", "0.5 t6", "7H"], "hole": ["25H7", "H7"],
-    "shaft": ["g6", "s6", "H7"], "fit": ["25H7/g6", "25H7"], "tolerance_class": ["H7", "js6", "H19"],
-    "nominal_mm": [25, "25", 10.5, 3151], "measured_mm": [25.01, "25.013"], "name": ["H7", "g6x", "SHOP", "m3"],
-    "id": ["m1", "m2", "r1", "m999999", "x"], "number": [421, 400, 9999], "path": ["nc_prog/hole.h", "nc_prog/no.h", "a b.h"],
-    "program": ["TNC:\\nc_prog\\hole.h", "TNC:\\nc_prog\\no.h"], "setup": ["m3", SETUP], "action": ["check"],
-    "part": ["4711-A", "no plan"],
-    "If-Match": ['"x"', "*"], "Idempotency-Key": ["k1", "k2"], "Prefer": ["return=minimal", "respond-async"],
-    "seconds": [1], "after": ["m1", "x"], "revision": ["1-x"]}
-ENDLESS = {"followEvents", "followRun"}
-STREAMS = {"interval"}  # parameters that make an answer endless
-
-
-class ContractTest(DaemonTest):
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        cls.contract = Contract(cls.daemon.get("/openapi.json").json)
-        cls.daemon.request("PUT", "/v1/files/nc_prog/hole.h", PROGRAM)
-        cls.daemon.request("PUT", "/v1/files/nc_prog/m.a", b'"DONE";\n')
-        cls.daemon.request("PUT", "/v1/setups/m3", SETUP)
-
-    def expect(self, operation_id, status, body=None, headers=None, **arguments):
-        """One call of an operation; its answer is as the contract says."""
-        path, method, operation = self.contract.operation(operation_id)
-        query = {}
-        for key, value in arguments.items():
-            if "{" + key + "}" in path:
-                path = path.replace("{" + key + "}", urllib.parse.quote(str(value), safe="/"))
-            else:
-                query[key] = value
-        path += "?" + urllib.parse.urlencode(query) if query else ""
-        answer = self.daemon.request(method.upper(), path, body, headers)
-        self.assertEqual(answer.status, status, f"{operation_id}: {answer}")
-        self.assertIsNone(self.contract.check(operation, answer), f"{operation_id}: {answer}")
-        if status < 300:
-            self.succeeded.add(operation_id)
-        return answer
 
 
 class Description(ContractTest):
@@ -411,86 +342,6 @@ class Answers(ContractTest):
             with self.subTest(name):
                 properties = self.contract.document["components"]["schemas"][name]["properties"]
                 self.assertEqual(set(properties) - self.contract.seen[name], without.get(name, set()))
-
-
-class Drawn(ContractTest):
-    """Requests drawn from the schemas, every second one spoiled: no answer but what the contract says.
-
-    FITGAUGE_DRAWN is how many for each operation, FITGAUGE_SEED which."""
-
-    def test_a_path_that_is_cut_in_a_message_stays_utf_8(self):
-        for path in ("/v1/files/", "/v1/runs/", "/v1/measurements/", "/v1/setups/"):
-            answer = self.daemon.get(path + "a" + "%C3%B8" * 300)
-            self.assertIn(answer.json["code"], ("file.path_invalid", "run.unknown", "measurement.unknown", "setup.unknown",
-                                                "path.malformed"), answer)
-        answer = self.daemon.post("/v1/measurements", {}, {"Origin": "http://a" + "\xc3\xb8" * 150})
-        self.assertEqual(answer.json["code"], "origin.refused")
-
-    def test_no_request_is_answered_but_as_documented(self):
-        count = int(os.environ.get("FITGAUGE_DRAWN", "10"))
-        seed = int(os.environ.get("FITGAUGE_SEED", "1"))
-        drawing = Drawing(self.contract, seed, HINTS)
-        connection = self.daemon.connect()
-        self.addCleanup(connection.close)
-        statuses = set()
-        for path, method, operation in self.contract.operations():
-            if operation["operationId"] in ENDLESS:
-                continue
-            for number in range(count):
-                spoiled = number % 2 == 1
-                request, body = self.draw(drawing, path, method, operation, spoiled)
-                with self.subTest(operation["operationId"], seed=seed, number=number):
-                    answer = self.send(connection, *request)
-                    statuses.add(answer.status)
-                    self.assertIsNone(self.contract.check(operation, answer), f"{request} {answer}")
-                    if answer.status == 422 and not spoiled and body is not None:
-                        codes = {entry["code"] for entry in answer.json.get("errors", [])}
-                        self.assertFalse(codes & {"field.unknown", "field.type", "field.too_long"},
-                                         f"the schema allows what is refused: {request} {answer}")
-        self.assertLessEqual({200, 201, 204, 400, 404, 422}, statuses)
-
-    def draw(self, drawing, path, method, operation, spoiled):
-        chance = drawing.random
-        query, headers = {}, {}
-        for parameter in operation.get("parameters", []):
-            name = parameter["name"]
-            if name in STREAMS or not parameter["required"] and chance.random() < 0.6:
-                continue
-            value = drawing.value(parameter["schema"], name)
-            if spoiled and chance.random() < 0.2:
-                value = chance.choice(["", "x", "-1", "%", "ø" * 300, "1e9", "25,5"])
-            if parameter["in"] == "path":
-                path = path.replace("{" + name + "}", urllib.parse.quote(str(value) or "x", safe=""))
-            elif parameter["in"] == "query":
-                query[name] = value
-            else:
-                headers[name] = str(value)
-        if spoiled and chance.random() < 0.1:
-            query["no_such"] = "1"
-        if query:
-            path += "?" + urllib.parse.urlencode(query)
-        content = operation.get("requestBody", {}).get("content", {})
-        body = None
-        if "application/json" in content:
-            body = drawing.value(content["application/json"]["schema"])
-            if spoiled:
-                body = spoil(body, chance)
-            headers["Content-Type"] = "application/json"
-            if spoiled and chance.random() < 0.1:
-                headers["Content-Type"] = "text/plain"
-        elif content:
-            body = drawing.value({"type": "string"})
-        return (method.upper(), path, body, headers), body
-
-    def send(self, connection, method, path, body, headers):
-        data = None if body is None else body.encode() if isinstance(body, str) and "Content-Type" not in headers \
-            else json.dumps(body).encode()
-        try:
-            connection.request(method, path, data, {k: v.encode("utf-8") for k, v in headers.items()})
-            answer = Answer(connection.getresponse())
-        except (http.client.HTTPException, OSError) as error:
-            raise AssertionError(f"{method} {path}: {error!r}") from error
-        return answer
 
 
 if __name__ == "__main__":
