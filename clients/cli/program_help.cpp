@@ -168,11 +168,10 @@ std::string parameter_hover(const EditedText& text, std::size_t line, klartext::
 bool is_parameter_begun(std::string_view line) {
   std::string_view code = trim(without_wrap(line));
   if (code.empty()) return true;
-  const std::size_t name = std::min(code.find('='), code.size());
-  code = trim(code.substr(0, name));
-  const bool has_kind = code.size() > 1 && !klartext::is_digit(code[1]);
-  return ascii_upper(code.front()) == 'Q' &&
-         std::ranges::all_of(code.substr(has_kind ? 2 : 1), klartext::is_digit);
+  code = trim(code.substr(0, code.find('=')));
+  if (code.empty() || ascii_upper(code.front()) != 'Q') return false;
+  code.remove_prefix(code.size() > 1 && !klartext::is_digit(code[1]) ? 2 : 1);
+  return std::ranges::all_of(code, klartext::is_digit);
 }
 
 /// The cycle whose block a line belongs to, or that the parameter written there would continue.

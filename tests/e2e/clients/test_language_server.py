@@ -329,12 +329,14 @@ class Protocol(LanguageTest):
     def test_broken_programs_at_every_place(self):
         self.client.initialize()
         for name, text in (("a.h", "TCH PROBE 99999999999 ~\nQ ~\nQ9999=\n~\n" + "~\n" * 300 + "\"Q1\nQ\nCYCL DEF"),
-                           ("a.i", "%\nG\nG421 ~\nQ273\nN\nN99999999999\nL\n%X G71"), ("b.h", ""), ("c.h", "\r\r\n\n\r")):
+                           ("a.i", "%\nG\nG421 ~\nQ273\nN\nN99999999999\nL\n%X G71"), ("b.h", ""), ("c.h", "\r\r\n\n\r"),
+                           ("d.h", "BEGIN PGM D MM\nTCH PROBE 421\n ~\n    Q273=+50 ~\n =Q325=+0 ~\n Q\n")):
             self.client.open(name, text)
             for line in range(min(len(text.split("\n")), 12)):
                 for method in ("hover", "completion", "definition", "rename"):
                     answer = self.client.at(method, name, line, 3)
                     self.assertNotEqual(answer.get("error", {}).get("code"), -32603, answer)
+                self.client.actions(name, line)
         self.alive()
 
 
