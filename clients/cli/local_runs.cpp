@@ -77,6 +77,12 @@ Outcome<LocalRun> check_and_run(RunOptions options, bool is_run, bool follows) {
   local.report.result = app::execute({disk, programs, clock, format.trace}, run).result;
   local.report.finished_at = clock.now();
   for (klartext::Diagnostic& each : interpreter::findings_of(local.report.result)) {
+    const auto path = interpreter::ControlPath::parse(each.program);
+    const auto linked = path ? programs.get(disk, *path) : nullptr;
+    if (linked != nullptr && linked->program != nullptr) {
+      if (interpreter::is_ignored(linked->program->program(), each)) continue;
+      each.source = linked->program->program().line(each.range.begin.line);
+    }
     each.program = disk.name_here(each.program);
     std::erase_if(local.found, [&](const klartext::Diagnostic& checked) {
       return checked.message == each.message && checked.program == each.program &&

@@ -54,7 +54,13 @@ class Walk {
     const auto linked = programs_.get(disk_, path);
     if (linked == nullptr) return false;
     add(linked->diagnostics);
+    const auto before = static_cast<std::ptrdiff_t>(diagnostics_.size());
     for (const FileReference& reference : linked->references) follow(path, reference);
+    if (linked->with_error_blocks == nullptr) return true;
+    const auto ignored = std::remove_if(
+        diagnostics_.begin() + before, diagnostics_.end(),
+        [&](const auto& found) { return is_ignored(linked->with_error_blocks->program(), found); });
+    diagnostics_.erase(ignored, diagnostics_.end());
     return true;
   }
 

@@ -412,30 +412,12 @@ class Contradictions {
   std::map<std::size_t, const Block*> reads_;  ///< results by the first block that reads them
 };
 
-/// `check:ignore` in this line switches the code off.
-bool ignores(std::string_view line, std::string_view code) {
-  constexpr std::string_view kIgnore = "check:ignore";
-  const std::size_t comment = line.find(';');
-  const std::size_t at = comment == line.npos ? line.npos : line.find(kIgnore, comment);
-  if (at == line.npos) return false;
-  std::string_view codes = trim(line.substr(at + kIgnore.size()));
-  if (codes.ends_with('~')) codes = trim(codes.substr(0, codes.size() - 1));
-  return codes.empty() || codes.find(code) != codes.npos;
-}
-
 }  // namespace
 
 void check_contradictions(const klartext::Program& program,
                           std::vector<klartext::Diagnostic>& diagnostics) {
   Contradictions(program, diagnostics).check();
-  std::erase_if(diagnostics, [&](const klartext::Diagnostic& found) {
-    if (found.severity == Severity::Error || found.range.begin.line == 0) return false;
-    const std::string_view code = id(found.code);
-    if (ignores(program.line(found.range.begin.line), code)) return true;
-    if (found.range.begin.line < 2) return false;
-    const std::string_view above = program.line(found.range.begin.line - 1);
-    return trim(above).starts_with(';') && ignores(above, code);
-  });
+  std::erase_if(diagnostics, [&](const auto& found) { return is_ignored(program, found); });
 }
 
 }  // namespace fitgauge::interpreter

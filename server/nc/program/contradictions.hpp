@@ -11,8 +11,7 @@ namespace fitgauge::interpreter {
 /// or parameter, depths and heights of the wrong sign or order, limits far from the nominal size, a
 /// cutter or a turning spindle that probes, results that no cycle gives, parameters after a line
 /// without `~`. A parameter with a known number counts as that number; the finding is at its
-/// assignment. Then drops the notes and warnings that a comment switches off: `check:ignore`, with
-/// or without codes, in the line or in the comment line above it.
+/// assignment. Then drops the findings that a comment switches off.
 void check_contradictions(const klartext::Program& program,
                           std::vector<klartext::Diagnostic>& diagnostics);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/text.hpp"
+
 namespace fitgauge::interpreter {
 namespace {
 
@@ -19,6 +21,27 @@ constexpr MFunction kMFunctions[] = {
 /// HEIDENHAIN leaves these numbers to the builder: 300 to 399, 500 to 599 and all above 1999.
 bool is_builders_cycle(int number) {
   return (number >= 300 && number < 400) || (number >= 500 && number < 600) || number >= 2000;
+}
+
+/// Whether `check:ignore` in this line switches the code off.
+bool ignores(std::string_view line, std::string_view code) {
+  constexpr std::string_view kIgnore = "check:ignore";
+  const std::size_t comment = line.find(';');
+  const std::size_t at = comment == line.npos ? line.npos : line.find(kIgnore, comment);
+  if (at == line.npos) return false;
+  std::string_view codes = trim(line.substr(at + kIgnore.size()));
+  if (codes.ends_with('~')) codes = trim(codes.substr(0, codes.size() - 1));
+  return codes.empty() || codes.find(code) != codes.npos;
+}
+
+/// The last physical line of the block that begins in a line.
+std::uint32_t last_line_of_block(const klartext::Program& program, std::uint32_t line) {
+  const auto begin = [&](const klartext::Block& block) {
+    return program.range(block.written).begin.line;
+  };
+  const auto block = std::ranges::lower_bound(program.blocks(), line, {}, begin);
+  const bool is_found = block != program.blocks().end() && begin(*block) == line;
+  return is_found ? program.range(block->written).end.line : line;
 }
 
 }  // namespace
@@ -45,6 +68,20 @@ Diagnostic diagnose(const klartext::Program& program, const klartext::Block& blo
           range,
           block.number,
           std::string(program.line(range.begin.line))};
+}
+
+bool is_ignored(const klartext::Program& program, const Diagnostic& found) {
+  const std::uint32_t line = found.range.begin.line;
+  if (found.severity == klartext::Severity::Error || line == 0) return false;
+  const std::string_view code = id(found.code);
+  const bool is_of_block = code.starts_with("run.");
+  const std::uint32_t last = is_of_block ? last_line_of_block(program, line) : line;
+  for (std::uint32_t i = line; i <= last; ++i)
+    if (ignores(program.line(i), code)) return true;
+  if (line == 1) return false;
+  const std::string_view above = program.line(line - 1);
+  const std::size_t text = above.find_first_not_of(" \t0123456789N");
+  return text != above.npos && above[text] == ';' && ignores(above, code);
 }
 
 klartext::DiagnosticNote inch_note(const klartext::Program& program) {

@@ -23,6 +23,10 @@ klartext::Diagnostic diagnose(const klartext::Program& program, const klartext::
                               klartext::Slice<char> place, klartext::Severity severity,
                               klartext::DiagnosticCode code, std::string message);
 
+/// Returns whether a comment of the program switches a note or warning off: `check:ignore`, with or
+/// without codes, in its line or in the comment line above it; of a run, in a line of its block.
+bool is_ignored(const klartext::Program& program, const klartext::Diagnostic& found);
+
 /// The unit of a program in INCH as the cause of a finding.
 klartext::DiagnosticNote inch_note(const klartext::Program& program);
 

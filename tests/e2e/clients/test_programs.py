@@ -139,6 +139,37 @@ END PGM HOLE MM
         self.assert_fails(4, "nc", "check", "hole.h", *on_it, "--set", "Q7")
         self.assert_fails(5, "nc", "check", "hole.h", "--setup", "gone.json")
 
+    def test_a_comment_switches_findings_of_a_run_off(self):
+        block = {"type": "block", "min_mm": [0, 0, -40], "max_mm": [100, 80, 0]}
+        bore = {"type": "bore", "center_mm": [50, 40], "top_mm": 0, "depth_mm": 30, "diameter_mm": 25.013}
+        self.client.write("part.json", json.dumps({"workpiece": {"features": [block, bore]}}))
+        klartext = ("BEGIN PGM A MM\nTOOL CALL 30 Z\nL X+0 R0 FMAX M92{note}\n{above}TCH PROBE 421 MEASURE HOLE{head} ~\n"
+                    " Q273=+50 ~\n Q274=+40 ~\n Q262=+20{size} ~\n Q247=+90 ~\n Q261=-5 ~\n Q260=+20\nEND PGM A MM\n")
+        iso = ("%A G71 *\nN10 T30 G17 *\nN20 G00 G90 X+0 G40 M92 *{note}\n{above}"
+               "N40 G421 Q273=+50 Q274=+40 Q262=+20 Q247=+90 Q261=-5 Q260=+20 *{head}\nN99999999 %A G71 *\n")
+        empty = {"note": "", "above": "", "head": "", "size": ""}
+
+        def check(status, name, text, **comments):
+            self.client.write(name, text.format(**(empty | comments)))
+            answer = self.assert_runs(status, "nc", "check", name, "--setup", "part.json", "--format", "json")
+            found = json.loads(answer)["diagnostics"]
+            for each in found:
+                self.assertRegex(each["source"], "421|M92")
+            return [each["code"] for each in found]
+
+        note, size = "run.noted", "run.setup_contradicts"
+        for name, text in (("a.h", klartext), ("a.i", iso)):
+            self.assertEqual(check(1, name, text), [note, size])
+            for ignored in ("check:ignore", f"check:ignore {size}"):
+                self.assertEqual(check(0, name, text, head=f" ;{ignored}"), [note])
+                self.assertEqual(check(0, name, text, above=f";{ignored}\n"), [note])
+                self.assertEqual(check(0, name, text, above=f"30 ; {ignored}\n".replace("30", "N30" if text is iso else "3")), [note])
+            self.assertEqual(check(1, name, text, note=" ;check:ignore"), [size])
+            self.assertEqual(check(1, name, text, head=f" ;check:ignore {note}"), [note, size])
+        self.assertEqual(check(0, "a.h", klartext, size=f" ;check:ignore {size}"), [note])
+        self.client.write("a.h", klartext.format(**empty))
+        self.assertIn("\nTCH PROBE 421 MEASURE HOLE ~\n^", self.assert_runs(1, "nc", "check", "a.h", "--setup", "part.json"))
+
     def test_no_text_of_a_program_is_lost_by_formatting(self):
         for name, text in (("t.h", "0 BEGIN PGM T MM\r\n1 L  X+5 FMAX\r\n2 END PGM T MM\r\n3 L Y+9\r\n"),
                            ("t.i", "%T G71 *\nN10 G00 G40 G90 X+5 *\nN99999999 %T G71 *\nN20 X+9 *\n")):

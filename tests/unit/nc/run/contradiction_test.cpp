@@ -80,6 +80,8 @@ TEST_CASE("a contradiction is found at its line") {
       {replaced(hole(), ";MAX.", ";MIN. check:ignore file.missing"),
        {"warning 12 cycle.comment_contradicts"}},
       {"; check:ignore\n" + hole("MEASURE BOSS"), {}},
+      {"7 ; check:ignore\n8 " + hole("MEASURE BOSS"), {}},
+      {"CALL PGM OTHER ;check:ignore file.missing", {}},
       {replaced(hole(), "Q275=+12.1", "Q275=+11"), {"warning 12 cycle.order_contradicts"}},
       {replaced(hole(), "Q275=+12.1", "Q275=+121"), {"warning 12 cycle.order_contradicts"}},
       {replaced(hole(), "Q276=+12 ", "Q276=+1.2 "), {"warning 13 cycle.order_contradicts"}},
