@@ -249,9 +249,7 @@ std::string head_of(const CycleDescriptor& cycle, bool is_iso) {
   return fmt::format("G{}", cycle.number < kContour ? cycle.number + kContour : cycle.number);
 }
 
-std::string dialog_of(const CycleParameter& parameter) {
-  return ascii_upper(parameter.meaning.substr(0, parameter.meaning.find(':')));
-}
+std::string dialog_of(const CycleParameter& parameter) { return ascii_upper(parameter.title()); }
 
 std::string_view without_wrap(std::string_view line) {
   const std::size_t last = line.find_last_not_of(" \t~");

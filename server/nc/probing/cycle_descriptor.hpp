@@ -120,6 +120,8 @@ struct CycleParameter {
   bool newer = false;     ///< not in the blocks of older controls
   std::uint8_t part = 0;  ///< of a dotted cycle: its sub-line, `3.2` is 2
 
+  /// The dialog text without its explanation: `Measuring log` of `Measuring log: 0 none, 1 file`.
+  constexpr std::string_view title() const { return meaning.substr(0, meaning.find(':')); }
   constexpr bool is_text() const { return kind == ValueKind::Text; }
   constexpr bool takes_text() const { return is_text() || kind == ValueKind::NumberOrText; }
 };

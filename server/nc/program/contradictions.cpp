@@ -277,8 +277,12 @@ class Contradictions {
       const std::string_view comment = program_.text(written.comment);
       if (parameter == nullptr || comment.empty()) continue;
       const unsigned said = senses_of(comment);
-      const unsigned intended = senses_of(parameter->meaning);
-      if (!contradict(said, intended, kOfParameters) &&
+      const unsigned intended = senses_of(parameter->title());
+      const bool is_others = !ascii_iequals(comment, parameter->title()) &&
+                             std::ranges::any_of(descriptor.parameters, [&](const auto& other) {
+                               return ascii_iequals(comment, other.title());
+                             });
+      if (!is_others && !contradict(said, intended, kOfParameters) &&
           !contradict(said & ~intended, meant, std::array{kSide})) {
         continue;
       }

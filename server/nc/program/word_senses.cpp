@@ -27,9 +27,13 @@ unsigned senses_of(std::string_view text) {
   for (std::size_t at = 0; at < upper.size(); ++at) {
     if (at != 0 && is_ascii_letter(upper[at - 1])) continue;
     const std::string_view rest = std::string_view(upper).substr(at);
+    std::size_t longest = 1;
     for (const Term& term : kTerms) {
-      if (rest.front() == term.word.front() && rest.starts_with(term.word)) senses |= term.senses;
+      if (rest.front() != term.word.front() || !rest.starts_with(term.word)) continue;
+      senses |= term.senses;
+      longest = std::max(longest, term.word.size());
     }
+    at += longest - 1;
   }
   return senses;
 }

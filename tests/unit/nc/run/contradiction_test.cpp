@@ -1,7 +1,11 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "base/text.hpp"
+#include "nc/probing/cycles.hpp"
+#include "nc/program/machining_cycles.hpp"
 #include "run_fixture.hpp"
 
 namespace fitgauge::interpreter {
@@ -121,6 +125,100 @@ TEST_CASE("a contradiction is found at its line") {
     CAPTURE(each.body);
     CHECK(findings(each.body) == each.found);
   }
+}
+
+TEST_CASE("titles and comments of controls in all languages say what they mean") {
+  struct Case {
+    std::string_view cycle;
+    bool contradicts;
+  };
+  const Case titles[] = {
+      {"TCH PROBE 421 MEASURE ISLAND", true}, {"TCH PROBE 421 MEASURE PIN", true},
+      {"TCH PROBE 421 SHAFT", true},          {"TCH PROBE 421 MESSEN WELLE", true},
+      {"TCH PROBE 421 MESSEN INSEL", true},   {"TCH PROBE 421 METEN TAP", true},
+      {"TCH PROBE 421 METEN EILAND", true},   {"TCH PROBE 422 MEASURE PIN", false},
+      {"TCH PROBE 422 METEN TAP", false},     {"TCH PROBE 409 GROOVE", true},
+      {"TCH PROBE 408 GROOVE", false},        {"CYCL DEF 209 BORING SPINDLE ORIENTED", true},
+      {"CYCL DEF 202 BOHREN", false},         {"TCH PROBE 427 MEASURE BORE", true},
+      {"TCH PROBE 412 DATUM IN Z", true},     {"TCH PROBE 417 DATUM IN Z", false},
+      {"CYCL DEF 207 BOHREN", true},          {"CYCL DEF 264 THREAD DRILLING", false},
+  };
+  const auto contradicts = [](std::string_view body, std::string_view code) {
+    return std::ranges::any_of(findings(body),
+                               [&](const auto& each) { return each.ends_with(code); });
+  };
+  for (const Case& each : titles) {
+    CAPTURE(each.cycle);
+    CHECK(contradicts(each.cycle, "cycle.dialog_contradicts") == each.contradicts);
+  }
+  CHECK_FALSE(contradicts("; the shaft's seat\n" + hole(), "cycle.comment_contradicts"));
+  // What controls write, then what contradicts it.
+  const std::string_view comments[][3] = {
+      {"Q273", "MITTE 1. ACHSE", "MITTE 2. ACHSE"},
+      {"Q274", "CENTER IN 2ND AXIS", "CENTER IN 1ST AXIS"},
+      {"Q262", "SOLL-DURCHMESSER", "MESSHOEHE"},
+      {"Q325", "STARTWINKEL", "WINKELSCHRITT"},
+      {"Q325", "STARTING ANGLE", "START DEPTH"},
+      {"Q247", "WINKELSCHRITT", "STARTWINKEL"},
+      {"Q247", "PASSO ANGOLARE", "ANGOLO DI PARTENZA"},
+      {"Q261", "MESSHOEHE", "SICHERHEITS-ABST."},
+      {"Q320", "SICHERHEITS-ABST.", "SICHERE HOEHE"},
+      {"Q320", "DISTANZA SICUREZZA", "ALTEZZA DI SICUREZZA"},
+      {"Q260", "SICHERE HOEHE", "SICHERHEITS-ABST."},
+      {"Q260", "VEILIGE HOOGTE", "VEILIGHEIDSAFSTAND"},
+      {"Q275", "GROESSTMASS", "UNTERES ABMASS"},
+      {"Q275", "UPPER LIMIT", "LIMITE INFERIORE"},
+      {"Q276", "LOWER LIMIT", "UPPER LIMIT"},
+      {"Q276", "ONDERGRENS", "BOVENGRENS"},
+      {"Q279", "TOLERANZ 1. MITTE", "TOLERANZ 2. MITTE"},
+      {"Q281", "MESSPROTOKOLL", "PGM-STOP BEI FEHLER"},
+      {"Q309", "PGM STOP IF ERROR", "MEASURING LOG"},
+  };
+  for (const auto& [name, right, wrong] : comments) {
+    CAPTURE(name);
+    const auto commented = [&](std::string_view comment) {
+      const auto at = kHole.find(std::string(name) + "=");
+      const auto value = kHole.find(' ', at);
+      const std::string rest = kHole.substr(kHole.find('\n', value));
+      return "TCH PROBE 421 MEASURE HOLE ~\n " + kHole.substr(0, value) + " ;" +
+             std::string(comment) + " ~" + rest;
+    };
+    CHECK_MESSAGE(!contradicts(commented(right), "cycle.comment_contradicts"), right);
+    CHECK_MESSAGE(contradicts(commented(wrong), "cycle.comment_contradicts"), wrong);
+  }
+}
+
+TEST_CASE("exchanged comments of neighbours are found in every cycle") {
+  const auto block = [](const probing::CycleDescriptor& cycle, std::size_t exchanged) {
+    std::string text =
+        (cycle.family == probing::CycleFamily::TchProbe ? "TCH PROBE " : "CYCL DEF ") +
+        std::to_string(cycle.number) + " " + std::string(cycle.name);
+    for (std::size_t i = 0; i < cycle.parameters.size(); ++i) {
+      const std::size_t said = i == exchanged ? i + 1 : i == exchanged + 1 ? i - 1 : i;
+      text += " ~\n " + name(cycle.parameters[i]) + "=" +
+              (cycle.parameters[i].is_text() ? "\"1\"" : "+Q1") + " ;" +
+              ascii_upper(cycle.parameters[said].title());
+    }
+    return text;
+  };
+  std::size_t exchanges = 0;
+  const auto check = [&](const probing::CycleDescriptor& cycle) {
+    if (cycle.dotted || cycle.parameters.empty()) return;
+    const auto count = [&](std::size_t exchanged) {
+      return std::ranges::count_if(findings(block(cycle, exchanged)), [](const auto& found) {
+        return found.ends_with("cycle.comment_contradicts");
+      });
+    };
+    CHECK_MESSAGE(count(cycle.parameters.size()) == 0, block(cycle, cycle.parameters.size()));
+    for (std::size_t i = 0; i + 1 < cycle.parameters.size(); ++i) {
+      if (cycle.parameters[i].title() == cycle.parameters[i + 1].title()) continue;
+      CHECK_MESSAGE(count(i) == 2, block(cycle, i));
+      ++exchanges;
+    }
+  };
+  for (const auto* cycle : probing::cycles()) check(cycle->descriptor);
+  for (const MachiningCycle& cycle : machining_cycles()) check(cycle.descriptor);
+  CHECK(exchanges > 600);
 }
 
 TEST_CASE("parameters of another cycle name that cycle") {
