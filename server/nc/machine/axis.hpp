@@ -10,6 +10,12 @@
 
 namespace fitgauge::machine {
 
+/// A bore or boss of the part that a setup describes.
+struct RoundFeature {
+  bool is_boss = false;
+  double diameter = 0;  ///< in mm
+};
+
 enum class Axis : std::uint8_t { X, Y, Z, A, B, C };
 
 inline constexpr std::size_t kAxes = 6;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "nc/machine/axis.hpp"
 #include "nc/machine/fault.hpp"
@@ -86,6 +87,10 @@ class Machine {
   /// Normal of the surface at the last contact, away from the material, in Machine coordinates;
   /// none if the machine does not know it, like a real one.
   virtual std::optional<Vec3> contact_normal() const { return std::nullopt; }
+
+  /// The bores and bosses of the part that have a point in input coordinates near their axis; none
+  /// if the machine does not know them, like a real one.
+  virtual std::vector<RoundFeature> round_features(const Vec3&) const { return {}; }
 
   /// Returns whether a cutter has entered the part in the last motion, which was in rapid; false if
   /// the machine does not know the part.

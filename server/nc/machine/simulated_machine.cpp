@@ -1,6 +1,7 @@
 #include "nc/machine/simulated_machine.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "nc/machine/sphere_tracing.hpp"
 #include "nc/machine/tolerance.hpp"
@@ -71,7 +72,24 @@ SimulatedAxes::SimulatedAxes(const Setup& setup)
       kinematics_(as_built(setup.machine)),
       nose_(setup.machine.start_position()),
       rest_{},
-      random_(setup.seed) {}
+      random_(setup.seed) {
+  for (const Feature& each : setup.features) {
+    if (const auto* bore = std::get_if<Bore>(&each))
+      round_.push_back({bore->centre, {false, bore->diameter}});
+    if (const auto* boss = std::get_if<Boss>(&each))
+      round_.push_back({boss->centre, {true, boss->diameter}});
+  }
+}
+
+std::vector<RoundFeature> SimulatedAxes::round_features(const Vec3& at) const {
+  const Vec3 place = real_table(nose_.rotary).inverse().point(at);
+  std::vector<RoundFeature> found;
+  for (const RoundPlace& each : round_) {
+    const double away = std::hypot(place.x - each.centre[0], place.y - each.centre[1]);
+    if (away < each.feature.diameter / 4) found.push_back(each.feature);
+  }
+  return found;
+}
 
 void SimulatedAxes::turn(const Vec3& rotary) {
   const Vec3 turn = rotary - nose_.rotary;

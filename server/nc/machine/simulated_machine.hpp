@@ -23,6 +23,7 @@ class SimulatedAxes final : public Axes {
   MachineResult<Position> probe(const Vec3& direction, double distance,
                                 const Motion& motion) override;
   std::optional<Vec3> contact_normal() const override;
+  std::vector<RoundFeature> round_features(const Vec3& at) const override;
   bool has_entered_part() const override { return has_entered_part_; }
   MachineResult<void> dwell(double, Allowance&) override { return {}; }
   void stop(std::string_view) override {}
@@ -53,7 +54,14 @@ class SimulatedAxes final : public Axes {
   MachineResult<double> plate_contact(const Vec3& direction, double distance, const RealTool& tool,
                                       Allowance& allowance);
 
+  /// A bore or boss of the part, and its centre.
+  struct RoundPlace {
+    std::array<double, 2> centre;
+    RoundFeature feature;
+  };
+
   MachineSetup setup_;
+  std::vector<RoundPlace> round_;
   Workpiece workpiece_;
   Workpiece fixtures_;
   Kinematics kinematics_;  ///< as built, with the errors of centre and direction
