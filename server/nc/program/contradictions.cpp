@@ -122,10 +122,10 @@ class Contradictions {
     assign(assignment);
   }
   void assign(const klartext::Assignment& assignment) {
+    const auto known = constants_.value_of(program_, assignment.value);
     set(assignment.target);
-    const auto* number = std::get_if<double>(&assignment.value);
-    if (number != nullptr && !block_->skip)
-      constants_.set(assignment.target, {*number, block_->written, block_});
+    if (known && !block_->skip)
+      constants_.set(assignment.target, {known->value, block_->written, block_});
   }
   void visit(const klartext::ConditionalJump& jump) { read(jump.condition), constants_.clear(); }
   void visit(const klartext::SetUndefined& statement) { set(statement.target); }

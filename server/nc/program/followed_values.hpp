@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "nc/klartext/syntax.hpp"
+#include "nc/program/arithmetic.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -29,14 +33,35 @@ class FollowedValues {
     std::map<int, FollowedValue> all;
     for (const auto& written : program.view(cycle.parameters)) {
       if (written.kind != klartext::CycleValue::Expression) continue;
-      if (const auto* number = std::get_if<double>(&written.value))
-        all[written.parameter.number] = {*number, written.written, block};
-      const auto* parameter = std::get_if<klartext::QRef>(&written.value);
-      if (parameter == nullptr) continue;
-      const auto found = values_.find({parameter->space, parameter->number});
-      if (found != values_.end()) all[written.parameter.number] = found->second;
+      auto found = value_of(program, written.value);
+      if (found && found->block == nullptr) found = {found->value, written.written, block};
+      if (found) all[written.parameter.number] = *found;
     }
     return all;
+  }
+
+  /// Returns an expression of numbers and of parameters that are numbers, with the place of the
+  /// last of these parameters; no block if there is none.
+  std::optional<FollowedValue> value_of(const klartext::Program& program,
+                                        const klartext::Expr& value) const {
+    if (const auto* number = std::get_if<double>(&value)) return FollowedValue{*number};
+    if (const auto* parameter = std::get_if<klartext::QRef>(&value)) {
+      const auto found = values_.find({parameter->space, parameter->number});
+      return found == values_.end() ? std::nullopt : std::optional(found->second);
+    }
+    const auto* index = std::get_if<klartext::NodeIndex>(&value);
+    if (index == nullptr || !is_arithmetic(program.node(*index).op)) return std::nullopt;
+    FollowedValue result;
+    std::array<double, 2> operands{};
+    std::size_t count = 0;
+    for (const klartext::Expr& operand : program.operands(*index)) {
+      const auto found = value_of(program, operand);
+      if (!found) return std::nullopt;
+      if (found->block != nullptr && found->block >= result.block) result = *found;
+      operands.at(count++) = found->value;
+    }
+    result.value = compute(program.node(*index).op, operands[0], operands[1]);
+    return std::isfinite(result.value) ? std::optional(result) : std::nullopt;
   }
 
  private:
