@@ -4,7 +4,6 @@
 #include "api/resources.hpp"
 #include "base/digest.hpp"
 #include "base/json/json_writer.hpp"
-#include "service/log/changes.hpp"
 #include "service/log/log_service.hpp"
 #include "service/measurements/measurement_service.hpp"
 
@@ -90,9 +89,9 @@ void add_tree_routes(Routes& add) {
   add("GET " + path + "tile/{path*} get" + of + "Tile viewer", tile<of_changes>,
       {.summary = "A tile of " + log,
        .description = of_changes
-                          ? "An entry is a change as /v1/changes answers it, in the order of "
-                            "its ids; a change longer than 65,535 bytes has `before_sha256` "
-                            "and `after_sha256`, of the texts, in their place."
+                          ? "An entry is a change as /v1/changes answers it, with the number of "
+                            "its id (5 of c5-…); a change longer than 65,535 bytes has "
+                            "`before_sha256` and `after_sha256`, of the texts, in their place."
                           : "As C2SP tlog-tiles name them: `0/000`, `1/x001/067.p/3`, and "
                             "`entries/000` for the records themselves.",
        .parameters = {path_parameter(
@@ -126,8 +125,7 @@ void list_changes(const Services& services, const http::Request& request,
                        answer_with(std::move(responder), [](const auto& page) {
                          return json_response(json_object([&page](JsonWriter& json) {
                            json.key("changes").begin_array();
-                           for (const store::Change& change : page.changes)
-                             json.raw(app::change_json(change));
+                           for (const std::string& change : page.changes) json.raw(change);
                            json.end_array().key("next");
                            page.has_more ? json.value(page.last) : json.null();
                            json.key("last");
@@ -151,11 +149,11 @@ void add_log_routes(Routes& add) {
 }
 
 void add_changes_schemas(Schemas& schemas) {
-  const std::string content = schema::null_or(schema::object({}));
+  const std::string content = schema::null_or(R"({"type":"object","additionalProperties":true})");
   schemas.push_back(
       {"Change",
        schema::object(
-           {{"id", schema::count(), "Number of the change, from 1, without gaps"},
+           {{"id", schema::text(), "Names the history too; `after` takes it"},
             {"at", schema::time(), "Time in UTC"},
             {"caller", schema::null_or(schema::text()), "The name of the key; null: none"},
             {"kind", schema::words({std::begin(kKinds), std::end(kKinds)}), ""},
@@ -168,8 +166,8 @@ void add_changes_schemas(Schemas& schemas) {
                                   {"next", schema::null_or(schema::text()),
                                    "Cursor for `after`; null on the last page"},
                                   {"last", schema::null_or(schema::text()),
-                                   "Cursor of the newest change read, for `after` later; it names "
-                                   "its history. Null before the first change"}})});
+                                   "Id of the newest change read, for `after` later. Null before "
+                                   "the first change"}})});
 }
 
 void add_changes_routes(Routes& add) {
@@ -189,7 +187,7 @@ void add_changes_routes(Routes& add) {
              .type = http::Integer{1, 1000},
              .description =
                  "Maximum number of changes of a page, fewer if they are long (default: 100)"},
-            {.name = "after", .description = "`next` or `last` of an earlier page"}},
+            {.name = "after", .description = "`next` or `last` of an earlier page, or an id"}},
        .outcomes = {{.meaning = "A page, oldest first", .schema = "Changes"}}});
 }
 

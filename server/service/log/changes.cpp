@@ -38,7 +38,8 @@ void log_document(store::Stores& stores, store::DocumentKind kind, const std::st
 }
 
 /// RFC 8785 of the members, except the texts, which are copied as stored.
-std::string text_of(const store::Change& change, bool has_digests) {
+/// @param id its number, or the number with the digits of its history.
+std::string text_of(const store::Change& change, const auto& id, bool has_digests = false) {
   std::string text;
   api::JsonWriter json(text);
   const auto write = [&](std::string_view name, std::string_view digest_name,
@@ -54,7 +55,7 @@ std::string text_of(const store::Change& change, bool has_digests) {
   json.member("at", format_rfc3339({change.at_ns}));
   write("before", "before_sha256", change.before);
   change.caller ? json.member("caller", *change.caller) : json.key("caller").null();
-  json.member("id", change.id).member("kind", change.kind).member("name", change.name);
+  json.member("id", id).member("kind", change.kind).member("name", change.name);
   json.end_object();
   return text;
 }
@@ -76,11 +77,13 @@ JsonValue without_secrets(JsonValue settings) {
   return settings;
 }
 
-std::string change_json(const store::Change& change) { return text_of(change, false); }
+std::string change_json(const store::Change& change, const std::string& id) {
+  return text_of(change, id);
+}
 
 std::string change_entry(const store::Change& change) {
-  std::string entry = text_of(change, false);
-  return entry.size() <= kLongestEntry ? entry : text_of(change, true);
+  std::string entry = text_of(change, change.id);
+  return entry.size() <= kLongestEntry ? entry : text_of(change, change.id, true);
 }
 
 void log_change(store::Stores& stores, store::Change change) {

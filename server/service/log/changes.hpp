@@ -27,10 +27,11 @@ bool remove_document(store::Stores& stores, store::DocumentKind kind, const std:
 JsonValue without_secrets(JsonValue settings);
 
 /// A change as /v1/changes answers it.
-std::string change_json(const store::Change& change);
+/// @param id cNUMBER-DIGITS of its history.
+std::string change_json(const store::Change& change, const std::string& id);
 
-/// Returns the leaf of a change in the tree of changes: the change, with the SHA-256 of its texts
-/// if it would be longer than an entry of a tile.
+/// Returns the leaf of a change in the tree of changes: the change with its number as id, and with
+/// the SHA-256 of its texts if it would be longer than an entry of a tile.
 std::string change_entry(const store::Change& change);
 
 }  // namespace fitgauge::app

@@ -10,6 +10,7 @@
 #include "db/store/database.hpp"
 #include "proof/frontier.hpp"
 #include "proof/note.hpp"
+#include "service/log/changes.hpp"
 #include "service/log/log_keys.hpp"
 #include "service/log/log_reader.hpp"
 #include "service/log/log_service.hpp"
@@ -164,16 +165,23 @@ void LogService::changes(store::ChangeFilter filter, std::string after, std::int
             histories, [&](const auto& each) { return digits.empty() || each.first == digits; });
         const auto number = read_number<std::int64_t>(given.substr(0, dash));
         if (!number || *number < 0 || of == histories.end() || *number > of->second) {
-          return Error{ErrorCode::CursorInvalid,
-                       "after must be `next` or `last` of an earlier page of this history"};
+          return Error{
+              ErrorCode::CursorInvalid,
+              "after must be an id, or `next` or `last` of an earlier page, of this history"};
         }
-        auto page = stores.changes.list(filter, *number, limit);
-        const std::int64_t last = page.changes.empty() ? *number : page.changes.back().id;
-        const auto own = std::find_if(histories.begin(), std::prev(histories.end()),
-                                      [last](const auto& each) { return last <= each.second; });
-        return ChangePage{.changes = std::move(page.changes),
-                          .last = last == 0 ? "" : fmt::format("c{}-{}", last, own->first),
-                          .has_more = page.has_more};
+        const auto id = [&histories](std::int64_t of_number) {
+          const auto own = std::find_if(histories.begin(), std::prev(histories.end()),
+                                        [=](const auto& each) { return of_number <= each.second; });
+          return fmt::format("c{}-{}", of_number, own->first);
+        };
+        const auto page = stores.changes.list(filter, *number, limit);
+        ChangePage found{
+            .changes = {}, .last = *number == 0 ? "" : id(*number), .has_more = page.has_more};
+        for (const store::Change& change : page.changes) {
+          found.last = id(change.id);
+          found.changes.push_back(change_json(change, found.last));
+        }
+        return found;
       },
       std::move(done));
 }

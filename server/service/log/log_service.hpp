@@ -133,12 +133,11 @@ class LogService {
   void tile(std::string_view path, bool of_changes, Done<TileBytes> done);
 
   struct ChangePage {
-    std::vector<store::Change> changes;
-    std::string last;  ///< newest cursor so far, cNUMBER-DIGITS; empty: there is none
+    std::vector<std::string> changes;  ///< as JSON
+    std::string last;                  ///< id of the newest so far; empty: there is none
     bool has_more = false;
   };
-  /// Returns a page of changes after a cursor, or after a number of the first history, oldest
-  /// first.
+  /// Returns a page of changes after an id, or after a number of the first history, oldest first.
   /// @errors CursorInvalid after the end of its history; those of storage.
   void changes(store::ChangeFilter filter, std::string after, std::int64_t limit,
                Done<ChangePage> done) const;

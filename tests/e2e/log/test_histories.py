@@ -151,8 +151,14 @@ class Folders(Restored):
         self.assertEqual([change["name"] for change in new["changes"]], ["e", "f", "g"])
         self.assertEqual([change["name"] for change in read(f"after={kept['next']}").json["changes"]], ["b", "e", "f", "g"])
         self.assertNotEqual(new["last"].split("-")[1], held.split("-")[1])
+        # No id is given out twice, and what is of a history before keeps its own.
+        lost_ids = [change["id"] for change in lost["changes"]]
+        listed = [change["id"] for change in read("").json["changes"]]
+        self.assertEqual(listed[:2], [kept["changes"][0]["id"], held])
+        self.assertEqual(len({*listed, *lost_ids}), 5 + 2)
+        self.assertEqual([change["name"] for change in read(f"after={listed[2]}").json["changes"]], ["f", "g"])
         # The numbers of the lost ones are given to others: as a cursor neither is known.
-        for cursor in (lost["last"], lost["changes"][0]["id"], lost["changes"][1]["id"], "c9-" + new["last"].split("-")[1], "x"):
+        for cursor in (lost["last"], *lost_ids, "4", "c9-" + new["last"].split("-")[1], "x"):
             answer = read(f"after={cursor}")
             self.assertEqual((answer.status, answer.json["code"]), (400, "cursor.invalid"), cursor)
         self.assertEqual(len(read(f"after={kept['changes'][0]['id']}").json["changes"]), 4)
