@@ -93,9 +93,8 @@ class Types:
         """The annotation of a value; an object inside becomes the class `name`."""
         if component_of(schema):
             return self.named(component_of(schema))
-        if "anyOf" in schema:
-            return union(self.text(f"{name}{number}", choice, sent, exact)
-                         for number, choice in enumerate(schema["anyOf"]))
+        if choices := schema.get("oneOf", schema.get("anyOf")):
+            return union(self.text(f"{name}{number}", choice, sent, exact) for number, choice in enumerate(choices))
         if "enum" in schema or "const" in schema:
             text = literal(schema.get("enum") or [schema["const"]])
             return self.words.get(text, text)

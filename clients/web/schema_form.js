@@ -101,7 +101,7 @@ function controlOf(schema, { name, label, all }) {
   if (schema.type === 'array') return listOf(schema, resolved(schema.items, all), label);
   if (schema.properties) return nested(schema, all);
   if (schema.type === 'object') return map();
-  const placeholder = schema['x-default'] ?? '';
+  const placeholder = schema.default ?? '';
   if (isNumber(schema)) return texts(input({ inputmode: 'decimal', placeholder }), numberOf);
   return texts(input({ type: name === 'password' ? 'password' : 'text', maxlength: schema.maxLength, placeholder }), (text) => text);
 }

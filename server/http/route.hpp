@@ -22,6 +22,7 @@ class RouteTree;
 
 struct Text {
   std::size_t max_length = 1024;  ///< bytes after decoding; may be empty in a query
+  std::string_view schema{};      ///< for the API's description: what the handler checks
 };
 struct Integer {
   std::int64_t min = std::numeric_limits<std::int64_t>::min();

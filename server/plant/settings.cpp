@@ -24,6 +24,16 @@ bool is_below(const fs::path& folder, const fs::path& root) {
 namespace schema = api::schema;
 using schema::Others;
 
+/// `folder_in`: FolderInConnection.
+std::string component_of(std::string_view kind) {
+  std::string component;
+  for (std::size_t i = 0; i < kind.size(); ++i) {
+    const bool begins = i == 0 || kind[i - 1] == '_';
+    if (kind[i] != '_') component += static_cast<char>(begins ? kind[i] - 'a' + 'A' : kind[i]);
+  }
+  return component + "Connection";
+}
+
 /// The settings of all kinds, each once, without secrets.
 schema::Fields shown_settings() {
   schema::Fields all;
@@ -154,13 +164,16 @@ const std::vector<Kind>& kinds() {
 
 void add_connection_schemas(api::Schemas& schemas) {
   std::vector<std::string_view> names;
-  std::vector<std::string> orders;
+  std::vector<std::pair<std::string_view, std::string>> orders;
   for (const Kind& kind : kinds()) {
     names.push_back(kind.name);
-    orders.push_back(schema::object(
-        schema::Fields{{"kind", schema::words({kind.name}), ""}} + kind.fields(), Others::Refused));
+    orders.emplace_back(kind.name, component_of(kind.name));
+    schemas.push_back(
+        {orders.back().second,
+         schema::object(schema::Fields{{"kind", schema::words({kind.name}), ""}} + kind.fields(),
+                        Others::Refused)});
   }
-  schemas.push_back({"ConnectionOrder", schema::any_of(orders)});
+  schemas.push_back({"ConnectionOrder", schema::one_of("kind", orders)});
   schemas.push_back(
       {"Connection",
        schema::object(schema::Fields{{"name", schema::text(), ""},

@@ -29,7 +29,7 @@ export class WorkpieceForm {
   /** Shows the features of a setup. @throws Problem where the service does not say what they have */
   async show(features = []) {
     this.all ??= await schemas();
-    this.kinds ??= new Map(this.all.Feature.anyOf.map((one) => resolved(one, this.all)).map((schema) => [kindOf(schema), schema]));
+    this.kinds ??= new Map(this.all.Feature.oneOf.map((one) => resolved(one, this.all)).map((schema) => [kindOf(schema), schema]));
     if (!this.kind.options.length) this.kind.append(...[...this.kinds.keys()].map((kind) => h('option', { value: kind }, kindText(kind))));
     this.forms = features.map((feature) => this.#form(feature));
     this.element.hidden = false;

@@ -135,7 +135,7 @@ export function mount(main, route) {
   async function start() {
     try {
       all = await schemas();
-      kinds = new Map(all.ConnectionOrder.anyOf.map((one) => resolved(one, all)).map((schema) => [kindOf(schema), schema]));
+      kinds = new Map(all.ConnectionOrder.oneOf.map((one) => resolved(one, all)).map((schema) => [kindOf(schema), schema]));
       kind.append(...[...kinds.keys()].map((each) => h('option', { value: each }, t(`connection.kind.${each}`))));
       draw();
       await list();

@@ -139,7 +139,7 @@ schema::Fields group_fields() {
 void add_request_schemas(Schemas& schemas) {
   schemas.push_back({"NewMeasurement", schema::object(given_fields(), Others::Refused)});
   schemas.push_back(
-      {"NewMeasurements", schema::any_of({schema::ref("NewMeasurement"),
+      {"NewMeasurements", schema::one_of({schema::ref("NewMeasurement"),
                                           schema::array(schema::ref("NewMeasurement"), 1)})});
   const schema::Fields reason = {
       {"reason", schema::text(app::kLongestComment), "Reason for the correction"}};
@@ -256,7 +256,7 @@ void add_measurement_schemas(Schemas& schemas) {
            schema::Fields{{"measurements", schema::array(schema::ref("Measurement")), ""}} +
            warnings_field())});
   schemas.push_back(
-      {"Recorded", schema::any_of({schema::ref("Measurement"), schema::ref("Accepted"),
+      {"Recorded", schema::one_of({schema::ref("Measurement"), schema::ref("Accepted"),
                                    schema::ref("Measurements")})});
   schemas.push_back(
       {"MeasurementList",

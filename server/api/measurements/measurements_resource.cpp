@@ -37,9 +37,12 @@ void summarise(const Services& services, const http::Request& request, http::Res
 
 std::vector<http::Parameter> posting_parameters(std::vector<http::Parameter> parameters = {}) {
   parameters.push_back(idempotency_parameter());
-  parameters.push_back({.name = "Prefer",
-                        .place = http::ParameterPlace::Header,
-                        .description = "return=representation or return=minimal"});
+  parameters.push_back(
+      {.name = "Prefer",
+       .place = http::ParameterPlace::Header,
+       .type = http::Text{.schema = R"({"type":"string","enum":)"
+                                    R"(["return=representation","return=minimal"]})"},
+       .description = "The records, or no body"});
   return parameters;
 }
 

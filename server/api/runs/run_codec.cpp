@@ -339,14 +339,14 @@ void add_run_schemas(Schemas& schemas) {
   schemas.push_back(answer_schema<RunListAnswer>("RunList"));
   schemas.push_back({"RunParameters", ParameterValues{}.schema(Side::Answer)});
   schemas.push_back(answer_schema<FinishedAnswer>("RunFinished"));
-  const std::string status = kState.schema(Side::Answer);
   schemas.push_back(
-      {"RunProgress", schema::object({{"status", status, ""},
+      {"RunProgress", schema::object({{"status", schema::words({"queued", "running"}), ""},
                                       {"blocks_executed", schema::count(), "Number until now"}})});
   schemas.push_back(
       {"RunOutput", schema::object({{"line", schema::text(), "As printed on the screen"}})});
-  schemas.push_back({"RunEvent", schema::any_of({schema::ref("RunOutput"),
-                                                 schema::ref("RunProgress"), schema::ref("Run")})});
+  schemas.push_back({"RunEvent", schema::one_of({schema::event("output", "RunOutput"),
+                                                 schema::event("progress", "RunProgress"),
+                                                 schema::event("end", "Run")})});
   add_trace_schema(schemas);
 }
 

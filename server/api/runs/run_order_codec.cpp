@@ -205,7 +205,7 @@ void members(auto& v, RunOrderBody& order) {
   interpreter::RunOptions& options = order.options;
   std::nullptr_t elsewhere{};
   v.member("program", order.program, DiskFile{}, "TNC:\\nc_prog\\8255\\8255.h");
-  v.optional("setup", elsewhere, Elsewhere{schema::any_of({schema::text(), schema::ref("Setup")})},
+  v.optional("setup", elsewhere, Elsewhere{schema::one_of({schema::text(), schema::ref("Setup")})},
              "The name of a stored setup, or a setup");
   v.optional("parameters", options.parameters, Parameters{},
              "Q, QL and QR numbers and QS strings, as if an earlier program had left them");

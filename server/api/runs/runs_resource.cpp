@@ -235,7 +235,9 @@ void add_runs_routes(Routes& add) {
        .parameters = {idempotency_parameter(),
                       {.name = "Prefer",
                        .place = http::ParameterPlace::Header,
-                       .description = "respond-async"}},
+                       .type =
+                           http::Text{.schema = R"({"type":"string","enum":["respond-async"]})"},
+                       .description = "The response does not wait for the end"}},
        .body = json_body("RunOrder"),
        .outcomes = {{.status = 201, .meaning = "The finished run", .schema = "Run"},
                     {.status = 202, .meaning = "Run queued", .schema = "Run"}},

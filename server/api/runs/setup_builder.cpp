@@ -165,7 +165,7 @@ bool DiskFile::read(FieldReader& fields, std::string_view name, std::string& to)
 std::string builder_actions_schema() {
   const std::string call = schema::object(
       {{"call", schema::text(), "The program that replaces it"}}, schema::Others::Refused);
-  return schema::map(schema::any_of({schema::words({"ignore"}), call}));
+  return schema::map(schema::one_of({schema::words({"ignore"}), call}));
 }
 
 std::string decimal_separator_schema() { return schema::words({"comma", "point"}); }

@@ -191,15 +191,15 @@ void add_setup_schemas(Schemas& schemas) {
   schemas.push_back(order_schema<machine::CalibrationSphere>("CalibrationSphere"));
   add_nested(kPresetForm, machine::Preset{});
   schemas.push_back(order_schema<machine::MachineSetup>("Machine"));
-  std::vector<std::string> features;
+  std::vector<std::pair<std::string_view, std::string>> features;
   each_kind_of_feature([&](const FeatureKind& kind, auto feature) {
-    features.push_back(schema::ref(kind.component));
+    features.emplace_back(kind.word, kind.component);
     add(kind.component, [&](BodySchema& v) {
       v.member("type", kind.word, kind, kind.meaning);
       members(v, feature);
     });
   });
-  schemas.push_back({"Feature", schema::any_of(features)});
+  schemas.push_back({"Feature", schema::one_of("type", features)});
   add_nested(kWorkpieceForm, machine::Setup{});
   schemas.push_back(order_schema<machine::Setup>("Setup"));
   schemas.push_back(names_schema("Setups", "setups"));

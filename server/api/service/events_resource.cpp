@@ -97,10 +97,8 @@ void add_events_routes(Routes& add) {
        .description =
            "measurement.recorded and verdict.reject carry the record, run.finished the run, "
            "table.changed the column and the revision in force from then on, note.added the note. "
-           "A "
-           "reader that names "
-           "the id of the last event it had goes on with the next; `resync` says "
-           "that some are gone.",
+           "A reader that names the id of the last event it had goes on with the next; `resync` "
+           "says that some are gone.",
        .parameters = {{.name = "source",
                        .type = http::Words{{"gauge", "simulation", "all"}},
                        .description = "Source of the measurements (default: gauge)"}},

@@ -25,7 +25,12 @@ template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
 void write_schema(JsonWriter& json, const http::ParameterType& type) {
-  json.key("schema").begin_object();
+  json.key("schema");
+  const auto* const described = std::get_if<http::Text>(&type);
+  if (described != nullptr && !described->schema.empty()) {
+    return void(json.raw(described->schema));
+  }
+  json.begin_object();
   std::visit(
       Overloaded{
           [&](const http::Text& text) {
@@ -67,25 +72,43 @@ std::string_view place(http::ParameterPlace place) {
   return "";
 }
 
+/// The example of a body: of JSON that of its schema, of others a text.
+std::string example_of(std::string_view type, const std::string& schema, const Schemas& schemas) {
+  const auto quoted = [](std::string_view text) {
+    std::string out;
+    append_json_string(out, text);
+    return out;
+  };
+  if (type == "text/csv") return quoted("designation,measured_mm,part_id\n25 H7,25.013,SN-1\n");
+  if (type == "application/octet-stream") return quoted("BEGIN PGM BORE MM\nEND PGM BORE MM\n");
+  const auto named = std::ranges::find(schemas, schema, &NamedSchema::name);
+  if (named == schemas.end()) return {};
+  if (type == "application/x-ndjson") return quoted(named->example + '\n');
+  return type == "application/json" ? named->example : "";
+}
+
 /// The JSON form has the named schema, as has the data of each event; any other is text or bytes.
+/// @param schemas of examples; null: without
 void write_content(JsonWriter& json, const std::vector<std::string>& media_types,
-                   const std::string& schema) {
+                   const std::string& schema, const Schemas* schemas = nullptr) {
   json.key("content").begin_object();
   for (const std::string& type : media_types) {
     const bool described =
         !schema.empty() && (type == "application/json" || type == "text/event-stream");
     json.key(type).begin_object().key("schema").raw(described ? schema::ref(schema)
                                                               : schema::text());
+    const std::string example = schemas == nullptr ? "" : example_of(type, schema, *schemas);
+    if (!example.empty()) json.key("example").raw(example);
     json.end_object();
   }
   json.end_object();
 }
 
-void write_request_body(JsonWriter& json, const http::BodyRules& body) {
+void write_request_body(JsonWriter& json, const http::BodyRules& body, const Schemas& schemas) {
   if (body.use == http::BodyUse::None) return;
   const std::vector<std::string> any{"application/octet-stream"};
   json.key("requestBody").begin_object().member("required", body.use == http::BodyUse::Required);
-  write_content(json, body.media_types.empty() ? any : body.media_types, body.schema);
+  write_content(json, body.media_types.empty() ? any : body.media_types, body.schema, &schemas);
   json.end_object();
 }
 
@@ -104,6 +127,7 @@ bool takes_length(const http::Route& route) {
 /// Returns the refusals of the route and of all routes of its kind.
 std::set<int> refusals_of(const http::Route& route) {
   std::set<int> found(route.refusals.begin(), route.refusals.end());
+  found.insert({405, 417});  // of its path, and of any request
   const bool takes_body = route.body.use != http::BodyUse::None;
   if (!route.parameters.empty() || takes_body) found.insert(400);
   if (route.access != "public") found.insert({401, 403});
@@ -180,6 +204,7 @@ void write_responses(JsonWriter& json, const http::Route& route) {
   const bool is_mtconnect = route.pattern.starts_with("/mtconnect/");
   const auto refusal = [&](int status) {
     if (is_mtconnect) return components + "MtconnectError";
+    if (status == 405) return components + "OtherMethod";
     return components + (status == 401 ? "KeyNeeded" : status == 503 ? "Unavailable" : "Problem");
   };
   json.key("responses").begin_object();
@@ -209,7 +234,7 @@ void write_security(JsonWriter& json, const std::string& access) {
   json.end_array();
 }
 
-void write_operation(JsonWriter& json, const http::Route& route) {
+void write_operation(JsonWriter& json, const http::Route& route, const Schemas& schemas) {
   json.key(ascii_lower(http::name(route.method)))
       .begin_object()
       .member("operationId", route.operation)
@@ -232,7 +257,7 @@ void write_operation(JsonWriter& json, const http::Route& route) {
     }
     json.end_array();
   }
-  write_request_body(json, route.body);
+  write_request_body(json, route.body, schemas);
   write_responses(json, route);
   write_security(json, route.access);
   json.end_object();
@@ -292,19 +317,20 @@ std::string refusal_response(std::string_view name, std::string_view type, std::
       name, headers, type, schema);
 }
 
-void write_components(JsonWriter& json, const Schemas& of_plant) {
+void write_components(JsonWriter& json, const Schemas& schemas) {
   json.key("components").begin_object().key("securitySchemes").raw(kSecurity);
   constexpr std::string_view kProblem = "application/problem+json";
   const std::string problem = schema::ref("Problem");
   json.key("headers").raw(fmt::format(R"({{"X-Request-Id":{{"description":"{}","schema":{}}}}})",
                                       kHeaders[0].meaning, schema::text()));
   json.key("responses")
-      .raw(fmt::format("{{{},{},{},{}}}", refusal_response("Problem", kProblem, problem),
+      .raw(fmt::format("{{{},{},{},{},{}}}", refusal_response("Problem", kProblem, problem),
                        refusal_response("KeyNeeded", kProblem, problem, "WWW-Authenticate"),
                        refusal_response("Unavailable", kProblem, problem, "Retry-After"),
-                       refusal_response("MtconnectError", "text/xml", schema::text())));
+                       refusal_response("OtherMethod", kProblem, problem, "Allow"),
+                       refusal_response("MtconnectError", "text/xml", schema::text(), "Allow")));
   json.key("schemas").begin_object();
-  for (const NamedSchema& schema : make_schemas(of_plant)) json.key(schema.name).raw(schema.json);
+  for (const NamedSchema& schema : schemas) json.key(schema.name).raw(schema.json);
   json.end_object().end_object();
 }
 
@@ -331,6 +357,7 @@ Schemas make_schemas(const Schemas& of_plant) {
 
 std::string openapi_json(const std::vector<http::Route>& routes, const Schemas& of_plant) {
   std::map<std::string, std::vector<const http::Route*>> paths;
+  const Schemas schemas = make_schemas(of_plant);
   for (const http::Route& route : routes) paths[openapi_path(route.pattern)].push_back(&route);
   return json_object([&](JsonWriter& json) {
     json.member("openapi", "3.1.0");
@@ -338,11 +365,11 @@ std::string openapi_json(const std::vector<http::Route>& routes, const Schemas& 
     json.key("paths").begin_object();
     for (const auto& [path, operations] : paths) {
       json.key(path).begin_object();
-      for (const http::Route* route : operations) write_operation(json, *route);
+      for (const http::Route* route : operations) write_operation(json, *route, schemas);
       json.end_object();
     }
     json.end_object();
-    write_components(json, of_plant);
+    write_components(json, schemas);
   });
 }
 

@@ -25,9 +25,11 @@ class Example {
     for (const std::string_view list : {"examples", "enum"}) {
       if (const JsonValue* values = schema.find(list)) return write_json(json, values->items.at(0));
     }
+    for (const std::string_view list : {"oneOf", "anyOf"}) {
+      if (const JsonValue* choices = schema.find(list))
+        return write(json, choices->items.at(0), name);
+    }
     if (const JsonValue* value = schema.find("const")) return write_json(json, *value);
-    if (const JsonValue* choices = schema.find("anyOf"))
-      return write(json, choices->items.at(0), name);
     const JsonValue* type = schema.find("type");
     if (type == nullptr) return void(json.null());
     const std::string& kind = type->items.empty() ? type->text : type->items.front().text;
@@ -86,6 +88,7 @@ void add_examples(Schemas& schemas) {
   const JsonValue examples = parse_json(kExamples).value();
   Example::Schemas parsed;
   const auto give = [](NamedSchema& schema, std::string_view example) {
+    schema.example = example;
     schema.json.pop_back();
     schema.json.append(R"(,"examples":[)").append(example) += "]}";
   };

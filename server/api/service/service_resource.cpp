@@ -51,10 +51,14 @@ void add_service_schemas(Schemas& schemas) {
        schema::object({{"feature", feature_words(), "Table: hole or shaft"},
                        {"tolerance_class", schema::text(), "The tolerance class that changed"},
                        {"table_revision", schema::text(), "Revision in force from now on"}})});
-  schemas.push_back(
-      {"Event",
-       schema::any_of({schema::ref("Measurement"), schema::ref("RunFinished"), schema::ref("Note"),
-                       schema::ref("TableChanged"), schema::ref("Resync")})});
+  // A measurement has the members of a changed table too.
+  std::string table_changed = schema::event("table.changed", "TableChanged");
+  table_changed.insert(1, R"("properties":{"measured_mm":false},)");
+  schemas.push_back({"Event", schema::one_of({schema::event("measurement.recorded, verdict.reject",
+                                                            "Measurement"),
+                                              schema::event("run.finished", "RunFinished"),
+                                              schema::event("note.added", "Note"), table_changed,
+                                              schema::event("resync", "Resync")})});
   schemas.push_back({"Live", schema::object({{"status", schema::words({"live"}), ""}})});
   schemas.push_back(
       {"Ready", schema::object({

@@ -187,7 +187,7 @@ struct FigureText {
   static constexpr bool kHasDefault = false;
 
   std::string schema(Side) const {
-    return schema::any_of({schema::ref(of_master), schema::ref(of_parts)});
+    return schema::one_of({schema::ref(of_master), schema::ref(of_parts)});
   }
   bool read(FieldReader& fields, std::string_view name, JsonValue& to) const {
     const JsonValue* given = fields.object(name);

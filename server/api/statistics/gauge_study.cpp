@@ -350,22 +350,25 @@ Result<std::string> gauge_study(const JsonValue& body) {
 }
 
 void add_gauge_study_schemas(Schemas& schemas) {
-  const auto one_of_all = [&schemas](const char* name, const char* of) {
-    std::vector<std::string> all;
-    for (const char* kind : {"Variation", "Linearity", "Stability", "Attribute"}) {
-      all.push_back(schema::ref(fmt::format("{}{}", kind, of)));
-    }
-    schemas.push_back({name, schema::any_of(all)});
-  };
   schemas.push_back(order_schema<VariationOrder>("VariationStudyOrder"));
   schemas.push_back(order_schema<LinearityOrder>("LinearityStudyOrder"));
   schemas.push_back(order_schema<StabilityOrder>("StabilityStudyOrder"));
   add_attribute_study_schemas(schemas);
-  one_of_all("GaugeStudyOrder", "StudyOrder");
+  // An order without a method is of the variation, so that no word tells the choices apart.
+  schemas.push_back(
+      {"GaugeStudyOrder",
+       schema::one_of({schema::ref("VariationStudyOrder"), schema::ref("LinearityStudyOrder"),
+                       schema::ref("StabilityStudyOrder"), schema::ref("AttributeStudyOrder")})});
   schemas.push_back(answer_schema<VariationAnswer>("VariationStudy"));
   schemas.push_back(answer_schema<metrology::LinearityStudy>("LinearityStudy"));
   schemas.push_back(answer_schema<StabilityAnswer>("StabilityStudy"));
-  one_of_all("GaugeStudy", "Study");
+  schemas.push_back({"GaugeStudy", schema::one_of("method", {{"anova", "VariationStudy"},
+                                                             {"average_range", "VariationStudy"},
+                                                             {"type3", "VariationStudy"},
+                                                             {"nested", "VariationStudy"},
+                                                             {"linearity", "LinearityStudy"},
+                                                             {"stability", "StabilityStudy"},
+                                                             {"attribute", "AttributeStudy"}})});
 }
 
 }  // namespace fitgauge::api

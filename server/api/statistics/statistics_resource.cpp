@@ -215,7 +215,7 @@ std::string pairing_schema() {
   PairingOrder other{.holes_name = "holes_mm", .shafts_name = "shafts_mm"};
   BodySchema of_other(Side::Order);
   members(of_other, other);
-  return schema::any_of({schema_of<PairingOrder>(Side::Order), of_other.json()});
+  return schema::one_of({schema_of<PairingOrder>(Side::Order), of_other.json()});
 }
 
 void members(auto& v, const metrology::Pair& pair) {

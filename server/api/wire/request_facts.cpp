@@ -145,7 +145,11 @@ TextPrecondition text_precondition_of(const http::Request& request) {
 http::Parameter idempotency_parameter() {
   return {.name = "Idempotency-Key",
           .place = http::ParameterPlace::Header,
-          .description = "Idempotency key: a repeated request returns the first response"};
+          .type = http::Text{.schema = R"({"type":"string","pattern":)"
+                                       R"("^(\"[ -~]{1,255}\"|[!#-~][ -~]{0,254})$"})"},
+          .description =
+              "1 to 255 visible ASCII characters, quoted or bare: a repeated request "
+              "returns the first response"};
 }
 
 SharedPosting begin_posting(const Services& services, const http::Request& request,

@@ -7,6 +7,7 @@
 namespace fitgauge::api::schema {
 namespace {
 
+constexpr std::string_view kSchemas = "#/components/schemas/";
 constexpr std::string_view kNumberOrNull = R"({"type":["number","null"]})";
 
 std::string list_of(const std::vector<std::string>& values) {
@@ -61,7 +62,7 @@ std::string null_or(const std::string& json) {
   if (json == kNumberOrNull) return json;
   constexpr std::string_view kType = R"({"type":")";
   const bool is_plain = json.starts_with(kType) && json.find(R"("enum":)") == std::string::npos;
-  if (!is_plain) return any_of({json, R"({"type":"null"})"});
+  if (!is_plain) return fmt::format(R"({{"anyOf":[{},{{"type":"null"}}]}})", json);
   const std::size_t end = json.find('"', kType.size());
   const std::string type = json.substr(kType.size(), end - kType.size());
   return fmt::format(R"({{"type":["{}","null"]{})", type, json.substr(end + 1));
@@ -100,16 +101,35 @@ std::string object(const Fields& fields, Others others) {
   return json + '}';
 }
 
-std::string any_of(const std::vector<std::string>& schemas) {
-  return fmt::format(R"({{"anyOf":{}}})", list_of(schemas));
+std::string one_of(const std::vector<std::string>& schemas) {
+  return fmt::format(R"({{"oneOf":{}}})", list_of(schemas));
+}
+
+std::string one_of(std::string_view member,
+                   const std::vector<std::pair<std::string_view, std::string>>& words) {
+  std::vector<std::string> schemas;
+  std::string mapping;
+  for (const auto& [word, component] : words) {
+    const std::string choice = schema::ref(component);  // std::ref would fit better
+    if (schemas.empty() || schemas.back() != choice) schemas.push_back(choice);
+    mapping +=
+        fmt::format(R"({}"{}":"{}{}")", mapping.empty() ? "" : ",", word, kSchemas, component);
+  }
+  return with_members(
+      one_of(schemas),
+      fmt::format(R"("discriminator":{{"propertyName":"{}","mapping":{{{}}}}})", member, mapping));
 }
 
 std::string ref(std::string_view name) {
-  return fmt::format(R"({{"$ref":"#/components/schemas/{}"}})", name);
+  return fmt::format(R"({{"$ref":"{}{}"}})", kSchemas, name);
+}
+
+std::string event(std::string_view types, std::string_view name) {
+  return with_members(ref(name), fmt::format(R"("title":"{}")", types));
 }
 
 std::string with_default(std::string json, std::string_view value) {
-  return with_members(std::move(json), fmt::format(R"("x-default":{})", value));
+  return with_members(std::move(json), fmt::format(R"("default":{})", value));
 }
 
 Fields optional(Fields fields) {

@@ -12,6 +12,7 @@ namespace fitgauge::api {
 struct NamedSchema {
   std::string name;  ///< `Limits`; unique
   std::string json;  ///< JSON Schema 2020-12
+  std::string example{};
 };
 using Schemas = std::vector<NamedSchema>;
 
@@ -50,11 +51,16 @@ std::string array(const std::string& item, std::size_t least, std::size_t most =
 /// An object with any names and values of one kind.
 std::string map(const std::string& value);
 std::string object(const Fields& fields, Others others = Others::Allowed);
-/// The schema of a value that fits at least one of `schemas`.
-std::string any_of(const std::vector<std::string>& schemas);
+/// The schema of a value that fits exactly one of `schemas`.
+std::string one_of(const std::vector<std::string>& schemas);
+/// The schema of a value whose `member` has a word of the component that it fits.
+/// @param words each with its component; those of a component are neighbours.
+std::string one_of(std::string_view member,
+                   const std::vector<std::pair<std::string_view, std::string>>& words);
 std::string ref(std::string_view name);
-/// Adds the value of an absent member, in JSON. The key is `x-default`, because client
-/// generators treat a member with `default` as always present.
+/// A component as the data of an event. @param types of the event
+std::string event(std::string_view types, std::string_view name);
+/// Adds the value of an absent member, in JSON.
 std::string with_default(std::string json, std::string_view value);
 /// Fields that may be left out.
 Fields optional(Fields fields);

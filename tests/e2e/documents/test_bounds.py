@@ -9,7 +9,7 @@ import tempfile
 import unittest
 import urllib.parse
 
-from support.contract import Contract
+from support.contract import Contract, choices_of
 from support.daemon import DaemonTest
 
 PROGRAM = b"BEGIN PGM P MM\nQ1 = 1\nEND PGM P MM\n"
@@ -149,7 +149,7 @@ class Bounds(DaemonTest):
     def places(self, schema, value, at=()):
         """The places of a body with their schemas; of a union the alternative that names what the body has."""
         schema = self.contract.resolve(schema)
-        for choice in schema.get("anyOf", []):
+        for choice in choices_of(schema):
             choice = self.contract.resolve(choice)
             if self.fits(choice, value):
                 return self.places(choice, value, at)

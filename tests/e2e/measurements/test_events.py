@@ -5,6 +5,7 @@ import socket
 import threading
 import time
 
+from support.contract import Contract
 from support.daemon import SANITIZED, Daemon, DaemonTest
 from support.waiting import wait_for
 
@@ -100,6 +101,23 @@ class Events(DaemonTest):
         self.assertEqual(self.daemon.request("DELETE", column).status, 404)
         record = self.daemon.measure(PART).json
         self.assertEqual(reader.event(), ("measurement.recorded", record))  # what was refused is none
+
+    def test_each_event_fits_the_choice_of_its_type(self):
+        contract = Contract(self.daemon.get("/openapi.json").json)
+        choices = contract.resolve({"$ref": "#/components/schemas/Event"})["oneOf"]
+        reader = self.reader("?source=all", last="nonsense")
+        record = self.daemon.measure({**PART, "measured_mm": 25.03}).json
+        self.daemon.post(f"/v1/measurements/{record['id']}/notes", {"cause": "Insert worn"})
+        column = {"rows": [{"over_mm": 18, "up_to_mm": 30, "upper_um": 15, "lower_um": 3}]}
+        self.daemon.request("PUT", "/v1/tables/shaft/classes/press3", column)
+        self.daemon.request("PUT", "/v1/files/e.h", b"BEGIN PGM E MM\nEND PGM E MM\n")
+        self.assertEqual(self.daemon.post("/v1/runs", {"program": "e.h"}).status, 201)
+        types = []
+        for kind, data in reader.events(6):
+            types.append(kind)
+            contract.validate(data, {"$ref": "#/components/schemas/Event"})
+            contract.validate(data, next(choice for choice in choices if kind in choice["title"].split(", ")))
+        self.assertEqual(set(types), set(", ".join(choice["title"] for choice in choices).split(", ")))
 
     def test_a_reader_that_comes_back_misses_nothing_and_reads_nothing_twice(self):
         reader = self.reader().begin()

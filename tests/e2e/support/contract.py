@@ -10,7 +10,7 @@ import jsonschema
 REFERENCE = "#/components/"
 # What clients read; the other headers are those of every HTTP server.
 CONTRACTUAL = {"location", "etag", "link", "retry-after", "idempotency-replayed", "www-authenticate",
-               "content-disposition", "x-request-id"}
+               "content-disposition", "x-request-id", "allow"}
 
 
 class Contract:
@@ -37,14 +37,14 @@ class Contract:
 
     def validate(self, value, schema):
         """Raises jsonschema.ValidationError; counts the members it saw."""
-        root = {**schema, "components": self.strict["components"]}
-        jsonschema.Draft202012Validator(root).validate(value)
+        for document in (self.document, self.strict):  # as written, one of a union must fit alone
+            jsonschema.Draft202012Validator({**schema, "components": document["components"]}).validate(value)
         self.note(value, schema)
 
     def note(self, value, schema, name=None):
         if "$ref" in schema:
             return self.note(value, self.resolve(schema), schema["$ref"].rsplit("/", 1)[1])
-        for choice in schema.get("anyOf", []):
+        for choice in choices_of(schema):
             if jsonschema.Draft202012Validator({**choice, "components": self.strict["components"]}).is_valid(value):
                 return self.note(value, choice, name)
         if isinstance(value, dict):
@@ -73,12 +73,21 @@ class Contract:
             return None
         if media_type not in content:
             return f"{media_type!r} is not documented for {answer.status}"
-        if media_type.endswith("json") and "type" not in content[media_type]["schema"]:
+        schema = content[media_type]["schema"]
+        values = [answer.json] if media_type.endswith("json") else []
+        if media_type == "text/event-stream":
+            values = [json.loads(line.removeprefix("data: ")) for line in answer.text.split("\n") if line.startswith("data: ")]
+        if "type" not in schema:
             try:
-                self.validate(answer.json, content[media_type]["schema"])
+                for value in values:
+                    self.validate(value, schema)
             except jsonschema.ValidationError as error:
                 return f"{list(error.absolute_path)}: {error.message}"
         return None
+
+
+def choices_of(schema):
+    return schema.get("oneOf", schema.get("anyOf", []))
 
 
 def refuse_others(node):
@@ -110,8 +119,8 @@ class Drawing:
             return schema["const"]
         if "enum" in schema:
             return self.random.choice(schema["enum"])
-        if "anyOf" in schema:
-            return self.value(self.random.choice(schema["anyOf"]), None, depth)
+        if choices_of(schema):
+            return self.value(self.random.choice(choices_of(schema)), None, depth)
         kind = schema.get("type", "string")
         kind = self.random.choice(kind) if isinstance(kind, list) else kind
         return getattr(self, kind)(schema, depth)
@@ -147,7 +156,7 @@ class Drawing:
     def string(self, schema, _):
         if schema.get("format") == "date-time":
             return f"2026-{self.random.randint(1, 12):02}-{self.random.randint(1, 28):02}T08:00:00+01:00"
-        if "pattern" in schema:  # of exact decimals, the only one there is
+        if "pattern" in schema:  # an exact decimal fits each one there is
             return f"{self.random.randint(0, 90)}.{self.random.randint(0, 999999):06}"
         most = min(schema.get("maxLength", 12), 12)
         return "".join(self.random.choices(string.ascii_letters + string.digits + " -Øµ/%", k=self.random.randint(1, most // 2 or 1)))

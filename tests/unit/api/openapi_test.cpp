@@ -53,10 +53,10 @@ TEST_CASE("a setup is described with the defaults and ranges its reader has") {
   CHECK(tool.find("required")->items.at(0).text == "number");
   CHECK(property(tool, "number").find("maximum")->text == "65535");
   const JsonValue probe = schema_named("Probe");
-  CHECK(property(probe, "dist_mm").find("x-default")->text == "20");
+  CHECK(property(probe, "dist_mm").find("default")->text == "20");
   CHECK(schema_named("RotaryAxis").find("properties")->find("hirth_grid_deg") != nullptr);
   CHECK(schema_named("LinearAxis").find("properties")->find("hirth_grid_deg") == nullptr);
-  CHECK(schema_named("Feature").find("anyOf")->items.size() >= 6);
+  CHECK(schema_named("Feature").find("oneOf")->items.size() >= 6);
   CHECK(property(schema_named("Bore"), "type").find("const")->text == "bore");
 }
 

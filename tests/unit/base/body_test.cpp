@@ -67,15 +67,15 @@ TEST_CASE("a body's schema has its bounds, its defaults and what it refuses") {
   CHECK(schema_of<Order>(Side::Order) ==
         R"({"type":"object","required":["colour","parts"],"properties":{)"
         R"("colour":{"type":"string","enum":["red","green","blue"]},)"
-        R"("share":{"type":"number","exclusiveMinimum":0,"exclusiveMaximum":1,"x-default":0.5,)"
+        R"("share":{"type":"number","exclusiveMinimum":0,"exclusiveMaximum":1,"default":0.5,)"
         R"("description":"Of all"},)"
         R"("spare":{"type":"object","required":["name"],"properties":{)"
         R"("name":{"type":"string","maxLength":5,"description":"On the label"},)"
-        R"("weight":{"type":"integer","minimum":1,"maximum":9,"x-default":3}},)"
+        R"("weight":{"type":"integer","minimum":1,"maximum":9,"default":3}},)"
         R"("additionalProperties":false},)"
         R"("parts":{"type":"array","items":{"type":"object","required":["name"],"properties":{)"
         R"("name":{"type":"string","maxLength":5,"description":"On the label"},)"
-        R"("weight":{"type":"integer","minimum":1,"maximum":9,"x-default":3}},)"
+        R"("weight":{"type":"integer","minimum":1,"maximum":9,"default":3}},)"
         R"("additionalProperties":false}}},"additionalProperties":false})");
   CHECK(schema_of<Answer>(Side::Answer) ==
         R"({"type":"object","required":["mean","spread","best"],"properties":{)"
