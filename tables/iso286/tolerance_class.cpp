@@ -96,15 +96,16 @@ Feature feature_of_name(std::string_view name) {
   return is_upper(name.front()) ? Feature::Hole : Feature::Shaft;
 }
 
+// Blanks around it are those of a field of fixed width.
 Result<Designation> parse_designation(std::string_view text) {
   constexpr std::string_view kRemedy = "is not a nominal size and a tolerance class such as 25 H7";
-  std::string_view body = without_diameter_sign(text);
+  std::string_view body = without_diameter_sign(trim(text));
   const bool has_envelope = take_envelope(body);
   const auto* const letter = std::find_if(body.begin(), body.end(), is_ascii_letter);
   const auto split = static_cast<std::size_t>(letter - body.begin());
   const std::string_view name = body.substr(split);
   const std::string_view size_text = trim(body.substr(0, split));
-  if (trim(text) != text || size_text.empty() || !is_class_name(name)) {
+  if (size_text.empty() || !is_class_name(name)) {
     return malformed(ErrorCode::DesignationMalformed, text, kRemedy);
   }
   const auto size = NominalSize::parse_mm(size_text, {.decimal_comma = true});
@@ -125,6 +126,7 @@ Result<FitDesignation> parse_fit_designation(std::string_view text) {
 
 Result<FitDesignation> parse_fit_designation(std::string_view hole, std::string_view shaft_class) {
   auto designation = TRY(parse_designation(hole));
+  shaft_class = trim(shaft_class);
   const bool has_envelope = take_envelope(shaft_class) && designation.has_envelope;
   if (!is_class_name(shaft_class)) {
     return malformed(ErrorCode::FitMalformed, shaft_class,

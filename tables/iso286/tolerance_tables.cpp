@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "tables/iso286/derivation.hpp"
 
 namespace fitgauge::iso286 {
@@ -112,6 +113,7 @@ std::optional<LimitDeviations> ToleranceTables::custom_deviations(NominalSize si
 }
 
 Result<ClassId> ToleranceTables::find_class(std::string_view name) const {
+  name = trim(name);
   if (const auto found = custom_ids_.find(name); found != custom_ids_.end()) return found->second;
   const auto standard = class_from_name(name);
   if (standard) {

@@ -90,9 +90,7 @@ Result<DesignatedLimits> general_tolerance(std::string_view designation) {
       ascii_iequals(rest.substr(0, 1), "R") || ascii_iequals(rest.substr(0, 1), "C");
   if (is_edge) rest.remove_prefix(1);
   const std::size_t at = find_word(rest, kGeneralTolerance);
-  if (at == std::string_view::npos || trim(designation) != designation) {
-    return not_a_general_tolerance(designation);
-  }
+  if (at == std::string_view::npos) return not_a_general_tolerance(designation);
   const auto size = parse_length_mm(trim(rest.substr(0, at)), {.decimal_comma = true});
   if (!size && size.error().code == ErrorCode::LengthTooFine) return size.error();
   if (!size || *size <= Length()) return not_a_general_tolerance(designation);
@@ -112,6 +110,7 @@ bool is_thread_class(std::string_view text) {
 }  // namespace
 
 bool is_designation(std::string_view text) {
+  text = trim(text);
   constexpr std::string_view kLetters = "MRC";
   const bool begins = text.size() > 1 && is_digit(text[1]) &&
                       kLetters.find(ascii_upper(text[0])) != std::string_view::npos;
@@ -123,12 +122,13 @@ bool is_class(std::string_view text) {
 }
 
 Result<DesignatedLimits> limits_of(std::string_view designation) {
+  designation = trim(designation);
   return ascii_iequals(designation.substr(0, 1), "M") ? thread_limits(designation)
                                                       : general_tolerance(designation);
 }
 
 Result<DesignatedLimits> limits_of(Length nominal, std::string_view tolerance_class) {
-  return general_tolerance(nominal, tolerance_class);
+  return general_tolerance(nominal, trim(tolerance_class));
 }
 
 std::size_t find_bearing_class(std::string_view text) { return find_word(text, kBearing); }

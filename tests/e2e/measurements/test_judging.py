@@ -49,6 +49,26 @@ class Judging(DaemonTest):
                                       "uncertainty_um": 5}).json
         self.assertEqual((record["verdict"], record["uncertainty_um"]), ("good", 5))
 
+    def test_fields_of_fixed_width_are_read(self):
+        """An ERP pads what it sends: the blanks are no part of the size, and a record does not have them."""
+        plain = self.daemon.measure({"designation": "25 H7", "measured_mm": "25.01"}).json
+        said = ("designation", "nominal_mm", "tolerance_class", "verdict")
+        padded = [{"designation": "25 H7   ", "measured_mm": "25.01"},
+                  {"nominal_mm": 25, "tolerance_class": "H7  ", "measured_mm": "25.01"}]
+        answers = [self.daemon.measure(each) for each in padded]
+        rows = "designation;measured_mm\n  25 H7  ;25,01\n"
+        answers.append(self.daemon.post("/v1/measurements", rows, {"Content-Type": "text/csv", "Prefer": "return=representation"}))
+        for answer in answers:
+            self.assertEqual(answer.status, 201, answer)
+            record = answer.json.get("measurements", [answer.json])[0]
+            self.assertEqual([record[name] for name in said], [plain[name] for name in said])
+        self.assertEqual(self.daemon.measure({"designation": "25 ISO 2768-m ", "measured_mm": 25}).status, 201)
+        found = self.daemon.get("/v1/measurements?designation=25%20H7%20&last=1").json["measurements"]
+        self.assertEqual([each["designation"] for each in found], ["25 H7"])
+        self.assertEqual(self.daemon.get("/v1/verdicts/25H7%20?measured_mm=25.01").json["verdict"], "good")
+        for path in ("/v1/fits/25H7%20/g6%20", "/v1/fits/25H7%2Fg6%20", "/v1/gauges/25H7%20"):
+            self.assertEqual(self.daemon.get(path).status, 200, path)
+
     def test_the_limits_of_a_drawing(self):
         drawing = {"nominal_mm": "12.5", "feature": "shaft", "upper_um": "0.5", "lower_um": "-0.75"}
         record = self.daemon.measure({**drawing, "measured_mm": "12.500501"}).json

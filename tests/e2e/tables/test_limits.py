@@ -20,7 +20,8 @@ class Limits(DaemonTest):
     def test_every_spelling_of_a_designation_is_the_same(self):
         plain = self.daemon.get("/v1/limits/25H7")
         for path in ("/v1/limits/25%20H7", "/v1/limits/%C3%9825H7", "/v1/limits/%E2%8C%8025H7",
-                     "/v1/limits/25.0H7", "/v1/limits/25,000H7",
+                     "/v1/limits/25.0H7", "/v1/limits/25,000H7", "/v1/limits/25%20H7%20", "/v1/limits/%20%2025H7",
+                     "/v1/limits?nominal_mm=25&tolerance_class=H7%20",
                      "/v1/limits?nominal_mm=25&tolerance_class=H7"):
             self.assertEqual(self.daemon.get(path).body, plain.body, path)
 

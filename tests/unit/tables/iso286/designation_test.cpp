@@ -28,6 +28,8 @@ TEST_CASE("designations are read in the forms drawings use") {
   CHECK(reading("0.8js01") == "0.8 js01");
   CHECK(reading("25 Press_1") == "25 Press_1");
   CHECK(reading("3150.000000h7") == "3150 h7");
+  CHECK(reading("  25 H7\t ") == "25 H7");  // a field of fixed width
+  CHECK(reading(" 25 H7 (E) ") == "25 H7");
 }
 
 TEST_CASE("e after a size is a shaft class and no exponent") {
@@ -37,8 +39,8 @@ TEST_CASE("e after a size is a shaft class and no exponent") {
 
 TEST_CASE("what is no size and class is malformed") {
   for (const char* text :
-       {"", " ", "25", "H7", "Ø", "ØH7", "25..5H7", "25.H7", ".5H7", "1,000.5H7", "25 H7 ", " 25H7",
-        "25-H7", "25H7/g6", "25H 7", "25_H7", "Ä7", "25H\xFF", "25 Abcdefghijklmnopq"}) {
+       {"", " ", "25", "H7", "Ø", "ØH7", "25..5H7", "25.H7", ".5H7", "1,000.5H7", "25-H7",
+        "25H7/g6", "25H 7", "25_H7", "Ä7", "25H\xFF", "25 Abcdefghijklmnopq"}) {
     CAPTURE(std::string(text));
     CHECK(error_of(text) == ErrorCode::DesignationMalformed);
   }
@@ -65,6 +67,8 @@ TEST_CASE("fits name the hole first") {
     CHECK(fit->shaft_class == "g6");
   }
   CHECK(parse_fit_designation("25H7", "g6")->shaft_class == "g6");
+  CHECK(parse_fit_designation("25 H7 ", "g6 ")->shaft_class == "g6");
+  CHECK(parse_fit_designation(" 25 H7/g6 (E) ")->shaft_class == "g6");
   CHECK(parse_fit_designation("25 H7 (E)/g6 \xE2\x92\xBA")->has_envelope);
   for (const char* const text : {"25H7/g6", "25H7(E)/g6", "25H7/g6(E)"}) {
     CHECK_FALSE(parse_fit_designation(text)->has_envelope);

@@ -116,9 +116,8 @@ TEST_CASE("threads are read in the forms drawings use") {
 }
 
 TEST_CASE("what is no thread is refused with the reason") {
-  for (const char* text :
-       {"M10", "M10-", "M10-6", "M10-6HH", "M-6H", "M10x-6H", "M10-6H5g", "M10-6H ", "M10-6H6H6H",
-        "M10x1x1-6H", "M0-6H", "M10-5g9z", "M10-6H-LH"}) {
+  for (const char* text : {"M10", "M10-", "M10-6", "M10-6HH", "M-6H", "M10x-6H", "M10-6H5g",
+                           "M10-6H6H6H", "M10x1x1-6H", "M0-6H", "M10-5g9z", "M10-6H-LH"}) {
     CHECK_MESSAGE(limits_text(text) == "designation.malformed", text);
   }
   CHECK(limits_text("M10-6k") == "class.unknown");
