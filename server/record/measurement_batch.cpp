@@ -17,14 +17,27 @@ std::optional<Timestamp> parse_date(std::string_view text, std::string_view time
   return time ? std::optional(*time) : std::nullopt;
 }
 
-Error too_many_rows() {
-  return {ErrorCode::RequestInvalid,
-          fmt::format("a request must have at most {} rows: send the rest in another request",
-                      kMostRows)};
+/// A row that cannot be read is listed as a wrong field is: by its number, with its line if any.
+Error at_row(Error error, std::size_t row, std::optional<std::size_t> line) {
+  FieldErrors listed;
+  listed.add(error.code, pointer_to("", row), error.message, line);
+  error.details = listed.take()->details;
+  return error;
+}
+
+/// @param line of the first row too many
+Error too_many_rows(std::optional<std::size_t> line = {}) {
+  return at_row(
+      {ErrorCode::RequestInvalid,
+       fmt::format("a request must have at most {} rows: send the rest in another request",
+                   kMostRows)},
+      kMostRows, line);
 }
 
 Error no_rows(std::string_view what) {
-  return {ErrorCode::RequestInvalid, fmt::format("{} must have at least one measurement", what)};
+  return listed(
+      ErrorCode::RequestInvalid,
+      {{ErrorCode::RequestInvalid, fmt::format("{} must have at least one measurement", what)}});
 }
 
 /// The members of a parsed object as one row.
@@ -74,14 +87,6 @@ Result<void> decode_json(std::string_view body, const BatchContext& context,
   return finish(errors);
 }
 
-/// A row that cannot be read is listed as a wrong field is: by its number, with its line.
-Error at_row(Error error, std::size_t row, std::size_t line) {
-  FieldErrors listed;
-  listed.add(error.code, pointer_to("", row), error.message, line);
-  error.details = listed.take()->details;
-  return error;
-}
-
 Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
                            MeasurementBatch& batch) {
   FieldErrors errors;
@@ -95,7 +100,7 @@ Result<void> decode_ndjson(std::string_view body, const BatchContext& context,
     ++line;
     if (text.ends_with('\r')) text.remove_suffix(1);
     if (text.find_first_not_of(" \t") == std::string_view::npos) continue;
-    if (row == kMostRows) return too_many_rows();
+    if (row == kMostRows) return too_many_rows(line);
     reader.begin(row, line);
     const FieldErrors::Mark mark = errors.mark();
     if (read_object_fast(text, reader, batch)) {
@@ -147,7 +152,7 @@ Result<void> decode_csv(std::string_view body, const BatchContext& context,
     const auto cells = csv->next();
     if (!cells) return at_row(cells.error(), row, csv->line());
     if (*cells == nullptr) break;
-    if (row == kMostRows) return too_many_rows();
+    if (row == kMostRows) return too_many_rows(csv->line());
     reader.begin(row, csv->line());
     for (std::size_t i = 0; i < (*cells)->size(); ++i) {
       const CsvCell& cell = (**cells)[i];

@@ -99,8 +99,17 @@ class Forms(Bulk):
         self.assert_stored(self.daemon.measure(rows, NDJSON), 20_000)
 
     def test_more_rows_than_a_request_takes(self):
-        body = "designation,measured_mm\n" + "25H7,25\n" * 100_001
-        self.assert_refused(body, CSV, 422, "request.invalid")
+        csv = "designation,measured_mm\n" + "25H7,25\n" * 100_001
+        one = '{"designation":"25H7","measured_mm":25}'
+        for body, media_type, line in ((csv, CSV, 100_002), ((one + "\n") * 100_001, NDJSON, 100_001),
+                                       ("[" + ",".join([one] * 100_001) + "]", None, None)):
+            error, = self.assert_refused(body, media_type or {"Content-Type": "application/json"}, 422, "request.invalid")
+            self.assertEqual((error["pointer"], error.get("line")), ("/100000", line))
+            self.assertIn("at most 100000 rows", error["detail"])
+
+    def test_no_row_is_said_at_the_whole(self):
+        for body, media_type in (("designation,measured_mm\n", CSV), ("\n", NDJSON), ("[]", {"Content-Type": "application/json"})):
+            self.assertEqual([error["pointer"] for error in self.assert_refused(body, media_type, 422, "request.invalid")], [""])
 
 
 class Preferences(Bulk):
