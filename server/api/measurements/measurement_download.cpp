@@ -65,25 +65,34 @@ Error too_many(const std::string& matching, const std::string& most) {
           "format"};
 }
 
-/// Adds a page, whose rows a reader visits while this thread waits.
-Result<app::ListPage> add_page(Download& download, MeasurementFile& file, std::size_t limit) {
+/// Reads the next page, whose rows a reader visits while this thread waits.
+/// @param file gets the rows; null: only their bytes are counted
+/// @returns whether another page follows. @errors QueryInvalid: too many bytes for a file.
+Result<bool> next_page(Download& download, MeasurementFile* file) {
   Result<void> added;
   std::string record;
   const auto add = [&](const app::Measurement& measurement) {
     record.clear();
     app::append_record(record, measurement);
     download.bytes += record.size();
-    if (added && download.bytes <= MeasurementFile::kMostBytes) added = file.add(measurement);
+    if (file != nullptr && added && download.bytes <= MeasurementFile::kMostBytes)
+      added = file->add(measurement);
   };
+  const std::size_t limit = download.limit.value_or(kRowsAtOnce);
   auto read = wait_for_result<app::ListPage>([&](auto done) {
     download.services.measurements.list(download.query, download.after, limit, add, done);
   });
   if (read && !added) return added.error();
-  if (read && download.bytes > MeasurementFile::kMostBytes) {
-    return too_many(fmt::format("more than {} MiB of records", MeasurementFile::kMostBytes >> 20),
-                    "no more");
+  if (!read) return read.error();
+  if (download.bytes > MeasurementFile::kMostBytes) {
+    const std::string most = fmt::format("{} MiB", MeasurementFile::kMostBytes >> 20);
+    return too_many(fmt::format("more than {} of records", most), most);
   }
-  return read;
+  if (download.limit || !read->next) return false;
+  download.query.as_of_id = read->as_of;
+  download.query.after.reset();
+  download.after = *read->next;
+  return true;
 }
 
 /// Number of matches. @errors those of MeasurementService::summary
@@ -97,24 +106,28 @@ Result<std::size_t> count(const Download& download) {
   return rows;
 }
 
+/// Refuses what is too much before a file is made of it: the bytes of all records are counted if
+/// those of the first page come near.
 /// @errors QueryInvalid: too many match for a file.
-Result<void> check_count(const Download& download) {
+Result<void> check_size(Download download) {
   if (download.limit || download.query.last) return {};
   const auto rows = TRY(count(download));
-  if (rows <= MeasurementFile::kMostRows) return {};
-  return too_many(fmt::format("{} measurements", rows), std::to_string(MeasurementFile::kMostRows));
+  if (rows > MeasurementFile::kMostRows) {
+    return too_many(fmt::format("{} measurements", rows),
+                    std::to_string(MeasurementFile::kMostRows));
+  }
+  bool follows = TRY(next_page(download, nullptr));
+  if (download.bytes / kRowsAtOnce * rows < MeasurementFile::kMostBytes / 2) return {};
+  while (follows) follows = TRY(next_page(download, nullptr));
+  return {};
 }
 
 Result<std::string> make_bytes(Download& download) {
-  TRY(check_count(download));
+  TRY(check_size(download));
   auto file = TRY(make_file(download));
-  for (;;) {
-    const auto page = TRY(add_page(download, *file, download.limit.value_or(kRowsAtOnce)));
-    if (download.limit || !page.next) return file->finish();
-    download.query.as_of_id = page.as_of;
-    download.query.after.reset();
-    download.after = *page.next;
+  while (TRY(next_page(download, file.get()))) {
   }
+  return file->finish();
 }
 
 }  // namespace

@@ -143,6 +143,7 @@ class Files(DaemonTest):
         daemon = Daemon().start()
         self.addCleanup(daemon.cleanup)
         row = {"designation": "25 H7", "measured_mm": 25.01, "comment": '"' * 2000}
+        self.assertEqual(daemon.measure({**row, "order": "x" * 21}).status, 201)  # which a DFQ cannot have
         for order in ("WO-1", "WO-2", "WO-3", "WO-4"):
             rows = json.dumps([{**row, "order": order}] * 4000)
             self.assertEqual(daemon.post("/v1/measurements", rows, {"Content-Type": "application/json"}).status, 201)
@@ -150,10 +151,10 @@ class Files(DaemonTest):
             answer = daemon.get("/v1/certificates?order=WO-1", Accept=form)
             self.assert_problem(answer, 422, "statistics.too_many")
             self.assertIn("16 MiB", answer.text)
-        for form in ("xlsx", "qif"):
+        for form in ("xlsx", "qif", "dfq"):  # before a file of them is begun
             answer = daemon.get(f"/v1/measurements?format={form}")
             self.assert_problem(answer, 400, "query.invalid")
-            self.assertIn("more than 64 MiB of records match", answer.text)
+            self.assertIn("more than 64 MiB of records match, but a file of this format has at most 64 MiB:", answer.text)
 
     def test_a_folder_for_temporary_files_that_is_not_there_is_said(self):
         daemon = Daemon(environment={"TMPDIR": "/nowhere"}).start()
