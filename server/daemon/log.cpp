@@ -177,6 +177,7 @@ void append_request_line(std::string& out, LogLevel level, const http::FinishedR
   line.put(finished.bytes_received);
   line.put(R"(,"sent":)");
   line.put(finished.bytes_sent);
+  if (finished.broken_off) line.put(R"(,"broken_off":true)");
   line.put(R"(,"peer":")");
   line.put(finished.request.peer_address());
   line.put("\"");

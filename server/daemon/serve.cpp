@@ -87,7 +87,7 @@ http::ServerHooks hooks(const api::Services& services, const api::Guard& guard,
     return guard.may_continue(request);
   };
   hooks.finished = [&metrics](const http::FinishedRequest& finished) {
-    metrics.count(finished);
+    if (!finished.broken_off) metrics.count(finished);
     log_request(finished);
   };
   hooks.handler_threw = [](const http::Request& request, std::string_view what) {

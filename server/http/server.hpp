@@ -79,12 +79,13 @@ struct ServerOptions {
   std::vector<std::string> allowed_origins{};
 };
 
-/// One answered request, for logs and metrics.
+/// One request that ended, for logs and metrics.
 struct FinishedRequest {
   const Request& request;  ///< head and caller; the body is gone
   std::string_view route;  ///< the pattern, or empty when none was found
   std::string_view method;
-  int status = 0;
+  int status = 0;                 ///< 0: none was sent
+  bool broken_off = false;        ///< the connection ended before the answer did
   std::int64_t microseconds = 0;  ///< from its first byte until its answer is handed to the socket
   std::uint64_t bytes_received = 0;
   std::uint64_t bytes_sent = 0;

@@ -132,6 +132,9 @@ bool Connection::open_exchange() {
   if (!head_.keep_alive || thread_.shared().stopping.load(std::memory_order_relaxed)) {
     close_after_ = true;
   }
+  sent_ = {};
+  sent_bytes_ = 0;
+  is_open_ = true;
   if (auto early = exchange_.open(head_, thread_.next_request_id())) {
     skip_buffered_body();
     answer(std::move(*early));
@@ -153,6 +156,7 @@ void Connection::run_handler() {
 
 void Connection::refuse(const Refusal& refusal) {
   close_after_ = lingers_ = true;
+  is_open_ = true;
   answer(exchange_.refuse(head_, thread_.next_request_id(), refusal));
 }
 
@@ -167,8 +171,8 @@ void Connection::answer(Response&& response) {
   phase_ = Phase::Stream;
 }
 
-void Connection::finish_request() {
-  thread_.count_request();
+void Connection::report(bool broken_off) {
+  if (!std::exchange(is_open_, false)) return;
   if (const auto& finished = thread_.shared().hooks.finished) {
     using std::chrono::microseconds;
     const Request& request = exchange_.request();
@@ -177,10 +181,16 @@ void Connection::finish_request() {
               .route = request.route() == nullptr ? std::string_view{} : request.route()->pattern,
               .method = head_.method,
               .status = sent_.status,
+              .broken_off = broken_off,
               .microseconds = std::chrono::duration_cast<microseconds>(spent).count(),
               .bytes_received = received_,
               .bytes_sent = sent_bytes_});
   }
+}
+
+void Connection::finish_request() {
+  thread_.count_request();
+  report(false);
   exchange_.clear();
   head_.clear();
   parser_.reset();
@@ -269,6 +279,7 @@ void Connection::close() noexcept {
   const auto self = shared_from_this();
   if (phase_ == Phase::Budget) body_.lacking().end_wait();
   const bool in_handler = phase_ == Phase::InHandler;
+  fitgauge::guarded("a request that ends early", [&] { report(true); });
   phase_ = Phase::Closed;
   close_socket();
   if (!in_handler) body_.clear();  // a handler has the request until its Responder is gone

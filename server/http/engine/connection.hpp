@@ -223,6 +223,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void refuse(const Refusal& refusal);
   void answer(Response&& response);
   void finish_request();
+  void report(bool broken_off);
   bool send();
   void read_next_request();
   void end();
@@ -261,6 +262,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<StreamedBody> stream_;
   /// Used by the thread that has the sink of the stream, even while the connection closes.
   std::unique_ptr<GzipWriter> packer_;
+  bool is_open_ = false;  ///< a request has a head, and no report yet
   SentAnswer sent_{};
   std::uint64_t received_ = 0;
   std::uint64_t sent_bytes_ = 0;

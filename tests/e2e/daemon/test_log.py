@@ -33,6 +33,16 @@ class Lines(DaemonTest):
         self.assertRegex(line["id"], "^[0-9a-f]{16}$")
         self.assertRegex(line["time"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{6}Z$")
 
+    def test_a_stream_that_its_reader_leaves_has_a_line(self):
+        connection = self.daemon.connect()
+        connection.request("GET", "/v1/events")
+        self.assertEqual(connection.getresponse().status, 200)
+        connection.close()
+        line = self.wait_for_line(event="request", route="/v1/events")
+        self.assertEqual((line["status"], line["broken_off"]), (200, True))
+        self.daemon.get("/v1/limits/31H7")
+        self.assertNotIn("broken_off", self.wait_for_line(event="request", route="/v1/limits/{designation}", status=200))
+
     def test_what_is_no_text_does_not_spoil_the_line(self):
         self.daemon.request("GET", "/v1/limits/30H7", headers={"Forwarded": b'for="\xff\t\\"' + b"x" * 900})
         line = self.wait_for_line(event="request", forwarded_for='for="??\\"' + "x" * 191)

@@ -30,7 +30,8 @@ struct Finished {
       const std::lock_guard lock(mutex);
       lines.push_back(fmt::format("{} {} {} {} {} {}", done.method, done.route, done.status,
                                   done.bytes_received, done.bytes_sent > 0,
-                                  done.request.peer_address()));
+                                  done.request.peer_address()) +
+                      (done.broken_off ? " broken off" : ""));
       CHECK(done.microseconds >= 0);
     };
     return hooks;
@@ -121,6 +122,52 @@ TEST_CASE("every answered request is reported once") {
   CHECK(finished.lines[2].starts_with("POST /p 200 500"));
   CHECK(finished.lines[3].starts_with("  400 "));
   CHECK(server.server().counters().requests == 4);
+}
+
+TEST_CASE("a request whose connection ends early is reported once, as broken off") {
+  class Endless final : public BodyStream {
+   public:
+    void next(ChunkSink sink) override { sink_.emplace(std::move(sink)); }
+    void cancelled() override {}
+
+   private:
+    std::optional<ChunkSink> sink_;
+  };
+  Finished finished;
+  TestServer server({{.pattern = "/events",
+                      .handler = [](const Request&) -> Result<Response> {
+                        return Response(200, "text/event-stream",
+                                        StreamedBody{.source = std::make_shared<Endless>(),
+                                                     .heartbeat = ":\n\n",
+                                                     .heartbeat_interval = 20ms});
+                      },
+                      .response_types = {"text/event-stream"}},
+                     echo(Method::Post, "/p", {.use = BodyUse::Optional})},
+                    {}, finished.hooks());
+  const auto leave = [&](const std::string& request, bool is_answered) {
+    Client client = server.connect();
+    client.send(request);
+    if (is_answered) client.read_some();
+  };
+  const auto reported = [&](std::size_t count) {
+    return comes_true([&] {
+      const std::lock_guard lock(finished.mutex);
+      return finished.lines.size() >= count;
+    });
+  };
+  leave(get("/events"), true);
+  REQUIRE(reported(1));
+  leave("POST /p HTTP/1.1\r\nHost: h\r\nContent-Type: a/b\r\nContent-Length: 9\r\n\r\nhalf", false);
+  REQUIRE(reported(2));
+  leave("GET /ev", false);  // no request
+  server.ask(post("/p", "a/b", "x"));
+  const std::lock_guard lock(finished.mutex);
+  REQUIRE(finished.lines.size() == 3);
+  CHECK(finished.lines[0].starts_with("GET /events 200 "));
+  CHECK(finished.lines[0].ends_with("true 127.0.0.1 broken off"));
+  CHECK(finished.lines[1].starts_with("POST /p 0 "));
+  CHECK(finished.lines[1].ends_with("false 127.0.0.1 broken off"));
+  CHECK(finished.lines[2].starts_with("POST /p 200 "));
 }
 
 TEST_CASE("what a hook throws ends its connection alone, and is reported") {
