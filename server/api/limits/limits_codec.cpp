@@ -4,6 +4,7 @@
 
 #include "api/limits/fit_of_values.hpp"
 #include "api/resources.hpp"
+#include "api/services.hpp"
 #include "metrology/gauging/gauge.hpp"
 #include "tables/iso286/tolerance_class.hpp"
 
@@ -70,7 +71,7 @@ std::string designation_text(Length nominal_size, std::string_view class_name) {
 
 http::Response tagged_json(std::string body, std::string etag) {
   http::Response response(200, "application/json", std::move(body));
-  response.etag = std::move(etag);
+  response.etag = etag.insert(etag.size() - 1, '.' + std::string(kVersion));
   return response;
 }
 

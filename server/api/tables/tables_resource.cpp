@@ -117,9 +117,9 @@ std::string table_index_json(const ToleranceTables& tables) {
   });
 }
 
-/// A strong tag names one form of one revision.
+/// A strong tag names one form of one revision by one release.
 std::string form_etag(const ToleranceTables& tables, std::string_view form) {
-  return '"' + tables.revision().id + '.' + std::string(form) + '"';
+  return fmt::format("\"{}.{}.{}\"", tables.revision().id, form, kVersion);
 }
 
 Result<http::Response> table_response(const http::Request& request, Feature feature,

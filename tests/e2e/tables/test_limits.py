@@ -25,6 +25,15 @@ class Limits(DaemonTest):
                      "/v1/limits?nominal_mm=25&tolerance_class=H7"):
             self.assertEqual(self.daemon.get(path).body, plain.body, path)
 
+    def test_a_tag_names_the_release_that_computed(self):
+        version = self.daemon.get("/readyz").json["version"]
+        for path in ("limits/25H7", "limits/25%20ISO%202768-m", "verdicts/25H7?measured_mm=25", "fits/25H7/g6", "gauges/25H7",
+                     "fits?nominal_mm=25&min_clearance_um=5&max_clearance_um=45", "tables", "tables/hole?classes=H7",
+                     "tables/hole?format=csv", "tables/shaft.tab", "standards", "standards/iso492"):
+            tag = self.daemon.get("/v1/" + path).headers["etag"]
+            self.assertTrue(tag.endswith(f'.{version}"'), f"{path}: {tag}")
+            self.assertEqual(self.daemon.get("/v1/" + path, If_None_Match=tag).status, 304)
+
     def test_the_limits_object(self):
         limits = self.limits("/v1/limits/25H7")
         revision = limits.pop("table_revision")
