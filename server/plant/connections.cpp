@@ -43,6 +43,7 @@ bool is_same(const JsonValue& a, const JsonValue& b, std::string_view name) {
 }
 
 constexpr std::size_t kMostWaiting = 64;
+constexpr std::size_t kTestsAtOnce = 8;
 
 Error unknown(std::string_view name) {
   return {ErrorCode::ConnectionUnknown,
@@ -111,7 +112,9 @@ Result<Definition> read_definition(std::string name, const JsonValue& body,
 }
 
 Connections::Connections(Plant plant)
-    : plant_(std::move(plant)), changes_("connections", 1, kMostWaiting) {}
+    : plant_(std::move(plant)),
+      changes_("connections", 1, kMostWaiting),
+      tests_("tests", kTestsAtOnce, kMostWaiting) {}
 
 Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> configured,
                                                         Plant plant) {
@@ -144,6 +147,7 @@ Result<std::unique_ptr<Connections>> Connections::start(std::vector<Definition> 
 Connections::~Connections() {
   stopping_.request_stop();
   changes_.stop();
+  tests_.stop();
   for (const auto& [key, entry] : entries_) entry.worker->request_stop();
 }
 
@@ -193,8 +197,8 @@ std::optional<ConnectionState> Connections::state(std::string_view name) const {
   return state_of(found->second);
 }
 
-bool Connections::run(std::function<void()> work) {
-  return changes_.submit(std::move(work)).has_value();
+bool Connections::run(std::function<void()> work, bool is_test) {
+  return (is_test ? tests_ : changes_).submit(std::move(work)).has_value();
 }
 
 Result<bool> Connections::put(const std::string& name, std::string_view body,
@@ -268,6 +272,15 @@ Result<void> Connections::replay(const std::string& name, std::string_view body)
 Result<ConnectionTest> Connections::test(const std::string& name) {
   const auto found = find(name);
   if (!found || found->definition.name != name) return unknown(name);
+  {
+    std::unique_lock lock(mutex_);  // a broker sends the first of two with one name away
+    tested_.wait(lock, [&] { return under_test_.insert(name).second; });
+  }
+  const std::shared_ptr<void> end(nullptr, [&](void*) {
+    const std::lock_guard lock(mutex_);
+    under_test_.erase(name);
+    tested_.notify_all();
+  });
   return found->definition.settings->test(plant_, stopping_.get_token());
 }
 

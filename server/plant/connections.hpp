@@ -1,11 +1,13 @@
 #pragma once
 
+#include <condition_variable>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -48,8 +50,8 @@ Result<Definition> read_definition(std::string name, const JsonValue& body,
 /// The most connections there may be.
 inline constexpr std::size_t kMostConnections = 100;
 
-/// All running connections, from the configuration file and from the storage. Changes and tests run
-/// in turn on a separate thread. Thread-safe.
+/// All running connections, from the configuration file and from the storage. Changes run in turn
+/// on a separate thread; tests run beside them, those of one connection in turn. Thread-safe.
 class Connections {
  public:
   /// Starts the connections of `configured` and of the storage. A stored connection that is
@@ -66,9 +68,9 @@ class Connections {
   std::vector<ConnectionState> states() const;  ///< by name
   std::optional<ConnectionState> state(std::string_view name) const;
 
-  /// Queues a task for the one thread that changes connections. Does not block. @returns false if
-  /// too many tasks wait.
-  bool run(std::function<void()> work);
+  /// Queues a task for the one thread that changes connections, or for those that test them. Does
+  /// not block. @returns false if too many tasks wait.
+  bool run(std::function<void()> work, bool is_test);
 
   // These wait, `test` up to half a minute for the other side, and are called inside of `run`.
 
@@ -108,7 +110,10 @@ class Connections {
   mutable std::mutex mutex_;
   std::map<std::string, Entry> entries_;  ///< by name in lower case
   std::stop_source stopping_;
-  WorkerPool changes_;  // last: it uses all above
+  std::set<std::string> under_test_;  ///< names; under mutex_
+  std::condition_variable tested_;
+  WorkerPool changes_;  // the last two: they use all above
+  WorkerPool tests_;
 };
 
 /// /v1/connections: connections to other systems. @param all must outlive the routes.

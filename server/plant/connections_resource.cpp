@@ -103,13 +103,13 @@ Result<http::Response> one(const Connections& all, const std::string& name, int 
 
 using Change = Result<http::Response> (*)(Connections&, const http::Request&);
 
-/// A handler that responds with the result of `change` on the thread of changes.
-http::AsyncHandler by(Connections& all, Change change) {
-  return [&all, change](const http::Request& request, http::Responder responder) {
+/// A handler that responds with the result of `change` on the thread of changes, or of tests.
+http::AsyncHandler by(Connections& all, Change change, bool is_test = false) {
+  return [&all, change, is_test](const http::Request& request, http::Responder responder) {
     const auto shared = api::share(std::move(responder));
-    const bool is_taken = all.run([&all, &request, change, answer = api::answer_by(shared)] {
-      answer(change(all, request));
-    });
+    const bool is_taken = all.run(
+        [&all, &request, change, answer = api::answer_by(shared)] { answer(change(all, request)); },
+        is_test);
     if (is_taken) return;
     shared->fail({ErrorCode::StorageBusy, "too many changes of connections wait: try again soon"});
   };
@@ -169,7 +169,7 @@ void add_connections_routes(api::Routes& add, Connections& all) {
        .parameters = {name},
        .outcomes = {{.status = 204, .meaning = "Deleted"}},
        .refusals = {404, 409}});
-  add("POST /v1/connections/{name}/test testConnection admin", by(all, test),
+  add("POST /v1/connections/{name}/test testConnection admin", by(all, test, true),
       {.summary = "Test a connection once",
        .description = "Answers 200 for every result of the test, after at most half a minute.",
        .parameters = {name},

@@ -1,7 +1,9 @@
 """Connections as data: made, changed and deleted over HTTP, and those of the configuration file beside them."""
 
 import pathlib
+import socket
 import tempfile
+import threading
 import unittest
 
 from support.daemon import Daemon, DaemonTest
@@ -57,6 +59,28 @@ class Stored(DaemonTest):
 
 
 class Configured(unittest.TestCase):
+    def test_a_test_waits_for_no_other(self):
+        daemon = Daemon("--allow-private-addresses").start()
+        self.addCleanup(daemon.cleanup)
+        with socket.create_server(("127.0.0.1", 0)) as silent:
+            hook = {"kind": "webhook", "url": f"http://127.0.0.1:{silent.getsockname()[1]}/", "timeout_s": 30,
+                    "secrets": ["whsec_" + "A" * 32]}
+            for name, body in (("silent", hook), ("away", CONTROL)):
+                self.assertEqual(daemon.request("PUT", f"/v1/connections/{name}", body).status, 201)
+            answered = []
+
+            def test(name):
+                daemon.post(f"/v1/connections/{name}/test", None)
+                answered.append(name)
+
+            waiting = threading.Thread(target=test, args=("silent",))
+            waiting.start()
+            taken, _ = silent.accept()
+            test("away")
+            taken.close()
+        waiting.join()
+        self.assertEqual(answered, ["away", "silent"])
+
     def test_those_of_the_file_are_read_only(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
