@@ -43,6 +43,11 @@ class BadInput(DaemonTest):
                            ([row] * 150, " (and 149 more); the first 100 are listed")):
             problem = self.daemon.measure(rows, JSON).json
             self.assertEqual(problem["detail"], problem["errors"][0]["detail"] + more)
+        csv = "designation,measured_mm\n25 H7,25.01\n" + "25 H7,\n" * 3
+        ndjson = json.dumps(GOOD) + "\n" + (json.dumps(row) + "\n") * 3
+        for body, media_type, line in ((csv, "text/csv", 3), (ndjson, "application/x-ndjson", 2)):
+            problem = self.daemon.measure(body, {"Content-Type": media_type}).json
+            self.assertEqual(problem["detail"], f"line {line}: {problem['errors'][0]['detail']} (and 2 more)")
         column = {"rows": [{"over_mm": 18, "up_to_mm": 10, "upper_um": 5, "lower_um": 9}]}
         problem = self.daemon.request("PUT", "/v1/tables/hole/classes/Own", json.dumps(column), JSON).json
         first, *others = problem["errors"]
