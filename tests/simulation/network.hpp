@@ -25,6 +25,13 @@ struct Reply {
   std::string body{};
 };
 
+/// A message of MQTT on its way from a broker.
+struct Published {
+  std::string host{};
+  std::string topic{};
+  std::string payload{};
+};
+
 /// How many of a thousand requests fare badly.
 struct Weather {
   std::uint64_t refused = 0;
@@ -40,6 +47,9 @@ struct Network {
   std::map<std::string, Host, std::less<>> hosts{};
   Weather weather{};
   std::vector<Exchange> late{};
+  /// Those who subscribe to all that a broker has, by its host.
+  std::map<std::string, std::function<void(const Published&)>, std::less<>> brokers{};
+  std::vector<Published> late_messages{};
 };
 Network& network();
 

@@ -196,6 +196,13 @@ bool Node::start() {
   auto definition = connections::read_definition("mes", *body, {});
   if (!definition) return failed(definition.error());
   configured.push_back(*std::move(definition));
+  const auto mqtt = parse_json(fmt::format(
+      R"({{"kind":"mqtt","broker":"mqtt://{}-broker","topic":"plant/measured","start":"beginning",)"
+      R"("longest_wait_s":5}})",
+      machine.name));
+  auto publisher = connections::read_definition("line", *mqtt, {});
+  if (!publisher) return failed(publisher.error());
+  configured.push_back(*std::move(publisher));
   Application& app = *up->app;
   auto connected = connections::Connections::start(std::move(configured),
                                                    {.measurements = app.measurements(),

@@ -37,6 +37,9 @@ Plant::Plant(const fs::path& folder, std::uint64_t seed, Counts& counts)
     network().hosts[receiver] = [this, &site](const Exchange& exchange) {
       return receive(site, exchange);
     };
+    network().brokers[name + "-broker"] = [this, &site](const Published& message) {
+      subscribe(site, message);
+    };
     if (i == 0) {
       network().hosts["centre"] = [&site](const Exchange& exchange) {
         return site.node->answer(exchange);
@@ -48,6 +51,7 @@ Plant::Plant(const fs::path& folder, std::uint64_t seed, Counts& counts)
 
 Plant::~Plant() {
   network().hosts.clear();
+  network().brokers.clear();
   for (auto site = sites_.rbegin(); site != sites_.rend(); ++site) (*site)->node->end();
   fs::remove_all(folder_);
 }
@@ -86,6 +90,15 @@ std::optional<Reply> Plant::receive(Site& site, const Exchange& exchange) {
   const JsonValue* const part = event->member("data").find("part_id");
   if (!site.received.emplace(id, part == nullptr ? "" : part->text).second) ++site.repeats;
   return Reply{};
+}
+
+/// As the guide to MQTT says: what has an id that was taken is a repeat.
+void Plant::subscribe(Site& site, const Published& message) {
+  if (message.topic.ends_with("/status")) return;
+  const auto record = parse_json(message.payload);
+  if (!record) broken(site, "a message has no JSON");
+  const JsonValue* const part = record->find("part_id");
+  site.published.emplace(record->member("id").text, part == nullptr ? "" : part->text);
 }
 
 void Plant::day() {
@@ -179,10 +192,11 @@ void Plant::kill(Site& site) {
 void Plant::harm_clock(Site& site) {
   static constexpr std::int64_t kJumps[] = {1, 5, 3600, 30 * 3600, 40 * 86'400, 400 * 86'400};
   const std::int64_t jump = kJumps[draw(std::size(kJumps))] * kSecond;
+  if (site.node->is_up() && draw(2) == 0) post(site);  // it may wait for its answer meanwhile
   site.node->machine.wall_ns += draw(3) == 0 ? -jump : jump;
   ++counts_.jumps;
   // Sometimes long enough for what is done while nobody writes, such as to delete what has expired.
-  sleep_for(draw(4) == 0 ? kMaintenance : static_cast<std::int64_t>(draw(2000)) * kMillisecond);
+  sleep_for(draw(2) == 0 ? kMaintenance : static_cast<std::int64_t>(draw(2000)) * kMillisecond);
   if (site.node->is_up()) post(site);
   if (draw(2) == 0) site.node->machine.wall_ns = 0;
 }
@@ -355,10 +369,13 @@ void Plant::check_site(Site& site, const std::vector<Listed>& listed) {
   for (const auto& [id, part] : here) {
     if (!site.received.contains(id))
       broken(site, fmt::format("its receiver has not got {}, {}", id, part));
+    if (!site.published.contains(id))
+      broken(site, fmt::format("its broker has not got {}, {}", id, part));
     if (!site.read.contains(id))
       broken(site, fmt::format("its reader has not got {}, {}", id, part));
   }
   for (const auto& [id, part] : site.received) sees(site, "the receiver", id, part);
+  for (const auto& [id, part] : site.published) sees(site, "the broker", id, part);
   for (const auto& [id, part] : site.read) sees(site, "the reader", id, part);
   site.notes.emplace(fmt::format("day {:03}", counts_.days), site.node->head());
   check_proofs(site, listed);

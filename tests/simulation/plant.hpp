@@ -79,8 +79,9 @@ class Plant {
     bool is_station = true;
     std::vector<Post> posts{};
     std::vector<Copy> copies{};
-    std::map<std::string, std::string> notes{};     ///< signed heads that verify has not seen
-    std::map<std::string, std::string> received{};  ///< of its webhook: part by id
+    std::map<std::string, std::string> notes{};      ///< signed heads that verify has not seen
+    std::map<std::string, std::string> received{};   ///< of its webhook: part by id
+    std::map<std::string, std::string> published{};  ///< by its broker: part by id
     std::uint64_t repeats = 0;
     std::string cursor{};  ///< of a reader that lists what is new
     std::map<std::string, std::string> read{};
@@ -111,6 +112,7 @@ class Plant {
   void sees(const Site& site, const std::string& who, const std::string& id,
             const std::string& part);
   std::optional<Reply> receive(Site& site, const Exchange& exchange);
+  void subscribe(Site& site, const Published& message);
   [[noreturn]] void broken(const Site& site, const std::string& what) const;
 
   const std::filesystem::path folder_;

@@ -239,6 +239,8 @@ Random& world_random() { return world().random; }
 std::uint64_t draw(Random& random, std::uint64_t below) { return random() % below; }
 std::int64_t world_now() { return world().now; }
 void sleep_for(std::int64_t ns) { wait_on(nullptr, world().now + ns); }
+void wait_for_ring(const void* bell, std::int64_t until) { wait_on(bell, until); }
+void ring(const void* bell) { wake(bell); }
 Machine* current_machine() { return self == nullptr ? nullptr : self->machine; }
 
 On::On(Machine* machine) : before_(std::exchange(self->machine, machine)) {}

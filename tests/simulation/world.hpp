@@ -47,6 +47,9 @@ std::uint64_t draw(Random& random, std::uint64_t below);
 
 std::int64_t world_now();  ///< running time of the world, ns
 void sleep_for(std::int64_t ns);
+/// Until somebody rings, at most until then.
+void wait_for_ring(const void* bell, std::int64_t until);
+void ring(const void* bell);
 
 Machine* current_machine();
 
