@@ -105,6 +105,8 @@ Task& next_task() {
   const std::size_t which = draw(w.random, w.ready.size());
   Task& next = *w.ready[which];
   w.ready.erase(w.ready.begin() + static_cast<std::ptrdiff_t>(which));
+  note(static_cast<std::uint64_t>(next.number));
+  note(static_cast<std::uint64_t>(w.now));
   return next;
 }
 

@@ -130,12 +130,12 @@ void CommitSignal::raise() {
 
 void CommitSignal::add(std::shared_ptr<CommitListener> listener) {
   const std::lock_guard lock(mutex_);
-  listeners_.insert(std::move(listener));
+  listeners_.push_back(std::move(listener));
 }
 
 void CommitSignal::remove(const std::shared_ptr<CommitListener>& listener) {
   const std::lock_guard lock(mutex_);
-  listeners_.erase(listener);
+  std::erase(listeners_, listener);
 }
 
 std::size_t CommitSignal::listeners() const {
@@ -147,7 +147,7 @@ void CommitSignal::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (wake_.wait(lock, stop, [this] { return raised_; })) {
     raised_ = false;
-    std::vector<std::shared_ptr<CommitListener>> listeners(listeners_.begin(), listeners_.end());
+    auto listeners = listeners_;
     lock.unlock();
     for (const auto& listener : listeners) {
       guarded("a listener of commits", [&] { listener->committed(); });

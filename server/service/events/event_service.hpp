@@ -9,7 +9,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,7 +51,7 @@ class CommitSignal {
 
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
-  std::set<std::shared_ptr<CommitListener>> listeners_;
+  std::vector<std::shared_ptr<CommitListener>> listeners_;  ///< the oldest first
   bool raised_ = false;
   Thread thread_;
 };
