@@ -124,6 +124,7 @@ CURLcode perform(Handle& handle) {
   sleep_for(static_cast<std::int64_t>(draw(world_random(), kLongestWay)));
   if (is_dead()) return CURLE_RECV_ERROR;
   handle.status = reply->status;
+  if (exchange.method == "GET") ++current_machine()->asked;
   const auto take =
       reinterpret_cast<curl_write_callback>(handle.functions.at(CURLOPT_WRITEFUNCTION));
   void* const user = const_cast<void*>(handle.pointers.at(CURLOPT_WRITEDATA));

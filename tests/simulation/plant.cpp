@@ -17,8 +17,9 @@ constexpr int kStations = 2;
 constexpr int kActs = 9;
 constexpr std::int64_t kLongestRest = 600 * kSecond;
 constexpr std::int64_t kMaintenance = 180 * kSecond;
-/// A station asks its centre every five seconds what it has.
-constexpr int kQuietLooks = 4;
+/// What a station sends goes by the last answer of its centre, which it asks every five seconds.
+/// The first one may be of before.
+constexpr std::uint64_t kQuietAnswers = 3;
 constexpr std::int64_t kBetweenLooks = 2 * kSecond;
 constexpr std::int64_t kHour = 3600 * kSecond;
 
@@ -280,7 +281,8 @@ void Plant::settle() {
     site->node->machine.wall_ns = 0;
   }
   const std::int64_t until = world_now() + kLongestRest;
-  for (int quiet_looks = 0;;) {
+  std::vector<std::uint64_t> enough(sites_.size());
+  for (bool was_quiet = false;;) {
     bool is_quiet = true;
     for (const auto& site : sites_) {
       bury(*site);
@@ -292,8 +294,15 @@ void Plant::settle() {
                                          [](const Post& post) { return post.id.empty(); });
       is_quiet = is_quiet && is_asked && site->node->is_quiet() && site->node->is_ready();
     }
-    quiet_looks = is_quiet ? quiet_looks + 1 : 0;
-    if (quiet_looks == kQuietLooks) return;
+    bool is_settled = is_quiet && was_quiet;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      const Site& site = *sites_[i];
+      const std::uint64_t asked = site.node->machine.asked;
+      if (!was_quiet) enough[i] = asked + (site.is_station ? kQuietAnswers : 0);
+      is_settled = is_settled && asked >= enough[i];
+    }
+    was_quiet = is_quiet;
+    if (is_settled) return;
     if (world_now() > until) break;
     sleep_for(kBetweenLooks);
   }
@@ -302,7 +311,7 @@ void Plant::settle() {
     if (!site->node->is_ready()) broken(*site, "is not ready");
     if (!site->node->is_quiet()) broken(*site, "has something that does not go out");
   }
-  broken(*sites_.front(), "a post is not answered");
+  broken(*sites_.front(), "a post is not answered, or a station asks nothing of its centre");
 }
 
 void Plant::check() {

@@ -22,6 +22,7 @@ struct Machine {
   bool is_dead = false;             ///< killed: nothing it does reaches its disk or the network
   bool is_full = false;             ///< its disk takes no more
   std::int64_t writes_to_live = 0;  ///< it dies at this write; 0: it does not
+  std::uint64_t asked = 0;          ///< how often its centre has answered it what is new
 };
 
 /// Makes the calling thread the first one of the world. Call it once, before any other thread.
