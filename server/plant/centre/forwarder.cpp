@@ -148,10 +148,13 @@ Forwarder::Sent Forwarder::send(const std::stop_token& stop) {
     return Sent::Taken;
   }
   const bool sends = !batch->records.empty() || !batch->notes.empty();
+  bool is_over = false;
   {
     const std::lock_guard lock(mutex_);
     state_.sends = sends;
+    is_over = !sends && !state_.is_refused;
   }
+  if (is_over) end_failure(confirmed_);  // the centre has it, and its answer was lost
   if (!sends) return Sent::Nothing;
   const std::string path = fmt::format("/v1/log/{}/{}", batch->origin, batch->from);
   const http_client::HttpAnswer answer = link_.put(path, api::batch_text(*batch), goes_on(stop));
@@ -253,6 +256,12 @@ void Forwarder::took(std::int64_t size) {
   static_cast<void>(outbox_.confirm(options_.centre.url, size));  // or the centre reports it again
   confirmed_ = size;
   outbox_.set_forked(std::nullopt);
+  end_failure(size);
+  looked_ = {};
+  look();
+}
+
+void Forwarder::end_failure(std::int64_t size) {
   std::unique_lock lock(mutex_);
   const bool failed_before = !state_.failure.empty();
   state_.failure.clear();
@@ -261,8 +270,6 @@ void Forwarder::took(std::int64_t size) {
   if (failed_before && options_.tell) {
     options_.tell("forward_goes_on", fmt::format("{} has {} records", options_.centre.url, size));
   }
-  looked_ = {};
-  look();
 }
 
 /// Counts waiting records, only as often as needed.

@@ -122,6 +122,7 @@ class Forwarder {
   Sent failed(Sent how, const std::string& why);
   Sent forked(const std::string& why);
   void took(std::int64_t size);
+  void end_failure(std::int64_t size);
   void look();
   bool wait(const std::stop_token& stop, std::chrono::milliseconds time);
 

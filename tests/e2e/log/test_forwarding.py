@@ -305,6 +305,18 @@ class Forwarding(unittest.TestCase):
         self.assertEqual(refused.returncode, 1)
         self.assertIn("401", refused.stdout)
 
+    def test_a_failure_ends_when_the_centre_has_the_note_whose_answer_was_lost(self):
+        proxy = CuttingProxy(self.centre.port, SEED, cuts=False)
+        self.addCleanup(proxy.close)
+        station = self.station(proxy.port).start()
+        record = station.measure(PART).json
+        self.wait_until_drained(station)
+        proxy.unanswered = b"PUT "
+        said = note(station, record, "worn")
+        station.wait_for_log('"event":"forward_failed"')
+        station.wait_for_log('"event":"forward_goes_on"')
+        self.assertEqual(notes_of(self.centre, record), [said])
+
     def test_settings_that_would_send_in_the_clear_are_refused(self):
         for flags, word in {("--forward-to", "http://centre.example"): "forward-insecure",
                             ("--forward-to", "centre.example"): "https://host",

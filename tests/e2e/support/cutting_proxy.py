@@ -15,6 +15,7 @@ class CuttingProxy:
         self.cut = 0  # connections that were
         self.passed = 0  # bytes, both ways
         self.refusals = 0  # connections that still get a 401
+        self.unanswered = None  # requests that begin with this pass, and their answers do not
         self.hold_after = None  # bytes from clients
         self.held = threading.Event()
         self.going = threading.Event()
@@ -68,6 +69,7 @@ class CuttingProxy:
         longest = self.longest if self.cut else 2_000
         left = [self.random.randrange(longest) if self.cuts else None]
         lock = threading.Lock()
+        asked = [b""]
 
         def end():
             for one in (client, server):
@@ -86,7 +88,10 @@ class CuttingProxy:
                         else:
                             rest = False
                     if source is client:
+                        asked[0] = data if data.startswith((b"GET ", b"PUT ")) else asked[0]
                         self.hold(len(data))
+                    elif self.unanswered and asked[0].startswith(self.unanswered):
+                        break
                     sink.sendall(data)
                     self.passed += len(data)
                     if rest:
