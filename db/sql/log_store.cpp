@@ -14,6 +14,16 @@ namespace fitgauge::store {
 
 using sql::Rows;
 
+namespace {
+
+/// The timeline comes last: a fail-over changes it alone.
+constexpr const char* kPlace =
+    "SELECT (SELECT system_identifier FROM pg_control_system()) || ' ' || (SELECT oid FROM "
+    "pg_database WHERE datname = current_database()) || ' ' || "
+    "left(pg_walfile_name(pg_current_wal_insert_lsn()), 8)";
+
+}  // namespace
+
 struct LogStore::Statements {
   sql::Connection& c;
   sql::Statement state{
@@ -24,6 +34,7 @@ struct LogStore::Statements {
   sql::Statement reason{c, "SELECT reason FROM log_marks WHERE mark = ?"};
   sql::Statement mark{c, kLogMarks.insert(c)};
   sql::Statement unmark{c, "DELETE FROM log_marks WHERE mark = ?"};
+  sql::Statement place{c, c.dialect().is_shared ? kPlace : "SELECT ''"};
   sql::Statement newest{
       c,
       "SELECT (SELECT coalesce(max(id), 0) FROM measurements), (SELECT "
@@ -133,6 +144,20 @@ std::optional<std::string> LogStore::centre() const { return statements_->reason
 void LogStore::set_centre(std::string_view digits) {
   statements_->unmark.run("centre");
   statements_->mark.run("centre", digits);
+}
+
+std::string LogStore::place() const {
+  Rows rows = statements_->place.query();
+  rows.next();
+  return rows.get<std::string>(0);
+}
+
+// Not in that comment either: 'place', with the text as reason.
+std::optional<std::string> LogStore::kept_place() const { return statements_->reason_of("place"); }
+
+void LogStore::keep_place() {
+  statements_->unmark.run("place");
+  statements_->mark.run("place", place());
 }
 
 std::optional<std::string> LogStore::retention() const {

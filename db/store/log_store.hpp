@@ -56,6 +56,11 @@ class LogStore {
   /// met no centre.
   std::optional<std::string> centre() const;
   void set_centre(std::string_view digits);
+  /// Returns where the database is: server, database and timeline of PostgreSQL; empty for a file.
+  std::string place() const;
+  /// Returns the place where the ids of this log were last given out; none: nobody has kept it.
+  std::optional<std::string> kept_place() const;
+  void keep_place();
   /// The text of Retention; none: it has kept nothing yet.
   std::optional<std::string> retention() const;
   void set_retention(std::string_view text);

@@ -188,6 +188,8 @@ class LogService {
 
   struct Loaded;
   Result<Loaded> read() const;
+  Result<void> settle_place(Loaded& loaded);
+  Result<void> keep_place() const;
   Result<void> load();
   Result<void> load_keys(const std::vector<std::string>& known);
   Result<void> write_keys() const;

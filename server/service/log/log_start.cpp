@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <random>
+#include <thread>
 #include <utility>
 
 #include "db/store/database.hpp"
@@ -57,6 +58,12 @@ std::optional<std::string> name_in_folder(const std::filesystem::path& folder,
   return name == names.end() ? std::nullopt : std::optional(*name);
 }
 
+/// Whether only the timeline differs.
+bool is_after_fail_over(const std::optional<std::string>& kept, const std::string& place) {
+  return kept && *kept != place &&
+         kept->substr(0, kept->rfind(' ')) == place.substr(0, place.rfind(' '));
+}
+
 }  // namespace
 
 /// The state of the log in the database.
@@ -67,6 +74,8 @@ struct LogService::Loaded {
   std::int64_t rows = 0;
   std::int64_t changes = 0;
   bool is_copy = false;
+  std::string place{};
+  std::optional<std::string> kept_place{};
   std::optional<std::string> forked{};
   std::optional<std::string> centre{};
   std::vector<store::OriginsStore::Origin> origins{};
@@ -86,10 +95,41 @@ Result<LogService::Loaded> LogService::read() const {
                   .rows = stores.measurements.log_size(),
                   .changes = stores.changes.size(),
                   .is_copy = stores.log.is_copy(),
+                  .place = stores.log.place(),
+                  .kept_place = stores.log.kept_place(),
                   .forked = stores.log.forked(),
                   .centre = stores.log.centre(),
                   .origins = stores.origins.list()};
   });
+}
+
+/// After a fail-over, gives the daemons that were connected before it time to accept the new
+/// timeline: they know which ids they have given out.
+Result<void> LogService::settle_place(Loaded& loaded) {
+  constexpr int kMostLooks = 7;
+  for (int look = 0; look < kMostLooks && is_after_fail_over(loaded.kept_place, loaded.place);
+       ++look) {
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    loaded = TRY(read());
+  }
+  return {};
+}
+
+/// Keeps the place of the database, and the new timeline after a fail-over that this daemon was
+/// connected through.
+Result<void> LogService::keep_place() const {
+  if (!options_.shares) return {};
+  using Places = std::pair<std::optional<std::string>, std::string>;
+  const auto read = [](const store::Stores& stores) -> Result<Places> {
+    return Places(stores.log.kept_place(), stores.log.place());
+  };
+  const auto [kept, place] = TRY(database_.readers().wait(read));
+  if (kept && !is_after_fail_over(kept, place)) return {};
+  TRY(database_.writer().wait([](store::Stores& stores) -> Result<bool> {
+    stores.log.keep_place();
+    return true;
+  }));
+  return {};
 }
 
 Result<void> LogService::load() {
@@ -98,6 +138,7 @@ Result<void> LogService::load() {
   if (options_.attach && !loaded && loaded.error().code == ErrorCode::StorageCorrupt) return {};
   if (!loaded) return loaded.error();
   if (!options_.attach) {
+    TRY(settle_place(*loaded));
     if (const auto why = why_to_branch(*loaded)) {
       TRY(branch(*loaded, *why));
       loaded = read();
@@ -130,6 +171,7 @@ Result<void> LogService::load() {
                      name_, options_.name));
   }
   TRY(load_keys(loaded->keys));
+  TRY(keep_place());
   if (loaded->forked) {
     forked_.set(std::make_shared<const std::string>(*loaded->forked));
     tell("log_forked", *loaded->forked);
@@ -275,6 +317,12 @@ std::optional<std::string> LogService::why_to_branch(Loaded& loaded) {
   if (auto told = told_by_checkpoint(loaded)) return told;
   if (loaded.takes_name(options_)) return fmt::format("origin-name is {}", options_.name);
   if (loaded.is_copy) return "the database is a copy that `backup` made";
+  if (loaded.kept_place.value_or(loaded.place) != loaded.place) {
+    return fmt::format(
+        "the database was restored or moved: it was at {} (server, database, "
+        "timeline), and is at {}",
+        *loaded.kept_place, loaded.place);
+  }
   if (!options_.ask_centre) return std::nullopt;
   const auto there = options_.ask_centre(digits_of_origin(loaded.state.origin));
   if (!there) return "the centre did not return its size of this log";
@@ -299,6 +347,7 @@ Result<void> LogService::branch(const Loaded& loaded, const std::string& why) {
     const auto state = stores.log.state();
     if (state.origin != loaded.state.origin) return false;
     if (!state.name) stores.log.set_name(before);
+    if (options_.shares) stores.log.keep_place();
     stores.log.begin_branch(stores.measurements.log_size(), origin, name);
     return true;
   });

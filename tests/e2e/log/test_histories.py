@@ -364,6 +364,47 @@ class SharedDatabases(Restored):
             self.assertEqual(each.get(f"/v1/measurements?after={lost[0]}").json["code"], "cursor.invalid")
         self.assert_clean(daemon, "--database", cluster.address("live"))
 
+    def test_a_dump_is_restored_and_the_service_that_knows_least_starts_first(self):
+        cluster = Cluster("fsync=off").start()
+        self.addCleanup(cluster.cleanup)
+        cluster.query("CREATE DATABASE live")
+        daemon, other = (self.made("--database", cluster.address("live")).start() for _ in range(2))
+        kept = self.store(daemon, "d1 d2")
+        wait_for_size(daemon, 2)
+        daemon.stop()
+        cluster.dump("live", dump := other.folder / "dump")
+        lost = self.store(other, "d3 d4")
+        other.stop()
+        cluster.query("DROP DATABASE live")
+        cluster.query("CREATE DATABASE live")
+        cluster.restore("live", dump)
+        daemon.start()
+        new = self.store(daemon, "n3 n4")
+        other.start()
+        new += self.store(other, "n5")
+        self.assert_unique(kept, lost, new)
+        self.assertEqual(len({record.split("-")[1] for record in new}), 1, "one branch")
+        self.assertIn("the database was restored or moved", daemon.log)
+        self.assertEqual([record["id"] for record in other.stored()], kept + new)
+        daemon.stop()
+        daemon.start()
+        self.assertEqual(self.store(daemon, "n6")[0].split("-")[1], new[0].split("-")[1], "no other branch")
+        self.assert_clean(daemon, "--database", cluster.address("live"))
+
+    def test_a_restored_timeline_begins_a_branch(self):
+        """As after a recovery to a point in time: the server and the database are the ones that were."""
+        cluster = Cluster("fsync=off").start()
+        self.addCleanup(cluster.cleanup)
+        daemon = self.made("--database", cluster.address()).start()
+        kept = self.store(daemon, "d1")
+        wait_for_size(daemon, 1)
+        daemon.stop()
+        recovered = cluster.standby()
+        self.addCleanup(recovered.cleanup)
+        recovered.promote()
+        again = self.made("--database", recovered.address()).start()
+        self.assertNotEqual(self.store(again, "n2")[0].split("-")[1], kept[0].split("-")[1])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -57,6 +57,14 @@ class Cluster:
                                  check=True, capture_output=True, text=True, timeout=PATIENCE).stdout
         return [line.split("|") for line in printed.splitlines()]
 
+    def dump(self, database, file):
+        """As docs/guide/postgresql.md says."""
+        with open(file, "wb") as out:
+            subprocess.run(["pg_dump", "--schema=fitgauge", "-Fc", self.address(database)], check=True, stdout=out, timeout=PATIENCE)
+
+    def restore(self, database, file):
+        subprocess.run(["pg_restore", "--exit-on-error", "-d", self.address(database), file], check=True, timeout=PATIENCE)
+
     def cleanup(self):
         subprocess.run([SCRIPT, "stop", self.folder, "immediate"], check=False, stderr=subprocess.DEVNULL)
         shutil.rmtree(self.folder, ignore_errors=True)
