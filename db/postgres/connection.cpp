@@ -1,6 +1,7 @@
 #include "db/postgres/connection.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 
 #include <array>
 #include <stdexcept>
@@ -42,6 +43,11 @@ constexpr std::string_view kDamagedIndex = "XX002";
   throw std::logic_error(fmt::format("PostgreSQL: {} ({})", what, state));
 }
 
+bool is_ok(const ResultPtr& result) {
+  const ExecStatusType status = PQresultStatus(result.get());
+  return status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK;
+}
+
 constexpr sql::Dialect kDialect{.is_shared = true, .keys_may_be_null = true};
 
 /// Settings of each session: bounds, so that nobody waits for ever for a server, a row or a lost
@@ -63,9 +69,10 @@ PGconn* open(const std::string& address) {
 
 }  // namespace
 
-Connection::Connection(const std::string& address)
-    : sql::Connection(kDialect), connection_(open(address)) {
+Connection::Connection(const std::string& address, GivesUp gives_up)
+    : sql::Connection(kDialect), connection_(open(address)), gives_up_(std::move(gives_up)) {
   if (PQstatus(handle()) != CONNECTION_OK) throw_failure(handle(), nullptr);
+  if (PQsetnonblocking(handle(), 1) != 0) lost();
   PQsetNoticeReceiver(handle(), on_notice, this);
   execute(kSettings);
   if (PQenterPipelineMode(handle()) != 1) throw_failure(handle(), nullptr);
@@ -134,12 +141,26 @@ void Connection::send(const std::string& name, const std::string& sql,
   sent_.emplace_back();
 }
 
-ResultPtr Connection::next_result() { return ResultPtr(PQgetResult(handle())); }
+/// Returns when libpq need not wait for the server: there is a result, or the connection is lost.
+void Connection::await_result() {
+  constexpr int kSecond = 1000;
+  for (int silent = 0; !is_given_up_;) {
+    const int unsent = PQflush(handle());
+    if (unsent < 0 || PQisBusy(handle()) == 0) return;
+    const int events = unsent > 0 ? POLLIN | POLLOUT : POLLIN;
+    pollfd server{.fd = PQsocket(handle()), .events = static_cast<short>(events), .revents = 0};
+    const int ready = ::poll(&server, 1, kSecond);
+    if (ready == 0) is_given_up_ = gives_up_(++silent);
+    if (ready <= 0) continue;
+    silent = 0;
+    if ((server.revents & ~POLLOUT) != 0 && PQconsumeInput(handle()) != 1) return;
+  }
+  throw StorageFailure({ErrorCode::StorageUnavailable, kNoAnswer});
+}
 
-void Connection::check(const PGresult* result) {
-  const ExecStatusType status = PQresultStatus(result);
-  if (status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK) return;
-  throw_failure(handle(), result);
+ResultPtr Connection::next_result() {
+  await_result();
+  return ResultPtr(PQgetResult(handle()));
 }
 
 ResultPtr Connection::wait() {
@@ -156,8 +177,7 @@ ResultPtr Connection::wait() {
       if (failed) throw_failure(handle(), failed.get());
       lost();
     }
-    const ExecStatusType status = PQresultStatus(result.get());
-    const bool ok = status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK;
+    const bool ok = is_ok(result);
     has_committed_ |= std::string_view(PQcmdStatus(result.get())) == "COMMIT";
     if (!ok && !prepares.empty()) prepared_.erase(prepares);
     if (!ok && !failed) {
@@ -186,11 +206,14 @@ void Connection::wait_for_commit() {
   throw StorageFailure({ErrorCode::StorageUnavailable, "PostgreSQL rolled the transaction back"});
 }
 
-ResultPtr Connection::execute(const std::string& sql) {
-  ResultPtr result(PQexec(handle(), sql.c_str()));
-  if (!result) lost();
-  check(result.get());
-  return result;
+/// @pre the connection is in no pipeline.
+void Connection::execute(const std::string& sql) {
+  require_sent(PQsendQuery(handle(), sql.c_str()));
+  ResultPtr failed;
+  while (ResultPtr result = next_result()) {
+    if (!is_ok(result) && !failed) failed = std::move(result);
+  }
+  if (failed) throw_failure(handle(), failed.get());
 }
 
 void Connection::run_script(const std::string& sql) {

@@ -3,6 +3,7 @@
 #include <postgresql/libpq-fe.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <set>
 #include <span>
@@ -42,6 +43,14 @@ struct Head {
   std::int64_t names = 0;
 };
 
+inline constexpr const char* kNoAnswer = "PostgreSQL does not answer";
+
+/// Decides whether to give up a server that has been silent for so many seconds. Asked after each.
+using GivesUp = std::function<bool(int seconds)>;
+
+/// Longer than a statement may take.
+inline bool gives_up_statement(int seconds) { return seconds > 65; }
+
 /// A connection to the server that accepts writes. Statements without rows are sent without
 /// waiting; their failure is thrown by the next call that waits. Used by one thread at a time.
 /// After a StorageFailure it is closed and another one is opened.
@@ -50,7 +59,7 @@ class Connection final : public sql::Connection {
   /// @param address `postgresql://…`, as libpq reads it; of several hosts, it uses the writable
   ///   one.
   /// @throws StorageFailure
-  explicit Connection(const std::string& address);
+  explicit Connection(const std::string& address, GivesUp gives_up = gives_up_statement);
   ~Connection() override;
 
   std::unique_ptr<sql::Prepared> prepare(const std::string& sql) override;
@@ -69,9 +78,6 @@ class Connection final : public sql::Connection {
   void wait_for_commit();
   /// Whether something was sent and not waited for.
   bool is_waiting() const { return !sent_.empty(); }
-  /// Runs statements without parameters, outside of all transactions.
-  ResultPtr execute(const std::string& sql);
-
   /// Runs statements without parameters in the open transaction.
   void run_script(const std::string& sql);
 
@@ -95,11 +101,14 @@ class Connection final : public sql::Connection {
   static void on_notice(void* connection, const PGresult* notice);
 
   void require_sent(int sent);
-  void check(const PGresult* result);
+  void execute(const std::string& sql);
+  void await_result();
   ResultPtr next_result();
   [[noreturn]] void lost();
 
   std::unique_ptr<PGconn, Finish> connection_;
+  const GivesUp gives_up_;
+  bool is_given_up_ = false;
   std::vector<std::string> sent_;    ///< of each the name it prepares, or nothing
   std::set<std::string> prepared_;   ///< names the server knows
   std::vector<std::string> unused_;  ///< names that the server may forget

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -80,6 +81,7 @@ class SharedDatabase final : public Database {
     listener_.emplace(
         chosen.address, daemon, notifications_, [this](bool names) { heard(names); },
         [this](Listener::Figures figures) {
+          is_away_ = !figures;
           monitor_.server_is_away(!figures);
           const std::lock_guard lock(figures_mutex_);
           figures_ = figures;
@@ -112,8 +114,12 @@ class SharedDatabase final : public Database {
   Result<VerifyReport> verify(const MeasurementCheck& check) const override;
 
  private:
+  /// While the listener does not reach the server, nobody waits for it.
   std::unique_ptr<sql::Session> session(std::int64_t daemon) {
-    return std::make_unique<Session>(options_, clock_, daemon, names_, notifications_);
+    if (is_away_) throw StorageFailure({ErrorCode::StorageUnavailable, kNoAnswer});
+    return std::make_unique<Session>(
+        options_, clock_, daemon, names_, notifications_,
+        [this](int seconds) { return is_away_ || gives_up_statement(seconds); });
   }
 
   /// Records a notification, which any transaction may send for changed names.
@@ -130,6 +136,7 @@ class SharedDatabase final : public Database {
   Names names_;
   Notifications notifications_;
   HealthMonitor monitor_;
+  std::atomic<bool> is_away_{false};
   Writer::Engine writer_engine_;
   ReadPool::Engine reader_engine_;
   Writer writer_;

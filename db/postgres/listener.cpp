@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kBetweenAttempts{500};
 constexpr std::chrono::seconds kBetweenFigures{5};
+constexpr std::chrono::seconds kBetweenProbes{1};
+constexpr int kLongestSilence = 3;  ///< seconds
 
 /// A role that must not see the standbys sees their number.
 constexpr const char* kFigures =
@@ -92,7 +94,7 @@ void Listener::run(const std::stop_token& stop) {
 }
 
 void Listener::listen(const std::stop_token& stop) {
-  Connection connection(address_);
+  Connection connection(address_, [](int seconds) { return seconds >= kLongestSilence; });
   connection.send("SET synchronous_commit = local");  // a standby does not need notifications
   connection.send("LISTEN fitgauge");
   connection.send(fmt::format("SELECT pg_advisory_lock_shared({}, {})", kDaemonLocks, daemon_));
@@ -101,6 +103,7 @@ void Listener::listen(const std::stop_token& stop) {
   const int own = PQsocket(connection.handle());
   sql::Statement figures(connection, kFigures);
   sql::Statement notify(connection, kNotify);
+  sql::Statement probe(connection, "SELECT 1::bigint");
   const auto notify_postponed = [&] {
     if (!notifications_.take_postponed()) return;
     notify.run();
@@ -108,6 +111,7 @@ void Listener::listen(const std::stop_token& stop) {
   };
   auto look_at = Notifications::Clock::now();
   auto notify_at = look_at;  // what another connection left
+  auto probe_at = look_at;
   while (!stop.stop_requested()) {
     const auto now = Notifications::Clock::now();
     if (now >= look_at) {
@@ -115,13 +119,17 @@ void Listener::listen(const std::stop_token& stop) {
       heard_(false);
       look_at = now + kBetweenFigures;
     }
+    if (now >= probe_at) {
+      probe.returning<std::int64_t>();
+      probe_at = now + kBetweenProbes;
+    }
     if (now >= notify_at) {
       notify_postponed();
       notify_at = Notifications::Clock::time_point::max();
     }
     // Notifications that came with the figures are here already.
     if (const Heard heard = hear(connection); heard.commit) heard_(heard.names);
-    if (wait_for(own, notifications_.wake_up(), std::min(look_at, notify_at) - now)) {
+    if (wait_for(own, notifications_.wake_up(), std::min({look_at, notify_at, probe_at}) - now)) {
       notify_at = std::min(notify_at, Notifications::Clock::now() + Notifications::kInterval);
     }
     if (PQconsumeInput(connection.handle()) != 1) return;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 namespace fitgauge::store::postgres {
 namespace {
@@ -37,8 +38,8 @@ constexpr const char* kOnThisServer = ", set_config('synchronous_commit', 'local
 }  // namespace
 
 Session::Session(const OpenOptions& options, const Clock& clock, std::int64_t daemon, Names& names,
-                 Notifications& notifications)
-    : connection_(options.address),
+                 Notifications& notifications, GivesUp gives_up)
+    : connection_(options.address, std::move(gives_up)),
       stores_(connection_, clock, options.idempotency_retention),
       names_(names),
       notifications_(notifications),

@@ -44,7 +44,7 @@ class Session final : public sql::Session {
   /// @param daemon what open runs are marked with. @param names and `notifications` outlive the
   /// session.
   Session(const OpenOptions& options, const Clock& clock, std::int64_t daemon, Names& names,
-          Notifications& notifications);
+          Notifications& notifications, GivesUp gives_up = gives_up_statement);
 
   Stores& stores() override { return stores_; }
   void begin_reading() override;

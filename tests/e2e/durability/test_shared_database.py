@@ -448,6 +448,27 @@ class Away(unittest.TestCase):
         daemon.start()
         self.assertEqual(daemon.stop(timeout=10), 0)
 
+    def test_a_server_that_is_silent_is_given_up(self):
+        """Its processes stand still, and the kernel accepts what they are sent."""
+        cluster = Cluster("fsync=off").start()
+        self.addCleanup(cluster.cleanup)
+        daemon = Daemon("--database", cluster.address()).start()
+        self.addCleanup(daemon.cleanup)
+        part = {"designation": "25 H7", "measured_mm": 25.01}
+        self.assertEqual(daemon.measure(part).status, 201)
+        self.addCleanup(cluster.signal, signal.SIGCONT)
+        cluster.signal(signal.SIGSTOP)
+        for answer in (daemon.measure(part), daemon.get("/v1/measurements"), daemon.get("/readyz")):
+            self.assertEqual((answer.status, answer.json["code"]), (503, "storage.unavailable"), answer)
+            self.assertIn("PostgreSQL does not answer", answer.json["detail"])
+        self.assertEqual([daemon.get(path).status for path in ("/livez", "/v1/limits/25H7")], [200, 200])
+        cluster.signal(signal.SIGCONT)
+        wait_for(lambda: daemon.get("/readyz").status == 200, lambda: daemon.log)
+        self.assertEqual(daemon.measure(part).status, 201)
+        self.assertEqual(len(daemon.stored()), 2)
+        cluster.signal(signal.SIGSTOP)
+        self.assertEqual(daemon.stop(timeout=10), 0)
+
 
 if __name__ == "__main__":
     unittest.main()

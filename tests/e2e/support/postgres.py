@@ -46,6 +46,13 @@ class Cluster:
     def stop(self, how="immediate"):
         subprocess.run([SCRIPT, "stop", self.folder, how], check=True, timeout=PATIENCE)
 
+    def signal(self, number):
+        """To the server and its processes."""
+        server = (self.folder / "data" / "postmaster.pid").read_text().split()[0]
+        os.kill(int(server), number)
+        for process in subprocess.run(["pgrep", "-P", server], capture_output=True, text=True, check=True).stdout.split():
+            os.kill(int(process), number)
+
     def address(self, database="postgres", *others):
         """Of this server, or of that one among `others` which takes writes."""
         hosts = ",".join(str(cluster.folder) for cluster in (self, *others))
