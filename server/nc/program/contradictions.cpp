@@ -100,7 +100,11 @@ class Contradictions {
     forget();
     if (label.label == klartext::Label(0U)) constants_.clear();  // the next part has other callers
   }
-  void visit(const klartext::LabelCall& call) { forget(), enter(call); }
+  void visit(const klartext::LabelCall& call) {
+    forget();
+    if (klartext::is_absent(call.repeat)) return enter(call);
+    constants_.clear();  // each repetition may compute others
+  }
   void visit(const klartext::CallProgram&) { leave(); }
   void visit(const klartext::CallSelectedProgram&) { leave(); }
   void visit(const klartext::ToolCall&) { forget(); }

@@ -97,6 +97,7 @@ TEST_CASE("a contradiction is found at its line") {
       // a parameter that is a number when the cycle begins, on the way to it or at a call
       {"Q1 = 121\n" + by_q1, {order}},
       {"Q1 = 12.1\n" + by_q1, {}},
+      {"Q1 = 10\nLBL 4\nQ1 = Q1 + 0.7\nCALL LBL 4 REP 2\n" + by_q1, {}},
       {"Q1 = 120 + 1\n" + by_q1, {order}},
       {"FN 5: Q1 = SQRT +400\n" + by_q1, {order}},
       {"FN 1: Q1 = +6 + +6.1\n" + by_q1, {}},
