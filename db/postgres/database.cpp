@@ -118,7 +118,7 @@ class SharedDatabase final : public Database {
   std::unique_ptr<sql::Session> session(std::int64_t daemon) {
     if (is_away_) throw StorageFailure({ErrorCode::StorageUnavailable, kNoAnswer});
     return std::make_unique<Session>(
-        options_, clock_, daemon, names_, notifications_,
+        options_, clock_, daemon, names_, position_, notifications_,
         [this](int seconds) { return is_away_ || gives_up_statement(seconds); });
   }
 
@@ -136,6 +136,10 @@ class SharedDatabase final : public Database {
   Names names_;
   Notifications notifications_;
   HealthMonitor monitor_;
+  Position position_{[this](const std::string& why) {
+    monitor_.writes_failed(why);
+    if (options_.health_changed) options_.health_changed({HealthState::WritesFailing, why});
+  }};
   std::atomic<bool> is_away_{false};
   Writer::Engine writer_engine_;
   ReadPool::Engine reader_engine_;
@@ -153,8 +157,9 @@ Result<VerifyReport> SharedDatabase::verify(const MeasurementCheck& check) const
   try {
     VerifyReport report;
     Names names({});
+    Position position;
     Notifications notifications;
-    Session session(options_, clock_, 0, names, notifications);
+    Session session(options_, clock_, 0, names, position, notifications);
     const auto note = [&](std::string finding) {
       if (report.findings.size() < kMostFindings) report.findings.push_back(std::move(finding));
     };

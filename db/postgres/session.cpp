@@ -35,13 +35,43 @@ constexpr const char* kUnlessFlushed =
     " WHERE pg_current_wal_flush_lsn() < pg_current_wal_insert_lsn()";
 constexpr const char* kOnThisServer = ", set_config('synchronous_commit', 'local', true)";
 
+/// Other daemons find the mark when they sign, and the next start begins a branch.
+void mark_set_back(Connection& connection) {
+  connection.send("ROLLBACK");
+  connection.send(
+      "INSERT INTO log_marks VALUES ('forked', 'an older copy of the database was restored while "
+      "services used it: restart them') ON CONFLICT DO NOTHING");
+  connection.wait();
+}
+
 }  // namespace
 
+void Position::saw(std::int64_t last_id) {
+  std::int64_t newest = newest_;
+  while (newest < last_id && !newest_.compare_exchange_weak(newest, last_id)) {
+  }
+}
+
+void Position::require() const {
+  const std::lock_guard lock(mutex_);
+  if (!why_.empty()) throw StorageFailure({ErrorCode::StorageUnavailable, why_});
+}
+
+void Position::set_back(const std::string& why) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!why_.empty()) return;
+    why_ = why + ": restart this service";
+  }
+  if (set_back_) set_back_(why_);
+}
+
 Session::Session(const OpenOptions& options, const Clock& clock, std::int64_t daemon, Names& names,
-                 Notifications& notifications, GivesUp gives_up)
+                 Position& position, Notifications& notifications, GivesUp gives_up)
     : connection_(options.address, std::move(gives_up)),
       stores_(connection_, clock, options.idempotency_retention),
       names_(names),
+      position_(position),
       notifications_(notifications),
       is_durable_(options.synchronous == Synchronous::Full),
       begin_reading_(connection_, "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY"),
@@ -61,7 +91,19 @@ Session::Session(const OpenOptions& options, const Clock& clock, std::int64_t da
   connection_.wait();
 }
 
+/// @param newest known before the transaction, which may see less than is known now.
+void Session::require_position(std::int64_t newest) {
+  if (connection_.head.last_id >= newest) return;
+  position_.set_back(
+      fmt::format("PostgreSQL has {} measurements and had {}: an older copy was restored",
+                  connection_.head.last_id, newest));
+  mark_set_back(connection_);
+  position_.require();
+}
+
 void Session::read_head(sql::Statement& head) {
+  position_.require();
+  const std::int64_t newest = position_.newest();
   {
     sql::Rows rows = head.query();
     if (!rows.next()) {
@@ -72,8 +114,10 @@ void Session::read_head(sql::Statement& head) {
                         .names = rows.get<std::int64_t>(2)};
     seen_wal_ = rows.get<std::int64_t>(3);
   }
+  require_position(newest);
   begun_ = connection_.head;
-  names_.look(connection_.head.names, stores_);
+  names_.look(connection_.head.names, stores_, is_new_);
+  is_new_ = false;
 }
 
 void Session::begin_reading() {
@@ -107,14 +151,16 @@ void Session::commit_written() {
     throw StorageFailure({ErrorCode::StorageUnavailable,
                           fmt::format("PostgreSQL: {}", warning.substr(0, warning.find('\n')))});
   }
+  if (is_durable_) position_.saw(head.last_id);
 }
 
 /// Rows may belong to a commit that is not yet on the disk: nobody sees them before.
 void Session::commit_read() {
   commit_.run();
-  if (!is_durable_ || flushed_.returning<std::int64_t>() >= seen_wal_) return settle();
-  flush_here_.run();
-  connection_.wait();
+  if (!is_durable_) return settle();
+  if (flushed_.returning<std::int64_t>() < seen_wal_) flush_here_.run();
+  settle();
+  position_.saw(begun_.last_id);
 }
 
 void Session::rollback() noexcept {
@@ -154,6 +200,7 @@ void Session::settle() {
 void Session::release() { release_.run(); }
 
 void Session::probe() {
+  position_.require();
   connection_.send("UPDATE head SET probes = probes + 1");
   connection_.wait();
 }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <string>
+#include <utility>
 
 #include "base/clock.hpp"
 #include "db/postgres/connection.hpp"
@@ -23,10 +25,11 @@ class Names {
   /// @param changed see OpenOptions::names_changed.
   explicit Names(std::function<bool(const Stores&)> changed) : changed_(std::move(changed)) {}
 
-  void look(std::int64_t version, const Stores& stores) {
-    if (version <= seen_ || !changed_) return;
+  /// @param is_new of the connection: the database may be an older one than before.
+  void look(std::int64_t version, const Stores& stores, bool is_new) {
+    if ((version <= seen_ && !is_new) || !changed_) return;
     const std::lock_guard lock(mutex_);
-    if (version > seen_ && changed_(stores)) seen_ = version;
+    if ((version > seen_ || is_new) && changed_(stores)) seen_ = version;
   }
 
  private:
@@ -35,16 +38,38 @@ class Names {
   std::atomic<std::int64_t> seen_{-1};
 };
 
+/// The position in the database that this daemon knows to be on the disk. An older copy that was
+/// restored under the daemon is behind it: from then on until a restart each transaction fails,
+/// because ids would be given out twice. Thread-safe.
+class Position {
+ public:
+  /// @param set_back called once, with the reason.
+  explicit Position(std::function<void(const std::string&)> set_back = {})
+      : set_back_(std::move(set_back)) {}
+
+  std::int64_t newest() const { return newest_; }
+  void saw(std::int64_t last_id);
+  /// @throws StorageFailure after set_back().
+  void require() const;
+  void set_back(const std::string& why);
+
+ private:
+  const std::function<void(const std::string&)> set_back_;
+  std::atomic<std::int64_t> newest_{0};
+  mutable std::mutex mutex_;
+  std::string why_;
+};
+
 /// A connection with its stores. Writing transactions lock the row `head` from their first
 /// statement to their commit, so that all daemons write in turn. The next transaction does not wait
 /// for the disk: the WAL keeps their order, and commit() returns when everything that was read and
 /// written is on the disk.
 class Session final : public sql::Session {
  public:
-  /// @param daemon what open runs are marked with. @param names and `notifications` outlive the
-  /// session.
+  /// @param daemon what open runs are marked with. @param names, `position` and `notifications`
+  /// outlive the session.
   Session(const OpenOptions& options, const Clock& clock, std::int64_t daemon, Names& names,
-          Notifications& notifications, GivesUp gives_up = gives_up_statement);
+          Position& position, Notifications& notifications, GivesUp gives_up = gives_up_statement);
 
   Stores& stores() override { return stores_; }
   void begin_reading() override;
@@ -63,10 +88,12 @@ class Session final : public sql::Session {
   void commit_written();
   void commit_read();
   void settle_undone();
+  void require_position(std::int64_t newest);
 
   Connection connection_;
   Stores stores_;
   Names& names_;
+  Position& position_;
   Notifications& notifications_;
   const bool is_durable_;
   // Each is parsed and planned once, like the statements of the stores.
@@ -82,6 +109,7 @@ class Session final : public sql::Session {
   sql::Statement flushed_;
   sql::Statement savepoint_;
   sql::Statement release_;
+  bool is_new_ = true;
   bool writes_ = false;
   Head begun_;  ///< as the transaction found it
   Head before_job_;

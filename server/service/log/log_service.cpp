@@ -157,7 +157,9 @@ struct LogService::Stretch {
 /// Reads new rows, stores the completed nodes, mostly in one commit, and signs. After an upgrade
 /// there may be many rows: they are read in parts.
 Result<void> LogService::grow(const IsOver& is_over) {
-  TRY(keep_place());
+  const auto place = keep_place();
+  if (!place && place.error().code == ErrorCode::LogForked) TRY(set_forked(place.error().message));
+  if (!place) return place.error();
   for (bool more = true; more && !is_over();) {
     Stretch stretch{.grown = frontier_};
     TRY(take_leaves(is_over, stretch));

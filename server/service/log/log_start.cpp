@@ -117,14 +117,30 @@ Result<void> LogService::settle_place(Loaded& loaded) {
 
 /// Keeps the place of the database, and the new timeline after a fail-over that this daemon was
 /// connected through.
+/// @errors LogForked if it is not the database that this daemon has signed.
 Result<void> LogService::keep_place() const {
   if (!options_.shares) return {};
-  using Places = std::pair<std::optional<std::string>, std::string>;
-  const auto read = [](const store::Stores& stores) -> Result<Places> {
-    return Places(stores.log.kept_place(), stores.log.place());
-  };
-  const auto [kept, place] = TRY(database_.readers().wait(read));
-  if (kept && !is_after_fail_over(kept, place)) return {};
+  const auto is_kept = TRY(database_.readers().wait([&](const store::Stores& stores) {
+    const auto forked = [](std::string why) { return Error{ErrorCode::LogForked, std::move(why)}; };
+    if (const auto why = stores.log.forked()) return Result<bool>(forked(*why));
+    const auto kept = stores.log.kept_place();
+    const std::string place = stores.log.place();
+    if (kept && *kept != place && !is_after_fail_over(kept, place)) {
+      return Result<bool>(forked(
+          fmt::format("the database was at {}, and is at {}: restart this service", *kept, place)));
+    }
+    const RowNames names = row_names(tables_, origins_);
+    tlog::Frontier own = frontier_;
+    const bool is_behind = stores.log.state().size < static_cast<std::int64_t>(own.size());
+    if (is_behind || LogReader(stores, names).frontier(own.size()).root() != own.root()) {
+      return Result<bool>(
+          forked(fmt::format("the database does not have the {} measurements that this service "
+                             "signed: restart this service",
+                             own.size())));
+    }
+    return Result<bool>(kept == place);
+  }));
+  if (is_kept) return {};
   TRY(database_.writer().wait([](store::Stores& stores) -> Result<bool> {
     stores.log.keep_place();
     return true;
@@ -317,10 +333,11 @@ std::optional<std::string> LogService::why_to_branch(Loaded& loaded) {
   if (auto told = told_by_checkpoint(loaded)) return told;
   if (loaded.takes_name(options_)) return fmt::format("origin-name is {}", options_.name);
   if (loaded.is_copy) return "the database is a copy that `backup` made";
+  if (loaded.forked && options_.shares) return loaded.forked;
   if (loaded.kept_place.value_or(loaded.place) != loaded.place) {
     return fmt::format(
-        "the database was restored or moved: it was at {} (server, database, "
-        "timeline), and is at {}",
+        "the database was restored or moved: it was at {} (server, database, timeline), and is at "
+        "{}",
         *loaded.kept_place, loaded.place);
   }
   if (!options_.ask_centre) return std::nullopt;

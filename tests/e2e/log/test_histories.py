@@ -5,6 +5,7 @@ import base64
 import json
 import pathlib
 import shutil
+import signal
 import unittest
 
 from durability.test_storage import PART
@@ -390,6 +391,70 @@ class SharedDatabases(Restored):
         daemon.start()
         self.assertEqual(self.store(daemon, "n6")[0].split("-")[1], new[0].split("-")[1], "no other branch")
         self.assert_clean(daemon, "--database", cluster.address("live"))
+
+    def assert_refuses(self, daemon):
+        wait_for(lambda: daemon.get("/readyz").status == 503 and "restart" in daemon.get("/readyz").text,
+                 lambda: daemon.log)
+        self.assertEqual(daemon.measure(PART).status, 503)
+
+    def test_a_server_is_set_back_under_running_services(self):
+        cluster = Cluster("fsync=off").start()
+        self.addCleanup(cluster.cleanup)
+        daemon, other = (self.made("--database", cluster.address()).start() for _ in range(2))
+        kept = self.store(daemon, "d1")
+        wait_for_size(other, 1)
+        cluster.stop("fast")
+        cluster.copy_files()
+        cluster.start()
+        lost = []
+        while len(lost) < 3:  # they find the server again
+            answer = daemon.measure(PART)
+            lost += [answer.json["id"]] if answer.status == 201 else []
+        wait_for_size(other, 4)
+        cluster.stop("fast")
+        cluster.put_files_back()
+        cluster.start()
+        given = []
+        def has_noticed():
+            answers = [each.measure(PART) for each in (daemon, other)]
+            given.extend(answer.json["id"] for answer in answers if answer.status == 201)
+            return all(answer.status == 503 and "restart" in answer.json["detail"] for answer in answers)
+        wait_for(has_noticed, lambda: daemon.log + other.log)
+        self.assertEqual(given, [])
+        for each in (daemon, other):
+            self.assert_refuses(each)
+            each.stop()
+            each.start()
+        new = self.store(daemon, "n2") + self.store(other, "n3")
+        self.assert_unique(kept, lost, new)
+        self.assertEqual(len({record.split("-")[1] for record in new}), 1, "one branch")
+        self.assert_clean(daemon, "--database", cluster.address())
+
+    def test_a_server_that_was_set_back_and_has_grown_beyond_is_noticed(self):
+        """By the content: the service stands still until the database has more than it knows."""
+        cluster = Cluster("fsync=off").start()
+        self.addCleanup(cluster.cleanup)
+        daemon = self.made("--database", cluster.address()).start()
+        self.store(daemon, "d1")
+        wait_for_size(daemon, 1)
+        self.assertEqual(daemon.stop(), 0)
+        cluster.stop("fast")
+        cluster.copy_files()
+        cluster.start()
+        daemon.start()
+        self.store(daemon, "d2 d3")
+        wait_for_size(daemon, 3)
+        signed = daemon.get("/v1/log/checkpoint").text
+        daemon.process.send_signal(signal.SIGSTOP)
+        cluster.stop("fast")
+        cluster.put_files_back()
+        cluster.start()
+        other = self.made("--database", cluster.address()).start()
+        self.store(other, "n2 n3 n4 n5")
+        daemon.process.send_signal(signal.SIGCONT)
+        self.assert_refuses(daemon)
+        self.assertEqual(daemon.get("/v1/log/checkpoint").text, signed)
+        self.assert_refuses(other)
 
     def test_a_restored_timeline_begins_a_branch(self):
         """As after a recovery to a point in time: the server and the database are the ones that were."""

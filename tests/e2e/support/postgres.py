@@ -64,6 +64,14 @@ class Cluster:
                                  check=True, capture_output=True, text=True, timeout=PATIENCE).stdout
         return [line.split("|") for line in printed.splitlines()]
 
+    def copy_files(self):
+        """Of a server that has ended."""
+        subprocess.run(["cp", "-a", self.folder / "data", self.folder / "copy"], check=True, timeout=PATIENCE)
+
+    def put_files_back(self):
+        shutil.rmtree(self.folder / "data")
+        (self.folder / "copy").rename(self.folder / "data")
+
     def dump(self, database, file):
         """As docs/guide/postgresql.md says."""
         with open(file, "wb") as out:
