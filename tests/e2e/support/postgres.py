@@ -1,5 +1,6 @@
 """A PostgreSQL 15 of one's own, and nginx before daemons that share it."""
 
+import contextlib
 import os
 import pathlib
 import re
@@ -51,7 +52,8 @@ class Cluster:
         server = (self.folder / "data" / "postmaster.pid").read_text().split()[0]
         os.kill(int(server), number)
         for process in subprocess.run(["pgrep", "-P", server], capture_output=True, text=True, check=True).stdout.split():
-            os.kill(int(process), number)
+            with contextlib.suppress(ProcessLookupError):  # it has ended since
+                os.kill(int(process), number)
 
     def address(self, database="postgres", *others):
         """Of this server, or of that one among `others` which takes writes."""
