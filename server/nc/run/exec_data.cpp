@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/text.hpp"
 #include "nc/probing/touch/fits.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/statements.hpp"
@@ -49,7 +50,13 @@ NcResult<void> execute(Channel& channel, const klartext::TableOpen& open) {
 
 NcResult<void> execute(Channel& channel, const klartext::TableWrite& write) {
   const auto place = TRY(cells(channel, write.cell));
-  return channel.tables.write(write.first, place.row, place.columns, channel.length_unit());
+  TRY(channel.tables.write(write.first, place.row, place.columns, channel.length_unit()));
+  for (const std::string_view table : {"toolturn.trn", "tchprobe.tp", "preset.pr"}) {
+    if (!ascii_iequals(channel.tables.open_name(), table)) continue;
+    return channel.note(fmt::format(
+        "FN 27 changes the file {}: this run keeps the values that it began with", table));
+  }
+  return {};
 }
 
 NcResult<void> execute(Channel& channel, const klartext::TableRead& read) {

@@ -46,6 +46,7 @@ NcResult<void> read_written_tools(Channel& channel) {
       return nc_error(1093, fmt::format("tool {}: tool.t holds {} in a column of whole numbers",
                                         number, value));
     }
+    TRY(note_lathe_value(channel, tool, nr));
     TRY(checked(channel.machine().write_tool(tool)));
   }
   return {};

@@ -334,6 +334,7 @@ NcResult<void> write_tool(Channel& channel, const Address& address, double value
           fmt::format("ID50 NR{} of tool {}: the column takes a whole number, and not {}",
                       address.nr, number, value));
   }
+  TRY(note_lathe_value(channel, tool, address.nr));
   return checked(channel.machine().write_tool(tool));
 }
 

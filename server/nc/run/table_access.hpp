@@ -38,6 +38,11 @@ class TableAccess {
   NcResult<void> write(klartext::QRef first, std::int64_t row, std::string_view columns,
                        double length_unit);
 
+  /// The name of the open table without its folder; empty: none is open.
+  std::string_view open_name() const {
+    return open_ ? open_->path.file_name() : std::string_view();
+  }
+
   /// SEL TABLE. @errors as open.
   NcResult<void> select_datum_table(const ControlPath& path);
   bool has_datum_table() const { return datum_.has_value(); }

@@ -105,6 +105,17 @@ std::int64_t tool_column(std::string_view name) {
   return plain != 0 ? plain : number_of(kWholeColumns, name);
 }
 
+NcResult<void> note_lathe_value(Channel& channel, const Tool& tool, std::int64_t nr) {
+  const auto* known = column(kColumns, nr);
+  const bool is_length =
+      known != nullptr && (known->value == &Tool::l || known->value == &Tool::r ||
+                           known->value == &Tool::dl || known->value == &Tool::dr);
+  if (!tool.lathe || !is_length) return {};
+  return channel.note(fmt::format(
+      "tool {} is a lathe tool: {} has no effect, since ZL, XL, DZL and DXL are its lengths",
+      tool.number, known->name));
+}
+
 bool is_tool_length(std::int64_t nr) {
   return nr < 8 || nr == 13 || (nr > 15 && nr < 28) || nr == 33;
 }

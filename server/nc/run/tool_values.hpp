@@ -7,6 +7,7 @@
 #include "nc/machine/geometry.hpp"
 #include "nc/machine/tables.hpp"
 #include "nc/program/code.hpp"
+#include "nc/run/nc_error.hpp"
 
 namespace fitgauge::interpreter {
 
@@ -25,6 +26,9 @@ std::int64_t tool_column(std::string_view name);
 bool is_tool_length(std::int64_t nr);
 
 class Channel;
+
+/// Notes a written L, R, DL or DR of a lathe tool, which counts its lengths by toolturn.trn.
+NcResult<void> note_lathe_value(Channel& channel, const machine::Tool& tool, std::int64_t nr);
 
 /// Returns whether a cell is Q108 to Q111, Q113 or Q114, to which the control gives a value. They
 /// are undefined until a program reads them or calls a tool.

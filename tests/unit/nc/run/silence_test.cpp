@@ -271,6 +271,28 @@ TEST_CASE("a lathe tool says that XL does not count in positioning") {
   CHECK(control.last.messages.empty());
 }
 
+TEST_CASE("what is written of a lathe tool and has no effect is said") {
+  Workshop control;
+  machine::ToolSetup& tool = control.setup.machine.tools.emplace_back();
+  tool.row.number = 6;
+  tool.row.lathe = machine::LatheTool{.zl = 80, .xl = -40};
+  const std::string ignored = "tool 6 is a lathe tool: DL has no effect";
+  control.path("FN 17: SYSWRITE ID50 NR4 IDX6 = +0.1");
+  CHECK(says(control.last, ignored));
+  control.path("FN 17: SYSWRITE ID50 NR3 IDX6 = +0.4\nFN 17: SYSWRITE ID50 NR4 IDX5 = +0.1");
+  CHECK(control.last.messages.empty());
+  const auto write = [&](const std::string& name, const std::string& column) {
+    const std::string path = "TNC:\\table\\" + name;
+    control.disk.write(path, "BEGIN TOOL .T MM\nT    " + column + "\n6    +0.2\n[END]\n");
+    control.path("Q5 = 0.3\nFN 26: TABOPEN " + path + "\nFN 27: TABWRITE 6/\"" + column +
+                 "\" = Q5\nTOOL CALL 6 Z");
+  };
+  write("tool.t", "DL");
+  CHECK(says(control.last, ignored));
+  write("toolturn.trn", "DZL");
+  CHECK(says(control.last, "FN 27 changes the file toolturn.trn"));
+}
+
 TEST_CASE("a hole by its countersink names the point angle") {
   Workshop control;
   control.path(
