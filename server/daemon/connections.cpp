@@ -270,7 +270,9 @@ std::optional<app::AtCentre> ask_centre(const Config& config, std::string_view d
                                [until] { return std::chrono::steady_clock::now() < until; });
   const auto read = api::read_revisions(answer.status == kOk ? answer.body : "");
   if (!read) return std::nullopt;
-  return app::AtCentre{.centre = (*read)->page.origin, .rows = (*read)->page.size};
+  return app::AtCentre{.centre = (*read)->page.origin,
+                       .rows = (*read)->page.size,
+                       .note = (*read)->page.notes.value_or(0)};
 }
 
 std::unique_ptr<forwarder::Forwarder> start_forwarder(const Config& config, app::Application& app,

@@ -173,7 +173,9 @@ bool Node::start() {
                                    [until] { return std::chrono::steady_clock::now() < until; });
       const auto read = api::read_revisions(answer.status == 200 ? answer.body : "");
       if (!read) return std::nullopt;
-      return app::AtCentre{.centre = (*read)->page.origin, .rows = (*read)->page.size};
+      return app::AtCentre{.centre = (*read)->page.origin,
+                           .rows = (*read)->page.size,
+                           .note = (*read)->page.notes.value_or(0)};
     };
   }
   const auto failed = [&](const Error& error) {

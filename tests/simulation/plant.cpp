@@ -162,6 +162,7 @@ void Plant::post(Site& site) {
 void Plant::ask_again(Site& site) {
   for (Post& post : site.posts) {
     if (!post.id.empty()) continue;
+    site.has_noted = site.has_noted || post.is_note;
     const auto id = post.is_note ? site.node->add_note(post.part, post.of)
                                  : site.node->post(post.part, post.of);
     const bool is_lost = draw(4) == 0;  // the answer, that is
@@ -230,7 +231,8 @@ void Plant::restore(Site& site) {
   Node& node = *site.node;
   if (site.copies.empty()) return;
   const Copy& copy = site.copies[draw(site.copies.size())];
-  if (copy.is_folder && !(node.is_up() && node.is_quiet())) return;
+  const bool is_at_centre = node.is_up() && node.is_quiet() && !site.has_noted;
+  if (copy.is_folder && !is_at_centre) return;
   node.end();
   bury(site);
   node.machine.writes_to_live = 0;
@@ -260,6 +262,9 @@ void Plant::restore(Site& site) {
   // Records that stations send again may come in another order, which their ids do not say: the
   // guide to backups has readers of a centre begin anew.
   if (!site.is_station) site.cursor.clear();
+  // An older copy of a folder is not recognised when the centre lacks what was stored after it: see
+  // the explanation of proofs.
+  if (!is_at_centre) std::erase_if(site.copies, [](const Copy& each) { return each.is_folder; });
   ++counts_.restores;
 }
 
@@ -302,10 +307,14 @@ void Plant::settle() {
       is_settled = is_settled && asked >= enough[i];
     }
     was_quiet = is_quiet;
-    if (is_settled) return;
-    if (world_now() > until) break;
+    if (is_settled) break;
+    if (world_now() > until) tell_what_is_not_settled();
     sleep_for(kBetweenLooks);
   }
+  for (const auto& site : sites_) site->has_noted = false;
+}
+
+void Plant::tell_what_is_not_settled() const {
   for (const auto& site : sites_) {
     if (!site->node->is_up()) broken(*site, "does not start");
     if (!site->node->is_ready()) broken(*site, "is not ready");

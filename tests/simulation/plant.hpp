@@ -86,6 +86,7 @@ class Plant {
     std::string cursor{};  ///< of a reader that lists what is new
     std::map<std::string, std::string> read{};
     int copied = 0;
+    bool has_noted = false;  ///< since the last rest: its centre may not have the note
   };
 
   std::uint64_t draw(std::uint64_t below) { return simulation::draw(random_, below); }
@@ -100,6 +101,7 @@ class Plant {
   void restore(Site& site);
   void read(Site& site);
   void settle();
+  [[noreturn]] void tell_what_is_not_settled() const;
   void check();
   void check_site(Site& site, const std::vector<Listed>& listed);
   void check_proofs(Site& site, const std::vector<Listed>& listed);

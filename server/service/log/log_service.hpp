@@ -36,6 +36,7 @@ struct TreeNames;
 struct AtCentre {
   std::string centre{};   ///< digits of the centre's present history
   std::int64_t rows = 0;  ///< of the history in question that are there
+  std::int64_t note = 0;  ///< number of its newest note there; 0: there is none
 };
 
 struct LogOptions {

@@ -347,6 +347,10 @@ std::optional<std::string> LogService::why_to_branch(Loaded& loaded) {
     return fmt::format("the centre has {} measurements of this log, and the database has {}",
                        there->rows, loaded.rows);
   }
+  const auto has_note = database_.readers().wait([&](const store::Stores& stores) -> Result<bool> {
+    return there->note == 0 || !stores.notes.own_after(there->note - 1, 1).empty();
+  });
+  if (has_note && !*has_note) return "the centre has notes of this log that the database lacks";
   if (!loaded.centre || *loaded.centre == there->centre) return std::nullopt;
   return fmt::format("the centre has begun {} after {}, and may have lost measurements",
                      there->centre, *loaded.centre);

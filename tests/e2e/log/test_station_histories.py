@@ -94,6 +94,19 @@ class Stations(Restored):
     def test_a_copy_of_the_folder_without_the_centre(self):
         self.put_back("copy", False)
 
+    def test_a_copy_of_the_folder_that_lacks_only_a_note(self):
+        record = {"id": self.store(self.station, "s1")[0]}
+        self.drained()
+        put_back = self.copied("copy")
+        said = [note(self.station, record, "lost")]
+        wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
+        self.station.stop()
+        put_back()
+        self.station.start()
+        said.append(note(self.station, record, "new"))
+        self.assertNotEqual(said[0]["id"], said[1]["id"])
+        wait_for(lambda: notes_of(self.centre, record) == said, lambda: self.station.log)
+
     def test_a_correction_of_what_lies_below_the_branch_reaches_the_centre(self):
         kept = self.store(self.station, "s1 s2")
         copy = self.backup(self.station)
