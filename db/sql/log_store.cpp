@@ -16,10 +16,11 @@ using sql::Rows;
 
 namespace {
 
-/// The timeline comes last: a fail-over changes it alone.
+/// A restore makes the table anew. The timeline comes last: a fail-over changes it alone.
 constexpr const char* kPlace =
     "SELECT (SELECT system_identifier FROM pg_control_system()) || ' ' || (SELECT oid FROM "
     "pg_database WHERE datname = current_database()) || ' ' || "
+    "'log'::regclass::oid || ' ' || "
     "left(pg_walfile_name(pg_current_wal_insert_lsn()), 8)";
 
 }  // namespace

@@ -366,6 +366,12 @@ class SharedDatabases(Restored):
         self.assert_clean(daemon, "--database", cluster.address("live"))
 
     def test_a_dump_is_restored_and_the_service_that_knows_least_starts_first(self):
+        self.restore_a_dump(("DROP DATABASE live", "postgres"), ("CREATE DATABASE live", "postgres"))
+
+    def test_a_dump_is_restored_into_the_same_database(self):
+        self.restore_a_dump(("DROP SCHEMA fitgauge CASCADE", "live"))
+
+    def restore_a_dump(self, *emptied):
         cluster = Cluster("fsync=off").start()
         self.addCleanup(cluster.cleanup)
         cluster.query("CREATE DATABASE live")
@@ -376,8 +382,8 @@ class SharedDatabases(Restored):
         cluster.dump("live", dump := other.folder / "dump")
         lost = self.store(other, "d3 d4")
         other.stop()
-        cluster.query("DROP DATABASE live")
-        cluster.query("CREATE DATABASE live")
+        for sql, database in emptied:
+            cluster.query(sql, database)
         cluster.restore("live", dump)
         daemon.start()
         new = self.store(daemon, "n3 n4")
