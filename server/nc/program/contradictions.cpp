@@ -110,7 +110,10 @@ class Contradictions {
   void visit(const klartext::ToolCall&) { forget(); }
   void visit(const klartext::Motion& motion) { read(motion.words); }
   void visit(const klartext::MFunctions& functions) { read(functions.words); }
-  void visit(const klartext::CycleCall& call) { read(call.words); }
+  void visit(const klartext::CycleCall& call) {
+    read(call.words);
+    if (calls_programs_) constants_.clear();  // it may call the program of cycle 12
+  }
   void visit(const klartext::Stop&) { forget(); }
   void visit(const klartext::CyclePart& part) {
     if (part.family == klartext::CycleFamily::TchProbe) constants_.clear();
@@ -160,7 +163,8 @@ class Contradictions {
       const int m = static_cast<int>(*number);
       if (m == 3 || m == 4 || m == 13 || m == 14) spindle_ = block_;
       if (m == 5 || m == 6 || m == 19) spindle_ = nullptr;
-      if (m == 2 || m == 30) constants_.clear();
+      const bool may_call = !is_m_function(m) || (calls_programs_ && (m == 89 || m == 99));
+      if (m == 2 || m == 30 || may_call) constants_.clear();
     }
   }
 
