@@ -25,13 +25,22 @@ bool is_builders_cycle(int number) {
 
 /// Whether `check:ignore` in this line switches the code off.
 bool ignores(std::string_view line, std::string_view code) {
-  constexpr std::string_view kIgnore = "check:ignore";
+  constexpr std::string_view kIgnore = "CHECK:IGNORE";
+  constexpr std::string_view kBetween = " \t,~*";
   const std::size_t comment = line.find(';');
-  const std::size_t at = comment == line.npos ? line.npos : line.find(kIgnore, comment);
-  if (at == line.npos) return false;
-  std::string_view codes = trim(line.substr(at + kIgnore.size()));
-  if (codes.ends_with('~')) codes = trim(codes.substr(0, codes.size() - 1));
-  return codes.empty() || codes.find(code) != codes.npos;
+  if (comment == line.npos) return false;
+  const std::string written = ascii_upper(line.substr(comment));
+  const std::size_t at = written.find(kIgnore);
+  if (at == written.npos) return false;
+  bool names_one = false;
+  for (std::size_t begin = at + kIgnore.size();;) {
+    begin = written.find_first_not_of(kBetween, begin);
+    if (begin == written.npos) return !names_one;
+    const std::size_t end = std::min(written.find_first_of(kBetween, begin), written.size());
+    if (ascii_iequals(written.substr(begin, end - begin), code)) return true;
+    names_one = true;
+    begin = end;
+  }
 }
 
 /// The last physical line of the block that begins in a line.
