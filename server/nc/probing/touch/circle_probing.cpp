@@ -92,7 +92,9 @@ CycleFault with_part(CycleFault fault, const CycleContext& context, Side side, c
                             here.diameter);
   const int cycle = context.arguments.descriptor().number;
   // 421 and 422, 412 and 413: inside and outside.
-  if (here.is_boss != is_boss && cycle != 405)
+  if (here.is_boss != is_boss && cycle == 405)
+    fault.text += "cycle 405 probes in a bore";
+  else if (here.is_boss != is_boss)
     fault.text += fmt::format("cycle {}", is_boss ? cycle - 1 : cycle + 1);
   else
     fault.text += fmt::format("Q262 is {} mm", nominal);
