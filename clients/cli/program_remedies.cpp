@@ -11,9 +11,7 @@
 #include "base/text.hpp"
 #include "cli/program_help.hpp"
 #include "nc/klartext/parser_rules.hpp"
-#include "nc/probing/cycles.hpp"
 #include "nc/program/cycles.hpp"
-#include "nc/program/machining_cycles.hpp"
 #include "nc/program/parameter.hpp"
 
 namespace fitgauge::cli {
@@ -21,7 +19,6 @@ namespace {
 
 using klartext::Diagnostic;
 using klartext::DiagnosticCode;
-using probing::CycleDescriptor;
 
 /// Matches in a view; the view must live as long as the match.
 bool search(std::string_view text, std::cmatch& found, const std::regex& pattern) {
@@ -102,7 +99,8 @@ class Remedies {
       const bool is_iso = begin != 0 && ascii_upper(written[begin - 1]) == 'G';
       const std::string_view dialog =
           trim(written.substr(cycle_->dialog, comment - cycle_->dialog));
-      if (const auto* other = named_cycle(dialog.substr(0, dialog.find_last_not_of(" *~") + 1))) {
+      if (const auto* other = interpreter::other_cycle(
+              *cycle_->cycle, dialog.substr(0, dialog.find_last_not_of(" *~") + 1))) {
         const std::string head = head_of(*other, is_iso);
         add(fmt::format("Make it cycle {}: {}", other->number, other->name),
             {edit(line_, begin, cycle_->dialog, head.substr(head.find_first_of("0123456789")))},
@@ -116,18 +114,6 @@ class Remedies {
       add(fmt::format("Write what it means: {}", dialog_of(*known)),
           {whole_line(
               line_, fmt::format("{};{}{}", plain.substr(0, comment), dialog_of(*known), mark()))});
-  }
-
-  const CycleDescriptor* named_cycle(std::string_view name) const {
-    const CycleDescriptor* named = nullptr;
-    const auto compare = [&](const CycleDescriptor& other) {
-      if (other.family == cycle_->cycle->family && &other != cycle_->cycle &&
-          ascii_iequals(other.name, name))
-        named = &other;
-    };
-    for (const auto* cycle : probing::cycles()) compare(cycle->descriptor);
-    for (const auto& cycle : interpreter::machining_cycles()) compare(cycle.descriptor);
-    return named;
   }
 
   /// The only number that a place sets: `Q275=+25`, `Q9 = +26`, `D00 Q9 P01 +26`.

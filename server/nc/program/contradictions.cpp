@@ -257,15 +257,7 @@ class Contradictions {
   void check_words(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {
     const unsigned meant = senses_of(descriptor.name);
     const std::string_view dialog = program_.text(cycle.dialog);
-    const CycleDescriptor* named = nullptr;
-    const auto compare = [&](const CycleDescriptor& other) {
-      if (other.family == descriptor.family && ascii_iequals(other.name, dialog) &&
-          !ascii_iequals(descriptor.name, dialog))
-        named = &other;
-    };
-    for (const probing::TouchProbeCycle* other : probing::cycles()) compare(other->descriptor);
-    for (const MachiningCycle& other : machining_cycles()) compare(other.descriptor);
-    if (named != nullptr) {
+    if (const CycleDescriptor* named = other_cycle(descriptor, dialog)) {
       warn(DiagnosticCode::DialogContradicts, block_->written,
            fmt::format("'{}' is cycle {}, but this is cycle {} {}: correct the number or the text",
                        dialog, named->number, descriptor.number, descriptor.name));

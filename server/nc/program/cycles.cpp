@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "base/text.hpp"
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/parameters.hpp"
 #include "nc/program/machining_cycles.hpp"
@@ -112,6 +113,19 @@ const probing::CycleParameter* find_parameter(const probing::CycleDescriptor& de
   const auto* parameter = descriptor.find(probing::q(written.number));
   if (parameter == nullptr || !written.is_string()) return parameter;
   return parameter->takes_text() ? parameter : nullptr;
+}
+
+const probing::CycleDescriptor* other_cycle(const probing::CycleDescriptor& cycle,
+                                            std::string_view name) {
+  if (ascii_iequals(cycle.name, name)) return nullptr;
+  const auto is_meant = [&](const probing::CycleDescriptor& other) {
+    return other.family == cycle.family && ascii_iequals(other.name, name);
+  };
+  for (const probing::TouchProbeCycle* other : probing::cycles())
+    if (is_meant(other->descriptor)) return &other->descriptor;
+  for (const MachiningCycle& other : machining_cycles())
+    if (is_meant(other.descriptor)) return &other.descriptor;
+  return nullptr;
 }
 
 const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "nc/klartext/statement.hpp"
@@ -45,6 +46,10 @@ std::optional<probing::ArgumentValue> literal(const klartext::Program& program,
 /// The descriptor's parameter that `Q262=` or `QS400=` of a block means, or null.
 const probing::CycleParameter* find_parameter(const probing::CycleDescriptor& descriptor,
                                               klartext::QRef written);
+
+/// Another cycle of the same family with that name, or null.
+const probing::CycleDescriptor* other_cycle(const probing::CycleDescriptor& cycle,
+                                            std::string_view name);
 
 /// The cycle of the probing library, or null.
 const probing::TouchProbeCycle* probing_cycle(klartext::CycleFamily family, int number);
