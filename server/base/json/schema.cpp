@@ -110,7 +110,7 @@ std::string one_of(std::string_view member,
   std::vector<std::string> schemas;
   std::string mapping;
   for (const auto& [word, component] : words) {
-    const std::string choice = schema::ref(component);  // std::ref would fit better
+    const std::string choice = schema::ref(component);  // without `schema::` it is std::ref
     if (schemas.empty() || schemas.back() != choice) schemas.push_back(choice);
     mapping +=
         fmt::format(R"({}"{}":"{}{}")", mapping.empty() ? "" : ",", word, kSchemas, component);
