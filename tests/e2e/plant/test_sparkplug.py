@@ -275,8 +275,7 @@ class Host(Sparkplug):
         self.say(True, 1, host="scada-2")
         self.say(False, 10)
         self.connect(primary_host="scada-1")
-        wait_for(lambda: self.state()["state"] == "failing")
-        self.assertIn("primary host scada-1 is not online", self.state()["last_error"])
+        self.assertIn("primary host scada-1 is not online", self.daemon.connection_in("scada", "failing")["last_error"])
         ids = [self.measure(1)]
         self.say(True, 9)  # older than the last
         for payload in (b"ONLINE", b"{}", b'{"online":"true","timestamp":11}', b'{"online":true}', b'{"online":true,"timestamp":"x"}'):

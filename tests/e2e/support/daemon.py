@@ -172,6 +172,11 @@ class Daemon:
     def measure(self, body, headers=None, connection=None):
         return self.post("/v1/measurements", body, headers, connection)
 
+    def connection_in(self, name, state):
+        """The connection, as one answer gave it when it was in that state."""
+        return wait_for(lambda: (seen := self.get(f"/v1/connections/{name}").json)["state"] == state and seen,
+                        lambda: self.get(f"/v1/connections/{name}").json)
+
     def stored(self, query="source=all&history=all"):
         """Every measurement, by the streamed list."""
         lines = self.get(f"/v1/measurements?{query}", Accept="application/x-ndjson").text
