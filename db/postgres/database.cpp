@@ -92,6 +92,7 @@ class SharedDatabase final : public Database {
   ReadPool& readers() override { return readers_; }
 
   void drain() override {
+    if (listener_) listener_->end_when_away();
     reader_engine_.stop();
     writer_engine_.stop();
     listener_.reset();

@@ -83,13 +83,17 @@ Listener::~Listener() {
 
 void Listener::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
+    bool has_failed = false;
     try {
       listen(stop);
     } catch (const std::exception&) {  // the writer reports faults of the database
-      std::this_thread::sleep_for(kBetweenAttempts);
+      has_failed = true;
     }
     notifications_.postpone();  // the notification may be lost
-    if (!stop.stop_requested()) told_(std::nullopt);
+    if (stop.stop_requested()) return;
+    told_(std::nullopt);
+    if (ends_when_away_) return;
+    if (has_failed) std::this_thread::sleep_for(kBetweenAttempts);
   }
 }
 

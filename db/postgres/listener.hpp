@@ -83,6 +83,9 @@ class Listener {
   /// Sends the postponed notification.
   ~Listener();
 
+  /// Ends as soon as the server is unreachable, instead of connecting again.
+  void end_when_away() { ends_when_away_ = true; }
+
  private:
   void run(const std::stop_token& stop);
   void listen(const std::stop_token& stop);
@@ -92,6 +95,7 @@ class Listener {
   Notifications& notifications_;
   const std::function<void(bool names)> heard_;
   const std::function<void(Figures)> told_;
+  std::atomic<bool> ends_when_away_{false};
   Thread thread_;
 };
 
