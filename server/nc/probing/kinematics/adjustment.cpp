@@ -1,12 +1,10 @@
 #include "nc/probing/kinematics/adjustment.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "nc/machine/tolerance.hpp"
-#include "nc/probing/touch/gauss_newton.hpp"
 
 namespace fitgauge::probing {
 namespace {
@@ -50,9 +48,10 @@ std::vector<bool> Adjustment::seen() const {
   std::vector<bool> seen(unknowns_.size(), true);
   // With fewer residuals than unknowns the last directions have size 0.
   for (Eigen::Index direction = 0; direction < index_of(unknowns_.size()); ++direction) {
-    if (direction < sizes_.size() && sizes_[direction] > tolerance::kSeen) continue;
+    if (direction < directions_.sizes.size() && directions_.sizes[direction] > tolerance::kSeen)
+      continue;
     for (std::size_t j = 0; j < unknowns_.size(); ++j) {
-      const double part = directions_(index_of(j), direction);
+      const double part = directions_.columns(index_of(j), direction);
       if (std::abs(part) > kPart) seen[j] = false;
     }
   }
@@ -129,14 +128,13 @@ Eigen::MatrixXd Adjustment::jacobian(const Eigen::VectorXd& values) const {
 
 void Adjustment::decompose() {
   if (unknowns_.empty()) return;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian(values_), Eigen::ComputeFullV);
-  sizes_ = svd.singularValues();
-  directions_ = svd.matrixV();
+  directions_ = singular_values(jacobian(values_));
 }
 
 Eigen::MatrixXd Adjustment::covariance() const {
   if (unknowns_.empty()) return {};
-  const Eigen::MatrixXd scaled = directions_ * sizes_.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd scaled =
+      directions_.columns * directions_.sizes.cwiseInverse().asDiagonal();
   return scaled * scaled.transpose();
 }
 

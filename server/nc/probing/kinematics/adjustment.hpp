@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 
 #include "nc/probing/kinematics/fit.hpp"
+#include "nc/probing/touch/gauss_newton.hpp"
 
 namespace fitgauge::probing {
 
@@ -74,9 +74,7 @@ class Adjustment {
   AdjustedPoses poses_;
   std::vector<Unknown> unknowns_;
   Eigen::VectorXd values_;
-  // Singular values of the Jacobian: the directions of the unknowns and the strength of each.
-  Eigen::VectorXd sizes_;
-  Eigen::MatrixXd directions_;
+  Directions directions_;  ///< of the unknowns, and how strongly the residuals show each
 };
 
 }  // namespace fitgauge::probing

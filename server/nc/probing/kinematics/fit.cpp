@@ -1,6 +1,5 @@
 #include "nc/probing/kinematics/fit.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -92,7 +91,8 @@ class Estimate {
   bool is_seen() const { return is_seen_; }
   /// Returns the greatest eigenvalue of the covariance, for centres of variance 1.
   double worst() const {
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance_).eigenvalues()[1];
+    const auto& c = covariance_;
+    return (c(0, 0) + c(1, 1)) / 2 + std::hypot((c(0, 0) - c(1, 1)) / 2, c(0, 1));
   }
 
   /// @param rests variances of a centre that add up to that of the value.

@@ -1,11 +1,9 @@
 #include "nc/probing/touch/fits.hpp"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <Eigen/SVD>
-
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "nc/machine/tolerance.hpp"
 #include "nc/probing/touch/gauss_newton.hpp"
@@ -14,148 +12,145 @@ namespace fitgauge::probing {
 namespace {
 
 using Eigen::Index;
-using Eigen::Matrix;
-using Eigen::Vector2d;
-using Eigen::Vector3d;
+using Eigen::VectorXd;
 using machine::Vec3;
-using Points = Matrix<double, Eigen::Dynamic, 2>;
-using Columns3 = Matrix<double, Eigen::Dynamic, 3>;
 
 /// The search ends at this part of the points' spread; below it a short arc has only noise.
 constexpr double kSettled = 1e-10;
 
-/// Centre x, y and radius of the algebraic fit (Kåsa), exact for points on a circle.
-/// Nothing when the points lie on a line.
-std::optional<Vector3d> algebraic_fit(const Points& points) {
-  Columns3 columns(points.rows(), 3);
-  columns << points, Eigen::VectorXd::Ones(points.rows());
-  const auto found = least_squares(columns, points.rowwise().squaredNorm(), tolerance::kCollinear);
-  if (!found) return std::nullopt;
-  const Vector3d s = *found;
-  const Vector2d centre = s.head<2>() / 2;
-  return Vector3d(centre.x(), centre.y(), std::sqrt(s.z() + centre.squaredNorm()));
+VectorXd column(std::initializer_list<double> values) {
+  VectorXd made(static_cast<Index>(values.size()));
+  std::copy(values.begin(), values.end(), made.data());
+  return made;
 }
 
-Eigen::VectorXd distances(const Points& points, const Vector3d& circle) {
-  return (points.rowwise() - circle.head<2>().transpose()).rowwise().norm();
+/// Points around their mean and at unit size, so that they lose no digits.
+struct Centred {
+  explicit Centred(std::span<const Vec3> points) : all(points.begin(), points.end()) {
+    for (const Vec3& p : all) mean = mean + p;
+    mean = mean * (1.0 / static_cast<double>(all.size()));
+    for (Vec3& p : all) size = std::max(size, norm(p = p - mean));
+    for (Vec3& p : all) p = p * (size > 0 ? 1 / size : 1);
+  }
+  Index count() const { return static_cast<Index>(all.size()); }
+
+  std::vector<Vec3> all;
+  Vec3 mean;
+  double size = 0;
+};
+
+/// Centre x, y and radius of the algebraic fit (Kåsa), exact for points on a circle.
+/// Nothing when the points lie on a line.
+std::optional<VectorXd> algebraic_fit(const Centred& points) {
+  Linearised rows(points.count(), 3);
+  for (Index k = 0; const Vec3& p : points.all) rows.set(k++, dot(p, p), {p.x, p.y, 1});
+  const auto found = least_squares(rows.jacobian, rows.residuals, tolerance::kCollinear);
+  if (!found) return std::nullopt;
+  const double x = (*found)[0] / 2;
+  const double y = (*found)[1] / 2;
+  return column({x, y, std::sqrt((*found)[2] + x * x + y * y)});
 }
 
 /// The distances from the circle x, y, radius along their normals.
-Linearised linearise(const Points& points, const Vector3d& circle) {
-  const Eigen::VectorXd distance = distances(points, circle);
-  Columns3 jacobian(points.rows(), 3);
-  jacobian << -((points.rowwise() - circle.head<2>().transpose()).array().colwise() /
-                distance.array())
-                   .matrix(),
-      -Eigen::VectorXd::Ones(points.rows());
-  return {distance.array() - circle.z(), jacobian};
-}
-
-double diameter_factor(const Eigen::MatrixXd& jacobian) {
-  const Eigen::Matrix3d normal = jacobian.transpose() * jacobian;
-  return 2 * std::sqrt(normal.inverse()(2, 2));
-}
-
-Vector3d column_of(const Vec3& v) { return {v.x, v.y, v.z}; }
-Vec3 vec3_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-/// Points by rows around their mean, so that they lose no digits.
-struct Centred {
-  explicit Centred(std::span<const Vec3> points) : rows(static_cast<Index>(points.size()), 3) {
-    for (Index row = 0; const Vec3& p : points) rows.row(row++) = column_of(p);
-    mean = rows.colwise().mean();
-    rows.rowwise() -= mean.transpose();
+Linearised from_circle(const Centred& points, const VectorXd& circle) {
+  Linearised made(points.count(), 3);
+  for (Index k = 0; const Vec3& p : points.all) {
+    const Vec3 from_centre = p - Vec3{circle[0], circle[1], 0};
+    const double distance = norm(from_centre);
+    made.set(k++, distance - circle[2], {-from_centre.x / distance, -from_centre.y / distance, -1});
   }
-  Columns3 rows;
-  Vector3d mean;
-};
+  return made;
+}
+
+/// Twice the standard deviation of the radius, for points of standard deviation 1.
+double diameter_factor(const Eigen::MatrixXd& jacobian) {
+  const auto normal = [&](Index a, Index b) { return jacobian.col(a).dot(jacobian.col(b)); };
+  const auto minor = [&](Index a, Index b) {
+    return normal(0, a) * normal(1, b) - normal(0, b) * normal(1, a);
+  };
+  const double determinant =
+      normal(2, 0) * minor(1, 2) - normal(2, 1) * minor(0, 2) + normal(2, 2) * minor(0, 1);
+  return 2 * std::sqrt(minor(0, 1) / determinant);
+}
 
 }  // namespace
 
 CycleResult<Circle> fit_circle(std::span<const Point2> points) {
   if (points.size() < 3) return nc_error(1081, "a circle needs three points");
-  Points all(static_cast<Index>(points.size()), 2);
-  for (Index row = 0; const Point2& p : points) all.row(row++) << p.x, p.y;
-
-  // Around their mean and at unit size the points lose no digits.
-  const Eigen::RowVector2d mean = all.colwise().mean();
-  all.rowwise() -= mean;
-  const double spread = all.rowwise().norm().maxCoeff();
-  if (spread > 0) all /= spread;
+  std::vector<Vec3> flat;
+  for (const Point2& p : points) flat.push_back({p.x, p.y, 0});
+  const Centred all(flat);
   auto circle = algebraic_fit(all);
   if (!circle) return nc_error(1081, "the touched points lie on a straight line");
-  if (!gauss_newton(*circle, kSettled, [&](const Vector3d& at) { return linearise(all, at); })) {
+  if (!gauss_newton(*circle, kSettled, [&](const VectorXd& at) { return from_circle(all, at); })) {
     return nc_error(1081, "no circle passes near the touched points");
   }
-  const double residual = (distances(all, *circle).array() - circle->z()).abs().maxCoeff();
-  return Circle{{circle->x() * spread + mean.x(), circle->y() * spread + mean.y()},
-                circle->z() * spread,
-                residual * spread,
-                diameter_factor(linearise(all, *circle).jacobian)};
+  const Linearised found = from_circle(all, *circle);
+  return Circle{{(*circle)[0] * all.size + all.mean.x, (*circle)[1] * all.size + all.mean.y},
+                (*circle)[2] * all.size,
+                found.residuals.cwiseAbs().maxCoeff() * all.size,
+                diameter_factor(found.jacobian)};
 }
 
 std::optional<FittedSphere> fit_sphere(std::span<const Vec3> points, const FittedSphere& near) {
-  const auto count = static_cast<Eigen::Index>(points.size());
-  const auto linearise = [&](const Eigen::Vector4d& sphere) {
-    Linearised at{Eigen::VectorXd(count), Eigen::MatrixXd(count, 4)};
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const Vec3 from_centre =
-          points[static_cast<std::size_t>(k)] - Vec3{sphere[0], sphere[1], sphere[2]};
-      const Vec3 outward = unit(from_centre);
-      at.jacobian.row(k) << -outward.x, -outward.y, -outward.z, -1;
-      at.residuals[k] = norm(from_centre) - sphere[3];
+  const auto from_sphere = [&](const VectorXd& sphere) {
+    Linearised made(static_cast<Index>(points.size()), 4);
+    for (Index k = 0; const Vec3& p : points) {
+      const Vec3 from_centre = p - Vec3{sphere[0], sphere[1], sphere[2]};
+      const Vec3 inward = -unit(from_centre);
+      made.set(k++, norm(from_centre) - sphere[3], {inward.x, inward.y, inward.z, -1});
     }
-    return at;
+    return made;
   };
-  Eigen::Vector4d sphere(near.centre.x, near.centre.y, near.centre.z, near.radius);
-  if (!gauss_newton(sphere, tolerance::kSamePoint, linearise)) return std::nullopt;
+  VectorXd sphere = column({near.centre.x, near.centre.y, near.centre.z, near.radius});
+  if (!gauss_newton(sphere, tolerance::kSamePoint, from_sphere)) return std::nullopt;
   return FittedSphere{{sphere[0], sphere[1], sphere[2]}, sphere[3]};
 }
 
 std::optional<FittedPlane> fit_plane(std::span<const Vec3> points, const Vec3& towards) {
   if (points.size() < 3) return std::nullopt;
   const Centred all(points);
-  const Eigen::JacobiSVD<Columns3> svd(all.rows, Eigen::ComputeFullV);
-  const Vector3d& spread = svd.singularValues();
-  if (!(spread[1] - spread[2] > tolerance::kCollinear * spread[0])) return std::nullopt;
-  const Vec3 normal = vec3_of(svd.matrixV().col(2));
-  return FittedPlane{vec3_of(all.mean), dot(normal, towards) < 0 ? -normal : normal};
+  Linearised rows(all.count(), 3);
+  for (Index k = 0; const Vec3& p : all.all) rows.set(k++, 0, {p.x, p.y, p.z});
+  const auto [sizes, directions] = singular_values(rows.jacobian);
+  if (!(sizes[1] - sizes[2] > tolerance::kCollinear * sizes[0])) return std::nullopt;
+  const Vec3 normal{directions(0, 2), directions(1, 2), directions(2, 2)};
+  return FittedPlane{all.mean, dot(normal, towards) < 0 ? -normal : normal};
 }
 
 std::optional<FittedCylinder> fit_cylinder(std::span<const Vec3> points,
                                            const FittedCylinder& near) {
-  using Five = Eigen::Matrix<double, 5, 1>;  // tilt and place of the axis across it, and the radius
   if (points.size() < 5) return std::nullopt;
   const Centred all(points);
-  const double size = all.rows.rowwise().norm().maxCoeff();
-  const Vector3d axis = column_of(unit(near.direction));
-  Eigen::Matrix<double, 3, 2> across;
-  across << axis.unitOrthogonal(), axis.cross(axis.unitOrthogonal());
-  const auto direction = [&](const Five& at) -> Vector3d { return axis + across * at.head<2>(); };
-  const auto linearise = [&](const Five& at) {
-    const double length = direction(at).norm();
-    const Vector3d along = direction(at) / length;
-    Linearised made{Eigen::VectorXd(all.rows.rows()), Eigen::MatrixXd(all.rows.rows(), 5)};
-    for (Index k = 0; k < all.rows.rows(); ++k) {
-      const Vector3d from_axis = all.rows.row(k).transpose() / size - across * at.segment<2>(2);
-      const double height = from_axis.dot(along);
-      const Vector3d radial = from_axis - height * along;
-      const Eigen::RowVector2d outward = radial.normalized().transpose() * across;
-      made.residuals[k] = radial.norm() - at[4];
-      made.jacobian.row(k) << -height / length * outward, -outward, -1;
+  const Vec3 axis = unit(near.direction);
+  const Vec3 across = unit(cross(axis, std::abs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+  const Vec3 beside = cross(axis, across);
+  // The values: tilt and place of the axis across it, and the radius.
+  const auto direction = [&](const VectorXd& at) { return axis + across * at[0] + beside * at[1]; };
+  const auto from_cylinder = [&](const VectorXd& at) {
+    const double length = norm(direction(at));
+    const Vec3 along = direction(at) * (1 / length);
+    Linearised made(all.count(), 5);
+    for (Index k = 0; const Vec3& p : all.all) {
+      const Vec3 from_axis = p - across * at[2] - beside * at[3];
+      const double height = dot(from_axis, along);
+      const Vec3 radial = from_axis - along * height;
+      const double u = dot(unit(radial), across);
+      const double v = dot(unit(radial), beside);
+      made.set(k++, norm(radial) - at[4], {-height / length * u, -height / length * v, -u, -v, -1});
     }
     return made;
   };
-  Five cylinder = Five::Zero();
-  cylinder.segment<2>(2) = across.transpose() * (column_of(near.point) - all.mean) / size;
-  cylinder[4] = near.radius / size;
-  if (!gauss_newton(cylinder, kSettled, linearise)) return std::nullopt;
-  const Linearised found = linearise(cylinder);
+  const Vec3 start = (near.point - all.mean) * (1 / all.size);
+  VectorXd cylinder =
+      column({0, 0, dot(across, start), dot(beside, start), near.radius / all.size});
+  if (!gauss_newton(cylinder, kSettled, from_cylinder)) return std::nullopt;
+  const Linearised found = from_cylinder(cylinder);
   if (!least_squares(found.jacobian, found.residuals, tolerance::kCollinear)) return std::nullopt;
-  const Vector3d along = direction(cylinder).normalized();
-  const Vector3d place = size * across * cylinder.segment<2>(2);
-  return FittedCylinder{vec3_of(all.mean + place - along * along.dot(place)), vec3_of(along),
-                        size * cylinder[4]};
+  const Vec3 along = unit(direction(cylinder));
+  const Vec3 place = (across * cylinder[2] + beside * cylinder[3]) * all.size;
+  return FittedCylinder{all.mean + place - along * dot(along, place), along,
+                        cylinder[4] * all.size};
 }
 
 }  // namespace fitgauge::probing

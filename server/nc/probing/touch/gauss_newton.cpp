@@ -1,8 +1,15 @@
 #include "nc/probing/touch/gauss_newton.hpp"
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
+#include <limits>
 
 namespace fitgauge::probing {
+
+void Linearised::set(Eigen::Index row, double residual, std::initializer_list<double> changes) {
+  residuals[row] = residual;
+  for (Eigen::Index column = 0; const double change : changes) jacobian(row, column++) = change;
+}
 
 std::optional<Eigen::VectorXd> least_squares(const Eigen::MatrixXd& columns,
                                              const Eigen::VectorXd& wanted, double threshold) {
@@ -12,8 +19,24 @@ std::optional<Eigen::VectorXd> least_squares(const Eigen::MatrixXd& columns,
   return qr.solve(wanted);
 }
 
-Eigen::VectorXd least_squares_step(const Linearised& at) {
-  return at.jacobian.colPivHouseholderQr().solve(-at.residuals);
+Directions singular_values(const Eigen::MatrixXd& rows) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
+  return {svd.singularValues(), svd.matrixV()};
+}
+
+bool gauss_newton(Eigen::VectorXd& values, double settled,
+                  const std::function<Linearised(const Eigen::VectorXd&)>& linearise) {
+  constexpr int kMostSteps = 50;
+  double step = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kMostSteps && step > settled; ++k) {
+    const Linearised at = linearise(values);
+    // Any such step if several exist.
+    const Eigen::VectorXd change = at.jacobian.colPivHouseholderQr().solve(-at.residuals);
+    if (!change.allFinite()) return false;
+    values += change;
+    step = change.norm();
+  }
+  return step <= settled;
 }
 
 }  // namespace fitgauge::probing

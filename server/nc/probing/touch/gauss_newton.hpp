@@ -1,13 +1,21 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
+#include <functional>
+#include <initializer_list>
 #include <optional>
 
 namespace fitgauge::probing {
 
 /// The residuals at some values, and how they change with each of them.
 struct Linearised {
+  Linearised(Eigen::Index rows, Eigen::Index columns) : residuals(rows), jacobian(rows, columns) {}
+  Linearised(Eigen::VectorXd left, Eigen::MatrixXd changes)
+      : residuals(std::move(left)), jacobian(std::move(changes)) {}
+
+  /// Sets a row: its residual, and how it changes with each value.
+  void set(Eigen::Index row, double residual, std::initializer_list<double> changes);
+
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;
 };
@@ -18,24 +26,18 @@ struct Linearised {
 std::optional<Eigen::VectorXd> least_squares(const Eigen::MatrixXd& columns,
                                              const Eigen::VectorXd& wanted, double threshold);
 
-/// Returns the step to the least squares of a linear problem; any such step if several exist.
-Eigen::VectorXd least_squares_step(const Linearised& at);
+/// Directions in the space of the values as columns, and their singular values in descending order.
+struct Directions {
+  Eigen::VectorXd sizes;
+  Eigen::MatrixXd columns;
+};
+Directions singular_values(const Eigen::MatrixXd& rows);
 
 /// Searches the least squares of residuals from the start `values` (Gauss-Newton).
 /// `linearise(values)` gives the Linearised problem there. A search has settled if its step is
 /// shorter than `settled`, in the unit of the values.
 /// @return whether it has settled; otherwise `values` are unusable.
-template <class Values, class Linearise>
-bool gauss_newton(Values& values, double settled, const Linearise& linearise) {
-  constexpr int kMostSteps = 50;
-  double step = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < kMostSteps && step > settled; ++k) {
-    const Values change = least_squares_step(linearise(values));
-    if (!change.allFinite()) return false;
-    values += change;
-    step = change.norm();
-  }
-  return step <= settled;
-}
+bool gauss_newton(Eigen::VectorXd& values, double settled,
+                  const std::function<Linearised(const Eigen::VectorXd&)>& linearise);
 
 }  // namespace fitgauge::probing
