@@ -18,6 +18,7 @@
 #include "nc/iso/parser.hpp"
 #include "nc/klartext/source_text.hpp"
 #include "nc/program/check.hpp"
+#include "nc/program/linker.hpp"
 #include "nc/program/parameter.hpp"
 
 namespace fitgauge::cli {

@@ -28,6 +28,11 @@ std::size_t ProgramParts::memory_bytes() const {
              (bytes_of(cycle_parameters) + bytes_of(nodes) + bytes_of(operands) + texts.size());
 }
 
+bool Block::operator==(const Block& other) const {
+  return comment == other.comment && number == other.number && has_number == other.has_number &&
+         skip == other.skip && comment_mark == other.comment_mark && statement == other.statement;
+}
+
 Program Program::translated(std::string&& source,
                             const std::function<Slice<char>(Slice<char>)>& place) && {
   for (Block& block : parts_.blocks) block.written = place(block.written);

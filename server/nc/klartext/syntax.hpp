@@ -29,10 +29,7 @@ struct Block {
   Text comment{};         ///< after `;` as written; of a cycle, of its first line
 
   /// The place does not count.
-  friend bool operator==(const Block& a, const Block& b) {
-    return a.comment == b.comment && a.number == b.number && a.has_number == b.has_number &&
-           a.skip == b.skip && a.comment_mark == b.comment_mark && a.statement == b.statement;
-  }
+  bool operator==(const Block& other) const;
 };
 
 static_assert(std::is_trivially_copyable_v<Block> && sizeof(Block) == 56,

@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "nc/klartext/parser.hpp"
 #include "nc/program/diagnose.hpp"
+#include "nc/program/linker.hpp"
 #include "tables/tabfile/tab_table.hpp"
 
 namespace fitgauge::interpreter {

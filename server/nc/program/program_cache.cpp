@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "nc/iso/parser.hpp"
+#include "nc/program/linker.hpp"
 
 namespace fitgauge::interpreter {
 

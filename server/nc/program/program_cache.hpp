@@ -8,9 +8,10 @@
 #include <unordered_map>
 
 #include "nc/program/control_disk.hpp"
-#include "nc/program/linker.hpp"
 
 namespace fitgauge::interpreter {
+
+struct LinkedFile;
 
 /// Programs parsed and linked once for each revision of their file, the least recently used dropped
 /// beyond a size. Thread-safe; two threads that miss at once both link, and one result is stored.

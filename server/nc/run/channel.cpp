@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "nc/klartext/diagnostic.hpp"
+#include "nc/program/linker.hpp"
 
 namespace fitgauge::interpreter {
 

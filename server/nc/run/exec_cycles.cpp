@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "nc/program/cycles.hpp"
+#include "nc/program/linked_program.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/channel_cycle_host.hpp"
 #include "nc/run/dotted_arguments.hpp"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "nc/program/arithmetic.hpp"
+#include "nc/program/linked_program.hpp"
 #include "nc/run/statements.hpp"
 #include "nc/run/tool_values.hpp"
 #include "nc/run/values.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "nc/program/diagnose.hpp"
+#include "nc/program/linked_program.hpp"
 #include "nc/run/channel.hpp"
 #include "nc/run/m_functions.hpp"
 #include "nc/run/values.hpp"

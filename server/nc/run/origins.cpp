@@ -6,6 +6,7 @@
 
 #include "nc/program/cycles.hpp"
 #include "nc/program/diagnose.hpp"
+#include "nc/program/linked_program.hpp"
 #include "nc/program/parameter.hpp"
 
 namespace fitgauge::interpreter {

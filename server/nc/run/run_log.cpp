@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "nc/klartext/lexer.hpp"
 #include "nc/program/diagnose.hpp"
+#include "nc/program/linked_program.hpp"
 #include "nc/run/origins.hpp"
 
 namespace fitgauge::interpreter {
@@ -57,6 +58,9 @@ std::vector<klartext::Diagnostic> findings_of(const RunResult& result) {
   return found;
 }
 
+std::string_view Place::path() const { return program->path().text(); }
+std::uint32_t Place::block() const { return source().number; }
+const klartext::Block& Place::source() const { return program->program().blocks()[index]; }
 std::uint32_t Place::line() const { return program->program().range(source().written).begin.line; }
 
 NcResult<void> OutputBudget::charge(std::size_t bytes) {

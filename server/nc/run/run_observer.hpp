@@ -3,12 +3,16 @@
 #include <cstdint>
 #include <string_view>
 
-#include "nc/program/linked_program.hpp"
 #include "nc/run/run_result.hpp"
+
+namespace fitgauge::klartext {
+struct Block;
+}
 
 namespace fitgauge::interpreter {
 
 class CallStack;
+class LinkedProgram;
 class QParameters;
 class RunFiles;
 
@@ -17,11 +21,11 @@ struct Place {
   const LinkedProgram* program = nullptr;
   std::uint32_t index = 0;  ///< of the block
 
-  std::string_view path() const { return program->path().text(); }
+  std::string_view path() const;
   std::uint32_t line() const;
   /// Its number, as written or counted.
-  std::uint32_t block() const { return source().number; }
-  const klartext::Block& source() const { return program->program().blocks()[index]; }
+  std::uint32_t block() const;
+  const klartext::Block& source() const;
 };
 
 /// An observer of a run; called on the run's thread, so it must not block.

@@ -17,6 +17,7 @@
 #include "nc/klartext/printer.hpp"
 #include "nc/program/check.hpp"
 #include "nc/program/control_disk.hpp"
+#include "nc/program/linker.hpp"
 #include "nc/program/program_cache.hpp"
 #include "service/files/file_service.hpp"
 #include "service/measurements/mapping.hpp"

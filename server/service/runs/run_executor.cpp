@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "nc/machine/simulated_machine.hpp"
+#include "nc/program/linker.hpp"
 #include "nc/run/call_stack.hpp"
 #include "nc/run/origins.hpp"
 #include "nc/run/q_parameters.hpp"

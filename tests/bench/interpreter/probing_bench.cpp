@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nc/machine/simulated_machine.hpp"
+#include "nc/program/linker.hpp"
 #include "nc/run/interpreter.hpp"
 
 using namespace fitgauge;

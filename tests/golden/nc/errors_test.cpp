@@ -13,6 +13,7 @@
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/probing/cycle_descriptor.hpp"
 #include "nc/probing/cycles.hpp"
+#include "nc/program/linker.hpp"
 
 /// The errors of each cycle, as errors.txt says how to come by them.
 namespace fitgauge::interpreter::golden {

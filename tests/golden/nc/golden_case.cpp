@@ -7,6 +7,7 @@
 
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/program/check.hpp"
+#include "nc/program/linker.hpp"
 #include "tables/tabfile/iso286_projection.hpp"
 #include "tables/tabfile/tab_table.hpp"
 

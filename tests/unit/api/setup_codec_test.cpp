@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "api/runs/run_codec.hpp"
+#include "nc/program/linker.hpp"
 
 using namespace fitgauge;
 using namespace fitgauge::api;

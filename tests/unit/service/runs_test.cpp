@@ -2,6 +2,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "nc/program/linker.hpp"
 #include "service/runs/run_executor.hpp"
 #include "service_fixture.hpp"
 

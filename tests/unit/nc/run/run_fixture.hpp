@@ -12,6 +12,7 @@
 #include "nc/machine/simulated_machine.hpp"
 #include "nc/machine/tracing_machine.hpp"
 #include "nc/program/check.hpp"
+#include "nc/program/linker.hpp"
 #include "nc/run/interpreter.hpp"
 
 namespace fitgauge::interpreter {
