@@ -3,7 +3,7 @@
 import { readJson, store } from '../stored.js';
 import { fileName, relative } from './disk.js';
 
-const PLACE = /^(?:([^:]+?)\s*:\s*)?(\d+)$/;
+const PLACE = /^(?:([^:]+?)\s*:\s*)?N?(\d+)$/i;
 const CONDITION = /^(Q[LRS]?\d+)(?:\s*(<=|>=|<>|!=|==?|<|>)\s*(.+))?$/i;
 const COMPARE = {
   '<': (one, other) => one < other, '>': (one, other) => one > other, '<=': (one, other) => one <= other, '>=': (one, other) => one >= other,
@@ -40,7 +40,7 @@ export function toggleBreak(program, of, block) {
 }
 
 /**
- * Breakpoints by commas: `31` or `82551.h:35` (a block), `Q5` (whenever it changes), `Q5 > 10` (when that becomes true).
+ * Breakpoints by commas: `31`, `N31` or `82551.h:35` (a block), `Q5` (whenever it changes), `Q5 > 10` (when that becomes true).
  * @param complain makes the text of what is none. @returns functions of (steps, index)
  */
 export function readBreaks(typed, program, complain) {

@@ -62,6 +62,7 @@ describe('breakpoints', () => {
 
   it('stop at a block, at a change, and when a condition becomes true', () => {
     assert.deepEqual(all('3'), [3]);
+    assert.deepEqual(all('N3, a.h:n2'), [2, 3]);
     assert.deepEqual(all('a.h:1, B.H:2'), [1]);
     assert.deepEqual(all('MY SUB.H:1, a.h : 1'), [1]);
     assert.deepEqual(all('Q1 > 7.5'), [2]);
