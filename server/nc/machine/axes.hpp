@@ -70,8 +70,8 @@ class Axes {
   /// Normal of the surface at the last contact, if the axes know it.
   virtual std::optional<Vec3> contact_normal() const { return std::nullopt; }
 
-  /// The bores and bosses of the part around a point in machine coordinates, if the axes know them.
-  virtual std::vector<RoundFeature> round_features(const Vec3&) const { return {}; }
+  /// As Machine::part_features, of a point in machine coordinates.
+  virtual std::vector<PartFeature> part_features(const Vec3&) const { return {}; }
 
   /// Returns whether a cutter has entered the part in the last motion, in rapid or not turning.
   virtual bool has_entered_part() const { return false; }

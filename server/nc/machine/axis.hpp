@@ -10,10 +10,11 @@
 
 namespace fitgauge::machine {
 
-/// A bore or boss of the part that a setup describes.
-struct RoundFeature {
+/// A bore, pocket, slot or boss of the part that a setup describes, in mm.
+struct PartFeature {
   bool is_boss = false;
-  double diameter = 0;  ///< in mm
+  double diameter = 0;             ///< 0: it is not round
+  std::array<double, 2> length{};  ///< in X and Y of one that is not round; 0: open there
 };
 
 enum class Axis : std::uint8_t { X, Y, Z, A, B, C };

@@ -37,8 +37,8 @@ class Control : public Machine {
   void stop(std::string_view reason) final { axes_->stop(reason); }
   void message(std::string_view text) final { axes_->message(text); }
   std::optional<Vec3> contact_normal() const final { return axes_->contact_normal(); }
-  std::vector<RoundFeature> round_features(const Vec3& at) const final {
-    return axes_->round_features(state_.frames.to_machine(at));
+  std::vector<PartFeature> part_features(const Vec3& at) const final {
+    return axes_->part_features(state_.frames.to_machine(at));
   }
   bool has_entered_part() const final { return axes_->has_entered_part(); }
 

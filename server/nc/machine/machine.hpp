@@ -88,9 +88,9 @@ class Machine {
   /// none if the machine does not know it, like a real one.
   virtual std::optional<Vec3> contact_normal() const { return std::nullopt; }
 
-  /// The bores and bosses of the part that have a point in input coordinates near their axis; none
-  /// if the machine does not know them, like a real one.
-  virtual std::vector<RoundFeature> round_features(const Vec3&) const { return {}; }
+  /// The bores, pockets and bosses of the part that have a point in input coordinates near their
+  /// axis; none if the machine does not know them, like a real one.
+  virtual std::vector<PartFeature> part_features(const Vec3&) const { return {}; }
 
   /// Returns whether a cutter has entered the part in the last motion, which was in rapid; false if
   /// the machine does not know the part.

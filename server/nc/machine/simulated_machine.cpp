@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "nc/machine/sphere_tracing.hpp"
 #include "nc/machine/tolerance.hpp"
@@ -75,20 +76,49 @@ SimulatedAxes::SimulatedAxes(const Setup& setup)
       random_(setup.seed) {
   for (const Feature& each : setup.features) {
     if (const auto* bore = std::get_if<Bore>(&each))
-      round_.push_back({bore->centre, {false, bore->diameter}});
+      round_.push_back({bore->centre, {false, bore->diameter, {}}});
     if (const auto* boss = std::get_if<Boss>(&each))
-      round_.push_back({boss->centre, {true, boss->diameter}});
+      round_.push_back({boss->centre, {true, boss->diameter, {}}});
+    if (const auto* block = std::get_if<Block>(&each)) blocks_.push_back(*block);
   }
 }
 
-std::vector<RoundFeature> SimulatedAxes::round_features(const Vec3& at) const {
+std::vector<PartFeature> SimulatedAxes::part_features(const Vec3& at) const {
   const Vec3 place = real_table(nose_.rotary).inverse().point(at);
-  std::vector<RoundFeature> found;
+  std::vector<PartFeature> found;
   for (const RoundPlace& each : round_) {
     const double away = std::hypot(place.x - each.centre[0], place.y - each.centre[1]);
     if (away < each.feature.diameter / 4) found.push_back(each.feature);
   }
+  if (const auto rectangle = found.empty() ? rectangle_at(place) : std::nullopt)
+    found.push_back(*rectangle);
   return found;
+}
+
+/// The block around a place, or the room between blocks.
+std::optional<PartFeature> SimulatedAxes::rectangle_at(const Vec3& place) const {
+  const auto spans = [&](const Block& block, std::size_t axis) {
+    return block.min[axis] < place[axis] && place[axis] < block.max[axis];
+  };
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::array<double, 2> above{kNone, kNone};
+  std::array<double, 2> below{kNone, kNone};
+  for (const Block& block : blocks_) {
+    if (!spans(block, 2)) continue;
+    const Vec3 size = block.max - block.min;
+    if (spans(block, 0) && spans(block, 1)) return PartFeature{true, 0, {size.x, size.y}};
+    for (const std::size_t axis : {0U, 1U}) {
+      if (!spans(block, 1 - axis)) continue;
+      const bool is_above = block.min[axis] >= place[axis];
+      double& nearest = is_above ? above[axis] : below[axis];
+      nearest = std::min(nearest,
+                         is_above ? block.min[axis] - place[axis] : place[axis] - block.max[axis]);
+    }
+  }
+  PartFeature room;
+  for (const std::size_t axis : {0U, 1U})
+    if (above[axis] + below[axis] < kNone) room.length[axis] = above[axis] + below[axis];
+  return room.length == std::array{0.0, 0.0} ? std::nullopt : std::optional(room);
 }
 
 void SimulatedAxes::turn(const Vec3& rotary) {

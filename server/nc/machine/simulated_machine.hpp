@@ -23,7 +23,7 @@ class SimulatedAxes final : public Axes {
   MachineResult<Position> probe(const Vec3& direction, double distance,
                                 const Motion& motion) override;
   std::optional<Vec3> contact_normal() const override;
-  std::vector<RoundFeature> round_features(const Vec3& at) const override;
+  std::vector<PartFeature> part_features(const Vec3& at) const override;
   bool has_entered_part() const override { return has_entered_part_; }
   MachineResult<void> dwell(double, Allowance&) override { return {}; }
   void stop(std::string_view) override {}
@@ -54,14 +54,17 @@ class SimulatedAxes final : public Axes {
   MachineResult<double> plate_contact(const Vec3& direction, double distance, const RealTool& tool,
                                       Allowance& allowance);
 
+  std::optional<PartFeature> rectangle_at(const Vec3& place) const;
+
   /// A bore or boss of the part, and its centre.
   struct RoundPlace {
     std::array<double, 2> centre;
-    RoundFeature feature;
+    PartFeature feature;
   };
 
   MachineSetup setup_;
   std::vector<RoundPlace> round_;
+  std::vector<Block> blocks_;
   Workpiece workpiece_;
   Workpiece fixtures_;
   Kinematics kinematics_;  ///< as built, with the errors of centre and direction

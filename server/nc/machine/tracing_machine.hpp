@@ -64,8 +64,8 @@ class TracingMachine final : public Machine {
 
   const MachineState& state() const override { return inner_.state(); }
   std::optional<Vec3> contact_normal() const override { return inner_.contact_normal(); }
-  std::vector<RoundFeature> round_features(const Vec3& at) const override {
-    return inner_.round_features(at);
+  std::vector<PartFeature> part_features(const Vec3& at) const override {
+    return inner_.part_features(at);
   }
   bool has_entered_part() const override { return inner_.has_entered_part(); }
   MachineResult<void> move(const LinearMove& move) override;

@@ -4,7 +4,7 @@
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/errors.hpp"
 #include "nc/probing/parameters.hpp"
-#include "nc/probing/touch/circle_probing.hpp"
+#include "nc/probing/touch/part_here.hpp"
 
 namespace fitgauge::probing::cycle_401_402 {
 
@@ -53,13 +53,19 @@ CycleResult<void> two_holes(const CycleContext& context, ProbingMotion& motion) 
   const Arguments& arguments = context.arguments;
   const std::array nominal{Point2{arguments.number(268), arguments.number(269)},
                            Point2{arguments.number(270), arguments.number(271)}};
-  const auto holes =
-      TRY(probe_hole_centres(motion, nominal, arguments.number(261), arguments.number(260)));
-  return compensate(context, motion.plane(), holes.front(), holes.back());
+  const double height = arguments.number(261);
+  const auto holes = probe_hole_centres(motion, nominal, height, arguments.number(260));
+  if (!holes) {
+    const std::array places{PlannedPlace{Side::Inside, {nominal[0].x, nominal[0].y, height}},
+                            PlannedPlace{Side::Inside, {nominal[1].x, nominal[1].y, height}}};
+    return with_part(holes.error(), context, motion.plane(), places);
+  }
+  return compensate(context, motion.plane(), holes->front(), holes->back());
 }
 
-CycleResult<Point2> stud_centre(const Arguments& arguments, ProbingMotion& motion, Point2 nominal,
+CycleResult<Point2> stud_centre(const CycleContext& context, ProbingMotion& motion, Point2 nominal,
                                 double diameter, double height) {
+  const Arguments& arguments = context.arguments;
   const auto touches =
       circle_touches({.side = Side::Outside,
                       .centre = nominal,
@@ -67,7 +73,8 @@ CycleResult<Point2> stud_centre(const Arguments& arguments, ProbingMotion& motio
                       .height = height,
                       .start_distance = motion.start_distance(arguments.number(320)),
                       .via_clearance = arguments.whole(301) == 1});
-  const auto contacts = TRY(motion.touch_all(touches, arguments.number(260)));
+  const PlannedPlace place{Side::Outside, {nominal.x, nominal.y, height}};
+  const auto contacts = TRY(touch_part(context, motion, touches, arguments.number(260), place));
   const auto circle = TRY(circle_through(contacts, Side::Outside, motion.ball_radius()));
   return circle.centre;
 }
@@ -75,10 +82,10 @@ CycleResult<Point2> stud_centre(const Arguments& arguments, ProbingMotion& motio
 CycleResult<void> two_studs(const CycleContext& context, ProbingMotion& motion) {
   const Arguments& arguments = context.arguments;
   const auto first =
-      TRY(stud_centre(arguments, motion, {arguments.number(268), arguments.number(269)},
+      TRY(stud_centre(context, motion, {arguments.number(268), arguments.number(269)},
                       arguments.number(313), arguments.number(261)));
   const auto second =
-      TRY(stud_centre(arguments, motion, {arguments.number(270), arguments.number(271)},
+      TRY(stud_centre(context, motion, {arguments.number(270), arguments.number(271)},
                       arguments.number(314), arguments.number(315)));
   return compensate(context, motion.plane(), first, second);
 }

@@ -65,7 +65,7 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
                            .height = arguments.number(261),
                            .start_distance = motion.start_distance(arguments.number(320)),
                            .via_clearance = arguments.whole(301) == 1};
-  const auto rectangle = TRY(probe_rectangle(motion, plan, arguments.number(260)));
+  const auto rectangle = TRY(probe_rectangle(context, motion, plan, arguments.number(260)));
 
   const bool inside = side == Side::Inside;
   const MeasuredValue main{.characteristic = "Length, main axis",

@@ -5,6 +5,7 @@
 #include "nc/probing/errors.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/parameters.hpp"
+#include "nc/probing/touch/part_here.hpp"
 
 namespace fitgauge::probing::cycle_425_426 {
 
@@ -89,9 +90,11 @@ CycleResult<void> measure(const CycleContext& context, Side side) {
   const auto touches = inside
                            ? slot_touches(arguments)
                            : ridge_touches(arguments, motion.start_distance(arguments.number(320)));
-  const auto contacts = TRY(motion.touch_all(touches, arguments.number(260)));
-
   const std::size_t axis = measuring_axis(arguments);
+  const Vec3 centre = (touches[0].start + touches[1].start) * 0.5;
+  const auto contacts = TRY(touch_part(context, motion, touches, arguments.number(260),
+                                       width_place(side, centre, axis, arguments.number(311))));
+
   const double first = contacts.front().surface[axis];
   const double second = contacts.back().surface[axis];
   set_length(context.host, 157, (first + second) / 2);

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/measuring/measurement.hpp"
 #include "nc/probing/object/object_cycle.hpp"
+#include "nc/probing/touch/part_here.hpp"
 
 namespace fitgauge::probing::cycle_1401_1411 {
 
@@ -64,6 +67,12 @@ CycleResult<ObjectCircle> circle_of(const ObjectProbing& probing, Side side, int
                       .start_distance = probing.start_distance()})};
 }
 
+/// Q1115 with the other side at one circle: 0 holes, 1 studs, 2 hole and stud, 3 stud and hole.
+constexpr int other_geometry(int geometry, std::size_t circle, std::size_t circles) {
+  constexpr int kOther[][2] = {{3, 2}, {2, 3}, {1, 0}, {0, 1}};
+  return circles == 1 ? 1 - geometry : kOther[geometry][circle];
+}
+
 /// One or two circles in the plane.
 CycleResult<void> probe_circles(const CycleContext& context) {
   auto probing = TRY(ObjectProbing::begin(context));
@@ -83,9 +92,18 @@ CycleResult<void> probe_circles(const CycleContext& context) {
   if (count == 2 && nominal.x == 0 && nominal.y == 0) {
     return nc_error(1081, "both centres are the same");
   }
-  const auto contacts = TRY(probing.touch(objects));
+  const auto touched = probing.touch(objects);
+  if (!touched) {
+    std::vector<PlannedPlace> places;
+    for (std::size_t i = 0; i < circles.size(); ++i)
+      places.push_back(
+          {.side = sides.at(i),
+           .centre = circles[i].point.nominal,
+           .other_side = fmt::format("Q1115 = {}", other_geometry(geometry, i, circles.size()))});
+    return with_part(touched.error(), context, probing.motion().plane(), places);
+  }
   ObjectFound found;
-  std::span<const Contact> left = contacts;
+  std::span<const Contact> left = *touched;
   for (ObjectCircle& object : circles) {
     const auto own = left.first(object.touches.size());
     left = left.subspan(own.size());

@@ -5,6 +5,7 @@
 #include "nc/probing/errors.hpp"
 #include "nc/probing/measured_value.hpp"
 #include "nc/probing/preset/preset_cycle.hpp"
+#include "nc/probing/touch/part_here.hpp"
 #include "nc/probing/touch/rectangle_probing.hpp"
 
 namespace fitgauge::probing::cycle_408_409 {
@@ -37,7 +38,8 @@ CycleResult<void> set_datum(const CycleContext& context, ProbingMotion& motion, 
   if (moves && (side == Side::Outside || arguments.whole(301) == 1)) {
     touches[1].transit = Transit::ClearanceHeight;
   }
-  const auto contacts = TRY(motion.touch_all(touches, arguments.number(260)));
+  const auto contacts = TRY(touch_part(context, motion, touches, arguments.number(260),
+                                       width_place(side, centre, axis, arguments.number(311))));
 
   const double first = contacts.front().surface[axis];
   const double second = contacts.back().surface[axis];

@@ -30,7 +30,7 @@ CycleResult<void> set_datum(const CycleContext& context, ProbingMotion& motion, 
                            .height = arguments.number(261),
                            .start_distance = motion.start_distance(arguments.number(320)),
                            .via_clearance = arguments.whole(301) == 1};
-  const auto rectangle = TRY(probe_rectangle(motion, plan, arguments.number(260)));
+  const auto rectangle = TRY(probe_rectangle(context, motion, plan, arguments.number(260)));
   set_length(context.host, 151, rectangle.centre.x);
   set_length(context.host, 152, rectangle.centre.y);
   set_length(context.host, 154, rectangle.length_main);

@@ -1,12 +1,11 @@
 #include "nc/probing/touch/circle_probing.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <ranges>
 
 #include "nc/probing/measured_value.hpp"
+#include "nc/probing/touch/part_here.hpp"
 
 namespace fitgauge::probing {
 
@@ -75,34 +74,6 @@ Form circle_form(std::span<const Point2> centres, const Circle& circle, double s
   return form;
 }
 
-namespace {
-
-/// Adds to the error of a cycle on a circle which bore or boss of the setup is in its place.
-CycleFault with_part(CycleFault fault, const CycleContext& context, Side side, const Vec3& centre) {
-  const bool is_boss = side == Side::Outside;
-  const auto features = context.machine.round_features(centre);
-  const bool is_touch = fault.number == 1014 || fault.text.starts_with("Touch probe collision");
-  if (features.empty() || !is_touch) return fault;
-  const auto same = std::ranges::find(features, is_boss, &machine::RoundFeature::is_boss);
-  const machine::RoundFeature& here = same == features.end() ? features.front() : *same;
-  const double nominal = context.arguments.number(262);
-  constexpr double kFar = 0.5;
-  if (here.is_boss == is_boss && std::abs(here.diameter - nominal) <= kFar) return fault;
-  fault.text += fmt::format("; the setup has a {} of {} mm here: ", here.is_boss ? "boss" : "bore",
-                            here.diameter);
-  const int cycle = context.arguments.descriptor().number;
-  // 421 and 422, 412 and 413: inside and outside.
-  if (here.is_boss != is_boss && cycle == 405)
-    fault.text += "cycle 405 probes in a bore";
-  else if (here.is_boss != is_boss)
-    fault.text += fmt::format("cycle {}", is_boss ? cycle - 1 : cycle + 1);
-  else
-    fault.text += fmt::format("Q262 is {} mm", nominal);
-  return fault;
-}
-
-}  // namespace
-
 CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotion& motion,
                                        Side side, Point2 centre) {
   const Arguments& arguments = context.arguments;
@@ -120,12 +91,9 @@ CycleResult<ProbedCircle> probe_circle(const CycleContext& context, ProbingMotio
                       .start_distance = motion.start_distance(arguments.number(320)),
                       .via_clearance = arguments.whole(301) == 1,
                       .on_arc = arguments.number_or(365, 1) == 1});
-  const auto touched = motion.touch_all(touches, arguments.number(260));
-  if (!touched) {
-    return with_part(touched.error(), context, side,
-                     motion.plane().to_input({centre.x, centre.y, arguments.number(261)}));
-  }
-  const auto& contacts = *touched;
+  const PlannedPlace place{
+      side, {centre.x, centre.y, arguments.number(261)}, arguments.number(262)};
+  const auto contacts = TRY(touch_part(context, motion, touches, arguments.number(260), place));
   const auto circle = TRY(circle_through(contacts, side, motion.ball_radius()));
   ProbedCircle probed{circle, circle_form(ball_centres(contacts), circle, arguments.number(325))};
   probed.form.touch_uncertainty_um = motion.touch_uncertainty_um();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "nc/probing/touch/part_here.hpp"
+
 namespace fitgauge::probing {
 namespace {
 
@@ -31,8 +33,8 @@ std::array<Touch, 2> width_touches(Side side, const Vec3& centre, std::size_t ax
           Touch{.start = centre - up * offset, .direction = up * -outwards}};
 }
 
-CycleResult<Rectangle> probe_rectangle(ProbingMotion& motion, const RectanglePlan& plan,
-                                       double clearance_height) {
+CycleResult<Rectangle> probe_rectangle(const CycleContext& context, ProbingMotion& motion,
+                                       const RectanglePlan& plan, double clearance_height) {
   const Vec3 centre{plan.centre.x, plan.centre.y, plan.height};
   const auto main = width_touches(plan.side, centre, 0, plan.length_main, plan.start_distance);
   const auto secondary =
@@ -40,7 +42,9 @@ CycleResult<Rectangle> probe_rectangle(ProbingMotion& motion, const RectanglePla
   // Around the rectangle, so that no way leads across it.
   std::array touches{main[0], secondary[0], main[1], secondary[1]};
   for (std::size_t i = 1; i < touches.size(); ++i) go_around(touches[i], touches[i - 1], plan);
-  const auto contacts = TRY(motion.touch_all(touches, clearance_height));
+  const PlannedPlace place{plan.side, centre, 0,
+                           std::array{plan.length_main, plan.length_secondary}};
+  const auto contacts = TRY(touch_part(context, motion, touches, clearance_height, place));
   const double x1 = contacts[0].surface.x;
   const double x2 = contacts[2].surface.x;
   const double y1 = contacts[1].surface.y;

@@ -24,8 +24,8 @@ struct Rectangle {
 
 /// Touches the rectangle, paraxially at measuring height or over the clearance height. A pocket too
 /// small for the start distance is touched from its centre.
-CycleResult<Rectangle> probe_rectangle(ProbingMotion& motion, const RectanglePlan& plan,
-                                       double clearance_height);
+CycleResult<Rectangle> probe_rectangle(const CycleContext& context, ProbingMotion& motion,
+                                       const RectanglePlan& plan, double clearance_height);
 
 /// The two touches along one axis (0 main, 1 secondary) of a slot, pocket, ridge or stud of the
 /// nominal width around its centre, first the one at the higher coordinate.
