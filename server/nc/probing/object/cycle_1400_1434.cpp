@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
 #include "nc/probing/cycles.hpp"
 #include "nc/probing/object/object_cycle.hpp"
+#include "nc/probing/touch/part_here.hpp"
 
 namespace fitgauge::probing::cycle_1400_1434 {
 
@@ -48,11 +50,18 @@ CycleResult<void> probe_width(const CycleContext& context) {
   const double half = width.target.to_mm() / 2;
   const double offset = half + (ridge ? 1 : -1) * probing.start_distance();
   const Vec3 start = along * std::max(0.0, offset);
-  const auto contacts =
-      TRY(probing.touch({{{.start = point.nominal + start, .direction = outwards},
-                          {.start = point.nominal - start,
-                           .direction = -outwards,
-                           .transit = ridge ? Transit::ClearanceHeight : Transit::Straight}}}));
+  const auto touched =
+      probing.touch({{{.start = point.nominal + start, .direction = outwards},
+                      {.start = point.nominal - start,
+                       .direction = -outwards,
+                       .transit = ridge ? Transit::ClearanceHeight : Transit::Straight}}});
+  if (!touched) {
+    const std::size_t axis = std::abs(cosine) > std::abs(sine) ? 0 : 1;
+    auto place = width_place(ridge ? Side::Outside : Side::Inside, point.nominal, axis, 2 * half);
+    place.other_side = ridge ? "Q1115 = 0" : "Q1115 = 1";
+    return with_part(touched.error(), context, probing.motion().plane(), std::span(&place, 1));
+  }
+  const auto& contacts = *touched;
   const double first = dot(contacts.front().surface - point.nominal, along);
   const double second = dot(contacts.back().surface - point.nominal, along);
   point.measured = point.nominal + along * ((first + second) / 2);

@@ -63,6 +63,11 @@ TEST_CASE("an error names the part that is there and the cycle for its side") {
   // Another size is another part.
   CHECK(part(kBlock, 408, with(centre, {{311, 8.0}})).find("boss") == std::string::npos);
 
+  const Values object{{1100, 100.0}, {1101, 80.0}, {1102, -5.0},
+                      {260, 40.0},   {1113, 40.0}, {1114, 90.0}};
+  CHECK(part(kBlock, 1404, object) == "boss of 60 x 40 mm here: Q1115 = 1");
+  CHECK(part(kPocket, 1434, with(object, {{1115, 1.0}})) == "pocket of 60 x 40 mm here: Q1115 = 0");
+
   const Values circle{{1100, 50.0}, {1101, 80.0}, {260, 40.0}, {1116, 12.0}};
   CHECK(part(kBosses, 1401, with(circle, {{1102, 5.0}})) == "boss of 12 mm here: Q1115 = 1");
   CHECK(part(kBores, 1401, with(circle, {{1102, -5.0}, {1115, 1.0}})) ==
