@@ -255,18 +255,18 @@ class Contradictions {
   }
 
   void check_words(const klartext::Cycle& cycle, const CycleDescriptor& descriptor) {
-    const unsigned meant = senses_of(descriptor.name);
+    const Senses meant = senses_of(descriptor.name);
     const std::string_view dialog = program_.text(cycle.dialog);
     if (const CycleDescriptor* named = other_cycle(descriptor, dialog)) {
       warn(DiagnosticCode::DialogContradicts, block_->written,
            fmt::format("'{}' is cycle {}, but this is cycle {} {}: correct the number or the text",
                        dialog, named->number, descriptor.number, descriptor.name));
-    } else if (contradict(senses_of(dialog), meant, kOfCycles)) {
+    } else if (contradict(senses_of(dialog), meant, Sense::kOfCycles)) {
       warn(DiagnosticCode::DialogContradicts, block_->written,
            fmt::format("'{}' contradicts cycle {}, which is {}: correct the number or the text",
                        dialog, descriptor.number, descriptor.name));
     } else if (descriptor.kind != probing::CycleKind::Machining &&
-               contradict(senses_of(comment_above()), meant, std::array{kSide})) {
+               contradict(senses_of(comment_above()), meant, std::array{Sense::kSide})) {
       warn(DiagnosticCode::CommentContradicts, block_->written,
            fmt::format("the comment '{}' contradicts cycle {}, which is {}: it would probe from "
                        "the wrong side",
@@ -276,14 +276,15 @@ class Contradictions {
       const auto* parameter = find_parameter(descriptor, written.parameter);
       const std::string_view comment = program_.text(written.comment);
       if (parameter == nullptr || comment.empty()) continue;
-      const unsigned said = senses_of(comment);
-      const unsigned intended = senses_of(parameter->title());
+      const Senses said = senses_of(comment);
+      const Senses intended = senses_of(parameter->title());
       const bool is_others = !ascii_iequals(comment, parameter->title()) &&
                              std::ranges::any_of(descriptor.parameters, [&](const auto& other) {
                                return ascii_iequals(comment, other.title());
                              });
-      if (!is_others && !contradict(said, intended, kOfParameters) &&
-          !contradict(said & ~intended, meant, std::array{kSide})) {
+      if (!is_others && !contradict(said, intended, Sense::kOfParameters) &&
+          !means_other(descriptor, *parameter, said) &&
+          !contradict(said & ~intended, meant, std::array{Sense::kSide})) {
         continue;
       }
       warn(DiagnosticCode::CommentContradicts, written.written,
@@ -343,7 +344,8 @@ class Contradictions {
       const int lower = static_cast<int>(least.id);
       if (!values.contains(upper) || !values.contains(lower) || value(upper) >= value(lower))
         continue;
-      if ((senses_of(most.meaning) & kMaximum) == 0 || (senses_of(least.meaning) & kMinimum) == 0)
+      if ((senses_of(most.meaning) & Sense::kMaximum) == 0 ||
+          (senses_of(least.meaning) & Sense::kMinimum) == 0)
         continue;
       contradicts(values[upper], values[lower],
                   fmt::format("the maximum Q{} = {} lies below the minimum Q{} = {}: exchange them",

@@ -1,7 +1,11 @@
 #include "nc/program/word_senses.hpp"
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "base/text.hpp"
 
@@ -10,37 +14,89 @@ namespace {
 
 struct Term {
   std::string_view word;
-  unsigned senses;
+  Senses senses = 0;
+  bool is_part = false;  ///< also within a word
 };
 
-constexpr Term kTerms[] = {
-#define FITGAUGE_TERM(word, senses) {word, senses},
+/// The terms by their first letter, the longest first.
+class Terms {
+ public:
+  Terms() {
+    using enum Sense::Bit;
+#define FITGAUGE_WORDS(senses, words) add(senses, words);
 #include "nc/program/word_senses.inc"
-#undef FITGAUGE_TERM
+#undef FITGAUGE_WORDS
+    for (auto& terms : by_letter_)
+      std::ranges::stable_sort(terms, std::greater(),
+                               [](const Term& term) { return term.word.size(); });
+  }
+
+  const Term* longest(std::string_view text, bool is_in_word) const {
+    for (const Term& term : by_letter_[static_cast<unsigned char>(text.front())])
+      if ((term.is_part || !is_in_word) && text.starts_with(term.word)) return &term;
+    return nullptr;
+  }
+
+ private:
+  void add(Senses senses, std::string_view words) {
+    while (!words.empty()) {
+      const std::size_t end = std::min(words.find('|'), words.size());
+      std::string_view word = words.substr(0, end);
+      const bool is_part = word.front() == '*';
+      if (is_part) word.remove_prefix(1);
+      by_letter_[static_cast<unsigned char>(word.front())].push_back({word, senses, is_part});
+      words.remove_prefix(std::min(end + 1, words.size()));
+    }
+  }
+
+  std::array<std::vector<Term>, 256> by_letter_;
 };
+
+/// Senses of the part and the machining, which comments add to any parameter.
+constexpr Senses kAround = Sense::kInside | Sense::kOutside | Sense::kCircle | Sense::kRectangle |
+                           Sense::kDrill | Sense::kScrew | Sense::kPlane | Sense::kCoordinate;
+/// Senses that name no parameter without another.
+constexpr Senses kAdded = Sense::kTop | Sense::kBottom | Sense::kBlank | Sense::kFinish |
+                          Sense::kMilling | Sense::kRetract | Sense::kMaximum | Sense::kMinimum |
+                          Sense::kPosition | Sense::kMode | Sense::kStart | Sense::kStep;
+
+/// Senses of a parameter's title; titles are static data.
+Senses senses_of_title(const probing::CycleParameter& parameter) {
+  thread_local std::map<const char*, Senses> known;
+  const auto [found, is_new] = known.try_emplace(parameter.meaning.data(), 0);
+  if (is_new) found->second = senses_of(parameter.title()) & ~kAround;
+  return found->second;
+}
 
 }  // namespace
 
-unsigned senses_of(std::string_view text) {
+Senses senses_of(std::string_view text) {
+  static const Terms kTerms;
   const std::string upper = ascii_upper(text) + ' ';
-  unsigned senses = 0;
+  Senses senses = 0;
   for (std::size_t at = 0; at < upper.size(); ++at) {
-    if (at != 0 && is_ascii_letter(upper[at - 1])) continue;
-    const std::string_view rest = std::string_view(upper).substr(at);
-    std::size_t longest = 1;
-    for (const Term& term : kTerms) {
-      if (rest.front() != term.word.front() || !rest.starts_with(term.word)) continue;
-      senses |= term.senses;
-      longest = std::max(longest, term.word.size());
-    }
-    at += longest - 1;
+    const bool is_in_word = at != 0 && is_ascii_letter(upper[at - 1]);
+    const Term* term = kTerms.longest(std::string_view(upper).substr(at), is_in_word);
+    if (term == nullptr) continue;
+    senses |= term->senses;
+    at += term->word.size() - 1;
   }
   return senses;
 }
 
-bool contradict(unsigned said, unsigned meant, std::span<const unsigned> groups) {
-  return std::ranges::any_of(groups, [&](unsigned group) {
+bool contradict(Senses said, Senses meant, std::span<const Senses> groups) {
+  return std::ranges::any_of(groups, [&](Senses group) {
     return (said & group) != 0 && (meant & group) != 0 && (said & meant & group) == 0;
+  });
+}
+
+bool means_other(const probing::CycleDescriptor& cycle, const probing::CycleParameter& parameter,
+                 Senses comment) {
+  const Senses said = comment & ~kAround;
+  const Senses own = senses_of_title(parameter);
+  if ((said & ~kAdded) == 0 || own == 0 || (said & ~own) == 0) return false;
+  return std::ranges::any_of(cycle.parameters, [&](const probing::CycleParameter& other) {
+    return (said & ~senses_of_title(other)) == 0;
   });
 }
 

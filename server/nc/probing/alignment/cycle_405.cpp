@@ -16,8 +16,9 @@ constexpr std::array kParameters = join(
     circle(coordinate(321, "Centre, main axis"),
            coordinate(322,
                       "Centre, secondary axis; 0: the hole comes to the positive secondary axis")),
-    std::array{choice(337, "0: the table reads 0, else the row of the datum table for its offset",
-                      0, 9999, 0)});
+    std::array{choice(337,
+                      "Set to zero: 0 the table, else the row of the datum table for its offset", 0,
+                      9999, 0)});
 
 constexpr std::array<CycleOutput, 1> kResults{{{150, "Measured angle", Unit::Angle}}};
 

@@ -111,8 +111,10 @@ inline constexpr CycleParameter kObjectDirection =
     choice(372, "Direction: 1 main, 2 secondary, 3 probe axis, with its sign", -3, 3);
 inline constexpr std::array kObject{
     kSetUpClearance, kClearanceHeight,
-    choice(1125, "Clearance height: -1 never, 0 around the cycle, 1 each object, 2 each point", -1,
-           2, 1),
+    choice(
+        1125,
+        "Mode of the clearance height: -1 never, 0 around the cycle, 1 each object, 2 each point",
+        -1, 2, 1),
     choice(309, "Stop out of tolerance: 0 no, 1 yes, 2 for reject alone", 0, 2, 0)};
 constexpr CycleParameter transfer_position(double most) {
   return choice(1120, "Transfer into the preset: 0 none, point 1, 2, ..., last: the mean", 0, most,

@@ -61,9 +61,9 @@ namespace parameter {
 /// The last parameters of the cycles that also can set the datum in the probe axis.
 inline constexpr std::array kProbeAxisDatum{
     choice(381, "Touch in the probe axis too: 0 no, 1 yes", 0, 1, 0),
-    coordinate(382, "Touch in the probe axis: main axis", 0),
-    coordinate(383, "Touch in the probe axis: secondary axis", 0),
-    coordinate(384, "Touch in the probe axis: probe axis", 0),
+    coordinate(382, "Touch in the probe axis, main axis", 0),
+    coordinate(383, "Touch in the probe axis, secondary axis", 0),
+    coordinate(384, "Touch in the probe axis, probe axis", 0),
     coordinate(333, "New datum in the probe axis", 0)};
 
 /// Target of the datum and new coordinates of the found point, as in 410 to 416 and 418.
