@@ -73,7 +73,7 @@ class Contradictions {
   /// BLK FORM 0.2 is the other corner of the blank that 0.1 begins.
   void visit(const klartext::BlankForm& blank) {
     if (blank.kind != klartext::BlankKind::Maximum) {
-      if (blank.kind == klartext::BlankKind::Minimum) corner_ = block_;
+      if (blank.kind == klartext::BlankKind::Minimum) corner_ = block_, check_lower(blank);
       return;
     }
     if (corner_ == nullptr) {
@@ -83,17 +83,25 @@ class Contradictions {
     const auto& least = std::get<klartext::BlankForm>(corner_->statement);
     for (const klartext::Word& word : program_.view(blank.words)) {
       for (const klartext::Word& below : program_.view(least.words)) {
-        const auto* upper = std::get_if<double>(&word.value);
+        const auto* written = std::get_if<double>(&word.value);
         const auto* lower = std::get_if<double>(&below.value);
-        if (word.letter != below.letter || word.incremental || upper == nullptr ||
-            lower == nullptr || *upper > *lower)
-          continue;
+        if (word.letter != below.letter || written == nullptr || lower == nullptr) continue;
+        const double upper = word.incremental ? *lower + *written : *written;
+        if (upper > *lower) continue;
         warn(DiagnosticCode::OrderContradicts, block_->written,
              fmt::format("the upper corner of the blank must lie above the lower one: {}{:+g} and "
                          "{}{:+g}",
-                         klartext::spelling(word.letter), *upper, klartext::spelling(word.letter),
+                         klartext::spelling(word.letter), upper, klartext::spelling(word.letter),
                          *lower));
       }
+    }
+  }
+  void check_lower(const klartext::BlankForm& blank) {
+    for (const klartext::Word& word : program_.view(blank.words)) {
+      if (!word.incremental) continue;
+      warn(DiagnosticCode::OrderContradicts, block_->written,
+           fmt::format("BLK FORM 0.1 has no position before it: write {0} instead of I{0}",
+                       klartext::spelling(word.letter)));
     }
   }
   void visit(const klartext::LabelDefinition& label) {

@@ -108,6 +108,12 @@ TEST_CASE("a blank whose corners contradict each other is found") {
         "BLK FORM 0.2 stands without BLK FORM 0.1 before it");
   CHECK(found(corner + "X+10 Y+10 Z+0") == "");
   CHECK(found(corner + "IX+10 IY+10 IZ+0.1") == "");
+  CHECK(found(corner + "X+10 IY-10 Z+0") ==
+        "the upper corner of the blank must lie above the lower one: Y-10 and Y+0");
+  CHECK(found("BLK FORM 0.1 Z X+5 Y+0 Z-20\nBLK FORM 0.2 IX+0 Y+10 Z+0") ==
+        "the upper corner of the blank must lie above the lower one: X+5 and X+5");
+  CHECK(found("BLK FORM 0.1 Z IX+5 Y+0 Z-20\nBLK FORM 0.2 X+10 Y+10 Z+0") ==
+        "BLK FORM 0.1 has no position before it: write X instead of IX");
 }
 
 TEST_CASE("M functions of one block that exclude each other are found before the run") {
